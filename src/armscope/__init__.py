@@ -1,0 +1,1 @@
+"""armscope: see where a robot arm misses its target, and why."""

@@ -1,0 +1,71 @@
+"""Writing files so that nobody ever sees half of one: write beside, then rename."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import yaml
+
+
+@contextlib.contextmanager
+def replacing(path: Path | str) -> Iterator[Path]:
+    """A temporary path beside ``path`` that takes its name when the block ends well, and vanishes when it doesn't."""
+    path = Path(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=path.parent)
+    os.close(handle)
+    beside = Path(name)
+    try:
+        yield beside
+        umask = os.umask(0)
+        os.umask(umask)
+        beside.chmod(0o666 & ~umask)
+        beside.replace(path)
+    finally:
+        beside.unlink(missing_ok=True)
+
+
+def write_text(path: Path | str, text: str) -> None:
+    """Write text, whole or not at all."""
+    with replacing(path) as beside:
+        beside.write_text(text, encoding="utf-8")
+
+
+def write_table(path: Path | str, table: pd.DataFrame, digits: int = 10) -> None:
+    """Write a table as CSV without its index, numbers with ``digits`` significant digits (``.gz`` compresses)."""
+    with replacing(path) as beside:
+        # mtime=0 keeps compressed bytes the same from run to run
+        compression: Any = {"method": "gzip", "mtime": 0} if str(path).endswith(".gz") else None
+        table.to_csv(beside, index=False, float_format=f"%.{digits}g", compression=compression, lineterminator="\n")
+
+
+def write_json(path: Path | str, content: Any) -> None:
+    """Write JSON, indented, with numpy scalars and arrays as plain numbers; NaN becomes null."""
+    write_text(path, json.dumps(_plain(content), indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+
+
+def write_yaml(path: Path | str, content: Any) -> None:
+    """Write YAML in the order of ``content``."""
+    write_text(path, yaml.safe_dump(_plain(content), sort_keys=False, allow_unicode=True, width=120))
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if isinstance(value, np.ndarray):
+        return _plain(value.tolist())
+    if isinstance(value, np.generic):
+        return _plain(value.item())
+    if isinstance(value, float) and not np.isfinite(value):
+        return None
+    return value

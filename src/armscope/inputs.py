@@ -1,0 +1,126 @@
+"""What a user gives us: one clear error when it can't be used, and YAML files read against a typed model."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any, TypeVar
+
+import pydantic
+import yaml
+
+Model = TypeVar("Model", bound=pydantic.BaseModel)
+
+
+class InputError(ValueError):
+    """Something that a user gave can't be used: where it stands, what was found, what is allowed, how to mend it.
+
+    Args:
+        file: the file it stands in (or the option it was given by).
+        place: where in it: "row 12, column q3_rad", "dh.joints[2].a_mm".
+        found: the value found, as the user wrote it.
+        rule: what is allowed.
+        cure: how to mend it; empty where the rule says it all.
+    """
+
+    def __init__(self, file: object, place: str, found: object, rule: str, cure: str = "") -> None:
+        self.file, self.place, self.found, self.rule, self.cure = str(file), place, found, rule, cure
+        where = f"{file}: {place}" if place else str(file)
+        super().__init__(f"{where}: found {_quote(found)}; {rule}." + (f" {cure}" if cure else ""))
+
+
+def _quote(value: object) -> str:
+    text = value if isinstance(value, str) and value.startswith(("no ", "nothing")) else repr(value)
+    return text if len(text) <= 120 else text[:117] + "..."
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """A sentence that names the known spelling closest to ``name``, or lists what is known."""
+    known = sorted(known)
+    close = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
+    return f"Did you mean {close[0]!r}?" if close else "Known: " + ", ".join(known) + "."
+
+
+class Strict(pydantic.BaseModel):
+    """A configuration object: unknown keys are errors, values are not coerced from text, and it can't change."""
+
+    model_config = pydantic.ConfigDict(extra="forbid", frozen=True, strict=False, allow_inf_nan=False)
+
+
+def read_yaml(path: Path | str) -> Any:
+    """The content of a YAML file; an unreadable one is an `InputError` that names line and column."""
+    path = Path(path)
+    try:
+        with path.open(encoding="utf-8-sig") as stream:
+            return yaml.load(stream, Loader=_UniqueKeyLoader)
+    except OSError as error:
+        raise InputError(path, "", "no readable file", "a YAML file is needed here", error.strerror or "") from error
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        place = f"line {mark.line + 1}, column {mark.column + 1}" if mark else ""
+        problem = getattr(error, "problem", None) or "it can't be parsed"
+        raise InputError(path, place, problem, "this must be valid YAML", "Check indentation and colons.") from error
+    except UnicodeDecodeError as error:
+        raise InputError(path, f"byte {error.start}", "no UTF-8 text", "YAML files are UTF-8") from error
+
+
+class _UniqueKeyLoader(yaml.SafeLoader):
+    """YAML keeps the last of two equal keys silently; a configuration must not."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+        seen = set()
+        for key_node, _ in node.value:
+            key = self.construct_object(key_node, deep=True)
+            if key in seen:
+                raise yaml.constructor.ConstructorError(None, None, f"the key {key!r} twice", key_node.start_mark)
+            seen.add(key)
+        return super().construct_mapping(node, deep)
+
+
+def validate(model: type[Model], content: Any, file: object) -> Model:
+    """``content`` as a ``model``; the first thing wrong becomes an `InputError` that names its place in ``file``."""
+    try:
+        return model.model_validate(content)
+    except pydantic.ValidationError as error:
+        problem = error.errors()[0]
+        place = _dotted(problem["loc"])
+        if problem["type"] == "extra_forbidden":
+            known = _keys_at(model, problem["loc"][:-1])
+            key = str(problem["loc"][-1])
+            raise InputError(file, place, key, "this key is not known here", nearest(key, known)) from error
+        found = "nothing" if problem["type"] == "missing" else problem["input"]
+        rule = problem["msg"].removeprefix("Value error, ")
+        raise InputError(file, place, found, rule[0].lower() + rule[1:]) from error
+
+
+def load(model: type[Model], path: Path | str) -> Model:
+    """Read a YAML file and validate it against ``model``."""
+    return validate(model, read_yaml(path), path)
+
+
+def _dotted(location: tuple[int | str, ...]) -> str:
+    text = ""
+    for part in location:
+        text += f"[{part}]" if isinstance(part, int) else f".{part}"
+    return text.lstrip(".")
+
+
+def _keys_at(model: type[pydantic.BaseModel], location: tuple[int | str, ...]) -> list[str]:
+    """The keys that ``model`` knows at a nested location."""
+    current: Any = model
+    for part in location:
+        if isinstance(part, str) and hasattr(current, "model_fields") and part in current.model_fields:
+            current = _inner_model(current.model_fields[part].annotation)
+    return list(current.model_fields) if hasattr(current, "model_fields") else []
+
+
+def _inner_model(annotation: Any) -> Any:
+    """The pydantic model inside ``list[Model]``, ``Model | None``, ``dict[str, Model]``."""
+    if hasattr(annotation, "model_fields"):
+        return annotation
+    for argument in getattr(annotation, "__args__", ()):
+        found = _inner_model(argument)
+        if found is not None:
+            return found
+    return None

@@ -1,0 +1,379 @@
+"""recordings.csv: one row per measured point, units in the column names, checked once when it is read."""
+
+from __future__ import annotations
+
+import csv
+import gzip
+import re
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from armscope.inputs import InputError, nearest
+
+Array = NDArray[np.float64]
+
+LARGEST_ANGLE_RAD = 4 * np.pi
+"""Beyond two turns either way no arm's joint stands, so a larger number is not in radians."""
+
+UNITS: dict[str, float] = {"rad": 1.0, "deg": np.pi / 180, "mm": 1e-3, "m": 1.0}
+CONTEXT = r"q[1-9]\d*_(rad|deg)|approach[1-9]\d*|dq[1-9]\d*_rad_s|tau[1-9]\d*_nm"
+PLAIN = [
+    "id",
+    "run",
+    "target",
+    "x_mm",
+    "y_mm",
+    "z_mm",
+    "x_m",
+    "y_m",
+    "z_m",
+    "qw",
+    "qx",
+    "qy",
+    "qz",
+    "time_s",
+    "temperature_c",
+    "payload_kg",
+    "sigma_mm",
+    "sigma_x_mm",
+    "sigma_y_mm",
+    "sigma_z_mm",
+]
+
+
+@dataclass(frozen=True, eq=False)
+class Recordings:
+    """N measured points of an arm with m motors; SI units; NaN where a context value was not recorded.
+
+    Attributes:
+        motor_angles: (N, m) commanded, rad.
+        positions: (N, 3) measured tool points in the measurement frame, m; NaN for poses without a measurement.
+        run, target, id: (N,) text; "" where the table has no such column (``id``: the row's number).
+        orientation: (N, 4) unit quaternions (w, x, y, z), measurement frame from tool frame, or None.
+        time: (N,) s; temperature: (N,) deg C; payload: (N,) kg at the tool point; each or None.
+        approach: (N, m) -1 or +1, sign of each motor's last motion, or None.
+        speed: (N, m) rad/s; torque: (N, m) N m; each or None.
+        sigma: (N, 3) stated 1-sigma uncertainty per axis, m, or None.
+        extra: the table's other columns, as read.
+        notes: what a user should know about how the table was read.
+        source: the file's name, for messages.
+    """
+
+    motor_angles: Array
+    positions: Array
+    run: NDArray[np.str_]
+    target: NDArray[np.str_]
+    id: NDArray[np.str_]
+    orientation: Array | None = None
+    time: Array | None = None
+    temperature: Array | None = None
+    payload: Array | None = None
+    approach: Array | None = None
+    speed: Array | None = None
+    torque: Array | None = None
+    sigma: Array | None = None
+    extra: pd.DataFrame | None = None
+    notes: tuple[str, ...] = ()
+    source: str = ""
+
+    def __len__(self) -> int:
+        return len(self.motor_angles)
+
+    @property
+    def n_motors(self) -> int:
+        """Number of motor angles per row."""
+        return self.motor_angles.shape[1]
+
+    def rows(self, which: NDArray[np.bool_] | NDArray[np.intp] | slice) -> Recordings:
+        """The recordings of some rows, in that order."""
+        per_row: dict[str, Any] = {
+            name: value[which]
+            for name, value in vars(self).items()
+            if isinstance(value, np.ndarray) and len(value) == len(self)
+        }
+        extra = None if self.extra is None else self.extra.iloc[which].reset_index(drop=True)
+        return replace(self, **per_row, extra=extra)
+
+
+def read_recordings(path: Path | str, n_motors: int | None = None, measured: bool = True) -> Recordings:
+    """Read a recordings table (CSV, ``.gz`` allowed).
+
+    Args:
+        path: the file.
+        n_motors: how many motor angles the arm has; None accepts as many as there are.
+        measured: whether positions must be present; False reads poses to be predicted.
+
+    Raises:
+        InputError: names file, row (line of the file), column, the value found, the rule and the cure.
+    """
+    path = Path(path)
+    return as_recordings(_read_text_table(path), path, n_motors, measured)
+
+
+def as_recordings(
+    table: pd.DataFrame, source: Path | str = "table", n_motors: int | None = None, measured: bool = True
+) -> Recordings:
+    """A table with the columns of the contract as `Recordings`; see `read_recordings`."""
+    reader = _Reader(table, source)
+    angles = reader.motor_angles(n_motors)
+    positions = reader.positions(measured)
+    count = angles.shape[1]
+    recordings = Recordings(
+        motor_angles=angles,
+        positions=positions,
+        run=reader.text("run"),
+        target=reader.text("target"),
+        id=reader.text("id") if "id" in table else np.arange(1, len(table) + 1).astype(str),
+        orientation=reader.orientation(),
+        time=reader.optional(["time_s"], 1.0, squeeze=True),
+        temperature=reader.optional(["temperature_c"], 1.0, squeeze=True),
+        payload=reader.optional(["payload_kg"], 1.0, squeeze=True),
+        approach=reader.approach(count),
+        speed=reader.optional([f"dq{j}_rad_s" for j in range(1, count + 1)], 1.0),
+        torque=reader.optional([f"tau{j}_nm" for j in range(1, count + 1)], 1.0),
+        sigma=reader.sigma(),
+        source=str(source),
+    )
+    reader.check_duplicates(recordings)
+    unknown = [name for name in table.columns if name not in PLAIN and not re.fullmatch(CONTEXT, name)]
+    notes = (f"columns kept but not used: {', '.join(unknown)}",) if unknown else ()
+    return replace(recordings, extra=table[unknown] if unknown else None, notes=notes)
+
+
+def _read_text_table(path: Path) -> pd.DataFrame:
+    opener = gzip.open if path.suffix == ".gz" else open
+    try:
+        with opener(path, "rt", encoding="utf-8-sig", newline="") as stream:
+            header = next(csv.reader(stream), None)
+    except OSError as error:
+        raise InputError(path, "", "no readable file", "a recordings table (CSV) is needed here", str(error)) from error
+    except UnicodeDecodeError as error:
+        raise InputError(
+            path, f"byte {error.start}", "no UTF-8 text", "tables are UTF-8", "Save it as UTF-8."
+        ) from error
+    if not header:
+        raise InputError(path, "line 1", "nothing", "the first line names the columns", "Is the file empty?")
+    _check_header(path, header)
+    try:
+        table = pd.read_csv(
+            path,
+            encoding="utf-8-sig",
+            index_col=False,
+            skip_blank_lines=False,
+            float_precision="round_trip",
+            dtype={name: str for name in ("id", "run", "target") if name in header},
+            low_memory=False,
+            on_bad_lines="error",
+        )
+    except pd.errors.ParserError as error:
+        found = re.search(r"Expected (\d+) fields in line (\d+), saw (\d+)", str(error))
+        if found is None:
+            raise InputError(path, "", str(error), "this must be a comma-separated table") from error
+        raise InputError(
+            path,
+            f"row {found[2]}",
+            f"{found[3]} values",
+            f"every row has the {found[1]} values that line 1 names",
+            "A decimal comma splits a number in two: use points.",
+        ) from error
+    if table.empty:
+        raise InputError(path, "row 2", "nothing", "at least one measured row is needed")
+    return table
+
+
+def _check_header(path: Path, header: list[str]) -> None:
+    if len(header) == 1 and re.search(r"[;\t|]", header[0]):
+        raise InputError(
+            path, "line 1", header[0], "columns are separated by commas", "Convert it with `armscope import`."
+        )
+    seen: set[str] = set()
+    for name in header:
+        if name in seen:
+            raise InputError(
+                path, "line 1", name, "column names must differ, this one stands twice", "Rename one of them."
+            )
+        seen.add(name)
+
+
+class _Reader:
+    """Takes the columns of the contract out of a table, each checked as it is taken."""
+
+    def __init__(self, table: pd.DataFrame, source: Path | str) -> None:
+        self.table, self.source = table, source
+
+    def error(self, row: int, column: str, found: object, rule: str, cure: str = "") -> InputError:
+        return InputError(self.source, f"row {row + 2}, column {column}", found, rule, cure)
+
+    def numbers(self, column: str, required: bool) -> Array:
+        values = self.table[column]
+        if not pd.api.types.is_numeric_dtype(values) or pd.api.types.is_bool_dtype(values):
+            parsed = pd.to_numeric(values, errors="coerce")
+            wrong = np.flatnonzero(parsed.isna() & values.notna())
+            if len(wrong):
+                found = values.iloc[wrong[0]]
+                cure = "Use a decimal point." if "," in str(found) else ""
+                raise self.error(int(wrong[0]), column, str(found), "this must be a number", cure)
+            values = parsed
+        numbers = values.to_numpy(dtype=float)
+        if np.isinf(numbers).any():
+            raise self.error(int(np.flatnonzero(np.isinf(numbers))[0]), column, "inf", "this must be a finite number")
+        if required and np.isnan(numbers).any():
+            row = int(np.flatnonzero(np.isnan(numbers))[0])
+            raise self.error(
+                row, column, "nothing", "this value is required in every row", "Remove the row or fill it in."
+            )
+        return numbers
+
+    def text(self, column: str) -> NDArray[np.str_]:
+        if column not in self.table:
+            return np.full(len(self.table), "")
+        return self.table[column].fillna("").astype(str).to_numpy(dtype=str)
+
+    def optional(self, columns: list[str], scale: float, squeeze: bool = False) -> Array | None:
+        present = [name for name in columns if name in self.table]
+        if not present:
+            return None
+        if len(present) < len(columns):
+            missing = next(name for name in columns if name not in present)
+            raise InputError(self.source, "line 1", f"no column {missing}", f"{', '.join(columns)} come together")
+        values = np.column_stack([self.numbers(name, required=False) for name in columns]) * scale
+        if np.isnan(values).all():
+            return None
+        return values[:, 0] if squeeze else values
+
+    def motor_angles(self, n_motors: int | None) -> Array:
+        found = {
+            int(m[1]): m[0]
+            for m in (re.fullmatch(r"q([1-9]\d*)_(?:rad|deg)", name) for name in self.table.columns)
+            if m
+        }
+        count = n_motors if n_motors is not None else max(found, default=0)
+        if count == 0:
+            raise InputError(
+                self.source,
+                "line 1",
+                "no column q1_rad",
+                "motor angles stand in q1_rad, q2_rad, ... (or _deg)",
+                nearest("q1_rad", self.table.columns),
+            )
+        for motor in range(1, count + 1):
+            if motor not in found:
+                raise InputError(
+                    self.source,
+                    "line 1",
+                    f"no column q{motor}_rad",
+                    f"the arm has motors q1 ... q{count}",
+                    nearest(f"q{motor}_rad", self.table.columns),
+                )
+        if max(found) > count:
+            raise InputError(
+                self.source,
+                "line 1",
+                found[max(found)],
+                f"the arm has {count} motors",
+                "Is this the right robot for the recordings?",
+            )
+        columns = [self._angles(found[motor]) for motor in range(1, count + 1)]
+        return np.column_stack(columns)
+
+    def _angles(self, column: str) -> Array:
+        values = self.numbers(column, required=True) * UNITS[column.rsplit("_", 1)[1]]
+        beyond = np.flatnonzero(np.abs(values) > LARGEST_ANGLE_RAD)
+        if len(beyond):
+            row = int(beyond[0])
+            cure = (
+                f"Are these degrees? Then call the column {column.replace('_rad', '_deg')}."
+                if column.endswith("_rad")
+                else ""
+            )
+            raise self.error(
+                row, column, self.table[column].iloc[row], "a joint angle lies within two turns (12.57 rad)", cure
+            )
+        return values
+
+    def positions(self, measured: bool) -> Array:
+        for unit in ("mm", "m"):
+            columns = [f"{axis}_{unit}" for axis in "xyz"]
+            present = [name for name in columns if name in self.table]
+            if len(present) == 3:
+                return np.column_stack([self.numbers(name, required=measured) for name in columns]) * UNITS[unit]
+            if present:
+                missing = next(name for name in columns if name not in present)
+                raise InputError(
+                    self.source,
+                    "line 1",
+                    f"no column {missing}",
+                    "x, y and z come together, in one unit",
+                    nearest(missing, self.table.columns),
+                )
+        if measured:
+            raise InputError(
+                self.source,
+                "line 1",
+                "no column x_mm",
+                "measured positions stand in x_mm, y_mm, z_mm (or _m)",
+                nearest("x_mm", self.table.columns),
+            )
+        return np.full((len(self.table), 3), np.nan)
+
+    def orientation(self) -> Array | None:
+        quaternion = self.optional(["qw", "qx", "qy", "qz"], 1.0)
+        if quaternion is None:
+            return None
+        norm = np.linalg.norm(quaternion, axis=1)
+        wrong = np.flatnonzero(np.abs(norm - 1) > 0.01)
+        if len(wrong):
+            raise self.error(
+                int(wrong[0]),
+                "qw ... qz",
+                quaternion[wrong[0]].tolist(),
+                "a quaternion has length 1",
+                f"Its length is {norm[wrong[0]]:.4g}.",
+            )
+        unit: Array = quaternion / norm[:, None]
+        return unit
+
+    def approach(self, count: int) -> Array | None:
+        columns = [f"approach{j}" for j in range(1, count + 1)]
+        approach = self.optional(columns, 1.0)
+        if approach is None:
+            return None
+        wrong = np.argwhere(~np.isin(approach, [-1, 0, 1]) & ~np.isnan(approach))
+        if len(wrong):
+            row, column = wrong[0]
+            raise self.error(int(row), columns[column], approach[row, column], "the side of approach is -1 or +1")
+        return approach
+
+    def sigma(self) -> Array | None:
+        isotropic = self.optional(["sigma_mm"], UNITS["mm"])
+        sigma = self.optional([f"sigma_{axis}_mm" for axis in "xyz"], UNITS["mm"])
+        if sigma is None and isotropic is not None:
+            sigma = np.repeat(isotropic, 3, axis=1)
+        if sigma is not None and (sigma < 0).any():
+            row, axis = np.argwhere(sigma < 0)[0]
+            raise self.error(
+                int(row), f"sigma_{'xyz'[axis]}_mm", sigma[row, axis] * 1e3, "an uncertainty is not negative"
+            )
+        return sigma
+
+    def check_duplicates(self, recordings: Recordings) -> None:
+        if "id" not in self.table:
+            return
+        keys = pd.DataFrame({"run": recordings.run, "id": recordings.id, "target": recordings.target})
+        keys["id"] = keys["id"].where(keys["id"] != "", pd.Series(np.arange(len(keys)).astype(str)))
+        twice = np.flatnonzero(keys.duplicated())
+        if len(twice):
+            row = int(twice[0])
+            first = int(np.flatnonzero((keys == keys.iloc[row]).all(axis=1))[0])
+            raise self.error(
+                row,
+                "id",
+                recordings.id[row],
+                f"an id stands once per run and target, row {first + 2} has it, too",
+                "Number the rows, or name the repeats' runs differently.",
+            )

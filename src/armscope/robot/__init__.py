@@ -1,0 +1,17 @@
+"""What the arm is: its description, kinematics, parallelogram and gravity loads."""
+
+from armscope.robot.arm import Arm, load_arm
+from armscope.robot.description import RobotDescription, load_description
+from armscope.robot.kinematics import Chain, chain, forward_kinematics, position_jacobian, twist_jacobian
+
+__all__ = [
+    "Arm",
+    "Chain",
+    "RobotDescription",
+    "chain",
+    "forward_kinematics",
+    "load_arm",
+    "load_description",
+    "position_jacobian",
+    "twist_jacobian",
+]

@@ -1,0 +1,175 @@
+"""The arm as arrays: what kinematics and loads need, taken once from its pinocchio model."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pinocchio as pin
+from numpy.typing import NDArray
+
+from armscope.inputs import InputError
+from armscope.robot.description import RobotDescription, load_description
+from armscope.robot.model import TIP, dh_halves, pinocchio_model
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Arm:
+    """An arm of n chain joints moved by m motors; SI units.
+
+    The chain is ``prod_j [before_j * Rz(theta_j)] * tip * tool``, with theta = actuation @ q for motor angles q.
+
+    Attributes:
+        description: what robot.yaml says.
+        model: the pinocchio model that all arrays below come from.
+        before: (n, 4, 4) from the turned frame of joint j-1 to the frame of joint j, whose z is the axis.
+        behind: (n, 4, 4) from the turned frame of joint j to link frame j (the D-H frame; identity for a URDF).
+        tip: (4, 4) from the turned frame of the last joint to the last frame.
+        tool: (3,) nominal tool point in the last frame, m.
+        masses: (n,) kg, tool load included; zeros where the description has no masses (see `has_masses`).
+        centres: (n, 3) centres of mass in the turned frames of the joints, m.
+        gravity: (3,) in the base frame, m/s^2.
+        actuation: (n, m) chain angles by motor angles.
+        limits: (m, 2) motor angles, rad; infinite where not stated.
+        sigma: 1-sigma noise per axis, m; None where not stated.
+    """
+
+    description: RobotDescription
+    model: pin.Model
+    before: Array
+    behind: Array
+    tip: Array
+    tool: Array
+    masses: Array
+    centres: Array
+    gravity: Array
+    actuation: Array
+    limits: Array
+    sigma: float | None
+
+    @property
+    def name(self) -> str:
+        """The arm's name."""
+        return self.description.name
+
+    @property
+    def n_joints(self) -> int:
+        """Number of joints of the chain."""
+        return len(self.before)
+
+    @property
+    def n_motors(self) -> int:
+        """Number of motor angles."""
+        return self.actuation.shape[1]
+
+    @property
+    def has_masses(self) -> bool:
+        """Whether any link's mass is stated: without, gravity loads are known up to unknown mass moments only."""
+        return bool(np.any(self.masses > 0))
+
+    @property
+    def is_modified_dh(self) -> bool:
+        """Whether the rows follow Craig's modified convention."""
+        return self.description.dh is not None and self.description.dh.convention == "modified"
+
+    @functools.cached_property
+    def reach(self) -> float:
+        """An upper bound of the distance of the tool from the base's origin, m."""
+        lengths = np.linalg.norm(self.before[:, :3, 3], axis=1).sum()
+        return float(lengths + np.linalg.norm(self.tip[:3, 3]) + np.linalg.norm(self.tool))
+
+
+def load_arm(path: Path | str) -> Arm:
+    """The arm of a robot.yaml.
+
+    Raises:
+        InputError: the file can't be read or says something impossible.
+    """
+    return build_arm(load_description(path))
+
+
+def build_arm(description: RobotDescription) -> Arm:
+    """The arm of a description."""
+    model = pinocchio_model(description)
+    n_joints = model.njoints - 1
+    before, axis_turns = _joint_frames(model)
+    tip = model.frames[model.getFrameId(TIP)].placement.homogeneous
+    return Arm(
+        description=description,
+        model=model,
+        before=before,
+        behind=_link_frames(description, n_joints),
+        tip=_inverse_rotation(axis_turns[-1]) @ tip,
+        tool=np.array(description.tool_mm) * 1e-3,
+        masses=np.array([model.inertias[joint].mass for joint in range(1, model.njoints)]),
+        centres=np.array(
+            [axis_turns[joint][:3, :3].T @ model.inertias[joint].lever for joint in range(1, model.njoints)]
+        ),
+        gravity=np.array(description.gravity_m_s2, dtype=float),
+        actuation=_actuation_matrix(description, n_joints),
+        limits=_limits(description, model),
+        sigma=None if description.instrument is None else description.instrument.sigma_mm * 1e-3,
+    )
+
+
+def _joint_frames(model: pin.Model) -> tuple[Array, Array]:
+    """(before, turns): joint placements with the axis along z, and the turn of each joint's frame that does it."""
+    turns = np.tile(np.eye(4), (model.njoints, 1, 1))
+    before = np.empty((model.njoints - 1, 4, 4))
+    for joint in range(1, model.njoints):
+        if model.parents[joint] != joint - 1:
+            raise InputError(model.name, model.names[joint], "a branch", "the joints must form one chain")
+        turns[joint, :3, :3] = _turn_to_z(_axis(model, joint))
+        before[joint - 1] = (
+            _inverse_rotation(turns[joint - 1]) @ model.jointPlacements[joint].homogeneous @ turns[joint]
+        )
+    return before, turns
+
+
+def _axis(model: pin.Model, joint: int) -> Array:
+    """Axis of a revolute joint in its own frame."""
+    data = model.createData()
+    pin.computeJointJacobians(model, data, pin.neutral(model))
+    local = pin.getJointJacobian(model, data, joint, pin.ReferenceFrame.LOCAL)
+    return np.asarray(local[3:, model.joints[joint].idx_v])
+
+
+def _turn_to_z(axis: Array) -> Array:
+    """The shortest rotation whose third column is ``axis``."""
+    turn: Array = pin.Quaternion.FromTwoVectors(np.array([0.0, 0.0, 1.0]), axis).toRotationMatrix()
+    return turn
+
+
+def _inverse_rotation(turn: Array) -> Array:
+    return turn.T  # turns are pure rotations in homogeneous form
+
+
+def _link_frames(description: RobotDescription, n_joints: int) -> Array:
+    if description.dh is None:
+        return np.tile(np.eye(4), (n_joints, 1, 1))
+    return np.array([dh_halves(row, description.dh.convention)[1].homogeneous for row in description.dh.joints])
+
+
+def _actuation_matrix(description: RobotDescription, n_joints: int) -> Array:
+    if description.actuation is None:
+        return np.eye(n_joints)
+    matrix = np.zeros((n_joints, description.n_motors(n_joints)))
+    for joint, combination in enumerate(description.actuation):
+        for motor, coefficient in combination.items():
+            matrix[joint, int(motor[1:]) - 1] = coefficient
+    return matrix
+
+
+def _limits(description: RobotDescription, model: pin.Model) -> Array:
+    n_motors = description.n_motors(model.njoints - 1)
+    if description.joint_limits_deg is not None:
+        return np.radians(np.array(description.joint_limits_deg))
+    limits = np.tile([-np.inf, np.inf], (n_motors, 1))
+    if description.urdf is not None and model.nq == n_motors:
+        limits = np.column_stack([model.lowerPositionLimit, model.upperPositionLimit])
+        limits[limits[:, 0] >= limits[:, 1]] = [-np.inf, np.inf]
+    return limits

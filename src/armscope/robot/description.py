@@ -1,0 +1,145 @@
+"""robot.yaml: the typed description of an arm, in the units its file states (mm, degrees, kg)."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Annotated, Literal, Self
+
+import pydantic
+from pydantic import Field
+
+from armscope.inputs import InputError, Strict, load
+
+Vector = Annotated[tuple[float, float, float], Field(description="x, y, z")]
+Degrees = Annotated[float, Field(ge=-720, le=720)]
+Millimetres = Annotated[float, Field(ge=-20_000, le=20_000)]
+
+
+class DHRow(Strict):
+    """One row of a Denavit-Hartenberg table; ``theta_offset_deg`` is added to the joint's angle."""
+
+    a_mm: Millimetres
+    alpha_deg: Degrees
+    d_mm: Millimetres
+    theta_offset_deg: Degrees = 0.0
+
+
+class DH(Strict):
+    """Denavit-Hartenberg table: ``standard`` (a_j, alpha_j behind joint j) or ``modified`` (Craig: before it)."""
+
+    convention: Literal["standard", "modified"] = "standard"
+    joints: tuple[DHRow, ...] = Field(min_length=1)
+
+
+class LinkMass(Strict):
+    """Mass and centre of mass in the link's D-H frame (for ``tool_load``: in the last frame)."""
+
+    mass_kg: float = Field(ge=0)
+    com_mm: Vector
+
+
+class Instrument(Strict):
+    """1-sigma per axis of the instrument and the robot's repeatability together."""
+
+    sigma_mm: float = Field(gt=0)
+
+
+class Parallelogram(Strict):
+    """Five-bar linkage between the upper arm and the forearm: the crank turns with motor 3, a rod turns the forearm.
+
+    Nominally the crank equals the rocker and the rod equals the upper arm, and the forearm follows motor 3 exactly.
+    ``crank_angle_deg`` is the angle from the forearm's x axis (D-H frame 3) to the crank.
+    """
+
+    crank_mm: float = Field(gt=0)
+    rocker_mm: float = Field(gt=0)
+    rod_mm: float = Field(gt=0)
+    upper_arm_mm: float = Field(gt=0)
+    crank_angle_deg: Degrees = 0.0
+
+
+class RobotDescription(Strict):
+    """An arm as robot.yaml describes it: D-H rows or a URDF, what moves it, what it weighs."""
+
+    name: str
+    dh: DH | None = None
+    urdf: str | None = None
+    tip: str | None = None
+    hold_joints: dict[str, float] = Field(default_factory=dict)
+    actuation: tuple[dict[str, float], ...] | None = None
+    tool_mm: Vector = (0.0, 0.0, 0.0)
+    links: tuple[LinkMass, ...] | None = None
+    tool_load: LinkMass | None = None
+    gravity_m_s2: Vector = (0.0, 0.0, -9.81)
+    joint_limits_deg: tuple[tuple[Degrees, Degrees], ...] | None = None
+    instrument: Instrument | None = None
+    parallelogram: Parallelogram | None = None
+
+    @pydantic.field_validator("name", mode="before")
+    @classmethod
+    def _name_is_text(cls, value: object) -> object:
+        return str(value) if isinstance(value, int | float) else value
+
+    @pydantic.model_validator(mode="after")
+    def _consistent(self) -> Self:
+        if (self.dh is None) == (self.urdf is None):
+            raise ValueError("an arm has either `dh` rows or a `urdf`, one of the two")
+        if self.urdf is not None and self.tip is None:
+            raise ValueError("`urdf` needs `tip`, the name of the frame that carries the tool")
+        if self.urdf is not None and self.links is not None:
+            raise ValueError("a URDF brings its own masses: leave out `links`")
+        if self.dh is None:
+            return self
+        n_joints = len(self.dh.joints)
+        if self.tip is not None or self.hold_joints:
+            raise ValueError("`tip` and `hold_joints` belong to a `urdf`, this arm has `dh` rows")
+        if self.links is not None and len(self.links) != n_joints:
+            raise ValueError(
+                f"`links` needs one entry for each of the {n_joints} rows of `dh`, it has {len(self.links)}"
+            )
+        self._check_actuation(n_joints)
+        return self
+
+    def _check_actuation(self, n_joints: int) -> None:
+        n_motors = self.n_motors(n_joints)
+        if self.actuation is not None and len(self.actuation) != n_joints:
+            raise ValueError(
+                f"`actuation` needs one entry for each of the {n_joints} rows of `dh`, it has {len(self.actuation)}"
+            )
+        for row, combination in enumerate(self.actuation or ()):
+            for motor in combination:
+                if not re.fullmatch(r"q[1-9]\d*", motor):
+                    raise ValueError(f"`actuation[{row}]` names {motor!r}; motor angles are called q1, q2, ...")
+        if self.joint_limits_deg is not None:
+            if len(self.joint_limits_deg) != n_motors:
+                raise ValueError(
+                    f"`joint_limits_deg` needs one pair for each of the {n_motors} motors, "
+                    f"it has {len(self.joint_limits_deg)}"
+                )
+            for number, (low, high) in enumerate(self.joint_limits_deg):
+                if low >= high:
+                    raise ValueError(
+                        f"`joint_limits_deg[{number}]` must be [low, high] with low < high, not [{low}, {high}]"
+                    )
+
+    def n_motors(self, n_joints: int) -> int:
+        """Number of motor angles that move ``n_joints`` chain joints."""
+        if self.actuation is None:
+            return n_joints
+        return max((int(motor[1:]) for row in self.actuation for motor in row), default=0)
+
+
+def load_description(path: Path | str) -> RobotDescription:
+    """Read robot.yaml.
+
+    Raises:
+        InputError: a key, value, unit or number of rows that can't be; it names the place and the rule.
+    """
+    description = load(RobotDescription, path)
+    if description.urdf is not None:
+        urdf = Path(path).parent / description.urdf
+        if not urdf.is_file():
+            raise InputError(path, "urdf", description.urdf, "the URDF must be a readable file", f"Looked for {urdf}.")
+        description = description.model_copy(update={"urdf": str(urdf)})
+    return description

@@ -1,0 +1,142 @@
+"""Where the frames of an arm stand, for many poses at once, with or without a small twist at any of them.
+
+The one forward model: ``tool = exp(base) * prod_j [before_j * exp(joint j) * Rz(theta_j) * ... exp(link j)] * tool``.
+A twist is (translation m, rotation rad) in the axes of the frame it acts at; exp(v, w) = Trans(v) Rot(w).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from armscope.robot.arm import Arm
+
+Array = NDArray[np.float64]
+Twists = Mapping[str, Array]
+
+
+@dataclass(frozen=True, eq=False)
+class Chain:
+    """Frames of an arm at N poses, all expressed in the base frame (rotations (.., 3, 3), origins m).
+
+    Attributes:
+        joint_rotation, joint_origin: (N, n, 3, 3), (N, n, 3) frame of joint j before it turns; column z is its axis.
+        link_rotation, link_origin: (N, n, 3, 3), (N, n, 3) link frame j: D-H frame j, which moves with joint j.
+        tool_rotation, tool: (N, 3, 3), (N, 3) orientation of the last frame and the tool point.
+    """
+
+    joint_rotation: Array
+    joint_origin: Array
+    link_rotation: Array
+    link_origin: Array
+    tool_rotation: Array
+    tool: Array
+
+    def frame(self, location: str) -> tuple[Array, Array]:
+        """Rotation (N, 3, 3) and origin (N, 3) of the frame at "base", "joint j", "link j" or "tool"."""
+        kind, _, number = location.partition(" ")
+        if kind == "joint":
+            return self.joint_rotation[:, int(number) - 1], self.joint_origin[:, int(number) - 1]
+        if kind == "link":
+            return self.link_rotation[:, int(number) - 1], self.link_origin[:, int(number) - 1]
+        if kind == "tool":
+            return self.tool_rotation, self.tool
+        return np.broadcast_to(np.eye(3), self.tool_rotation.shape), np.zeros_like(self.tool)
+
+
+def chain(arm: Arm, motor_angles: Array, twists: Twists | None = None) -> Chain:
+    """Frames of the arm at ``motor_angles`` (N, m) rad.
+
+    Args:
+        arm: the arm.
+        motor_angles: (N, m) rad.
+        twists: small twists by location ("base", "joint j", "link j", "tool"), each (6,) or (N, 6).
+    """
+    twists = twists or {}
+    angles = np.atleast_2d(motor_angles) @ arm.actuation.T
+    n_poses, n_joints = angles.shape
+    joint_rotation = np.empty((n_poses, n_joints, 3, 3))
+    joint_origin = np.empty((n_poses, n_joints, 3))
+    link_rotation, link_origin = np.empty_like(joint_rotation), np.empty_like(joint_origin)
+    cosines, sines = np.cos(angles), np.sin(angles)
+    rotation = np.tile(np.eye(3), (n_poses, 1, 1))
+    origin = np.zeros((n_poses, 3))
+    rotation, origin = _twisted(rotation, origin, twists.get("base"))
+    for j in range(n_joints):
+        rotation, origin = _moved(rotation, origin, arm.before[j])
+        rotation, origin = _twisted(rotation, origin, twists.get(f"joint {j + 1}"))
+        joint_rotation[:, j], joint_origin[:, j] = rotation, origin
+        rotation = _turned(rotation, cosines[:, j], sines[:, j])
+        link = twists.get(f"link {j + 1}")
+        link_rotation[:, j], link_origin[:, j] = _moved(rotation, origin, arm.behind[j])
+        if link is not None:
+            link_rotation[:, j], link_origin[:, j] = _twisted(link_rotation[:, j], link_origin[:, j], link)
+            rotation, origin = _moved(link_rotation[:, j], link_origin[:, j], _inverse(arm.behind[j]))
+    rotation, origin = _moved(rotation, origin, arm.tip)
+    tool = origin + rotation @ arm.tool
+    rotation, tool = _twisted(rotation, tool, twists.get("tool"))
+    return Chain(joint_rotation, joint_origin, link_rotation, link_origin, rotation, tool)
+
+
+def forward_kinematics(arm: Arm, motor_angles: Array, twists: Twists | None = None) -> Array:
+    """Tool points (N, 3), m, in the base frame, at motor angles (N, m) rad."""
+    return chain(arm, motor_angles, twists).tool
+
+
+def twist_jacobian(frames: Chain, location: str) -> Array:
+    """(N, 3, 6) displacement of the tool point, in base axes, by a unit twist in the axes of the frame at ``location``.
+
+    The three translations move the tool by the frame's axes, the three rotations by axis x (tool - origin).
+    """
+    rotation, origin = frames.frame(location)
+    lever = frames.tool - origin
+    # axis x lever for each column axis of the rotation
+    turning = np.cross(np.swapaxes(rotation, 1, 2), lever[:, None, :])
+    return np.concatenate([rotation, np.swapaxes(turning, 1, 2)], axis=2)
+
+
+def joint_jacobian(frames: Chain) -> Array:
+    """(N, 3, n) displacement of the tool point by unit turns of the chain's joints, m/rad, in base axes."""
+    axes = frames.joint_rotation[..., 2]
+    lever = frames.tool[:, None, :] - frames.joint_origin
+    return np.swapaxes(np.cross(axes, lever), 1, 2)
+
+
+def position_jacobian(arm: Arm, frames: Chain) -> Array:
+    """(N, 3, m) displacement of the tool point by unit turns of the motors, m/rad, in base axes."""
+    return joint_jacobian(frames) @ arm.actuation
+
+
+def _moved(rotation: Array, origin: Array, fixed: Array) -> tuple[Array, Array]:
+    """Frames (N) times one fixed homogeneous transform; the flat product is several times faster than N small ones."""
+    moved = (rotation.reshape(-1, 3) @ fixed[:3, :3]).reshape(rotation.shape)
+    return moved, origin + rotation @ fixed[:3, 3]
+
+
+def _turned(rotation: Array, cosine: Array, sine: Array) -> Array:
+    """Frames (N) turned about their own z."""
+    turned = rotation.copy()
+    c, s = cosine[:, None], sine[:, None]
+    turned[..., 0] = c * rotation[..., 0] + s * rotation[..., 1]
+    turned[..., 1] = c * rotation[..., 1] - s * rotation[..., 0]
+    return turned
+
+
+def _twisted(rotation: Array, origin: Array, twist: Array | None) -> tuple[Array, Array]:
+    """Frames (N) times Trans(v) Rot(w)."""
+    if twist is None:
+        return rotation, origin
+    twist = np.broadcast_to(twist, (len(origin), 6))
+    shifted = origin + np.einsum("nij,nj->ni", rotation, twist[:, :3])
+    return rotation @ Rotation.from_rotvec(twist[:, 3:]).as_matrix(), shifted
+
+
+def _inverse(fixed: Array) -> Array:
+    inverse = np.eye(4)
+    inverse[:3, :3] = fixed[:3, :3].T
+    inverse[:3, 3] = -fixed[:3, :3].T @ fixed[:3, 3]
+    return inverse

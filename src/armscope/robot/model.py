@@ -1,0 +1,101 @@
+"""An arm as a pinocchio model, from D-H rows or a URDF: the one place where an arm's geometry is interpreted."""
+
+from __future__ import annotations
+
+import numpy as np
+import pinocchio as pin
+
+from armscope.inputs import InputError, nearest
+from armscope.robot.description import DHRow, RobotDescription
+
+TIP = "armscope_tip"
+
+
+def pinocchio_model(description: RobotDescription) -> pin.Model:
+    """The arm's chain as a pinocchio model (m, kg): joints about z for D-H arms, as in the file for a URDF.
+
+    Joint frame j has its origin in the D-H origin that lies on axis j: frame j-1 for `standard`, frame j for
+    `modified` rows. The frame `TIP` is the last D-H frame, or the URDF's `tip`.
+    """
+    if description.dh is not None:
+        return _from_dh(description)
+    return _from_urdf(description)
+
+
+def dh_halves(row: DHRow, convention: str) -> tuple[pin.SE3, pin.SE3]:
+    """The fixed transforms (before, behind) the joint's rotation: one D-H row is before * Rz(q) * behind.
+
+    Standard rows (Denavit & Hartenberg 1955; Paul 1981): Rz(theta) Tz(d) Tx(a) Rx(alpha). Modified rows
+    (Craig 1986): Rx(alpha) Tx(a) Rz(theta) Tz(d), with d before the joint, so that the joint's frame has
+    the D-H origin.
+    """
+    turn = pin.SE3(pin.utils.rotate("z", np.radians(row.theta_offset_deg)), np.zeros(3))
+    along_z = pin.SE3(np.eye(3), np.array([0, 0, row.d_mm * 1e-3]))
+    twist_x = pin.SE3(pin.utils.rotate("x", np.radians(row.alpha_deg)), np.array([row.a_mm * 1e-3, 0, 0]))
+    if convention == "standard":
+        return pin.SE3.Identity(), turn * along_z * twist_x
+    return twist_x * along_z, turn
+
+
+def _from_dh(description: RobotDescription) -> pin.Model:
+    assert description.dh is not None
+    model = pin.Model()
+    model.name = description.name
+    joint, behind = 0, pin.SE3.Identity()
+    for number, row in enumerate(description.dh.joints, start=1):
+        before, after = dh_halves(row, description.dh.convention)
+        joint = model.addJoint(joint, pin.JointModelRZ(), behind * before, f"joint {number}")
+        behind = after
+        if description.links is not None:
+            link = description.links[number - 1]
+            _append_point_mass(model, joint, link.mass_kg, behind, np.array(link.com_mm) * 1e-3)
+    model.addFrame(pin.Frame(TIP, joint, 0, behind, pin.FrameType.OP_FRAME))
+    _append_tool_load(model, description)
+    model.gravity.linear = np.array(description.gravity_m_s2)
+    return model
+
+
+def _from_urdf(description: RobotDescription) -> pin.Model:
+    full = pin.buildModelFromUrdf(description.urdf)
+    if not full.existFrame(description.tip):
+        names = [frame.name for frame in full.frames]
+        raise InputError(
+            description.urdf, "tip", description.tip, "no frame of that name", nearest(str(description.tip), names)
+        )
+    on_chain = set(full.supports[full.frames[full.getFrameId(description.tip)].parentJoint].tolist()) - {0}
+    neutral = pin.neutral(full)
+    for name, value in description.hold_joints.items():
+        if not full.existJointName(name):
+            raise InputError(description.urdf, "hold_joints", name, "no joint of that name", nearest(name, full.names))
+        joint = full.getJointId(name)
+        neutral[full.joints[joint].idx_q] = value
+        on_chain.discard(joint)
+    locked = [joint for joint in range(1, full.njoints) if joint not in on_chain]
+    model = pin.buildReducedModel(full, locked, neutral)
+    for joint in range(1, model.njoints):
+        kind = model.joints[joint].shortname()
+        if "Revolute" not in kind and not kind.startswith(("JointModelR", "JointModelRU")):
+            raise InputError(
+                description.urdf,
+                f"joint {model.names[joint]}",
+                kind,
+                "only turning joints can be diagnosed",
+                f"Hold it: `hold_joints: {{{model.names[joint]}: 0}}`.",
+            )
+    tip = model.frames[model.getFrameId(description.tip)]
+    model.addFrame(pin.Frame(TIP, tip.parentJoint, 0, tip.placement, pin.FrameType.OP_FRAME))
+    _append_tool_load(model, description)
+    model.gravity.linear = np.array(description.gravity_m_s2)
+    return model
+
+
+def _append_tool_load(model: pin.Model, description: RobotDescription) -> None:
+    if description.tool_load is not None:
+        tip = model.frames[model.getFrameId(TIP)]
+        load = description.tool_load
+        _append_point_mass(model, tip.parentJoint, load.mass_kg, tip.placement, np.array(load.com_mm) * 1e-3)
+
+
+def _append_point_mass(model: pin.Model, joint: int, mass: float, frame: pin.SE3, com: np.ndarray) -> None:
+    """Statics needs mass and centre of mass only, so each body is a point."""
+    model.appendBodyToJoint(joint, pin.Inertia(mass, com, np.zeros((3, 3))), frame)
