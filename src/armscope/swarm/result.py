@@ -1,0 +1,56 @@
+"""What a swarm hands back, and the closed set of reasons why it stopped."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class StopReason(Enum):
+    """Why a swarm stopped: one of these sentences, and no other."""
+
+    THRESHOLD = "the best fitness dropped below the threshold"
+    ITERATIONS = "all iterations were used"
+    DIVERGED = "every particle left the range of finite numbers"
+    NEVER_FINITE = "no particle ever had a finite fitness"
+
+
+@dataclass(frozen=True)
+class SwarmResult:
+    """The outcome of S swarms in D dimensions after at most T iterations; rows are swarms.
+
+    Attributes:
+        positions: the best position found, S x D (NaN where no fitness was ever finite).
+        fitness: its fitness, S (inf where none was ever finite).
+        history: the best fitness after placing the particles and after each iteration, S x (T + 1); the last value is
+            repeated after a swarm stopped.
+        iterations: how many iterations each swarm used, S.
+        reasons: why each stopped, S of `StopReason`.
+    """
+
+    positions: NDArray[np.float64]
+    fitness: NDArray[np.float64]
+    history: NDArray[np.float64]
+    iterations: NDArray[np.int64]
+    reasons: NDArray[np.object_]
+
+    @property
+    def last_improvement(self) -> NDArray[np.int64]:
+        """The iteration of each swarm's last improvement (0: the best stood there from the start)."""
+        falls = np.diff(self.history, axis=1) < 0
+        last = self.history.shape[1] - 1 - np.argmax(falls[:, ::-1], axis=1)
+        return np.where(falls.any(axis=1), last, 0)
+
+    @staticmethod
+    def joined(parts: Sequence[SwarmResult]) -> SwarmResult:
+        """The swarms of several results, one after the other."""
+        return SwarmResult(*(np.concatenate([getattr(part, f.name) for part in parts]) for f in fields(SwarmResult)))
+
+
+def final_reason(best_fitness: float) -> StopReason:
+    """Why a swarm stopped that was not stopped before its last iteration."""
+    return StopReason.ITERATIONS if np.isfinite(best_fitness) else StopReason.NEVER_FINITE

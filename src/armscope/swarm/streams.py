@@ -1,0 +1,36 @@
+"""One stream of random numbers for each swarm, so that no result depends on what else is computed beside it.
+
+Each swarm reads its stream in this order: the start positions, particles x dimensions; then in each iteration
+(r1, r2) for each dimension of each particle, particles x dimensions x 2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def spawn_generators(seed: int | Sequence[int] | np.random.SeedSequence, count: int) -> list[np.random.Generator]:
+    """``count`` independent generators (SFC64, numpy's fastest), spawned from one seed; equal for equal seeds."""
+    sequence = seed if isinstance(seed, np.random.SeedSequence) else np.random.SeedSequence(seed)
+    return [np.random.Generator(np.random.SFC64(child)) for child in sequence.spawn(count)]
+
+
+def are_sfc64(generators: Sequence[np.random.Generator]) -> bool:
+    """Whether all of them are SFC64, whose stream the compiled kernel continues."""
+    return all(isinstance(generator.bit_generator, np.random.SFC64) for generator in generators)
+
+
+def sfc64_states(generators: Sequence[np.random.Generator]) -> NDArray[np.uint64]:
+    """The states (a, b, c, counter) of SFC64 generators, one row each."""
+    return np.array([g.bit_generator.state["state"]["state"] for g in generators], dtype=np.uint64)
+
+
+def set_sfc64_states(generators: Sequence[np.random.Generator], states: NDArray[np.uint64]) -> None:
+    """Let SFC64 generators go on from ``states``, as if they had drawn the numbers themselves."""
+    for generator, state in zip(generators, states, strict=True):
+        whole = generator.bit_generator.state
+        whole["state"]["state"] = state
+        generator.bit_generator.state = whole
