@@ -134,7 +134,7 @@ def _axis(model: pin.Model, joint: int) -> Array:
     """Axis of a revolute joint in its own frame."""
     data = model.createData()
     pin.computeJointJacobians(model, data, pin.neutral(model))
-    local = pin.getJointJacobian(model, data, joint, pin.ReferenceFrame.LOCAL)
+    local = np.reshape(pin.getJointJacobian(model, data, joint, pin.ReferenceFrame.LOCAL), (6, model.nv))
     return np.asarray(local[3:, model.joints[joint].idx_v])
 
 

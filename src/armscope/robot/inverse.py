@@ -1,0 +1,254 @@
+"""Position inverse kinematics: motor angles that bring the tool point where it is wanted, along a path and without jumps.
+
+A redundant arm (more free motors than three) takes the solution with the least joint motion since the previous point:
+the minimum of |q - q_previous|^2 subject to f(q) = target, by Newton's method on its Lagrange conditions,
+
+    q <- q_previous + J+ (target - f(q) + J (q - q_previous)),    J+ = J' (J J')^-1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import pinocchio as pin
+from numpy.typing import ArrayLike, NDArray
+from scipy.stats import qmc
+
+from armscope.inputs import InputError
+from armscope.robot.arm import Arm
+from armscope.robot.kinematics import chain, position_jacobian
+from armscope.robot.model import TIP
+
+Array = NDArray[np.float64]
+
+TOLERANCE_M = 1e-9
+ITERATIONS = 25
+LARGEST_STEP_RAD = 0.35
+"""A joint that turns further than this (20 degrees) between neighbouring points of a path has jumped."""
+
+STARTS = 32
+BEYOND_REACH = "beyond reach"
+
+
+@dataclass(frozen=True, eq=False)
+class PathSolution:
+    """Motor angles along a path of N points.
+
+    Attributes:
+        motor_angles: (N, m) rad; NaN in rows that can't be reached.
+        reasons: (N,) "" where reached, else "beyond reach", "limit of joint j" or "jump of joint j".
+    """
+
+    motor_angles: Array
+    reasons: NDArray[np.str_]
+
+    @property
+    def reached(self) -> NDArray[np.bool_]:
+        """(N,) which points are reached."""
+        reached: NDArray[np.bool_] = self.reasons == ""
+        return reached
+
+    def require_all(self, source: object) -> Array:
+        """The motor angles, if every point is reached.
+
+        Raises:
+            InputError: names ``source``, the first row that can't be reached, and why.
+        """
+        missed = np.flatnonzero(~self.reached)
+        if len(missed):
+            row = int(missed[0])
+            raise InputError(
+                source,
+                f"point {row + 1}",
+                str(self.reasons[row]),
+                f"every point of a path must be within reach, {len(missed)} of {len(self.reasons)} are not",
+                "Move the path, or free a motor that is held.",
+            )
+        return self.motor_angles
+
+
+def follow_path(
+    arm: Arm,
+    targets: ArrayLike,
+    start: ArrayLike | None = None,
+    held: Mapping[int, float] | None = None,
+    largest_step: float = LARGEST_STEP_RAD,
+) -> PathSolution:
+    """Motor angles that bring the nominal tool point along ``targets``, each as near as possible to the one before.
+
+    Args:
+        arm: the arm.
+        targets: (N, 3) in the base frame, m.
+        start: (m,) rad, where the arm comes from; None takes the middle of the limits (0 where there are none).
+        held: motors that keep an angle (rad), by their number from 1.
+        largest_step: rad; a larger motion of any motor between neighbours is a jump. The way to the first point is free.
+
+    Rows that can't be reached are skipped: the path goes on from the last point that was.
+    """
+    targets = np.atleast_2d(np.asarray(targets, dtype=float))
+    held = dict(held or {})
+    solver = _Newton(arm, held)
+    q = _with_held(_middle(arm) if start is None else np.asarray(start, dtype=float), held)
+    solutions = np.full((len(targets), arm.n_motors), np.nan)
+    skipped, reached_any = 0, False
+    for row, target in enumerate(targets):
+        found = solver.nearest(target, q) if np.linalg.norm(target) <= arm.reach else None
+        if found is None and not reached_any:
+            found = _from_many_starts(arm, target[None], held, q)[0]
+            found = None if np.isnan(found).any() else solver.nearest(target, found)
+        if found is None or (reached_any and np.abs(found - q).max() > largest_step * (skipped + 1)):
+            skipped += 1
+            continue
+        solutions[row] = q = found
+        skipped, reached_any = 0, True
+    return PathSolution(solutions, _reasons(arm, targets, solutions, held))
+
+
+class _Newton:
+    """Least joint motion to one target within the limits, on pinocchio (a few microseconds per step)."""
+
+    def __init__(self, arm: Arm, held: Mapping[int, float]) -> None:
+        self.arm = arm
+        self.free = np.array([motor + 1 not in held for motor in range(arm.n_motors)])
+        self.model = arm.model.copy()
+        tip = self.model.frames[self.model.getFrameId(TIP)]
+        placement = tip.placement * pin.SE3(np.eye(3), arm.tool)
+        self.tool = self.model.addFrame(pin.Frame("tool point", tip.parentJoint, 0, placement, pin.FrameType.OP_FRAME))
+        self.data = self.model.createData()
+        self.neutral = pin.neutral(self.model)
+        self.low, self.high = arm.limits.T
+
+    def nearest(self, target: Array, previous: Array) -> Array | None:
+        """The solution nearest to ``previous`` within the limits, or None. Motors that meet a limit stay there."""
+        free, q = self.free, np.clip(previous, self.low, self.high)
+        for _ in range(self.arm.n_motors):
+            found = self._solve(target, q, free)
+            if found is None:
+                return None
+            outside = free & ((found < self.low - 1e-12) | (found > self.high + 1e-12))
+            if not outside.any():
+                return found
+            q = np.where(outside, np.clip(found, self.low, self.high), q)
+            free = free & ~outside
+        return None
+
+    def _solve(self, target: Array, previous: Array, free: NDArray[np.bool_]) -> Array | None:
+        if not free.any():
+            return None
+        q, last = previous.copy(), np.inf
+        for _ in range(ITERATIONS):
+            point, jacobian = self._point_and_jacobian(q)
+            gap = target - point
+            size = float(np.sqrt(gap @ gap))
+            if size < TOLERANCE_M:
+                return q
+            if size > 2 * last:
+                return None
+            last = size
+            jacobian = jacobian * free
+            # a millionth of a square metre per radian keeps the step finite where the arm is stretched out
+            gram = jacobian @ jacobian.T
+            gram.flat[::4] += 1e-12
+            step = jacobian.T @ np.linalg.solve(gram, gap + jacobian @ (q - previous)) + previous - q
+            q = q + step * min(1.0, 0.5 / max(1e-12, float(np.abs(step).max())))
+        return None
+
+    def _point_and_jacobian(self, q: Array) -> tuple[Array, Array]:
+        angles = pin.integrate(self.model, self.neutral, self.arm.actuation @ q)
+        jacobian = pin.computeFrameJacobian(
+            self.model, self.data, angles, self.tool, pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
+        )
+        return pin.updateFramePlacement(self.model, self.data, self.tool).translation, jacobian[:3] @ self.arm.actuation
+
+
+def _reasons(arm: Arm, targets: Array, solutions: Array, held: Mapping[int, float]) -> NDArray[np.str_]:
+    """Why the rows without a solution have none: each is tried again from many starts, with and without limits."""
+    reasons = np.full(len(targets), "", dtype="<U24")
+    missed = np.flatnonzero(np.isnan(solutions).any(axis=1))
+    reasons[missed] = BEYOND_REACH
+    near = missed[np.linalg.norm(targets[missed], axis=1) <= arm.reach]
+    if not len(near):
+        return reasons
+    before = _last_reached(solutions, near, _middle(arm))
+    free = _from_many_starts(arm, targets[near], held, before)
+    for row, solution, previous in zip(near, free, before, strict=True):
+        if np.isnan(solution).any():
+            continue
+        excess = np.maximum(arm.limits[:, 0] - solution, solution - arm.limits[:, 1])
+        worst = int(np.argmax(excess))
+        if excess[worst] > 1e-9:
+            reasons[row] = f"limit of joint {worst + 1}"
+        else:
+            reasons[row] = f"jump of joint {int(np.argmax(np.abs(solution - previous))) + 1}"
+    return reasons
+
+
+def _last_reached(solutions: Array, rows: NDArray[np.intp], start: Array) -> Array:
+    good = np.flatnonzero(~np.isnan(solutions).any(axis=1))
+    if not len(good):
+        return np.tile(start, (len(rows), 1))
+    before = np.maximum(np.searchsorted(good, rows) - 1, 0)
+    return solutions[good[before]]
+
+
+def _from_many_starts(arm: Arm, targets: Array, held: Mapping[int, float], near: Array) -> Array:
+    """(N, m) a solution for each target, from several starts at once, that breaks the limits least; NaN where none is.
+
+    Among solutions within the limits, the one that is nearest to ``near``.
+    """
+    starts = np.vstack([np.zeros((1, arm.n_motors)), _spread(arm)])
+    n_starts = len(starts) + 1
+    near = np.broadcast_to(near, (len(targets), arm.n_motors))
+    q = np.concatenate([near[:, None], np.broadcast_to(starts, (len(targets), *starts.shape))], axis=1)
+    q = _with_held(q.reshape(-1, arm.n_motors), held)
+    goals = np.repeat(targets, n_starts, axis=0)
+    free = np.array([motor + 1 not in held for motor in range(arm.n_motors)])
+    open_rows = np.arange(len(q))
+    for _ in range(4 * ITERATIONS):
+        frames = chain(arm, q[open_rows])
+        gap = goals[open_rows] - frames.tool
+        still = np.linalg.norm(gap, axis=1) > TOLERANCE_M
+        open_rows, gap = open_rows[still], gap[still]
+        if not len(open_rows):
+            break
+        jacobian = position_jacobian(arm, frames)[still] * free
+        damping = 1e-6 * np.minimum(np.einsum("ni,ni->n", gap, gap), 1.0) + 1e-14
+        gram = jacobian @ np.swapaxes(jacobian, 1, 2) + damping[:, None, None] * np.eye(3)
+        step = np.einsum("nji,nj->ni", jacobian, np.linalg.solve(gram, gap[..., None])[..., 0])
+        step *= np.minimum(1.0, 0.5 / np.maximum(1e-12, np.abs(step).max(axis=1)))[:, None]
+        q[open_rows] += step
+    q[open_rows] = np.nan
+    q = _unwound(arm, q).reshape(len(targets), n_starts, arm.n_motors)
+    excess = np.maximum(0, np.maximum(arm.limits[:, 0] - q, q - arm.limits[:, 1])).max(axis=2)
+    distance = np.abs(q - near[:, None]).max(axis=2)
+    cost = np.nan_to_num(np.where(excess > 1e-9, 1e3 + excess, 0) + distance * 1e-3, nan=np.inf)
+    best = np.argmin(cost, axis=1)
+    chosen: Array = q[np.arange(len(targets)), best]
+    return chosen
+
+
+def _unwound(arm: Arm, q: Array) -> Array:
+    """Whole turns taken off motors that move nothing but their own joint, so that limits are broken by what matters."""
+    alone = (np.count_nonzero(arm.actuation, axis=0) == 1) & (np.abs(arm.actuation).max(axis=0) == 1)
+    middle = _middle(arm)
+    return np.where(alone, q - 2 * np.pi * np.round((q - middle) / (2 * np.pi)), q)
+
+
+def _spread(arm: Arm) -> Array:
+    """Starts spread evenly between the limits (half a turn either way where there are none)."""
+    low, high = np.where(np.isfinite(arm.limits), arm.limits, [-np.pi, np.pi]).T
+    return qmc.scale(qmc.Halton(arm.n_motors, scramble=False).random(STARTS), low, high)
+
+
+def _middle(arm: Arm) -> Array:
+    middle: Array = np.where(np.isfinite(arm.limits).all(axis=1), np.nan_to_num(arm.limits.mean(axis=1)), 0.0)
+    return middle
+
+
+def _with_held(q: Array, held: Mapping[int, float]) -> Array:
+    q = q.copy()
+    for motor, angle in held.items():
+        q[..., motor - 1] = angle
+    return q
