@@ -1,0 +1,153 @@
+"""config/config.yaml, typed: what the pipeline may be told, with the source of every number the paper lacks.
+
+The JSON schema that Snakemake checks a configuration against is generated from these classes (`armscope schema`).
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Generic, Literal, TypeVar
+
+import pydantic
+from pydantic import Field
+
+from armscope.inputs import Strict
+
+Value = TypeVar("Value")
+Positive = Annotated[float, Field(gt=0)]
+Count = Annotated[int, Field(ge=1)]
+Point = tuple[float, float, float]
+
+
+class Stated(Strict, Generic[Value]):
+    """A number together with where it comes from: a place in the paper, or ``assumed``."""
+
+    value: Value
+    source: str = Field(min_length=3, description="paper, page or equation; or `assumed`, and why this value")
+
+
+class Tolerances(Strict):
+    """One-sigma sizes of the geometric errors an arm of this kind has before calibration."""
+
+    link_mm: Stated[Positive]
+    link_mrad: Stated[Positive]
+    base_mm: Stated[Positive]
+    base_mrad: Stated[Positive]
+
+
+class Ensemble(Strict):
+    """How many further robots agree with the printed equations, and how many swarms fit each of them."""
+
+    robots: Annotated[int, Field(ge=0)] = 100
+    seeds: Count = 3
+
+
+class Identification(Strict):
+    """The identification poses."""
+
+    poses: Stated[Count]
+    candidates: Stated[Count]
+    margin_rad: Stated[Annotated[float, Field(ge=0)]]
+    forearm_motor_6_rad: Stated[Positive]
+
+
+class Trajectories(Strict):
+    """The three test trajectories."""
+
+    corners_mm: Stated[tuple[Point, Point, Point, Point]]
+    points_per_side: Stated[Count]
+    spiral_starts_mm: Stated[tuple[Point, Point]]
+    spiral_enlargement: Stated[Positive]
+    spiral_turns_pi: Stated[Positive]
+    spiral_points: Stated[Count]
+    third_coordinate_rise_mm: Stated[float]
+
+
+class Tracker(Strict):
+    """The laser tracker's errors, 1-sigma where the paper gives a +- bound."""
+
+    accuracy_ppm: Stated[Annotated[float, Field(ge=0)]]
+    repeatability_ppm: Stated[Annotated[float, Field(ge=0)]]
+    resolution_um: Stated[Annotated[float, Field(ge=0)]]
+    readings: Stated[Count]
+    position_mm: Stated[Point]
+
+
+class Swarm(Strict):
+    """The particle swarms that fit the error models."""
+
+    seeds: Count = 20
+    particles: Annotated[int, Field(ge=2)] = 100
+    iterations: Annotated[int, Field(ge=0)] = 200
+    update: Literal["constriction", "inertia", "original"] = "constriction"
+    neighbourhood: Literal["gbest", "ring"] = "gbest"
+    velocity_clamp: Annotated[float, Field(gt=0)] | None = None
+    threshold_mm: Annotated[float, Field(gt=0)] | None = None
+    basis: Literal["raw", "standardised", "qr"] = "qr"
+    engine: Literal["auto", "numba", "numpy"] = "auto"
+
+
+class Model(Strict):
+    """An error model: a family of functions of Cartesian or angular input, for each axis."""
+
+    family: Literal["polynomial", "fourier"]
+    degree: Count = Field(description="degree of the polynomial, or number of harmonics")
+    input: Literal["cartesian", "angular"]
+
+
+class Paper(Strict):
+    """The reproduction of the 2006 paper on a virtual arm."""
+
+    robot: Stated[str]
+    tolerances: Tolerances
+    ensemble: Ensemble = Ensemble()
+    identification: Identification
+    trajectories: Trajectories
+    tracker: Tracker
+    models: dict[str, Model]
+    swarm: Swarm = Swarm()
+
+
+class RealSet(Strict):
+    """Real recordings that the paper's models are fitted to; paths below ``recordings_dir``."""
+
+    recordings: str
+    robot: str
+    run: str | None = None
+    first_id: int | None = Field(None, description="leave out the rows of that run before this id")
+    title: str
+
+
+class Proof(Strict):
+    """The diagnosis on worlds with concealed effects."""
+
+    size: Literal["small", "full"] = "small"
+
+
+class Config(Strict):
+    """The whole configuration."""
+
+    results: str = "results"
+    seed: Annotated[int, Field(ge=0)] = 2006
+    recordings_dir: str = "../shared/recordings"
+    paper: Paper
+    real: dict[str, RealSet] = Field(default_factory=dict)
+    sweep: str = "config/sweeps/default.csv"
+    proof: Proof = Proof()
+    proof_seed: Annotated[int, Field(ge=0)] | None = None
+
+
+def schema() -> dict[str, Any]:
+    """The JSON schema of config.yaml."""
+    return Config.model_json_schema()
+
+
+def stated_numbers(section: pydantic.BaseModel, prefix: str = "") -> list[dict[str, Any]]:
+    """Every stated number below a section: rows of quantity, value, source."""
+    rows: list[dict[str, Any]] = []
+    for name in type(section).model_fields:
+        value = getattr(section, name)
+        if isinstance(value, Stated):
+            rows.append({"quantity": prefix + name, "value": value.value, "source": value.source})
+        elif isinstance(value, pydantic.BaseModel):
+            rows += stated_numbers(value, f"{prefix}{name}.")
+    return rows

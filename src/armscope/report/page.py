@@ -1,0 +1,55 @@
+"""Self-contained HTML pages: everything embedded, nothing fetched."""
+
+from __future__ import annotations
+
+import base64
+from pathlib import Path
+from typing import Any
+
+import jinja2
+import pandas as pd
+from markupsafe import Markup
+
+from armscope.files import write_text
+
+_TEMPLATES = jinja2.Environment(
+    loader=jinja2.PackageLoader("armscope.report", "templates"),
+    autoescape=True,
+    trim_blocks=True,
+    lstrip_blocks=True,
+    undefined=jinja2.StrictUndefined,
+)
+
+
+def render_page(template: str, **content: Any) -> str:
+    """The HTML of ``templates/<template>`` filled with ``content``."""
+    return _TEMPLATES.get_template(template).render(embed=embed, table=html_table, **content)
+
+
+def write_page(path: Path | str, template: str, **content: Any) -> None:
+    """Render a page and write it, whole or not at all."""
+    write_text(path, render_page(template, **content))
+
+
+def embed(figure: Path | str, alt: str = "") -> Markup:
+    """An <img> that carries the picture in itself."""
+    path = Path(figure)
+    kind = {".svg": "image/svg+xml", ".png": "image/png"}[path.suffix]
+    data = base64.b64encode(path.read_bytes()).decode()
+    return Markup('<img src="data:{};base64,{}" alt="{}">').format(kind, data, alt)
+
+
+def html_table(rows: pd.DataFrame, digits: int = 3) -> Markup:
+    """A table as HTML, numbers with ``digits`` significant digits, missing values as a dash."""
+    html = rows.to_html(index=False, border=0, na_rep="–", float_format=lambda value: significant(value, digits))
+    return Markup('<div class="scroll">{}</div>').format(Markup(html))
+
+
+def significant(value: float, digits: int = 3) -> str:
+    """A number with that many significant digits, without exponent where it is of readable size."""
+    if value == 0:
+        return "0"
+    if 1e-3 <= abs(value) < 1e5:
+        decimals = max(0, digits - 1 - int(f"{abs(value):e}".split("e")[1]))
+        return f"{value:.{decimals}f}"
+    return f"{value:.{digits - 1}e}"

@@ -1,0 +1,78 @@
+"""One look for all figures, and the only way they are saved."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+from cycler import cycler
+
+mpl.use("Agg")
+
+import matplotlib.pyplot as plt
+from matplotlib.figure import Figure
+
+from armscope.files import replacing
+
+# Okabe & Ito (2008): eight colours that people with colour-vision deficiencies can tell apart
+BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE = (
+    "#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7",
+)  # fmt: skip
+GREY = "#8A8A8A"
+AXIS_NAMES = ("x", "y", "z")
+
+STYLE: Any = {
+    "axes.grid": True,
+    "axes.prop_cycle": cycler(color=[BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK]),
+    "axes.spines.right": False,
+    "axes.spines.top": False,
+    "axes.titlesize": "medium",
+    "figure.constrained_layout.use": True,
+    "figure.dpi": 100,
+    "font.size": 9,
+    "grid.alpha": 0.25,
+    "legend.frameon": False,
+    "lines.linewidth": 1.2,
+    "pdf.fonttype": 42,
+    "savefig.dpi": 160,
+    "svg.fonttype": "path",
+    "svg.hashsalt": "armscope",  # stable ids: the same figure has the same bytes
+}
+
+FORMATS = ("png", "svg", "pdf")
+_UNDATED: dict[str, dict[str, Any]] = {
+    "png": {"Software": None},
+    "svg": {"Date": None},
+    "pdf": {"CreationDate": None, "Producer": None},
+}
+
+
+def styled() -> Any:
+    """A context in which figures have the common look."""
+    return mpl.rc_context(STYLE)
+
+
+def save_figure(figure: Figure, path: Path | str) -> list[Path]:
+    """Save ``figure`` as PNG, SVG and PDF beside each other, byte-stable, and close it.
+
+    Args:
+        figure: the figure.
+        path: where one of the three goes; the others differ in their suffix.
+    """
+    written = []
+    with styled():
+        for suffix in FORMATS:
+            target = Path(path).with_suffix(f".{suffix}")
+            with replacing(target) as beside:
+                figure.savefig(beside, format=suffix, metadata=_UNDATED[suffix])
+            written.append(target)
+    plt.close(figure)
+    return written
+
+
+def legend_above(figure: Figure, handles: Any = None, labels: Any = None, columns: int = 4) -> None:
+    """Put one legend above all panels, where it hides no data."""
+    if handles is None:
+        handles, labels = figure.axes[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=columns)
