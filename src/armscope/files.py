@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gzip
 import json
 import os
 import tempfile
@@ -41,10 +42,10 @@ def write_text(path: Path | str, text: str) -> None:
 
 def write_table(path: Path | str, table: pd.DataFrame, digits: int = 10) -> None:
     """Write a table as CSV without its index, numbers with ``digits`` significant digits (``.gz`` compresses)."""
+    text = table.to_csv(index=False, float_format=f"%.{digits}g", lineterminator="\n")
     with replacing(path) as beside:
-        # mtime=0 keeps compressed bytes the same from run to run
-        compression: Any = {"method": "gzip", "mtime": 0} if str(path).endswith(".gz") else None
-        table.to_csv(beside, index=False, float_format=f"%.{digits}g", compression=compression, lineterminator="\n")
+        # no name and no time in the header, so that the same table has the same bytes
+        beside.write_bytes(gzip.compress(text.encode(), mtime=0) if str(path).endswith(".gz") else text.encode())
 
 
 def write_json(path: Path | str, content: Any) -> None:

@@ -1,0 +1,32 @@
+"""Files are written whole or not at all."""
+
+import json
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from armscope.files import replacing, write_json, write_table
+
+
+def test_a_failed_write_leaves_the_old_file_and_no_other(tmp_path):
+    target = tmp_path / "table.csv"
+    target.write_text("old")
+    with pytest.raises(RuntimeError), replacing(target) as beside:
+        beside.write_text("half of the new")
+        raise RuntimeError
+    assert target.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [target]
+
+
+def test_the_same_table_has_the_same_bytes_even_compressed(tmp_path):
+    table = pd.DataFrame({"x_mm": [1 / 3, np.nan], "run": ["a", "b"]})
+    for name in ("one.csv.gz", "two.csv.gz"):
+        write_table(tmp_path / name, table)
+    assert (tmp_path / "one.csv.gz").read_bytes() == (tmp_path / "two.csv.gz").read_bytes()
+    assert pd.read_csv(tmp_path / "one.csv.gz")["x_mm"][0] == pytest.approx(1 / 3, rel=1e-9)
+
+
+def test_json_has_plain_numbers_and_null_for_what_is_not_one(tmp_path):
+    write_json(tmp_path / "a.json", {"a": np.float64(1.5), "b": np.array([1, 2]), "c": float("nan")})
+    assert json.loads((tmp_path / "a.json").read_text()) == {"a": 1.5, "b": [1, 2], "c": None}

@@ -1,0 +1,68 @@
+"""One clear error: file, place, value, rule, cure."""
+
+import pydantic
+import pytest
+import yaml
+
+from armscope.inputs import InputError, Strict, load, nearest, read_yaml
+
+
+class Inner(Strict):
+    a_mm: float
+
+
+class Outer(Strict):
+    name: str
+    rows: tuple[Inner, ...]
+    count: int = pydantic.Field(1, ge=1)
+
+
+def written(tmp_path, text):
+    path = tmp_path / "thing.yaml"
+    path.write_text(text)
+    return path
+
+
+def test_an_unknown_key_is_named_with_the_nearest_known_one(tmp_path):
+    path = written(tmp_path, "name: arm\nrows:\n  - {a_mm: 1}\n  - {a_mmm: 2, a_mm: 3}\n")
+    with pytest.raises(InputError) as caught:
+        load(Outer, path)
+    assert caught.value.place == "rows[1].a_mmm"
+    assert "Did you mean 'a_mm'?" in str(caught.value)
+    assert str(path) in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "place", "found"),
+    [
+        ("name: arm\nrows: [{a_mm: one}]\n", "rows[0].a_mm", "one"),
+        ("name: arm\nrows: [{a_mm: .nan}]\n", "rows[0].a_mm", "nan"),
+        ("name: arm\nrows: [{}]\n", "rows[0].a_mm", "nothing"),
+        ("name: arm\nrows: []\ncount: 0\n", "count", "0"),
+    ],
+)
+def test_a_wrong_value_is_quoted_at_its_place(tmp_path, text, place, found):
+    with pytest.raises(InputError) as caught:
+        load(Outer, written(tmp_path, text))
+    assert caught.value.place == place
+    assert f"found {found}" in str(caught.value).replace("'", "")
+
+
+def test_broken_yaml_is_an_error_with_line_and_column(tmp_path):
+    with pytest.raises(InputError, match="line 3, column 2"):
+        read_yaml(written(tmp_path, "a: 1\nb: [1, 2\nc: 3\n"))
+
+
+def test_a_key_that_stands_twice_is_not_silently_dropped(tmp_path):
+    assert yaml.safe_load("a: 1\na: 2\n") == {"a": 2}  # what plain YAML does
+    with pytest.raises(InputError, match="'a' twice"):
+        read_yaml(written(tmp_path, "a: 1\na: 2\n"))
+
+
+def test_a_missing_file_is_named(tmp_path):
+    with pytest.raises(InputError, match="no_such.yaml"):
+        read_yaml(tmp_path / "no_such.yaml")
+
+
+def test_nearest_lists_what_is_known_when_nothing_is_close():
+    assert nearest("zzzz", ["beta", "alpha"]) == "Known: alpha, beta."
