@@ -12,11 +12,16 @@ from armscope.files import replacing, write_json, write_table
 def test_a_failed_write_leaves_the_old_file_and_no_other(tmp_path):
     target = tmp_path / "table.csv"
     target.write_text("old")
-    with pytest.raises(RuntimeError), replacing(target) as beside:
-        beside.write_text("half of the new")
-        raise RuntimeError
+    with pytest.raises(RuntimeError):
+        _fail_halfway(target)
     assert target.read_text() == "old"
     assert list(tmp_path.iterdir()) == [target]
+
+
+def _fail_halfway(target):
+    with replacing(target) as beside:
+        beside.write_text("half of the new")
+        raise RuntimeError
 
 
 def test_the_same_table_has_the_same_bytes_even_compressed(tmp_path):

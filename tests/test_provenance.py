@@ -33,5 +33,5 @@ def test_the_digest_follows_the_sources(monkeypatch, tmp_path):
 
 
 def test_an_unknown_module_is_an_error():
-    with pytest.raises(ModuleNotFoundError, match="armscope.nothing"):
+    with pytest.raises(ModuleNotFoundError, match="nothing is not a module"):
         provenance.sources("armscope.nothing")
