@@ -2,6 +2,7 @@
 
 from armscope.swarm.engine import Objective, minimise
 from armscope.swarm.least_squares import LeastSquares, minimise_least_squares
+from armscope.swarm.random_search import random_search
 from armscope.swarm.result import StopReason, SwarmResult
 from armscope.swarm.settings import SwarmSettings
 from armscope.swarm.streams import spawn_generators
@@ -18,6 +19,7 @@ __all__ = [
     "UpdateRule",
     "minimise",
     "minimise_least_squares",
+    "random_search",
     "spawn_generators",
     "velocity_update",
 ]

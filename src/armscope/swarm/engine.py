@@ -159,7 +159,7 @@ class _Chunk:
         fitness = np.asarray(self.objective(self.positions, self.swarms))
         if fitness.shape != self.best_fitness.shape:
             raise ValueError(
-                f"the objective returned the shape {fitness.shape}: must be {self.best_fitness.shape}, swarms x particles"
+                f"the objective returned the shape {fitness.shape}: must be {self.best_fitness.shape}"
             )
         better = (fitness < self.best_fitness) & np.isfinite(fitness)
         gone = np.zeros(len(self.rows), dtype=bool)
@@ -171,16 +171,14 @@ class _Chunk:
         np.copyto(self.bests, self.positions, where=better[:, :, None])
         swarm_best = self.best_fitness.min(axis=1)
         self.result.history[self.rows, iteration] = swarm_best
-        reached = np.zeros_like(gone)
-        if self.settings.threshold is not None:
-            reached = swarm_best < self.settings.threshold
+        reached = swarm_best < (-np.inf if self.settings.threshold is None else self.settings.threshold)
         if reached.any() or gone.any():
             self._retire(iteration, reached, gone)
 
     def _retire(self, iteration: int, reached: NDArray[np.bool_], gone: NDArray[np.bool_]) -> None:
         stopped = reached | gone
         for row in np.flatnonzero(stopped):
-            self._record(row, iteration, StopReason.THRESHOLD if reached[row] else StopReason.DIVERGED)
+            self._record(int(row), iteration, StopReason.THRESHOLD if reached[row] else StopReason.DIVERGED)
         at_work = ~stopped
         self.generators = [g for g, stays in zip(self.generators, at_work, strict=True) if stays]
         for name in ("swarms", "positions", "velocities", "draws", "bests", "best_fitness", "rows"):

@@ -71,6 +71,7 @@ def run_kernel(
         history,
         iterations,
         codes,
+        _LANES,
     )
     set_sfc64_states(generators, states)
     early = {_THRESHOLD: StopReason.THRESHOLD, _DIVERGED: StopReason.DIVERGED}
@@ -82,7 +83,7 @@ def run_kernel(
 @compiled
 def _run_packs(
     factors, factor_of, targets, rests, orthonormal, lower, width, speed_limits, clamped, particles, coefficients,
-    ring, threshold, states, positions, fitness, history, iterations, codes,
+    ring, threshold, states, positions, fitness, history, iterations, codes, lanes,
 ):  # fmt: skip
     """Run all swarms, `LANES` at a time; the last pack repeats the last swarm, which gives the same result again."""
     swarms, dimensions = targets.shape
@@ -109,13 +110,14 @@ def _run_packs(
         _run_pack(
             stream, cells, leaders, best_fitness, factor, target, rest, limit, clamped, orthonormal, particles,
             dimensions, coefficients, ring, threshold, chosen, states, positions, fitness, history, iterations, codes,
+            lanes,
         )  # fmt: skip
 
 
 @compiled
 def _run_pack(
     stream, cells, leaders, best_fitness, factor, target, rest, limit, clamped, orthonormal, particles, dimensions,
-    coefficients, ring, threshold, chosen, states, positions, fitness, history, iterations, codes,
+    coefficients, ring, threshold, chosen, states, positions, fitness, history, iterations, codes, lanes,
 ):  # fmt: skip
     """One pack from its placed particles to its end."""
     count = len(coefficients)
@@ -131,9 +133,9 @@ def _run_pack(
             if iteration > 0:
                 leader = np.uint64(particle * dimensions * LANES if ring else 0)
                 inertia, cognitive, social = coefficients[iteration - 1]
-                _move(stream, cells, cell, leaders, leader, limit, clamped, inertia, cognitive, social, dimensions)
-            _judge(cells, cell, factor, target, rest, orthonormal, judged, image, dimensions)
-            _remember(cells, cell, best_fitness, np.uint64(particle * LANES), judged, better, finite, dimensions)
+                _move(stream, cells, cell, leaders, leader, limit, clamped, inertia, cognitive, social, dimensions, lanes)
+            _judge(cells, cell, factor, target, rest, orthonormal, judged, image, dimensions, lanes)
+            _remember(cells, cell, best_fitness, np.uint64(particle * LANES), judged, better, finite, dimensions, lanes)
         _lead(cells, best_fitness, leaders, ring, pack_best, pack_leader, particles, dimensions)
         working = 0
         for lane in range(LANES):
@@ -181,11 +183,11 @@ def _place(stream, cells, chosen, lower, width, particles, dimensions):
 
 
 @compiled
-def _move(stream, cells, cell, leaders, leader, limit, clamped, inertia, cognitive, social, dimensions):
+def _move(stream, cells, cell, leaders, leader, limit, clamped, inertia, cognitive, social, dimensions, lanes):
     """One particle's velocity update and step; SFC64 (Doty-Humphrey's PractRand, as in numpy) twice per dimension."""
     bound = np.uint64(0)
     for _ in range(dimensions):
-        for lane in range(_LANES):
+        for lane in range(lanes):
             a = stream[lane]
             b = stream[_LANES + lane]
             c = stream[_LANES + _LANES + lane]
@@ -221,14 +223,14 @@ def _move(stream, cells, cell, leaders, leader, limit, clamped, inertia, cogniti
 
 
 @compiled
-def _judge(cells, cell, factor, target, rest, orthonormal, judged, image, dimensions):
+def _judge(cells, cell, factor, target, rest, orthonormal, judged, image, dimensions, lanes):
     """The RMS residual sqrt(|R z - b|^2 + rest) of one particle, into ``judged``."""
-    for lane in range(_LANES):
+    for lane in range(lanes):
         judged[lane] = 0.0
     if orthonormal:
         row = np.uint64(0)
         for _ in range(dimensions):
-            for lane in range(_LANES):
+            for lane in range(lanes):
                 gap = cells[cell + lane] - target[row + lane]
                 judged[lane] += gap * gap
             cell += _CELL
@@ -240,23 +242,23 @@ def _judge(cells, cell, factor, target, rest, orthonormal, judged, image, dimens
             for row in range(column + 1):
                 entry = np.uint64((row * dimensions + column) * LANES)
                 into = np.uint64(row * LANES)
-                for lane in range(_LANES):
+                for lane in range(lanes):
                     image[into + lane] += factor[entry + lane] * cells[cell + lane]
             cell += _CELL
         into = np.uint64(0)
         for _ in range(dimensions):
-            for lane in range(_LANES):
+            for lane in range(lanes):
                 judged[lane] += image[into + lane] * image[into + lane]
             into += _LANES
-    for lane in range(_LANES):
+    for lane in range(lanes):
         judged[lane] = np.sqrt(judged[lane] + rest[lane])
 
 
 @compiled
-def _remember(cells, cell, best_fitness, best, judged, better, finite, dimensions):
+def _remember(cells, cell, best_fitness, best, judged, better, finite, dimensions, lanes):
     """Take over one particle's position as its best where it is better; NaN and infinity never are."""
     improved = 0
-    for lane in range(_LANES):
+    for lane in range(lanes):
         better[lane] = judged[lane] < best_fitness[best + lane]
         finite[lane] += judged[lane] < np.inf
         improved += better[lane]
@@ -264,7 +266,7 @@ def _remember(cells, cell, best_fitness, best, judged, better, finite, dimension
     if improved == 0:
         return
     for _ in range(dimensions):
-        for lane in range(_LANES):
+        for lane in range(lanes):
             kept = cells[cell + _LANES + _LANES + lane]
             cells[cell + _LANES + _LANES + lane] = cells[cell + lane] if better[lane] else kept
         cell += _CELL

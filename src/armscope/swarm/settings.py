@@ -18,7 +18,7 @@ class SwarmSettings:
         iterations: how often all particles move, at most; 0 only places them.
         update: a name in `PRESETS` ("original", "constriction", "inertia") or an `UpdateRule`.
         neighbourhood: "gbest" (all particles) or "ring" (itself and two).
-        velocity_clamp: the largest speed in each dimension, as a share of the width of the search box there; None: no limit.
+        velocity_clamp: the largest speed in each dimension, as a share of the search box's width; None: no limit.
         threshold: a swarm stops when its best fitness drops below this value; None: it never does.
 
     Raises:
