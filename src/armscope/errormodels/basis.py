@@ -63,15 +63,16 @@ class Basis:
         return targets, rests
 
     def half_widths(self, errors: Array) -> Array:
-        """The search box |z_k| <= w_k, axes x m, for ``errors`` (N x axes); it follows from the data alone.
+        """The search box |z_k| <= w_k, axes x m, for ``errors`` (N x axes): RMS(errors) / RMS(column k).
 
-        The least-squares solution obeys U z = b and |b| <= RMS(errors), since b is a projection of the errors. So
-        |z_k| <= RMS(errors) x |row k of U^-1|, for any data, with equality possible: no smaller box always holds the
-        solution. In the QR basis that is |z_k| <= RMS(errors).
+        No coefficient is larger than that if its term works alone (Cauchy-Schwarz). In the QR basis terms do work alone,
+        so the box always holds the least-squares solution; elsewhere collinear terms may need coefficients outside of
+        it. That is no hindrance, since the box says where particles start and does not confine them; the larger box
+        that always holds the solution, RMS(errors) x |row k of U^-1|, leaves the swarm farther from it.
         """
-        inverse = scipy.linalg.solve_triangular(self.triangular, np.eye(self.dimensions))
-        rms = np.sqrt(np.mean(np.square(errors), axis=0))
-        return rms[:, None] * np.linalg.norm(inverse, axis=1)
+        rms_errors = np.sqrt(np.mean(np.square(errors), axis=0))
+        rms_columns = np.linalg.norm(self.triangular, axis=0)
+        return rms_errors[:, None] / rms_columns
 
     def raw_coefficients(self, coordinates: Array) -> Array:
         """Raw coefficients (... x n) of coordinates z (... x m)."""
