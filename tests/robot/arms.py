@@ -13,7 +13,14 @@ from armscope.robot.description import RobotDescription
 CONFIG = Path(__file__).parents[2] / "config"
 SK120 = CONFIG / "robots" / "sk120.yaml"
 
-STANDARD = [(300, -90, 800, 0), (1150, 0, 0, -90), (250, -90, 0, 0), (0, 90, 1225, 0), (0, -90, 0, 0), (0, 0, 342.65, 0)]
+STANDARD = [
+    (300, -90, 800, 0),
+    (1150, 0, 0, -90),
+    (250, -90, 0, 0),
+    (0, 90, 1225, 0),
+    (0, -90, 0, 0),
+    (0, 0, 342.65, 0),
+]
 TOOL_MM = (205.32, 10.0, -20.0)
 
 
@@ -24,7 +31,7 @@ def dh_arm(rows, convention="standard", **more) -> Arm:
 
 
 def as_modified(rows):
-    """The same chain in Craig's rows: (a, alpha) move to the next row; what is left behind the last goes to the tool."""
+    """The same chain in Craig's rows: (a, alpha) move to the next row; the last row's must be zero."""
     shifted = [(0.0, 0.0), *((a, alpha) for a, alpha, _, _ in rows[:-1])]
     return [(a, alpha, d, theta) for (a, alpha), (_, _, d, theta) in zip(shifted, rows, strict=True)]
 
@@ -37,7 +44,7 @@ def standard_transform(row, angle):
 
 
 def as_urdf(rows) -> str:
-    """The same chain as a URDF with joints about z: joint j's origin is what stands behind joint j-1 in the D-H table."""
+    """The same chain as a URDF with joints about z: joint j's origin is what row j-1 puts behind its joint."""
     parts = ['<?xml version="1.0"?><robot name="test"><link name="base"/>']
     xyz, rpy, parent = "0 0 0", "0 0 0", "base"
     for number, (a, alpha, d, theta) in enumerate(rows, start=1):
@@ -53,17 +60,26 @@ def as_urdf(rows) -> str:
         shift = Rotation.from_euler("z", theta, degrees=True).apply([a, 0, d]) * 1e-3
         xyz = " ".join(repr(float(value)) for value in shift)
         rpy = " ".join(repr(float(value)) for value in turn.as_euler("xyz"))
-    parts.append(f'<link name="flange"/><joint name="fixed" type="fixed"><parent link="{parent}"/><child link="flange"/>')
+    parts.append(
+        f'<link name="flange"/><joint name="fixed" type="fixed"><parent link="{parent}"/><child link="flange"/>'
+    )
     parts.append(f'<origin xyz="{xyz}" rpy="{rpy}"/></joint></robot>')
     return "".join(parts)
 
 
 def random_rows(rng, n_joints):
     return [
-        (rng.uniform(-500, 500), rng.choice([-90, 0, 90, rng.uniform(-180, 180)]), rng.uniform(-500, 500), rng.uniform(-180, 180))
+        (
+            rng.uniform(-500, 500),
+            rng.choice([-90, 0, 90, rng.uniform(-180, 180)]),
+            rng.uniform(-500, 500),
+            rng.uniform(-180, 180),
+        )
         for _ in range(n_joints)
     ]
 
 
 def random_masses(rng, n_joints):
-    return [{"mass_kg": float(rng.uniform(1, 50)), "com_mm": rng.uniform(-300, 300, 3).tolist()} for _ in range(n_joints)]
+    return [
+        {"mass_kg": float(rng.uniform(1, 50)), "com_mm": rng.uniform(-300, 300, 3).tolist()} for _ in range(n_joints)
+    ]

@@ -6,12 +6,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
+from tests.robot.arms import SK120, STANDARD, TOOL_MM, as_modified, as_urdf, dh_arm, random_rows, standard_transform
 
 from armscope.inputs import InputError
 from armscope.robot import chain, forward_kinematics, load_arm
 from armscope.robot.arm import build_arm
 from armscope.robot.description import RobotDescription
-from tests.robot.arms import SK120, STANDARD, TOOL_MM, as_modified, as_urdf, dh_arm, random_rows, standard_transform
 
 
 @pytest.fixture
@@ -59,7 +59,12 @@ def test_any_modified_table_agrees_with_craigs_matrix(seed, n_joints):
     for (a, alpha, d, offset), angle in zip(rows, q, strict=True):
         theta, alpha = angle + np.radians(offset), np.radians(alpha)
         ct, s, ca, sa, d = np.cos(theta), np.sin(theta), np.cos(alpha), np.sin(alpha), d * 1e-3
-        pose = pose @ [[ct, -s, 0, a * 1e-3], [s * ca, ct * ca, -sa, -sa * d], [s * sa, ct * sa, ca, ca * d], [0, 0, 0, 1]]
+        pose = pose @ [
+            [ct, -s, 0, a * 1e-3],
+            [s * ca, ct * ca, -sa, -sa * d],
+            [s * sa, ct * sa, ca, ca * d],
+            [0, 0, 0, 1],
+        ]
     assert np.abs(forward_kinematics(arm, q)[0] - (pose @ [*(np.array(TOOL_MM) * 1e-3), 1])[:3]).max() < 1e-12
 
 
@@ -71,7 +76,7 @@ def mujoco_arm(rows, tool_mm):
         turn = Rotation.from_euler("z", theta, degrees=True)
         x, y, z, w = (turn * Rotation.from_euler("x", alpha, degrees=True)).as_quat()
         xyz = turn.apply([a, 0, d]) * 1e-3
-        return f'pos="{xyz[0]!r} {xyz[1]!r} {xyz[2]!r}" quat="{w!r} {x!r} {y!r} {z!r}"'.replace("np.float64(", "").replace(")", "")
+        return 'pos="{} {} {}" quat="{} {} {} {}"'.format(*map(float, (*xyz, w, x, y, z)))
 
     body, last = "", 'pos="0 0 0"'
     for number, row in enumerate(rows):
@@ -109,9 +114,11 @@ def test_a_wrong_row_is_seen_by_the_oracle():
 def test_joint_axes_of_a_urdf_may_point_anywhere(tmp_path):
     text = (
         '<robot name="r"><link name="base"/><link name="a"/><link name="flange"/>'
-        '<joint name="one" type="continuous"><parent link="base"/><child link="a"/><origin xyz="0.1 0.2 0.3" rpy="0.1 0.2 0.3"/>'
+        '<joint name="one" type="continuous"><parent link="base"/><child link="a"/>'
+        '<origin xyz="0.1 0.2 0.3" rpy="0.1 0.2 0.3"/>'
         '<axis xyz="0 0.6 -0.8"/></joint>'
-        '<joint name="two" type="revolute"><parent link="a"/><child link="flange"/><origin xyz="0.5 0 0.1"/><axis xyz="-1 0 0"/>'
+        '<joint name="two" type="revolute"><parent link="a"/><child link="flange"/>'
+        '<origin xyz="0.5 0 0.1"/><axis xyz="-1 0 0"/>'
         '<limit lower="-1" upper="2" effort="1" velocity="1"/></joint></robot>'
     )
     arm = urdf_arm(tmp_path, None, text, tool_mm=(30, 40, 50))
@@ -120,7 +127,7 @@ def test_joint_axes_of_a_urdf_may_point_anywhere(tmp_path):
     for (one, two), tool in zip(q, forward_kinematics(arm, q), strict=True):
         first = place * Rotation.from_rotvec(one * np.array([0, 0.6, -0.8]))
         second = Rotation.from_rotvec(two * np.array([-1, 0, 0]))
-        expected = [0.1, 0.2, 0.3] + first.apply([0.5, 0, 0.1] + second.apply([0.03, 0.04, 0.05]))
+        expected = np.array([0.1, 0.2, 0.3]) + first.apply(np.array([0.5, 0, 0.1]) + second.apply([0.03, 0.04, 0.05]))
         assert np.abs(tool - expected).max() < 1e-12
 
 

@@ -75,7 +75,9 @@ class RobotDescription(Strict):
     joint_limits_deg: tuple[tuple[Degrees, Degrees], ...] | None = None
     instrument: Instrument | None = None
     parallelogram: Parallelogram | None = None
-    source: dict[str, str] = Field(default_factory=dict, description="where the numbers come from, by place in this file")
+    source: dict[str, str] = Field(
+        default_factory=dict, description="where the numbers come from, by place in this file"
+    )
 
     @pydantic.field_validator("name", mode="before")
     @classmethod

@@ -1,4 +1,4 @@
-"""Position inverse kinematics: motor angles that bring the tool point where it is wanted, along a path and without jumps.
+"""Position inverse kinematics: motor angles that bring the tool point along a path, without jumps.
 
 A redundant arm (more free motors than three) takes the solution with the least joint motion since the previous point:
 the minimum of |q - q_previous|^2 subject to f(q) = target, by Newton's method on its Lagrange conditions,
@@ -83,7 +83,7 @@ def follow_path(
         targets: (N, 3) in the base frame, m.
         start: (m,) rad, where the arm comes from; None takes the middle of the limits (0 where there are none).
         held: motors that keep an angle (rad), by their number from 1.
-        largest_step: rad; a larger motion of any motor between neighbours is a jump. The way to the first point is free.
+        largest_step: rad; a larger motion of any motor between neighbours is a jump (the way to the first is free).
 
     Rows that can't be reached are skipped: the path goes on from the last point that was.
     """
@@ -92,18 +92,24 @@ def follow_path(
     solver = _Newton(arm, held)
     q = _with_held(_middle(arm) if start is None else np.asarray(start, dtype=float), held)
     solutions = np.full((len(targets), arm.n_motors), np.nan)
+    reasons = np.full(len(targets), "", dtype="<U24")
     skipped, reached_any = 0, False
     for row, target in enumerate(targets):
         found = solver.nearest(target, q) if np.linalg.norm(target) <= arm.reach else None
         if found is None and not reached_any:
             found = _from_many_starts(arm, target[None], held, q)[0]
             found = None if np.isnan(found).any() else solver.nearest(target, found)
-        if found is None or (reached_any and np.abs(found - q).max() > largest_step * (skipped + 1)):
+        if found is not None and reached_any and np.abs(found - q).max() > largest_step * (skipped + 1):
+            reasons[row] = _jump(found, q)
+            found = None
+        if found is None:
             skipped += 1
             continue
         solutions[row] = q = found
         skipped, reached_any = 0, True
-    return PathSolution(solutions, _reasons(arm, targets, solutions, held))
+    unexplained = np.flatnonzero(np.isnan(solutions).any(axis=1) & (reasons == ""))
+    reasons[unexplained] = _reasons(arm, targets, solutions, unexplained, held)
+    return PathSolution(solutions, reasons)
 
 
 class _Newton:
@@ -160,29 +166,31 @@ class _Newton:
         jacobian = pin.computeFrameJacobian(
             self.model, self.data, angles, self.tool, pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
         )
-        return pin.updateFramePlacement(self.model, self.data, self.tool).translation, jacobian[:3] @ self.arm.actuation
+        linear = np.reshape(jacobian, (6, self.model.nv))[:3]
+        return pin.updateFramePlacement(self.model, self.data, self.tool).translation, linear @ self.arm.actuation
 
 
-def _reasons(arm: Arm, targets: Array, solutions: Array, held: Mapping[int, float]) -> NDArray[np.str_]:
-    """Why the rows without a solution have none: each is tried again from many starts, with and without limits."""
-    reasons = np.full(len(targets), "", dtype="<U24")
-    missed = np.flatnonzero(np.isnan(solutions).any(axis=1))
-    reasons[missed] = BEYOND_REACH
-    near = missed[np.linalg.norm(targets[missed], axis=1) <= arm.reach]
+def _reasons(
+    arm: Arm, targets: Array, solutions: Array, missed: NDArray[np.intp], held: Mapping[int, float]
+) -> NDArray[np.str_]:
+    """Why the rows ``missed`` have no solution: each is tried again from many starts, with and without limits."""
+    reasons = np.full(len(missed), BEYOND_REACH, dtype="<U24")
+    near = np.flatnonzero(np.linalg.norm(targets[missed], axis=1) <= arm.reach)
     if not len(near):
         return reasons
-    before = _last_reached(solutions, near, _middle(arm))
-    free = _from_many_starts(arm, targets[near], held, before)
-    for row, solution, previous in zip(near, free, before, strict=True):
+    before = _last_reached(solutions, missed[near], _middle(arm))
+    found = _from_many_starts(arm, targets[missed[near]], held, before)
+    for place, solution, previous in zip(near, found, before, strict=True):
         if np.isnan(solution).any():
             continue
         excess = np.maximum(arm.limits[:, 0] - solution, solution - arm.limits[:, 1])
-        worst = int(np.argmax(excess))
-        if excess[worst] > 1e-9:
-            reasons[row] = f"limit of joint {worst + 1}"
-        else:
-            reasons[row] = f"jump of joint {int(np.argmax(np.abs(solution - previous))) + 1}"
+        broken = f"limit of joint {int(np.argmax(excess)) + 1}"
+        reasons[place] = broken if excess.max() > 1e-9 else _jump(solution, previous)
     return reasons
+
+
+def _jump(solution: Array, previous: Array) -> str:
+    return f"jump of joint {int(np.argmax(np.abs(solution - previous))) + 1}"
 
 
 def _last_reached(solutions: Array, rows: NDArray[np.intp], start: Array) -> Array:

@@ -130,9 +130,9 @@ def _twisted(rotation: Array, origin: Array, twist: Array | None) -> tuple[Array
     """Frames (N) times Trans(v) Rot(w)."""
     if twist is None:
         return rotation, origin
-    twist = np.broadcast_to(twist, (len(origin), 6))
-    shifted = origin + np.einsum("nij,nj->ni", rotation, twist[:, :3])
-    return rotation @ Rotation.from_rotvec(twist[:, 3:]).as_matrix(), shifted
+    twist = np.asarray(twist, dtype=float)
+    shifted = origin + (rotation @ twist[..., :3, None])[..., 0]
+    return rotation @ Rotation.from_rotvec(twist[..., 3:]).as_matrix(), shifted
 
 
 def _inverse(fixed: Array) -> Array:
