@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 import yaml
-from tests.robot.arms import SK120
 
 from armscope.inputs import InputError
 from armscope.robot import load_arm
+from tests.robot.arms import SK120
 
 ROW = {"a_mm": 300, "alpha_deg": -90, "d_mm": 800}
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pinocchio as pin
 import pytest
-from tests.robot.arms import STANDARD, TOOL_MM, as_modified, dh_arm, random_masses
-from tests.robot.test_three_forms import urdf_arm
 
 from armscope.robot import chain, forward_kinematics
 from armscope.robot.gravity import gravity_torques, gravity_wrenches, mass_moment_regressor
+from tests.robot.arms import STANDARD, TOOL_MM, as_modified, dh_arm, random_masses
+from tests.robot.test_three_forms import urdf_arm
 
 ACTUATION = [{"q1": 1}, {"q2": 1}, {"q3": 1, "q2": -1}, {"q4": 1}, {"q5": 1}, {"q6": 1, "q5": 0.5}]
 

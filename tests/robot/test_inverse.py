@@ -5,11 +5,11 @@ import time
 
 import numpy as np
 import pytest
-from tests.robot.arms import SK120, STANDARD, TOOL_MM, dh_arm
 
 from armscope.inputs import InputError
 from armscope.robot import chain, forward_kinematics, load_arm, position_jacobian
 from armscope.robot.inverse import follow_path
+from tests.robot.arms import SK120, STANDARD, TOOL_MM, dh_arm
 
 HELD = {4: 0.0, 5: 0.0}
 HOME = np.zeros(6)

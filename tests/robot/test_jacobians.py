@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from tests.robot.arms import SK120, STANDARD, TOOL_MM, as_modified, dh_arm
 
 from armscope.robot import chain, forward_kinematics, load_arm, position_jacobian, twist_jacobian
 from armscope.robot.kinematics import joint_jacobian
+from tests.robot.arms import SK120, STANDARD, TOOL_MM, as_modified, dh_arm
 
 STEP = 1e-6
 LOCATIONS = ["base", "tool", *(f"{kind} {j}" for kind in ("joint", "link") for j in range(1, 7))]

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.robot.arms import SK120
 
 from armscope.robot import chain, load_arm, load_description
 from armscope.robot.parallelogram import Linkage, forearm_deviation
+from tests.robot.arms import SK120
 
 ANGLES = np.linspace(0.7, 2.4, 50)
 IDEAL = Linkage(crank=0.35, rocker=0.35, rod=1.15, upper_arm=1.15)

@@ -6,12 +6,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
-from tests.robot.arms import SK120, STANDARD, TOOL_MM, as_modified, as_urdf, dh_arm, random_rows, standard_transform
 
 from armscope.inputs import InputError
 from armscope.robot import chain, forward_kinematics, load_arm
 from armscope.robot.arm import build_arm
 from armscope.robot.description import RobotDescription
+from tests.robot.arms import SK120, STANDARD, TOOL_MM, as_modified, as_urdf, dh_arm, random_rows, standard_transform
 
 
 @pytest.fixture
