@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import gzip
 import re
+import zlib
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -149,41 +150,45 @@ def _read_text_table(path: Path) -> pd.DataFrame:
     opener = gzip.open if path.suffix == ".gz" else open
     try:
         with opener(path, "rt", encoding="utf-8-sig", newline="") as stream:
-            header = next(csv.reader(stream), None)
-    except OSError as error:
+            rows = csv.reader(stream)
+            header = next(rows, None)
+            counts = [len(row) for row in rows]
+    except (OSError, EOFError, zlib.error) as error:
         raise InputError(path, "", "no readable file", "a recordings table (CSV) is needed here", str(error)) from error
     except UnicodeDecodeError as error:
         raise InputError(
             path, f"byte {error.start}", "no UTF-8 text", "tables are UTF-8", "Save it as UTF-8."
         ) from error
+    except csv.Error as error:
+        raise InputError(path, "", str(error), "this must be a comma-separated table") from error
     if not header:
         raise InputError(path, "line 1", "nothing", "the first line names the columns", "Is the file empty?")
     _check_header(path, header)
-    try:
-        table = pd.read_csv(
-            path,
-            encoding="utf-8-sig",
-            index_col=False,
-            skip_blank_lines=False,
-            float_precision="round_trip",
-            dtype={name: str for name in ("id", "run", "target") if name in header},
-            low_memory=False,
-            on_bad_lines="error",
-        )
-    except pd.errors.ParserError as error:
-        found = re.search(r"Expected (\d+) fields in line (\d+), saw (\d+)", str(error))
-        if found is None:
-            raise InputError(path, "", str(error), "this must be a comma-separated table") from error
-        raise InputError(
-            path,
-            f"row {found[2]}",
-            f"{found[3]} values",
-            f"every row has the {found[1]} values that line 1 names",
-            "A decimal comma splits a number in two: use points.",
-        ) from error
+    _check_lengths(path, header, counts)
+    table = pd.read_csv(
+        path,
+        encoding="utf-8-sig",
+        index_col=False,
+        skip_blank_lines=False,
+        dtype={name: str for name in ("id", "run", "target") if name in header},
+        low_memory=False,
+    )
     if table.empty:
         raise InputError(path, "row 2", "nothing", "at least one measured row is needed")
     return table
+
+
+def _check_lengths(path: Path, header: list[str], counts: list[int]) -> None:
+    for row, count in enumerate(counts, start=2):
+        if count != len(header):
+            cure = "A decimal comma splits a number in two: use points." if count > len(header) else ""
+            raise InputError(
+                path,
+                f"row {row}",
+                f"{count} values" if count else "nothing",
+                f"every row has the {len(header)} values that line 1 names",
+                cure,
+            )
 
 
 def _check_header(path: Path, header: list[str]) -> None:
@@ -262,6 +267,7 @@ class _Reader:
                 nearest("q1_rad", self.table.columns),
             )
         for motor in range(1, count + 1):
+            self._check_one_unit(f"q{motor}_rad", f"q{motor}_deg")
             if motor not in found:
                 raise InputError(
                     self.source,
@@ -281,6 +287,12 @@ class _Reader:
         columns = [self._angles(found[motor]) for motor in range(1, count + 1)]
         return np.column_stack(columns)
 
+    def _check_one_unit(self, one: str, other: str) -> None:
+        if one in self.table and other in self.table:
+            raise InputError(
+                self.source, "line 1", f"{one} and {other}", "one unit per quantity", "Remove one of them."
+            )
+
     def _angles(self, column: str) -> Array:
         values = self.numbers(column, required=True) * UNITS[column.rsplit("_", 1)[1]]
         beyond = np.flatnonzero(np.abs(values) > LARGEST_ANGLE_RAD)
@@ -297,6 +309,8 @@ class _Reader:
         return values
 
     def positions(self, measured: bool) -> Array:
+        for axis in "xyz":
+            self._check_one_unit(f"{axis}_mm", f"{axis}_m")
         for unit in ("mm", "m"):
             columns = [f"{axis}_{unit}" for axis in "xyz"]
             present = [name for name in columns if name in self.table]

@@ -1,0 +1,139 @@
+"""Each way in which a recordings table can be wrong ends in one error: file, row, column, value, rule, cure."""
+
+import gzip
+
+import numpy as np
+import pytest
+
+from armscope.inputs import InputError
+from armscope.recordings import read_recordings
+
+HEADER = "id,q1_rad,q2_rad,x_mm,y_mm,z_mm"
+ROWS = ["1,0.1,0.2,100,200,300", "2,0.3,0.4,101,201,301", "3,0.5,0.6,102,202,302"]
+
+
+def write(folder, text, name="recordings.csv", encoding="utf-8"):
+    file = folder / name
+    file.write_bytes(text.encode(encoding))
+    return file
+
+
+def table(*rows, header=HEADER):
+    return "\n".join([header, *rows]) + "\n"
+
+
+def changed(row, column, value):
+    cells = [line.split(",") for line in ROWS]
+    cells[row][HEADER.split(",").index(column)] = value
+    return table(*(",".join(line) for line in cells))
+
+
+def complaint(file, **options):
+    with pytest.raises(InputError) as error:
+        read_recordings(file, **options)
+    message = str(error.value)
+    assert message.startswith(str(file))
+    assert "\n" not in message
+    return message
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        pytest.param(changed(1, "x_mm", ""), ["row 3", "x_mm", "nothing", "required"], id="empty cell"),
+        pytest.param(changed(2, "q1_rad", "nan"), ["row 4", "q1_rad", "nothing", "required"], id="NaN"),
+        pytest.param(changed(2, "y_mm", "inf"), ["row 4", "y_mm", "inf", "finite"], id="infinite"),
+        pytest.param(changed(0, "z_mm", "tall"), ["row 2", "z_mm", "'tall'", "number"], id="text in a number"),
+        pytest.param(changed(0, "z_mm", "TRUE"), ["row 2", "z_mm", "number"], id="a truth value in a number"),
+        pytest.param(changed(1, "q2_rad", "35.5"), ["row 3", "q2_rad", "35.5", "12.57", "q2_deg"], id="degrees as rad"),
+        pytest.param(changed(2, "id", "1"), ["row 4", "id", "'1'", "row 2"], id="duplicate id"),
+        pytest.param(table(*ROWS, "4,0.1,0.2,3,4"), ["row 5", "5 values", "6 values"], id="a row too short"),
+        pytest.param(table(*ROWS, "4,0.1,0.2,3,4,5,6"), ["row 5", "7 values", "6 values"], id="a row too long"),
+        pytest.param(table(ROWS[0] + ",9", *ROWS[1:]), ["row 2", "7 values", "6 values"], id="the first row too long"),
+        pytest.param(
+            table(ROWS[0], "2,0.3,0.4,101,5,201,301"), ["row 3", "7 values", "decimal comma"], id="decimal comma, bare"
+        ),
+        pytest.param(changed(1, "x_mm", '"101,5"'), ["row 3", "x_mm", "101,5", "decimal point"], id="decimal comma"),
+        pytest.param(
+            table(*[row + ",0" for row in ROWS], header=HEADER + ",x_mm"), ["line 1", "x_mm", "twice"], id="same column"
+        ),
+        pytest.param(
+            table(ROWS[0], HEADER, ROWS[1]), ["row 3", "q1_rad", "number"], id="the header again in the middle"
+        ),
+        pytest.param(table(*ROWS).replace("x_mm", "X"), ["line 1", "no column x_mm"], id="missing position"),
+        pytest.param(table(*ROWS).replace("q2_rad", "q3_rad"), ["line 1", "no column q2_rad"], id="missing angle"),
+        pytest.param(
+            table(*ROWS).replace("q1_rad", "j1").replace("q2_rad", "j2"), ["no column q1_rad"], id="no angles"
+        ),
+        pytest.param(table(*ROWS).replace(",", ";"), ["line 1", "commas"], id="semicolons"),
+        pytest.param("", ["line 1", "nothing", "names the columns"], id="empty file"),
+        pytest.param(HEADER + "\n", ["row 2", "nothing", "one measured row"], id="header only"),
+        pytest.param(table(ROWS[0], "", ROWS[1]), ["row 3", "nothing"], id="blank line"),
+    ],
+)
+def test_one_error_that_says_where_what_and_how_to_mend_it(tmp_path, text, words):
+    message = complaint(write(tmp_path, text))
+    for word in words:
+        assert word in message, message
+
+
+@pytest.mark.parametrize(
+    ("columns", "words"),
+    [
+        ({"qw": 1, "qx": 0, "qy": 0}, ["line 1", "no column qz", "come together"]),
+        ({"qw": 1, "qx": 0, "qy": 0, "qz": 1}, ["row 2", "quaternion", "length"]),
+        ({"approach1": 1}, ["no column approach2"]),
+        ({"approach1": 1, "approach2": 3}, ["row 2", "approach2", "3", "-1 or +1"]),
+        ({"sigma_mm": -1}, ["row 2", "sigma", "-1", "not negative"]),
+        ({"sigma_x_mm": 1}, ["no column sigma_y_mm"]),
+        ({"temperature_c": "warm"}, ["row 2", "temperature_c", "'warm'", "number"]),
+        ({"payload_kg": "1,5"}, ["payload_kg"]),
+        ({"q3_rad": 0.1}, ["q3_rad", "2 motors"]),
+    ],
+)
+def test_optional_columns_are_checked_too(tmp_path, columns, words):
+    header = ",".join([HEADER, *columns])
+    values = ",".join(f'"{value}"' if "," in str(value) else str(value) for value in columns.values())
+    message = complaint(write(tmp_path, table(*[f"{row},{values}" for row in ROWS], header=header)), n_motors=2)
+    for word in words:
+        assert word in message, message
+
+
+def test_too_few_motors_for_the_arm(tmp_path):
+    assert "no column q3_rad" in complaint(write(tmp_path, table(*ROWS)), n_motors=3)
+
+
+def test_a_missing_file_and_a_folder(tmp_path):
+    assert "no readable file" in complaint(tmp_path / "nowhere.csv")
+    assert "no readable file" in complaint(tmp_path)
+
+
+def test_a_file_that_is_not_text(tmp_path):
+    file = tmp_path / "recordings.csv"
+    file.write_bytes(b"id,q1_rad\n\xff\xfe\x00\x01")
+    assert "UTF-8" in complaint(file)
+
+
+def test_a_broken_gzip_file(tmp_path):
+    file = tmp_path / "recordings.csv.gz"
+    file.write_bytes(gzip.compress(table(*ROWS * 200).encode())[:-20])
+    complaint(file)
+    file.write_bytes(table(*ROWS).encode())
+    complaint(file)
+
+
+def test_half_an_angle_unit_is_an_error(tmp_path):
+    message = complaint(write(tmp_path, table(*ROWS, header=HEADER.replace("q1_rad", "q1"))))
+    assert "q1_rad" in message
+
+
+@pytest.mark.parametrize("second", ["q1_deg", "y_m"])
+def test_one_quantity_in_two_units_is_ambiguous(tmp_path, second):
+    text = table(*[row + ",5" for row in ROWS], header=f"{HEADER},{second}")
+    assert f"{second}; one unit" in complaint(write(tmp_path, text)).replace("'", "")
+
+
+def test_nothing_of_this_touches_a_good_table(tmp_path):
+    good = read_recordings(write(tmp_path, table(*ROWS)))
+    assert len(good) == 3
+    assert np.allclose(good.positions[0], [0.1, 0.2, 0.3])
