@@ -1,0 +1,1 @@
+"""Virtual robots with physics that the diagnosis does not see."""

@@ -1,0 +1,279 @@
+"""The worlds of the proof: what is concealed in which arm, at which strength, under which circumstances.
+
+A `WorldSpec` says all that a world is made from; `armscope.world.folder.build` makes it. Half of the worlds have
+seeds that stay the same; the other half's are derived from the seed of the proof, so that nobody can have tuned anything
+to them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Literal
+
+import numpy as np
+
+from armscope.inputs import Strict
+from armscope.world.effects import LIBRARY
+from armscope.world.kinds import Kind
+from armscope.world.outside import OUTSIDE
+from armscope.world.session import PoseRule
+
+KINDS: dict[str, Kind] = {kind.name: kind for kind in LIBRARY + OUTSIDE}
+
+ARMS = ("parallelogram-120kg", "six-axis", "seven-axis")
+LARGEST_PAYLOAD_KG = {"parallelogram-120kg": 120.0, "six-axis": 20.0, "seven-axis": 12.0}
+NOISE_MM = {"parallelogram-120kg": (0.02, 0.06), "six-axis": (0.012, 0.04), "seven-axis": (0.008, 0.025)}
+STRENGTHS = (0.5, 1.0, 2.0, 3.0, 5.0, 10.0)
+FIXED_SEED = 20061103
+COMMON_KINDS = (
+    "joint_compliance", "joint_compliance", "joint_offset", "joint_offset", "link_geometry", "link_geometry",
+    "gear_eccentricity", "gear_eccentricity", "backlash", "bearing_compliance", "gear_ratio", "thermal_expansion",
+    "axis_wobble", "link_bending", "base_compliance", "joint_coupling", "base_drift", "gear_mesh", "servo_lag",
+)  # fmt: skip
+"""What real arms have together, the usual suspects twice."""
+
+Category = Literal["clean", "single", "multiple", "outside", "misleading", "inseparable", "real", "bad_shots"]
+
+
+class Wish(Strict):
+    """An effect that a world is to conceal.
+
+    Attributes:
+        kind: key of `KINDS`.
+        strength: RMS at the tool in multiples of the noise.
+        location: where; drawn among the places where it can be seen if left out.
+        minor: belongs to the background of a real arm, not to the story.
+    """
+
+    kind: str
+    strength: float
+    location: str | None = None
+    minor: bool = False
+
+
+class WorldSpec(Strict):
+    """All that a world is made from.
+
+    Attributes:
+        id: its folder's name.
+        category: what it is there to show.
+        arm: file in config/robots without its ending.
+        seed: of everything random in it.
+        fresh: whether the seed comes from the proof's seed.
+        rows: recorded poses.
+        sigma_mm: 1-sigma noise per axis.
+        wishes: what it conceals.
+        poses: rule of `armscope.world.session.POSE_RULES`.
+        columns: context in recordings.csv: `some` (all that is needed, others at random), `missing` (what the effects
+            need is left out), `irrelevant` (everything, and columns that mean nothing).
+        masses: what robot.yaml says about the links' masses.
+        noise: `gaussian`, `outliers` (2 % bad shots), `heavy_tails` (Student's t with 3 degrees of freedom).
+        noise_stated: whether robot.yaml states the instrument's sigma.
+    """
+
+    id: str
+    category: Category
+    arm: str
+    seed: int
+    fresh: bool
+    rows: int
+    sigma_mm: float
+    wishes: tuple[Wish, ...] = ()
+    poses: PoseRule = "free"
+    columns: Literal["some", "missing", "irrelevant"] = "some"
+    masses: Literal["right", "wrong", "absent"] = "right"
+    noise: Literal["gaussian", "outliers", "heavy_tails"] = "gaussian"
+    noise_stated: bool = True
+
+
+Details = dict[str, object]
+Recipe = Callable[[np.random.Generator], Details]
+
+
+def catalogue(proof_seed: int, size: Literal["small", "full"] = "small") -> list[WorldSpec]:
+    """The worlds of a proof: 24 in the small one, over 300 in the full one.
+
+    Args:
+        proof_seed: from which the seeds of every second world are derived.
+        size: which proof.
+    """
+    recipes = list(_small() if size == "small" else _full())
+    return [_spec(number, category, recipe, proof_seed) for number, (category, recipe) in enumerate(recipes)]
+
+
+def _spec(number: int, category: Category, recipe: Recipe, proof_seed: int) -> WorldSpec:
+    fresh = number % 2 == 1
+    sequence = np.random.SeedSequence([proof_seed if fresh else FIXED_SEED, int(fresh), number])
+    rng = np.random.default_rng(sequence)
+    arm = ARMS[int(rng.integers(len(ARMS)))]
+    details: Details = {"arm": arm, "rows": int(rng.choice([60, 100, 150, 200, 250, 300])), **recipe(rng)}
+    low, high = NOISE_MM[str(details["arm"])]
+    return WorldSpec.model_validate(
+        {
+            "id": f"{number:03d}-{category}",
+            "category": category,
+            "seed": int(sequence.generate_state(1)[0]),
+            "fresh": fresh,
+            "sigma_mm": round(float(rng.uniform(low, high)), 3),
+            "noise_stated": bool(rng.random() < 0.6),
+            **details,
+        }
+    )
+
+
+def _full() -> Iterator[tuple[Category, Recipe]]:
+    for _ in range(48):
+        yield "clean", _nothing
+    for kind in LIBRARY:
+        for strength in STRENGTHS:
+            yield "single", _single(kind.name, strength)
+    for number in range(48):
+        yield "multiple", _several(2 + number % 5, weak=number % 4 == 3)
+    for kind in OUTSIDE:
+        for strength in (2.0, 3.0, 5.0, 10.0):
+            yield "outside", _single(kind.name, strength)
+    for _ in range(2):
+        for recipe in MISLEADING:
+            yield "misleading", recipe
+    for _ in range(2):
+        for recipe in INSEPARABLE:
+            yield "inseparable", recipe
+    for _ in range(15):
+        yield "real", _real_arm
+    for number in range(16):
+        yield "bad_shots", _bad_shots("outliers" if number < 8 else "heavy_tails", 1 + number % 3)
+
+
+def _small() -> Iterator[tuple[Category, Recipe]]:
+    for _ in range(4):
+        yield "clean", _nothing
+    singles = (
+        ("joint_compliance", 3.0), ("joint_offset", 3.0), ("link_geometry", 5.0), ("gear_eccentricity", 3.0),
+        ("backlash", 3.0), ("thermal_expansion", 5.0), ("bearing_compliance", 5.0), ("base_drift", 3.0),
+    )  # fmt: skip
+    for kind, strength in singles:
+        yield "single", _single(kind, strength)
+    for count in (2, 3, 4, 5):
+        yield "multiple", _several(count, weak=False)
+    for kind in ("unknown/local_bump", "unknown/loose_beyond", "unknown/hardening_spring"):
+        yield "outside", _single(kind, 5.0)
+    yield "misleading", MISLEADING[0]
+    yield "misleading", MISLEADING[3]
+    yield "inseparable", INSEPARABLE[0]
+    yield "real", _real_arm
+    yield "bad_shots", _bad_shots("outliers", 1)
+
+
+def _nothing(rng: np.random.Generator) -> Details:
+    return {}
+
+
+def _single(kind: str, strength: float) -> Recipe:
+    def recipe(rng: np.random.Generator) -> Details:
+        details: Details = {"wishes": [{"kind": kind, "strength": strength}]}
+        return details | _arm_for(kind)
+
+    return recipe
+
+
+def _arm_for(kind: str) -> Details:
+    details: Details = {"arm": "parallelogram-120kg"} if kind == "parallelogram_geometry" else {}
+    return details
+
+
+def _several(count: int, weak: bool) -> Recipe:
+    """Two to six effects; if ``weak``, one of them near the threshold."""
+
+    def recipe(rng: np.random.Generator) -> Details:
+        names = list(dict.fromkeys(rng.permutation(COMMON_KINDS)))[:count]
+        if count > 2 and "joint_compliance" in names:
+            names[-1] = "joint_compliance"  # where one joint gives way, another does
+        strengths = rng.choice([3.0, 4.0, 6.0, 9.0, 12.0], count)
+        if weak:
+            strengths[-1] = 1.5
+        wishes = [{"kind": str(name), "strength": float(size)} for name, size in zip(names, strengths, strict=True)]
+        return {"wishes": wishes, "rows": int(rng.choice([150, 200, 250, 300]))}
+
+    return recipe
+
+
+def _misled(kind: str | None, **details: object) -> Recipe:
+    def recipe(rng: np.random.Generator) -> Details:
+        if kind is None:
+            return dict(details)
+        wish = {"kind": kind, "strength": float(rng.choice([3.0, 5.0, 10.0]))}
+        return {"wishes": [wish], **_arm_for(kind), **details}
+
+    return recipe
+
+
+MISLEADING: tuple[Recipe, ...] = (
+    _misled("joint_compliance", masses="wrong"),
+    _misled("joint_compliance", masses="wrong"),
+    _misled("joint_compliance", masses="absent"),
+    _misled("backlash", columns="missing"),
+    _misled("thermal_expansion", columns="missing"),
+    _misled("base_drift", columns="missing"),
+    _misled("servo_lag", columns="missing"),
+    _misled(None, columns="irrelevant"),
+    _misled(None, columns="irrelevant", poses="warming_in_step"),
+    _misled("gear_eccentricity", columns="irrelevant"),
+    _misled("base_drift", poses="warming_in_step"),
+    _misled("thermal_expansion", poses="warming_in_step"),
+)
+
+
+def _unseparated(kind: str, poses: str, location: str | None = None, arm: str | None = None) -> Recipe:
+    def recipe(rng: np.random.Generator) -> Details:
+        wish = {"kind": kind, "strength": float(rng.choice([3.0, 5.0])), "location": location}
+        return {"wishes": [wish], "poses": poses} | ({"arm": arm} if arm else {})
+
+    return recipe
+
+
+INSEPARABLE: tuple[Recipe, ...] = (
+    _unseparated("joint_compliance", "no_payload", "joint 2", "parallelogram-120kg"),
+    _unseparated("servo_lag", "constant_speed", "joint 2"),
+    _unseparated("gear_ratio", "constant_speed", "joint 3"),
+    _unseparated("gear_ratio", "lockstep", "joint 2", "six-axis"),
+    _unseparated("joint_coupling", "lockstep", "joint 3 from joint 2", "six-axis"),
+    _unseparated("gear_eccentricity", "narrow"),
+    _unseparated("joint_compliance", "narrow", "joint 2"),
+    _unseparated("base_compliance", "free", "base", "six-axis"),
+)
+
+
+def _real_arm(rng: np.random.Generator) -> Details:
+    """Geometry of tolerance size, give in all directions and small curves everywhere; one effect that dominates."""
+    arm = ARMS[int(rng.integers(len(ARMS)))]
+    joints = 7 if arm == "seven-axis" else 6
+    sizes: dict[str, tuple[float, float]] = {
+        "joint_offset": (0.5, 1.5), "link_geometry": (0.3, 1.2), "joint_compliance": (0.3, 1.2),
+        "bearing_compliance": (0.2, 0.8), "gear_eccentricity": (0.2, 0.6),
+    }  # fmt: skip
+    wishes = [
+        {
+            "kind": kind,
+            "strength": round(float(rng.uniform(*size)), 3),
+            "location": f"{'link' if kind.startswith('link') else 'joint'} {j + 1}",
+            "minor": True,
+        }
+        for kind, size in sizes.items()
+        for j in range(joints)
+    ]
+    wishes.append({"kind": "base_compliance", "strength": 0.5, "location": "base", "minor": True})
+    dominant = str(
+        rng.choice(["joint_compliance", "joint_offset", "gear_eccentricity", "bearing_compliance", "backlash"])
+    )
+    wishes.insert(0, {"kind": dominant, "strength": float(rng.choice([10.0, 15.0, 20.0]))})
+    return {"arm": arm, "rows": int(rng.choice([150, 200, 250, 300])), "wishes": wishes, "masses": "wrong"}
+
+
+def _bad_shots(noise: str, count: int) -> Recipe:
+    def recipe(rng: np.random.Generator) -> Details:
+        return {**_several(max(count, 2), weak=False)(rng), "noise": noise} if count > 1 else {
+            "wishes": [{"kind": str(rng.choice(COMMON_KINDS)), "strength": 5.0}], "noise": noise,
+            "rows": int(rng.choice([100, 200, 300])),
+        }  # fmt: skip
+
+    return recipe

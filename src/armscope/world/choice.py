@@ -1,0 +1,112 @@
+"""From wishes to concealed effects: where each one sits and how large it is."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import replace
+
+import numpy as np
+
+from armscope.world.catalogue import KINDS, Wish
+from armscope.world.kinds import LOAD, Concealed, Kind, Scene, number
+from armscope.world.rivals import Judge, Visibility
+from armscope.world.strength import Sized, carried, sized
+
+LARGEST_FACTOR = 15.0
+"""An effect sits where no more than this multiple of its natural size is needed, if there is such a place."""
+LEAST_TORQUE = 0.02
+"""Share of the arm's largest torque below which a joint counts as unloaded."""
+TRIES = 4
+TRIES_FOR_AMBIGUITY = 12
+
+
+def choose(
+    scene: Scene, judge: Judge, wishes: tuple[Wish, ...], sigma: float, ambiguous: bool, rng: np.random.Generator
+) -> list[Sized]:
+    """One concealed effect per wish, sized in multiples of the noise; background that can't be seen is left out.
+
+    Args:
+        scene: the recorded rows.
+        judge: of what can be told apart there.
+        wishes: what is to be concealed.
+        sigma: noise per axis, m.
+        ambiguous: take what can't be told apart; otherwise, what can.
+        rng: draws places and numbers.
+
+    Raises:
+        RuntimeError: a wish of the story can't be had anywhere in this arm.
+    """
+    chosen: list[Sized] = []
+    for wish in wishes:
+        if wish.minor:
+            chosen += _background(scene, wish, chosen, sigma, rng)
+        else:
+            chosen += _of_the_story(scene, judge, wish, chosen, sigma, ambiguous, rng)
+    return chosen
+
+
+def _background(scene: Scene, wish: Wish, chosen: list[Sized], sigma: float, rng: np.random.Generator) -> list[Sized]:
+    kind = KINDS[wish.kind]
+    assert wish.location is not None, "background has its places"
+    if _taken(kind, wish.location, chosen) or not _loaded(scene, kind, wish.location):
+        return []
+    effect = Concealed(kind, wish.location, kind.draw(rng, scene, wish.location))
+    size = sized(scene, effect, wish.strength * sigma, rounds=1, largest_factor=LARGEST_FACTOR)
+    return [] if size is None else [replace(size, minor=True)]
+
+
+def _of_the_story(
+    scene: Scene, judge: Judge, wish: Wish, chosen: list[Sized], sigma: float, ambiguous: bool, rng: np.random.Generator
+) -> list[Sized]:
+    """The best of a few places: one where the answer is unique (or, if so wanted, isn't)."""
+    kind = KINDS[wish.kind]
+    places = [wish.location] if wish.location else kind.places(scene.description)
+    places = [place for place in places if not _taken(kind, place, chosen) and _loaded(scene, kind, place)]
+    if kind.effect == "payload_error":
+        return _payload_error(scene, kind, wish.strength * sigma, rng)
+    tries = TRIES_FOR_AMBIGUITY if ambiguous else TRIES
+    for largest_factor in (LARGEST_FACTOR, np.inf):
+        found: list[Sized] = []
+        order = itertools.islice(itertools.cycle(rng.permutation(places).tolist()), max(2 * tries, len(places)))
+        for place in order:
+            effect = Concealed(kind, place, kind.draw(rng, scene, place))
+            size = sized(scene, effect, wish.strength * sigma, largest_factor=largest_factor)
+            if size is None:
+                continue
+            found.append(size)
+            if bool(judge.visibility(size, chosen, sigma).alternatives) == ambiguous:
+                return [size]
+            if len(found) == tries:
+                break
+        if found:
+            return [found[0]]
+    raise RuntimeError(
+        f"{kind.name} at {wish.strength} times the noise can't be seen anywhere in {scene.description.name}"
+    )
+
+
+def _payload_error(scene: Scene, kind: Kind, wanted: float, rng: np.random.Generator) -> list[Sized]:
+    """The payload's error and two joints that give way, without which nobody would see it."""
+    spring = KINDS["joint_compliance"]
+    loaded = sorted(range(len(scene.torque_scale)), key=lambda motor: -scene.torque_scale[motor])[:2]
+    places = [f"joint {motor + 1}" for motor in sorted(loaded)]
+    carriers = [Concealed(spring, place, spring.draw(rng, scene, place)) for place in places]
+    effect = Concealed(kind, "payload", kind.draw(rng, scene, "payload"))
+    size, alone = carried(scene, effect, carriers, wanted)
+    return [size, *alone]
+
+
+def _taken(kind: Kind, place: str, chosen: list[Sized]) -> bool:
+    return any(size.effect.kind.effect == kind.effect and size.effect.location == place for size in chosen)
+
+
+def _loaded(scene: Scene, kind: Kind, place: str) -> bool:
+    """Whether gravity turns the motor that an effect of load is to sit at."""
+    if kind.driver != LOAD or not place.startswith("joint") or kind.effect == "bearing_compliance":
+        return True
+    return bool(scene.torque_scale[number(place)] > LEAST_TORQUE * scene.torque_scale.max())
+
+
+def visibilities(judge: Judge, chosen: list[Sized], sigma: float) -> list[Visibility]:
+    """How well each of the concealed effects can be found beside the others."""
+    return [judge.visibility(size, [other for other in chosen if other is not size], sigma) for size in chosen]

@@ -1,0 +1,168 @@
+"""What a kind of concealed effect is: where it can sit, which numbers it has, how it is built into the mechanism."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.robot.description import RobotDescription
+from armscope.world.mechanism import Geometry
+from armscope.world.statics import Hidden, Session
+
+Array = NDArray[np.float64]
+Values = Mapping[str, float]
+
+ANGLE, LOAD, APPROACH = "joint angle", "gravity load", "side of approach"
+TEMPERATURE, TIME, PAYLOAD, SPEED, CONSTANT = "temperature", "time", "payload", "speed", "constant"
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """The nominal arm in a session, before anything is concealed.
+
+    Attributes:
+        description, geometry: the arm.
+        session: N rows.
+        torque: (N, m) gravity's torque on each motor of the rigid arm, N m.
+        torque_scale: (m,) its largest size in the whole session, N m.
+        tool_turn: (N, 3, 3) orientation of the last frame in the base frame.
+    """
+
+    description: RobotDescription
+    geometry: Geometry
+    session: Session
+    torque: Array
+    torque_scale: Array
+    tool_turn: Array
+
+    def chain_angles(self) -> Array:
+        """(N, n) commanded angles of the chain's joints, rad."""
+        return self.session.commanded @ self.geometry.actuation.T
+
+    def largest_torque(self, motor: int) -> float:
+        """Largest gravity torque on a motor (0-based) in the session, N m."""
+        return float(self.torque_scale[motor])
+
+    def rows(self, which: NDArray[np.intp]) -> Scene:
+        """The scene's rows ``which``; the torque scale stays that of the whole session."""
+        return replace(
+            self, session=self.session.rows(which), torque=self.torque[which], tool_turn=self.tool_turn[which]
+        )
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number of an effect, in the unit that truth.yaml states.
+
+    Attributes:
+        name, unit: as in truth.yaml.
+        si: what one unit is in SI (mm: 1e-3).
+        scales: whether the effect's size is proportional to it.
+    """
+
+    name: str
+    unit: str
+    si: float = 1.0
+    scales: bool = True
+
+
+Draw = Callable[[np.random.Generator, Scene, str], dict[str, float]]
+Hide = Callable[[Hidden, Scene, str, Values], None]
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of effect.
+
+    Attributes:
+        effect: its name in the vocabulary; `unknown` outside the library.
+        variant: tells kinds of one name apart ("" if there is one only).
+        driver: what it follows.
+        parameters: its numbers, in order.
+        needs: columns of recordings.csv without which nobody can see what drives it.
+        places: where in an arm it can sit.
+        draw: its numbers at some natural size, in SI units, at random.
+        hide: builds it into a mechanism, numbers in SI units.
+        sentence: what it is, for whoever opens the seal.
+    """
+
+    effect: str
+    variant: str
+    driver: str
+    parameters: tuple[Parameter, ...]
+    needs: tuple[str, ...]
+    places: Callable[[RobotDescription], list[str]]
+    draw: Draw
+    hide: Hide
+    sentence: str = ""
+
+    @property
+    def name(self) -> str:
+        """Effect and variant, the key in the catalogue."""
+        return f"{self.effect}/{self.variant}" if self.variant else self.effect
+
+    @property
+    def outside(self) -> bool:
+        """Whether no effect of the library is this one."""
+        return self.effect == "unknown"
+
+
+@dataclass(frozen=True)
+class Concealed:
+    """One effect at one place with its numbers (SI units)."""
+
+    kind: Kind
+    location: str
+    values: Values
+
+    def scaled(self, factor: float) -> Concealed:
+        """The same effect, ``factor`` times as large."""
+        scaling = {parameter.name for parameter in self.kind.parameters if parameter.scales}
+        values = {name: value * factor if name in scaling else value for name, value in self.values.items()}
+        return Concealed(self.kind, self.location, values)
+
+    def hide(self, hidden: Hidden, scene: Scene) -> None:
+        """Build it into ``hidden``."""
+        self.kind.hide(hidden, scene, self.location, self.values)
+
+    def stated(self) -> list[dict[str, object]]:
+        """Its numbers as truth.yaml lists them."""
+        return [
+            {"name": p.name, "unit": p.unit, "value": float(f"{self.values[p.name] / p.si:.6g}")}
+            for p in self.kind.parameters
+        ]
+
+
+def number(location: str) -> int:
+    """0-based number of the joint or link that a location names first."""
+    return int(location.split()[1]) - 1
+
+
+def second_number(location: str) -> int:
+    """0-based number of the joint that drives a coupling."""
+    return int(location.split()[-1]) - 1
+
+
+def joints(description: RobotDescription) -> list[str]:
+    """Every joint (as many motors as chain joints in all arms here)."""
+    assert description.dh is not None
+    return [f"joint {j + 1}" for j in range(len(description.dh.joints))]
+
+
+def links_longer_than(metres: float) -> Callable[[RobotDescription], list[str]]:
+    """The D-H rows whose straight length exceeds ``metres``."""
+
+    def places(description: RobotDescription) -> list[str]:
+        assert description.dh is not None
+        rows = enumerate(description.dh.joints, start=1)
+        return [f"link {j}" for j, row in rows if np.hypot(row.a_mm, row.d_mm) > metres * 1e3]
+
+    return places
+
+
+def only(place: str) -> Callable[[RobotDescription], list[str]]:
+    """One place that every arm has."""
+    return lambda description: [place]
