@@ -1,0 +1,193 @@
+"""The columns of the recordings table from those of a raw file: units, orientations, time stamps, labels."""
+
+from __future__ import annotations
+
+from typing import cast
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from armscope.inputs import InputError
+from armscope.recordings.mapping import Column, Columns, Label, Orientation, Scalar, Time
+from armscope.recordings.orientations import NotARotation, from_euler, from_matrices, from_quaternions
+from armscope.recordings.pieces import Piece
+from armscope.recordings.table import LARGEST_ANGLE_RAD, UNITS
+
+Array = NDArray[np.float64]
+TIME_UNITS = {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0}
+
+
+class Converter:
+    """The columns of the recordings table from those of a run; remembers its first time stamp and its ids."""
+
+    def __init__(self, columns: Columns, run: str) -> None:
+        self.columns, self.run = columns, run
+        self.start: pd.Timestamp | None = None
+        self.ids: set[tuple[str, str]] = set()
+
+    def table(self, piece: Piece) -> pd.DataFrame:
+        """A piece in the columns of the recordings table that the run has."""
+        columns = self.columns
+        assert columns.angles is not None
+        table: dict[str, object] = {"id": self._ids(piece), "run": [self.run] * len(piece)}
+        if columns.target is not None:
+            table["target"] = _label(piece, columns.target)
+        if columns.id is not None and columns.id.column is not None:
+            self._check_ids(
+                piece, cast(list[str], table["id"]), cast(list[str], table.get("target", [""] * len(piece)))
+            )
+        table |= _named([f"q{j + 1}_rad" for j in range(len(columns.angles.columns))], self._angles(piece))
+        table |= self._measured(piece)
+        table |= self._context(piece)
+        return pd.DataFrame(table)
+
+    def _ids(self, piece: Piece) -> list[str]:
+        numbers = piece.rows.numbers_of_rows
+        identity = self.columns.id
+        if identity is not None and identity.row_of is not None:
+            numbers = piece.beside.row_numbers(identity.row_of, numbers)
+        elif identity is not None and identity.column is not None:
+            return piece.words(identity.column)
+        return numbers.astype(str).tolist()
+
+    def _check_ids(self, piece: Piece, ids: list[str], targets: list[str]) -> None:
+        assert self.columns.id is not None
+        assert self.columns.id.column is not None
+        for row, key in enumerate(zip(ids, targets, strict=True)):
+            if key in self.ids:
+                cure = "Keep one with `rows: [{first_of: [...]}]`, or leave `id` out to number the source's rows."
+                place = piece.place(row, (self.columns.id.column,))
+                raise InputError(piece.rows.source, place, key[0], "an id stands once per run and target", cure)
+            self.ids.add(key)
+
+    def _angles(self, piece: Piece) -> Array:
+        group = self.columns.angles
+        assert group is not None
+        angles = self._required(piece, group.columns) * UNITS[group.unit]
+        beyond = np.argwhere(np.abs(angles) > LARGEST_ANGLE_RAD)
+        if len(beyond):
+            row, motor = beyond[0]
+            cure = "Are these degrees? Then say unit: deg." if group.unit == "rad" else ""
+            found = angles[row, motor] / UNITS[group.unit]
+            place = piece.place(int(row), (group.columns[motor],))
+            raise InputError(
+                piece.rows.source, place, f"{found:g} {group.unit}", "a joint angle lies within two turns", cure
+            )
+        return angles
+
+    def _required(self, piece: Piece, columns: tuple[Column, ...]) -> Array:
+        values = piece.stack(columns)
+        missing = np.argwhere(np.isnan(values))
+        if len(missing):
+            row, column = missing[0]
+            cure = f"Leave such rows out with `rows: [{{drop_missing: [{columns[column]}]}}]`."
+            place = piece.place(int(row), (columns[column],))
+            raise InputError(piece.rows.source, place, "nothing", "this value is required in every row", cure)
+        return values
+
+    def _measured(self, piece: Piece) -> dict[str, Array]:
+        columns = self.columns
+        if columns.pose is not None:
+            matrix = self._required(piece, columns.pose.matrix).reshape(len(piece), -1, 4)
+            self._check_last_row(piece, matrix)
+            position = matrix[:, :3, 3] * UNITS[columns.pose.unit]
+            orientation: Array | None = self._rotation(
+                piece, columns.pose.matrix, lambda: from_matrices(matrix[:, :3, :3])
+            )
+        else:
+            assert columns.position is not None
+            position = self._required(piece, columns.position.columns) * UNITS[columns.position.unit]
+            orientation = None if columns.orientation is None else self._orientation(piece, columns.orientation)
+        measured = _named(["x_mm", "y_mm", "z_mm"], position * 1e3)
+        return measured if orientation is None else measured | _named(["qw", "qx", "qy", "qz"], orientation)
+
+    def _check_last_row(self, piece: Piece, matrix: Array) -> None:
+        assert self.columns.pose is not None
+        if matrix.shape[1] == 4:
+            wrong = np.flatnonzero(np.abs(matrix[:, 3] - [0, 0, 0, 1]).max(axis=1) > 1e-9)
+            if len(wrong):
+                place = piece.place(int(wrong[0]), self.columns.pose.matrix[12:])
+                cure = "Is the matrix written column by column? Then name its columns in the order of the rows."
+                found = matrix[wrong[0], 3].tolist()
+                raise InputError(
+                    piece.rows.source, place, found, "the last row of a homogeneous matrix is 0 0 0 1", cure
+                )
+
+    def _orientation(self, piece: Piece, group: Orientation) -> Array:
+        if group.quaternion is not None:
+            assert group.order is not None
+            order = group.order
+            values = piece.stack(group.quaternion)
+            return self._rotation(piece, group.quaternion, lambda: from_quaternions(values, order))
+        if group.euler is not None:
+            assert group.unit is not None
+            assert group.sequence is not None
+            return from_euler(piece.stack(group.euler) * UNITS[group.unit], group.sequence)
+        assert group.matrix is not None
+        matrices = piece.stack(group.matrix).reshape(-1, 3, 3)
+        return self._rotation(piece, group.matrix, lambda: from_matrices(matrices))
+
+    def _rotation(self, piece: Piece, columns: tuple[Column, ...], convert: object) -> Array:
+        assert callable(convert)
+        try:
+            return cast(Array, convert())
+        except NotARotation as error:
+            place = piece.place(error.row, (f"{columns[0]} ... {columns[-1]}",))
+            raise InputError(piece.rows.source, place, error.found, error.rule, error.cure) from error
+
+    def _context(self, piece: Piece) -> dict[str, Array]:
+        columns = self.columns
+        context: dict[str, Array] = {}
+        if columns.torque is not None:
+            context |= _named(
+                [f"tau{j + 1}_nm" for j in range(len(columns.torque.columns))], piece.stack(columns.torque.columns)
+            )
+        if columns.speed is not None:
+            speeds = piece.stack(columns.speed.columns) * UNITS[columns.speed.unit.removesuffix("/s")]
+            context |= _named([f"dq{j + 1}_rad_s" for j in range(speeds.shape[1])], speeds)
+        if columns.approach is not None:
+            sides = piece.stack(columns.approach.columns)
+            context |= _named([f"approach{j + 1}" for j in range(sides.shape[1])], sides)
+        if columns.payload is not None:
+            context["payload_kg"] = _scalar(piece, columns.payload)
+        if columns.time is not None:
+            context["time_s"] = self._time(piece, columns.time)
+        if columns.temperature is not None:
+            context["temperature_c"] = _scalar(piece, columns.temperature)
+        if columns.sigma is not None:
+            sigma = piece.stack(columns.sigma.columns) * UNITS[columns.sigma.unit] * 1e3
+            context |= _named([f"sigma_{axis}_mm" for axis in "xyz"], sigma)
+        return context
+
+    def _time(self, piece: Piece, group: Time) -> Array:
+        if group.unit is not None:
+            return piece.numbers(group.column) * TIME_UNITS[group.unit]
+        words = pd.Series(piece.words(group.column), dtype=object)
+        stamps = pd.to_datetime(words, format=group.format, errors="coerce")
+        wrong = np.flatnonzero(stamps.isna() & (words != ""))
+        if len(wrong):
+            place = piece.place(int(wrong[0]), (group.column,))
+            rule = f"a time stamp is written as {group.format}"
+            raise InputError(piece.rows.source, place, words[wrong[0]], rule, "Correct `format`, or leave `time` out.")
+        if self.start is None:
+            self.start = stamps.iloc[0]
+        return np.asarray((stamps - self.start).dt.total_seconds(), dtype=float)
+
+
+def _named(names: list[str], values: Array) -> dict[str, Array]:
+    return {name: values[:, column] for column, name in enumerate(names)}
+
+
+def _scalar(piece: Piece, group: Scalar) -> Array:
+    if group.column is None:
+        return np.full(len(piece), group.constant)
+    return piece.numbers(group.column)
+
+
+def _label(piece: Piece, group: Label) -> list[str]:
+    if group.column is not None:
+        return piece.words(group.column)
+    if group.cycle is not None:
+        return [group.cycle[(row - 1) % len(group.cycle)] for row in piece.rows.numbers_of_rows]
+    return [cast(str, group.constant)] * len(piece)

@@ -1,0 +1,303 @@
+"""Raw files as rows of columns, a piece at a time: delimited text and MATLAB matrices. Never a pickle."""
+
+from __future__ import annotations
+
+import csv
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import scipy.io
+from numpy.typing import NDArray
+from scipy.io.matlab import MatReadError
+
+from armscope.inputs import InputError, nearest
+from armscope.recordings.mapping import Column, Format, MatlabFormat, TextFormat
+
+Array = NDArray[np.float64]
+ROWS_PER_PIECE = 20_000
+DELIMITERS = {"tab": "\t"}
+PICKLE_SUFFIXES = {".pickle", ".pkl", ".joblib", ".npy", ".npz", ".pt"}
+
+
+@dataclass(frozen=True, eq=False)
+class TextRows:
+    """Some rows of a delimited file.
+
+    Attributes:
+        source: the file.
+        names: its header; empty where it has none.
+        numbers_of_rows: (N,) rows of the file without its header, counted from 1.
+        lines: (N,) lines of the file, for messages.
+        cells: N rows of words.
+        format: how the file writes numbers.
+    """
+
+    source: Path
+    names: tuple[str, ...]
+    numbers_of_rows: NDArray[np.intp]
+    lines: NDArray[np.intp]
+    cells: list[list[str]]
+    format: TextFormat
+
+    def __len__(self) -> int:
+        return len(self.cells)
+
+    def words(self, column: Column) -> list[str]:
+        """The words of a column, blanks around them removed."""
+        index = _index(self.source, self.names, len(self.cells[0]) if self.cells else 0, column)
+        return [row[index].strip() for row in self.cells]
+
+    def numbers(self, column: Column) -> Array:
+        """The numbers of a column, NaN where it says that there is none."""
+        words = self.words(column)
+        as_float = _to_floats(words, self.format)
+        if as_float is not None:
+            return as_float
+        return np.array([self._number(row, column, word) for row, word in enumerate(words)])
+
+    def _number(self, row: int, column: Column, word: str) -> float:
+        if word in self.format.missing:
+            return np.nan
+        wrong_sign = "," if self.format.decimal == "." else "."
+        cure = ""
+        if wrong_sign in word:
+            cure = (
+                f"The mapping declares decimal: {self.format.decimal!r} for the whole file, this number uses another."
+            )
+        elif "_" not in word:
+            try:
+                value = float(word.replace(",", "."))
+            except ValueError:
+                pass
+            else:
+                if np.isfinite(value):
+                    return value
+                cure = "Declare it under `missing` if it stands for no value."
+        place = f"line {self.lines[row]}, column {column}"
+        raise InputError(self.source, place, word, "this must be a finite number", cure)
+
+    def take(self, which: NDArray[np.intp]) -> TextRows:
+        """Some of the rows, in that order."""
+        cells = [self.cells[row] for row in which]
+        return replace(self, cells=cells, lines=self.lines[which], numbers_of_rows=self.numbers_of_rows[which])
+
+
+def _to_floats(words: list[str], style: TextFormat) -> Array | None:
+    """All words as finite numbers, or None where one of them is not a plain number (the slow way then says which)."""
+    joined = "\n".join(words)
+    if "_" in joined or (style.decimal == "," and "." in joined):
+        return None
+    if style.decimal == ",":
+        words = joined.replace(",", ".").split("\n")
+    try:
+        values = np.fromiter(map(float, words), dtype=float, count=len(words))
+    except ValueError:
+        return None
+    return values if np.isfinite(values).all() else None
+
+
+@dataclass(frozen=True, eq=False)
+class MatrixRows:
+    """Some rows of a MATLAB matrix; attributes as in `TextRows`, with ``values`` (N, columns)."""
+
+    source: Path
+    numbers_of_rows: NDArray[np.intp]
+    values: Array
+
+    @property
+    def lines(self) -> NDArray[np.intp]:
+        """A matrix has rows where text has lines."""
+        return self.numbers_of_rows
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def numbers(self, column: Column) -> Array:
+        """The numbers of a column; NaN stands for no value."""
+        values = self.values[:, _index(self.source, (), self.values.shape[1], column)]
+        if np.isinf(values).any():
+            row = self.numbers_of_rows[np.isinf(values).argmax()]
+            raise InputError(self.source, f"row {row}, column {column}", "Inf", "this must be a finite number")
+        return values
+
+    def words(self, column: Column) -> list[str]:
+        """The numbers of a column as words: whole numbers without a point."""
+        return ["" if np.isnan(value) else f"{value:.12g}" for value in self.numbers(column)]
+
+    def take(self, which: NDArray[np.intp]) -> MatrixRows:
+        """Some of the rows, in that order."""
+        return replace(self, values=self.values[which], numbers_of_rows=self.numbers_of_rows[which])
+
+
+RawRows = TextRows | MatrixRows
+
+
+def _index(source: Path, names: tuple[str, ...], n_columns: int, column: Column) -> int:
+    if isinstance(column, int):
+        if column > n_columns:
+            raise InputError(
+                source, f"column {column}", f"{n_columns} columns", "the mapping names a column beyond them"
+            )
+        return column - 1
+    if not names:
+        rule = "the mapping names a column, but this file has no header"
+        raise InputError(source, "", column, rule, f"Use numbers: 1 ... {n_columns}.")
+    count = names.count(column)
+    if count == 0:
+        raise InputError(
+            source, "header", f"no column {column}", "the mapping names this column", nearest(column, names)
+        )
+    if count > 1:
+        rule = f"the header has this name {count} times"
+        raise InputError(source, "header", column, rule, "Name the column by its number, counted from 1.")
+    return names.index(column)
+
+
+def read_pieces(path: Path, style: Format, notes: Counter[str]) -> Iterator[RawRows]:
+    """The rows of a raw file, some thousands at a time, so that its size does not matter.
+
+    Args:
+        path: the file.
+        style: how it is written.
+        notes: counts what was passed over on the way (blank lines).
+
+    Raises:
+        InputError: the file can't be read, or a row has too few or too many values.
+    """
+    _refuse_pickles(path)
+    if isinstance(style, MatlabFormat):
+        yield read_matrix(path, style)
+        return
+    yield from _read_text(path, style, notes)
+
+
+def read_whole(path: Path, style: Format, notes: Counter[str]) -> RawRows:
+    """All rows of a (small) raw file at once."""
+    pieces = list(read_pieces(path, style, notes))
+    if len(pieces) == 1:
+        return pieces[0]
+    texts = [piece for piece in pieces if isinstance(piece, TextRows)]
+    return replace(
+        texts[0],
+        cells=[row for piece in texts for row in piece.cells],
+        lines=np.concatenate([piece.lines for piece in texts]),
+        numbers_of_rows=np.concatenate([piece.numbers_of_rows for piece in texts]),
+    )
+
+
+def _refuse_pickles(path: Path) -> None:
+    try:
+        with path.open("rb") as stream:
+            start = stream.read(2)
+    except OSError as error:
+        raise InputError(path, "", "no readable file", "a raw file is needed here", error.strerror or "") from error
+    if path.suffix.lower() in PICKLE_SUFFIXES or (start[:1] == b"\x80" and start[1:] in (b"\2", b"\3", b"\4", b"\5")):
+        raise InputError(
+            path,
+            "",
+            "a Python object file",
+            "pickles and their kin are never loaded, since loading one may run any code",
+            "Save the numbers as text or as a MATLAB matrix where the file comes from.",
+        )
+
+
+def _read_text(path: Path, style: TextFormat, notes: Counter[str]) -> Iterator[TextRows]:
+    try:
+        with path.open(encoding=style.encoding, newline="") as stream:
+            rows = _split(stream, style)
+            yield from _gather(path, style, rows, notes)
+    except LookupError as error:
+        raise InputError(path, "format.encoding", style.encoding, "no encoding of this name", "Try utf-8.") from error
+    except UnicodeError as error:
+        rule = f"the text is not {style.encoding.removesuffix('-sig')}"
+        raise InputError(path, "", str(error), rule, "Declare `encoding` in the mapping, e.g. latin-1.") from error
+    except csv.Error as error:
+        raise InputError(path, "", str(error), "this must be delimited text") from error
+
+
+def _split(stream: Iterator[str], style: TextFormat) -> Iterator[tuple[int, list[str]]]:
+    """Line numbers and words of the lines that are neither skipped nor comments."""
+    for _ in range(style.skip_lines):
+        next(stream, None)
+    if style.delimiter == "whitespace":
+        rows: Iterator[list[str]] = (line.split() for line in stream)
+        numbered: Iterator[tuple[int, list[str]]] = enumerate(rows, start=style.skip_lines + 1)
+    else:
+        reader = csv.reader(stream, delimiter=DELIMITERS.get(style.delimiter, style.delimiter), skipinitialspace=True)
+        numbered = ((style.skip_lines + reader.line_num, row) for row in reader)
+    for number, row in numbered:
+        if style.comment is None or not (row and row[0].startswith(style.comment)):
+            yield number, row
+
+
+def _gather(
+    path: Path, style: TextFormat, rows: Iterator[tuple[int, list[str]]], notes: Counter[str]
+) -> Iterator[TextRows]:
+    names: tuple[str, ...] = ()
+    width = None
+    if style.header:
+        first = next(rows, None)
+        if first is None:
+            raise InputError(path, "line 1", "nothing", "the first line names the columns", "Is the file empty?")
+        names = tuple(name.strip() for name in first[1])
+        width = len(names)
+    cells: list[list[str]] = []
+    lines: list[int] = []
+    done = 0
+    for line, row in rows:
+        if not any(word.strip() for word in row):
+            notes["blank lines passed over"] += 1
+            continue
+        width = width or len(row)
+        if len(row) != width:
+            cure = _why_ragged(style, row, width)
+            raise InputError(path, f"line {line}", f"{len(row)} values", f"every row has {width} values", cure)
+        cells.append(row)
+        lines.append(line)
+        if len(cells) == ROWS_PER_PIECE:
+            yield TextRows(path, names, np.arange(done, done + len(cells)) + 1, np.array(lines), cells, style)
+            done, cells, lines = done + len(cells), [], []
+    if cells:
+        yield TextRows(path, names, np.arange(done, done + len(cells)) + 1, np.array(lines), cells, style)
+    elif done == 0:
+        raise InputError(path, "", "nothing", "at least one row of values is needed", "Is the file empty?")
+
+
+def _why_ragged(style: TextFormat, row: list[str], width: int) -> str:
+    if len(row) == 1 and width > 1:
+        return f"Is its delimiter really {style.delimiter!r}?"
+    if style.delimiter == "," and len(row) > width:
+        return "A decimal comma splits a number in two where the delimiter is a comma as well."
+    return "Was the file cut off while it was written?"
+
+
+def read_matrix(path: Path, style: MatlabFormat) -> MatrixRows:
+    """A matrix of a MATLAB file.
+
+    Raises:
+        InputError: no such file or variable, several to choose from, or not a real matrix.
+    """
+    try:
+        content = scipy.io.loadmat(path)
+    except NotImplementedError as error:
+        cure = "Save it with -v7 in MATLAB."
+        raise InputError(path, "", "a MATLAB 7.3 file", "MATLAB files up to version 7.2 are read", cure) from error
+    except (OSError, ValueError, TypeError, KeyError, IndexError, MatReadError) as error:
+        raise InputError(path, "", str(error) or "nothing", "this must be a MATLAB file") from error
+    variables = {name: value for name, value in content.items() if not name.startswith("__")}
+    name = style.variable
+    if name is None:
+        if len(variables) != 1:
+            cure = "Name one as `variable`: " + ", ".join(sorted(variables)) + "."
+            raise InputError(path, "format.variable", f"{len(variables)} variables", "one must be chosen", cure)
+        name = next(iter(variables))
+    if name not in variables:
+        raise InputError(path, "format.variable", name, "no variable of this name", nearest(name, variables))
+    values = variables[name]
+    if not isinstance(values, np.ndarray) or values.ndim != 2 or values.dtype.kind not in "fiu" or not values.size:
+        kind = type(values).__name__ if not isinstance(values, np.ndarray) else f"{values.shape} {values.dtype}"
+        raise InputError(path, name, kind, "a variable that is imported is a matrix of real numbers")
+    return MatrixRows(path, np.arange(1, len(values) + 1), values.astype(float))

@@ -1,0 +1,414 @@
+"""Raw files become the table that they say they are, or one clear error."""
+
+import gzip
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import scipy.io
+import yaml
+from scipy.spatial.transform import Rotation
+
+from armscope.inputs import InputError
+from armscope.recordings import read_recordings
+from armscope.recordings.fetching import fetch_recordings
+from armscope.recordings.importing import import_recordings
+
+ROOT = Path(__file__).parents[2]
+SHARED = ROOT.parent / "shared" / "recordings"
+TEXT = ["id", "run", "target"]
+
+SIMPLE = {
+    "columns": {
+        "angles": {"columns": ["j1", "j2"], "unit": "rad"},
+        "position": {"columns": ["x", "y", "z"], "unit": "mm"},
+    }
+}
+
+
+def convert(tmp_path, raw: str | dict[str, str], mapping: dict, output: str = "out.csv"):
+    """Import text files with a mapping; the report and the table as text cells."""
+    raw = {"raw.csv": raw} if isinstance(raw, str) else raw
+    for name, text in raw.items():
+        (tmp_path / name).write_bytes(text.encode())
+    return convert_files(tmp_path, [tmp_path / name for name in raw], mapping, output)
+
+
+def convert_files(tmp_path, paths, mapping, output="out.csv"):
+    (tmp_path / "mapping.yaml").write_text(yaml.safe_dump(mapping))
+    report = import_recordings(paths, tmp_path / "mapping.yaml", tmp_path / output)
+    return report, pd.read_csv(tmp_path / output, dtype=dict.fromkeys(TEXT, str))
+
+
+def with_format(**style):
+    return {**SIMPLE, "format": style}
+
+
+def with_columns(**groups):
+    return {"columns": {**SIMPLE["columns"], **groups}}
+
+
+# ---- the real sets
+
+
+@pytest.mark.parametrize("name", ["ur10-ipa", "iiwa7-payload", "ma1400-leica", "irb120-offsets"])
+def test_a_real_set_converts_to_the_reference_table_within_its_rounding(name, tmp_path):
+    if not SHARED.is_dir():
+        pytest.skip("../shared/recordings is not here, so there is nothing to compare with")
+    folder = ROOT / "config" / "recordings" / name
+    fetched = fetch_recordings(folder / "source.yaml", tmp_path / "raw", recordings_dir=SHARED)
+    import_recordings(list(fetched.paths), folder / "mapping.yaml", tmp_path / "out.csv.gz")
+    ours, theirs = (
+        pd.read_csv(path, dtype=dict.fromkeys(TEXT, str))
+        for path in (tmp_path / "out.csv.gz", SHARED / name / "recordings.csv.gz")
+    )
+    assert list(ours.columns) == list(theirs.columns)
+    assert len(ours) == len(theirs)
+    for column in theirs:
+        if column in TEXT:
+            assert (ours[column] == theirs[column]).all(), column
+        else:
+            # the reference prints 9 digits of angles, 5 decimals of mm and N m, 7 of quaternions, 4 of temperatures
+            step = {"x": 1e-5, "y": 1e-5, "z": 1e-5, "t": 1e-5, "s": 1e-5}.get(column[0], 1e-7)
+            tolerance = 1e-8 if column.endswith("_rad") else step
+            np.testing.assert_allclose(ours[column], theirs[column], atol=0.51 * tolerance, rtol=0, err_msg=column)
+
+
+@pytest.mark.parametrize("folder", sorted((ROOT / "config" / "recordings").iterdir()), ids=lambda path: path.name)
+def test_every_real_set_has_an_arm_and_a_mapping_or_a_reason_for_none(folder):
+    from armscope.recordings.fetching import load_source
+    from armscope.recordings.mapping import load_mapping
+    from armscope.robot import load_arm
+
+    arm, source = load_arm(folder / "robot.yaml"), load_source(folder / "source.yaml")
+    if source.not_importable:
+        assert not (folder / "mapping.yaml").exists()
+    else:
+        mapping = load_mapping(folder / "mapping.yaml")
+        assert len(mapping.columns.angles.columns) == arm.n_motors
+        mapped = {name for run in mapping.runs for name in (run.file, *(other.file for other in run.beside))}
+        assert mapped == {file.name for file in source.files}
+
+
+def test_the_panda_set_says_that_its_source_is_a_pickle(tmp_path):
+    with pytest.raises(InputError, match="pickle"):
+        fetch_recordings(ROOT / "config/recordings/panda-charuco/source.yaml", tmp_path)
+
+
+# ---- text as it comes
+
+
+def test_units_end_up_in_radians_and_millimetres(tmp_path):
+    mapping = {
+        "columns": {
+            "angles": {"columns": ["j1", "j2"], "unit": "deg"},
+            "position": {"columns": ["x", "y", "z"], "unit": "m"},
+        }
+    }
+    _, table = convert(tmp_path, "j1,j2,x,y,z\n180,-90,0.1,0.2,-1.5\n", mapping)
+    np.testing.assert_allclose(table[["q1_rad", "q2_rad"]], [[np.pi, -np.pi / 2]], rtol=1e-9)
+    np.testing.assert_allclose(table[["x_mm", "y_mm", "z_mm"]], [[100, 200, -1500]], rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("text", "style"),
+    [
+        ("j1;j2;x;y;z\n0,5;1;2;3;4,25\n", {"delimiter": ";", "decimal": ","}),
+        ("j1\tj2\tx\ty\tz\r\n0.5\t1\t2\t3\t4.25\r\n", {"delimiter": "tab"}),
+        ("j1 j2  x y z\n 0.5   1 2 3 4.25\n", {"delimiter": "whitespace"}),
+        ("j1|j2|x|y|z\n0.5|1|2|3|4.25\n", {"delimiter": "|"}),
+        ("\ufeffj1, j2, x, y, z\n0.5, 1, 2, 3, 4.25\n", {}),
+        ('"j1","j2","x","y","z"\n"0.5","1","2","3","4.25"\n', {}),
+        ("made by hand\n# a remark\nj1,j2,x,y,z\n# another\n0.5,1,2,3,4.25", {"skip_lines": 1, "comment": "#"}),
+        ("j1;j2;x;y;z\n5,0E-01;1;2;3;425E-02\n", {"delimiter": ";", "decimal": ","}),
+    ],
+)
+def test_delimiters_decimals_byte_order_marks_and_remarks_are_read(text, style, tmp_path):
+    _, table = convert(tmp_path, text, with_format(**style))
+    assert table[["q1_rad", "q2_rad", "x_mm", "y_mm", "z_mm"]].to_numpy().tolist() == [[0.5, 1, 2, 3, 4.25]]
+
+
+def test_a_file_without_header_is_read_by_numbers_counted_from_1(tmp_path):
+    mapping = {
+        "format": {"header": False},
+        "columns": {
+            "angles": {"columns": [4, 5], "unit": "rad"},
+            "position": {"columns": [1, 2, 3], "unit": "mm"},
+        },
+    }
+    _, table = convert(tmp_path, "7,8,9,0.1,0.2\n10,11,12,0.3,0.4\n", mapping)
+    assert table["x_mm"].tolist() == [7, 10]
+    assert table["q2_rad"].tolist() == [0.2, 0.4]
+    assert table["id"].tolist() == ["1", "2"]
+
+
+def test_constant_columns_belong_to_their_run_and_are_empty_elsewhere(tmp_path):
+    mapping = SIMPLE | {
+        "runs": [
+            {"run": "light", "file": "a.csv", "columns": {"payload": {"constant": 1.25}}},
+            {"run": "unknown", "file": "b.csv"},
+        ]
+    }
+    row = "j1,j2,x,y,z\n0,0,1,2,3\n"
+    _, table = convert(tmp_path, {"a.csv": row, "b.csv": row}, mapping)
+    assert table["run"].tolist() == ["light", "unknown"]
+    assert table["payload_kg"].iloc[0] == 1.25
+    assert np.isnan(table["payload_kg"].iloc[1])
+
+
+def test_time_stamps_become_seconds_since_the_first_row_of_their_run(tmp_path):
+    mapping = with_columns(time={"column": "t", "format": "%Y%m%d%H%M%S"})
+    raw = "t,j1,j2,x,y,z\n20240229235959,0,0,1,2,3\n20240301000101,0,0,1,2,3\n20240229235958,0,0,1,2,3\n"
+    _, table = convert(tmp_path, raw, mapping)
+    assert table["time_s"].tolist() == [0, 62, -1]
+
+
+def test_a_wrong_time_stamp_is_named(tmp_path):
+    mapping = with_columns(time={"column": "t", "format": "%Y%m%d%H%M%S"})
+    with pytest.raises(InputError, match=r"line 2, column t.*'2,02011E\+13'"):
+        convert(tmp_path, 't,j1,j2,x,y,z\n"2,02011E+13",0,0,1,2,3\n', mapping)
+
+
+def test_row_filters_keep_the_source_rows_as_ids_and_report_what_they_left_out(tmp_path):
+    mapping = SIMPLE | {
+        "rows": [
+            {"drop_missing": ["x"]},
+            {"first_of": ["pose"]},
+            {"between": {"column": "pose", "low": 2}},
+            {"equal": {"column": "state", "value": "ok"}},
+        ]
+    }
+    raw = (
+        "pose,state,j1,j2,x,y,z\n1,ok,0,0,1,2,3\n2,ok,0,0,,,\n2,ok,0,0,1,2,3\n2,ok,0,0,1,2,3\n3,bad,0,0,1,2,3\n"
+        "4,ok,0,0,1,2,3\n"
+    )
+    report, table = convert(tmp_path, raw, mapping)
+    assert table["id"].tolist() == ["3", "6"]
+    assert [out.rows for out in report.runs[0].left_out] == [[2], [4], [1], [5]]
+    text = report.text()
+    assert "2 of 6 rows" in text
+    assert "no value in x: 1 rows (source rows 2)" in text
+
+
+def test_filters_remember_across_pieces_of_a_long_file(tmp_path, monkeypatch):
+    monkeypatch.setattr("armscope.recordings.rawfiles.ROWS_PER_PIECE", 3)
+    mapping = with_columns(time={"column": "pose", "unit": "s"}) | {"rows": [{"first_of": ["pose"]}]}
+    rows = "".join(f"{k // 2},0,0,{k},2,3\n" for k in range(20))
+    report, table = convert(tmp_path, "pose,j1,j2,x,y,z\n" + rows, mapping)
+    assert table["x_mm"].tolist() == list(range(0, 20, 2))
+    assert table["id"].tolist() == [str(k) for k in range(1, 21, 2)]
+    assert report.runs[0].rows_read == 20
+
+
+def test_rows_of_a_file_beside_are_repeated_for_the_points_of_each_configuration(tmp_path):
+    mapping = {
+        "columns": {
+            "id": {"row_of": "angles"},
+            "angles": {"columns": ["angles:j1", "angles:j2"], "unit": "rad"},
+            "position": {"columns": ["x", "y", "z"], "unit": "mm"},
+            "target": {"cycle": ["left", "right"]},
+        },
+        "runs": [{"run": "r", "file": "p.csv", "beside": [{"file": "q.csv", "name": "angles", "repeat_each": 2}]}],
+    }
+    points = "x,y,z\n" + "".join(f"{k},0,0\n" for k in range(4))
+    _, table = convert(tmp_path, {"p.csv": points, "q.csv": "j1,j2\n0.1,0.2\n0.3,0.4\n"}, mapping)
+    assert table["id"].tolist() == ["1", "1", "2", "2"]
+    assert table["target"].tolist() == ["left", "right"] * 2
+    assert table["q1_rad"].tolist() == [0.1, 0.1, 0.3, 0.3]
+    for wrong in (points + "9,0,0\n", "x,y,z\n1,0,0\n"):
+        with pytest.raises(InputError, match="repeat_each"):
+            convert(tmp_path, {"p.csv": wrong, "q.csv": "j1,j2\n0.1,0.2\n0.3,0.4\n"}, mapping)
+
+
+def test_the_table_that_comes_out_is_one_that_the_reader_takes(tmp_path):
+    mapping = with_columns(orientation={"quaternion": ["x", "y", "z", "w"], "order": "xyzw"})
+    convert(tmp_path, "j1,j2,x,y,z,w\n0,0,0.6,0,0,0.8\n", mapping, "out.csv.gz")
+    assert gzip.decompress((tmp_path / "out.csv.gz").read_bytes()).startswith(b"id,run,q1_rad")
+    recordings = read_recordings(tmp_path / "out.csv.gz", n_motors=2)
+    np.testing.assert_allclose(recordings.orientation, [[0.8, 0.6, 0, 0]])
+
+
+# ---- orientations
+
+
+def test_euler_angles_turn_about_moving_or_fixed_axes_as_declared(tmp_path):
+    def about(axis, degrees):
+        return Rotation.from_rotvec(np.radians(degrees) * np.eye(3)["xyz".index(axis)]).as_matrix()
+
+    raw = "j1,j2,x,y,z,a,b,c\n0,0,1,2,3,10,20,30\n"
+    for sequence, expected in [
+        ("XYZ", about("x", 10) @ about("y", 20) @ about("z", 30)),
+        ("xyz", about("z", 30) @ about("y", 20) @ about("x", 10)),
+        ("ZYX", about("z", 10) @ about("y", 20) @ about("x", 30)),
+    ]:
+        mapping = with_columns(orientation={"euler": ["a", "b", "c"], "sequence": sequence, "unit": "deg"})
+        _, table = convert(tmp_path, raw, mapping)
+        w, x, y, z = table[["qw", "qx", "qy", "qz"]].to_numpy()[0]
+        np.testing.assert_allclose(Rotation.from_quat([x, y, z, w]).as_matrix(), expected, atol=1e-9)
+
+
+POSE = {
+    "columns": {
+        "angles": {"columns": ["j1", "j2"], "unit": "rad"},
+        "pose": {"matrix": [f"m{r}{c}" for r in range(4) for c in range(4)], "unit": "m"},
+    }
+}
+POSE_HEADER = "j1,j2," + ",".join(f"m{r}{c}" for r in range(4) for c in range(4)) + "\n"
+
+
+def pose_row(matrix):
+    return POSE_HEADER + "0,0," + ",".join(map(repr, np.asarray(matrix, dtype=float).ravel().tolist())) + "\n"
+
+
+def test_a_homogeneous_matrix_gives_position_and_quaternion(tmp_path):
+    turn = Rotation.from_euler("XYZ", [0.3, -0.5, 2.0])
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = turn.as_matrix(), [0.1, 0.2, 0.3]
+    _, table = convert(tmp_path, pose_row(matrix), POSE)
+    np.testing.assert_allclose(table[["x_mm", "y_mm", "z_mm"]].to_numpy()[0], [100, 200, 300], rtol=1e-9)
+    x, y, z, w = turn.as_quat(canonical=True)
+    np.testing.assert_allclose(table[["qw", "qx", "qy", "qz"]].to_numpy()[0], [w, x, y, z], atol=1e-9)
+
+
+def test_matrices_that_are_no_poses_are_refused(tmp_path):
+    mirrored = np.diag([1.0, 1.0, -1.0, 1.0])
+    with pytest.raises(InputError, match="right-handed"):
+        convert(tmp_path, pose_row(mirrored), POSE)
+    by_columns = np.eye(4)
+    by_columns[3, :3] = 1
+    with pytest.raises(InputError, match="column by column"):
+        convert(tmp_path, pose_row(by_columns), POSE)
+    with pytest.raises(InputError, match="unit axes"):
+        convert(tmp_path, pose_row(np.diag([1.0, 2.0, 1.0, 1.0])), POSE)
+
+
+def test_a_quaternion_that_is_not_of_unit_length_is_refused(tmp_path):
+    mapping = with_columns(orientation={"quaternion": ["x", "y", "z", "w"], "order": "xyzw"})
+    with pytest.raises(InputError, match=r"line 2.*length 1, this one 1\.26"):
+        convert(tmp_path, "j1,j2,x,y,z,w\n0,0,0.6,0,0,1.1091\n", mapping)
+
+
+# ---- bad input: one clear error, nothing written
+
+
+@pytest.mark.parametrize(
+    ("raw", "mapping", "message"),
+    [
+        ("", SIMPLE, "line 1: found nothing"),
+        ("j1,j2,x,y,z\n", SIMPLE, "at least one row"),
+        ("j1,j2,x,y,z\n0,0,1,2,3\n0,0,1,2\n", SIMPLE, "line 3: found '4 values'; every row has 5"),
+        ("j1,j2,x,y,z\n0,0,1,2,3,4\n", SIMPLE, "line 2: found '6 values'.*decimal comma"),
+        ("j1;j2;x;y;z\n0;0;1;2;3\n", SIMPLE, "no column j1"),
+        ("j1,j2,x,y,z\n0;0;1;2;3\n", SIMPLE, "line 2.*delimiter really"),
+        ("j1,j2,x,y,z\n0,0,1,2,3\n0,0,one,2,3\n", SIMPLE, "line 3, column x: found 'one'"),
+        ("j1,j2,x,y,z\n0,0,inf,2,3\n", SIMPLE, "finite"),
+        ("j1,j2,x,y,z\n0,0,1_0,2,3\n", SIMPLE, "'1_0'"),
+        ("j1;j2;x;y;z\n0;0;1,5;2.5;3\n", with_format(delimiter=";", decimal=","), r"column y: found '2\.5'.*another"),
+        ("j1;j2;x;y;z\n0;0;1.5;2,5;3\n", with_format(delimiter=";"), "column y: found '2,5'.*another"),
+        ("j1,j2,x,x,y,z\n0,0,1,1,2,3\n", SIMPLE, "the header has this name 2 times.*number"),
+        ("joint1,j2,x,y,z\n0,0,1,2,3\n", {**SIMPLE}, "no column j1.*Did you mean"),
+        ("j1,j2,x,y,z\n0,0,,2,3\n", SIMPLE, "line 2, column x: found nothing.*drop_missing"),
+        ("j1,j2,x,y,z\n90,0,1,2,3\n", SIMPLE, "two turns.*unit: deg"),
+        ("j1,j2,x,y,z\n0,0,1,2,3\n", with_columns(temperature={"column": 9}), "column 9: found '5 columns'"),
+        ("j1,j2,x,y,z\n0,0,1,2,3\n", SIMPLE | {"rows": [{"first_of": ["pos"]}]}, "no column pos"),
+        (
+            "pose,j1,j2,x,y,z\n1,0,0,1,2,3\n1,0,0,1,2,3\n",
+            with_columns(id={"column": "pose"}),
+            "line 3, column pose.*once per run and target.*first_of",
+        ),
+        (
+            "j1,j2,x,y,z\n0,0,1,2,3\n",
+            SIMPLE | {"rows": [{"between": {"column": "x", "low": 5}}]},
+            "no row left.*column x not >= 5: 1",
+        ),
+    ],
+)
+def test_bad_raw_files_are_one_clear_error_and_nothing_is_written(raw, mapping, message, tmp_path):
+    with pytest.raises(InputError, match=f"(?s){message}"):
+        convert(tmp_path, raw, mapping)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["mapping.yaml", "raw.csv"]
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"colums": {}}, "Did you mean 'columns'"),
+        ({"format": {"delimeter": ";"}}, "Did you mean 'delimiter'"),
+        ({"format": {"decimal": ","}}, "both be a comma"),
+        ({"columns": {"position": SIMPLE["columns"]["position"]}}, "`angles` is needed"),
+        ({"columns": {"angles": {"columns": [0, 1], "unit": "rad"}}}, "counted from 1"),
+        ({"columns": {"angles": {"columns": ["j1"], "unit": "degrees"}}}, "'rad' or 'deg'"),
+        (with_columns(orientation={"euler": ["a", "b", "c"], "sequence": "XXY", "unit": "deg"}), "three axes such as"),
+        (with_columns(orientation={"euler": ["a", "b", "c"], "sequence": "xYz", "unit": "deg"}), "three axes such as"),
+        (with_columns(orientation={"quaternion": ["a", "b", "c", "d"]}), "wxyz or xyzw"),
+        (with_columns(torque={"columns": ["t1"]}), "1 columns for 2 motors"),
+        ({"runs": [{"run": "a", "file": "other.csv"}]}, "no file other.csv"),
+        ({"runs": [{"run": "a", "file": "raw.csv"}, {"run": "a", "file": "raw.csv"}]}, "stands twice"),
+        ({"rows": [{"first_of": ["x"], "drop_missing": ["x"]}]}, "one rule"),
+    ],
+)
+def test_a_mapping_that_can_not_be_is_one_clear_error(change, message, tmp_path):
+    with pytest.raises(InputError, match=message):
+        convert(tmp_path, "j1,j2,x,y,z\n0,0,1,2,3\n", {**SIMPLE, **change})
+
+
+def test_a_raw_file_that_no_run_wants_is_named(tmp_path):
+    mapping = SIMPLE | {"runs": [{"run": "a", "file": "a.csv"}]}
+    with pytest.raises(InputError, match=r"b\.csv.*no run"):
+        convert(tmp_path, {"a.csv": "j1,j2,x,y,z\n0,0,1,2,3\n", "b.csv": ""}, mapping)
+
+
+def test_text_that_is_not_utf8_asks_for_its_encoding_and_is_read_with_it(tmp_path):
+    (tmp_path / "raw.csv").write_bytes("j1,j2,x,y,z,t\n0,0,1,2,3,20 °C\n".encode("latin-1"))
+    with pytest.raises(InputError, match="encoding"):
+        convert_files(tmp_path, [tmp_path / "raw.csv"], SIMPLE)
+    _, table = convert_files(tmp_path, [tmp_path / "raw.csv"], with_format(encoding="latin-1"))
+    assert len(table) == 1
+
+
+# ---- MATLAB, and what is never loaded
+
+
+def matlab(**variables):
+    return {
+        "format": {"kind": "matlab", **variables},
+        "columns": {
+            "angles": {"columns": [1, 2], "unit": "rad"},
+            "position": {"columns": [3, 4, 5], "unit": "mm"},
+        },
+    }
+
+
+def test_matlab_matrices_are_read_by_column_numbers_and_nan_counts_as_missing(tmp_path):
+    values = np.array([[0.1, 0.2, 1, 2, 3], [0.1, 0.2, np.nan, 2, 3]])
+    scipy.io.savemat(tmp_path / "raw.mat", {"data": values, "other": np.ones(3)})
+    mapping = matlab(variable="data") | {"rows": [{"drop_missing": [3]}]}
+    report, table = convert_files(tmp_path, [tmp_path / "raw.mat"], mapping)
+    assert table["z_mm"].tolist() == [3]
+    assert report.runs[0].left_out[0].rows == [2]
+    for wrong, message in [(matlab(), "data, other"), (matlab(variable="dta"), "Did you mean 'data'")]:
+        with pytest.raises(InputError, match=message):
+            convert_files(tmp_path, [tmp_path / "raw.mat"], wrong)
+
+
+@pytest.mark.parametrize("content", [b"", b"not a matlab file", b"MATLAB 5.0 MAT-file" + b"\0" * 200])
+def test_a_broken_matlab_file_is_one_clear_error(content, tmp_path):
+    (tmp_path / "raw.mat").write_bytes(content)
+    with pytest.raises(InputError):
+        convert_files(tmp_path, [tmp_path / "raw.mat"], matlab())
+
+
+def test_a_pickle_is_never_loaded_whatever_it_is_called(tmp_path):
+    import pickle
+
+    class Harm:
+        def __reduce__(self):
+            return (Path.touch, (tmp_path / "harm",))
+
+    for name in ("raw.pickle", "raw.csv", "raw.mat"):
+        (tmp_path / name).write_bytes(pickle.dumps(Harm()))
+        for mapping in (SIMPLE, matlab()):
+            with pytest.raises(InputError, match="never loaded"):
+                convert_files(tmp_path, [tmp_path / name], mapping)
+    assert not (tmp_path / "harm").exists()
