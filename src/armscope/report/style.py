@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -53,16 +54,17 @@ def styled() -> Any:
     return mpl.rc_context(STYLE)
 
 
-def save_figure(figure: Figure, path: Path | str) -> list[Path]:
+def save_figure(figure: Figure, path: Path | str, formats: Sequence[str] = FORMATS) -> list[Path]:
     """Save ``figure`` as PNG, SVG and PDF beside each other, byte-stable, and close it.
 
     Args:
         figure: the figure.
-        path: where one of the three goes; the others differ in their suffix.
+        path: where one of them goes; the others differ in their suffix.
+        formats: which of the three are wanted.
     """
     written = []
     with styled():
-        for suffix in FORMATS:
+        for suffix in formats:
             target = Path(path).with_suffix(f".{suffix}")
             with replacing(target) as beside:
                 figure.savefig(beside, format=suffix, metadata=_UNDATED[suffix])

@@ -1,0 +1,89 @@
+"""The waterfall: how the error on rows that took no part in the fit falls as effects enter the model."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.figure import Figure
+
+from armscope.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, SKY, VERMILION, styled
+
+
+def draw_waterfall(
+    steps: Sequence[tuple[str, float]],
+    noise_mm: float | None,
+    references: Sequence[tuple[str, float]] = (),
+    spreads: Sequence[float] | None = None,
+) -> Figure:
+    """Held-out RMS as effects enter, the noise floor, and other models fitted to the same rows.
+
+    Args:
+        steps: (what entered, held-out RMS in mm with it), the first without any effect.
+        noise_mm: the noise per axis, None where unknown.
+        references: (model, held-out RMS in mm), for comparison.
+        spreads: standard error of each step's RMS over the folds, mm.
+    """
+    heights = [rms for _, rms in steps]
+    largest = max(heights)
+    shown = [(name, rms) for name, rms in references if np.isfinite(rms)]
+    limit = 1.24 * max([largest, *(min(rms, 1.6 * largest) for _, rms in shown)])
+    n_bars = len(steps) + len(shown)
+    with styled():
+        figure, axes = plt.subplots(figsize=(8.2, 0.36 * n_bars + (0.5 if shown else 0) + 1.35))
+        for place, (name, rms) in enumerate(steps):
+            ends = place in (0, len(steps) - 1)
+            if place == 0 or (ends and len(steps) > 2):
+                axes.barh(place, rms, height=0.62, color=VERMILION if place == 0 else BLUE, zorder=3)
+            else:
+                _drop(axes, place, heights[place - 1], rms)
+            if place == len(steps) - 1 and len(steps) > 2:
+                _gain(axes, place, heights[place - 1], rms)
+            error = None if spreads is None or not np.isfinite(spreads[place]) else spreads[place]
+            if error:
+                axes.errorbar(rms, place, xerr=error, color=BLACK, linewidth=0.9, capsize=2, zorder=4)
+            edge = max(rms, heights[place - 1] if place else rms) + (error or 0)
+            axes.text(edge + 0.012 * limit, place, _millimetres(rms), va="center", fontsize=8.5, zorder=5)
+            if place + 1 < len(steps):
+                axes.plot([rms, rms], [place - 0.31, place + 1.31], color=GREY, linewidth=0.7, zorder=2)
+        start = len(steps) + 0.5
+        for place, (name, rms) in enumerate(shown):
+            axes.barh(start + place, min(rms, limit), height=0.62, color="#C9CFD5", zorder=3)
+            beyond = rms > limit
+            axes.text(
+                (0.985 if beyond else 0.012) * limit + (0 if beyond else rms), start + place,
+                _millimetres(rms) + (" →" if beyond else ""), va="center", ha="right" if beyond else "left",
+                fontsize=8.5, zorder=5,
+            )  # fmt: skip
+        if noise_mm is not None:
+            axes.axvline(noise_mm, color=GREEN, linewidth=1.6, linestyle="--", zorder=6)
+            axes.annotate(
+                f"noise {_millimetres(noise_mm)}", (noise_mm, 1), (4, 3), xycoords=("data", "axes fraction"),
+                textcoords="offset points", color=GREEN, fontsize=8.5, fontweight="bold",
+            )  # fmt: skip
+        ticks = [*range(len(steps)), *(start + np.arange(len(shown)))]
+        axes.set_yticks(ticks, [name for name, _ in steps] + [name for name, _ in shown])
+        axes.set_ylim(start + len(shown) - 0.3 if shown else len(steps) - 0.4, -0.6)
+        axes.set_xlim(0, limit)
+        axes.set_xlabel("RMS on held-out rows, per axis (mm)")
+        axes.tick_params(axis="y", length=0)
+        axes.spines["left"].set_visible(False)
+        axes.grid(axis="y", visible=False)
+    return figure
+
+
+def _drop(axes: plt.Axes, place: int, before: float, after: float) -> None:
+    """The bar that remains, pale, and what the step took away, or added."""
+    axes.barh(place, min(before, after), height=0.62, color=SKY, alpha=0.35, zorder=3)
+    colour = SKY if after <= before else ORANGE
+    axes.barh(place, before - after, left=after, height=0.62, color=colour, zorder=3)
+
+
+def _gain(axes: plt.Axes, place: int, before: float, after: float) -> None:
+    """What the last step took away, beside the bar of what is left."""
+    axes.barh(place, before - after, left=after, height=0.62, color=SKY if after <= before else ORANGE, zorder=3)
+
+
+def _millimetres(value: float) -> str:
+    return f"{value:.3f} mm" if value < 1 else f"{value:.2f} mm"
