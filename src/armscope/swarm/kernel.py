@@ -1,18 +1,16 @@
 """The particle swarm on least squares as compiled code (numba): the algorithm of `engine`, `LANES` swarms in step.
 
-What makes it fast: one pass per particle that draws the random numbers, moves it and judges it while it is in the
-nearest cache; and memory laid out with `LANES` swarms side by side, so that each innermost loop is one instruction for
-several swarms (each with its own SFC64 stream - a single stream can't be drawn in parallel). No lane looks at another,
-and the arithmetic of the moves is that of `velocity_update` in the same order without fused multiply-adds, so a
-swarm's result depends neither on its lane nor on its neighbours.
-
-Array shapes, all flat: cells = particles x dimensions x (position, velocity, personal best) x lanes; anything "per
-lane" has `LANES` values, the fastest index.
+What makes it fast: each particle is moved (random numbers and all), judged and remembered while it is in the nearest
+cache; and memory is laid out with `LANES` swarms side by side, so that an innermost loop does several swarms with one
+instruction. Each swarm has its own SFC64 stream: a single stream can't be drawn in parallel. No lane looks at another,
+and moves do the arithmetic of `velocity_update` in the same order, without fused multiply-adds, so a swarm's result
+depends neither on its lane nor on its neighbours, and its moves agree with the NumPy engine's to the last bit.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numba
 import numpy as np
@@ -24,14 +22,64 @@ from armscope.swarm.settings import SwarmSettings
 from armscope.swarm.streams import set_sfc64_states, sfc64_states
 
 Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
+Words = NDArray[np.uint64]
 
-LANES = 16
-_LANES = np.uint64(LANES)  # unsigned indices spare numba's test for negative ones, which would keep loops scalar
-_CELL = np.uint64(3 * LANES)
-_STEP = 2.0**-53
-_WHOLE, _THRESHOLD, _DIVERGED = 0, 1, 2
+LANES = 32
+ROW_BLOCK = 4  # rows of the triangular product that are computed in one loop
 
-compiled = numba.njit(cache=True, nogil=True, error_model="numpy")
+# Unsigned, since indices that might be negative would keep numba's loops scalar.
+_ONE, _TWO, _THREE = np.uint64(LANES), np.uint64(2 * LANES), np.uint64(3 * LANES)
+_NONE = np.uint64(0)
+_UNIT = 2.0**-53  # SFC64 gives whole numbers; numpy makes doubles of their upper 53 bits
+_THRESHOLD, _DIVERGED, _OTHER = 0, 1, 2
+
+_compiled = numba.njit(cache=True, nogil=True, error_model="numpy")
+
+
+class _Problems(NamedTuple):
+    """What all swarms look for, and how: S swarms, D dimensions, T iterations."""
+
+    factors: Array  # M x D x D
+    factor_of: Integers  # S
+    targets: Array  # S x D
+    rests: Array  # S
+    lower: Array  # S x D
+    width: Array  # S x D
+    speed_limits: Array  # S x D
+    coefficients: Array  # T x 3
+    particles: int
+    threshold: float
+    orthonormal: bool
+    clamped: bool
+    ring: bool
+
+
+class _Outcome(NamedTuple):
+    """Where the results go, one row per swarm."""
+
+    states: Words  # S x 4, also where the streams begin
+    positions: Array  # S x D
+    fitness: Array  # S
+    history: Array  # S x (T + 1)
+    iterations: Integers  # S
+    codes: Integers  # S
+
+
+class _Pack(NamedTuple):
+    """The state of `LANES` swarms; flat arrays whose fastest index is the lane."""
+
+    swarms: Integers  # which swarm each lane computes
+    stream: Words  # a, b, c, counter of each SFC64
+    cells: Array  # particles x dimensions x (position, velocity, personal best)
+    aims: Array  # (particles or 1) x dimensions x (neighbourhood's best, target, speed limit)
+    factor: Array  # columns x rows (padded with zeros to whole blocks)
+    image: Array  # rows (padded): factor times position
+    tally: Array  # sum of squares (zero between particles), rest, whether better, how many finite
+    best_fitness: Array  # particles
+    leader_fitness: Array  # the best of the swarm
+    leader: Integers  # which particle that was
+    at_work: NDArray[np.bool_]
 
 
 def run_kernel(
@@ -43,130 +91,97 @@ def run_kernel(
 ) -> SwarmResult:
     """What `minimise` does for ``problems``, compiled. Bounds are S x D; the generators must be SFC64."""
     swarms, dimensions = problems.targets.shape
-    states = sfc64_states(generators)
-    rule, count = settings.rule, settings.iterations
-    coefficients = np.array([rule.coefficients(i, count) for i in range(count)]).reshape(count, 3)
-    clamped = settings.velocity_clamp is not None
-    speed_limits = (upper - lower) * settings.velocity_clamp if clamped else np.zeros_like(lower)
-    positions, fitness = np.full((swarms, dimensions), np.nan), np.full(swarms, np.inf)
-    history, iterations = np.empty((swarms, count + 1)), np.empty(swarms, dtype=np.int64)
-    codes = np.empty(swarms, dtype=np.int64)
-    _run_packs(
-        np.ascontiguousarray(problems.factors, dtype=float),
-        np.ascontiguousarray(problems.factor_of, dtype=np.int64),
-        np.ascontiguousarray(problems.targets, dtype=float),
-        np.ascontiguousarray(problems.rests, dtype=float),
-        problems.is_orthonormal,
-        np.ascontiguousarray(lower),
-        np.ascontiguousarray(upper - lower),
-        speed_limits,
-        clamped,
-        settings.particles,
-        coefficients,
-        settings.neighbourhood == "ring",
-        -np.inf if settings.threshold is None else float(settings.threshold),
-        states,
-        positions,
-        fitness,
-        history,
-        iterations,
-        codes,
-        _LANES,
+    count, clamp = settings.iterations, settings.velocity_clamp
+    given = _Problems(
+        factors=np.ascontiguousarray(problems.factors, dtype=float),
+        factor_of=np.ascontiguousarray(problems.factor_of, dtype=np.int64),
+        targets=np.ascontiguousarray(problems.targets, dtype=float),
+        rests=np.ascontiguousarray(problems.rests, dtype=float),
+        lower=np.ascontiguousarray(lower),
+        width=np.ascontiguousarray(upper - lower),
+        speed_limits=(0.0 if clamp is None else clamp) * np.ascontiguousarray(upper - lower),
+        coefficients=np.array([settings.rule.coefficients(i, count) for i in range(count)]).reshape(count, 3),
+        particles=settings.particles,
+        threshold=-np.inf if settings.threshold is None else float(settings.threshold),
+        orthonormal=problems.is_orthonormal,
+        clamped=clamp is not None,
+        ring=settings.neighbourhood == "ring",
     )
-    set_sfc64_states(generators, states)
+    outcome = _Outcome(
+        states=sfc64_states(generators),
+        positions=np.full((swarms, dimensions), np.nan),
+        fitness=np.full(swarms, np.inf),
+        history=np.empty((swarms, count + 1)),
+        iterations=np.empty(swarms, dtype=np.int64),
+        codes=np.empty(swarms, dtype=np.int64),
+    )
+    _run(given, outcome, _ONE)
+    set_sfc64_states(generators, outcome.states)
     early = {_THRESHOLD: StopReason.THRESHOLD, _DIVERGED: StopReason.DIVERGED}
     reasons = np.empty(swarms, dtype=object)
-    reasons[:] = [early.get(code) or final_reason(best) for code, best in zip(codes.tolist(), fitness, strict=True)]
-    return SwarmResult(positions, fitness, history, iterations, reasons)
+    reasons[:] = [
+        early.get(code) or final_reason(best) for code, best in zip(outcome.codes.tolist(), outcome.fitness, strict=True)
+    ]
+    return SwarmResult(outcome.positions, outcome.fitness, outcome.history, outcome.iterations, reasons)
 
 
-@compiled
-def _run_packs(
-    factors, factor_of, targets, rests, orthonormal, lower, width, speed_limits, clamped, particles, coefficients,
-    ring, threshold, states, positions, fitness, history, iterations, codes, lanes,
-):  # fmt: skip
-    """Run all swarms, `LANES` at a time; the last pack repeats the last swarm, which gives the same result again."""
-    swarms, dimensions = targets.shape
-    stream = np.empty(4 * LANES, dtype=np.uint64)
-    cells = np.empty(particles * dimensions * 3 * LANES)
-    leaders = np.empty((particles if ring else 1) * dimensions * LANES)
-    best_fitness = np.empty(particles * LANES)
-    factor = np.empty(dimensions * dimensions * LANES)
-    target, limit, rest = np.empty(dimensions * LANES), np.empty(dimensions * LANES), np.empty(LANES)
-    chosen = np.empty(LANES, dtype=np.int64)
+# In what follows ``lanes`` is always LANES, but passed as a number that the compiler does not know: it would unroll
+# short loops of known length into scalar instructions instead of making vector instructions of them.
+
+
+@_compiled
+def _run(given: _Problems, outcome: _Outcome, lanes: np.uint64) -> None:
+    """All swarms, pack by pack; the last pack repeats the last swarm, which gives the same result again."""
+    swarms, dimensions = given.targets.shape
+    padded = (dimensions + ROW_BLOCK - 1) // ROW_BLOCK * ROW_BLOCK
+    pack = _Pack(
+        np.empty(LANES, dtype=np.int64),
+        np.empty(4 * LANES, dtype=np.uint64),
+        np.empty(given.particles * dimensions * 3 * LANES),
+        np.empty((given.particles if given.ring else 1) * dimensions * 3 * LANES),
+        np.zeros(dimensions * padded * LANES),
+        np.zeros(padded * LANES),
+        np.zeros(4 * LANES),
+        np.empty(given.particles * LANES),
+        np.empty(LANES),
+        np.empty(LANES, dtype=np.int64),
+        np.empty(LANES, dtype=np.bool_),
+    )
     for first in range(0, swarms, LANES):
         for lane in range(LANES):
-            swarm = min(first + lane, swarms - 1)
-            chosen[lane] = swarm
-            rest[lane] = rests[swarm]
-            for k in range(4):
-                stream[k * LANES + lane] = states[swarm, k]
-            for d in range(dimensions):
-                target[d * LANES + lane] = targets[swarm, d]
-                limit[d * LANES + lane] = speed_limits[swarm, d]
-                for column in range(dimensions):
-                    factor[(d * dimensions + column) * LANES + lane] = factors[factor_of[swarm], d, column]
-        _place(stream, cells, chosen, lower, width, particles, dimensions)
-        _run_pack(
-            stream, cells, leaders, best_fitness, factor, target, rest, limit, clamped, orthonormal, particles,
-            dimensions, coefficients, ring, threshold, chosen, states, positions, fitness, history, iterations, codes,
-            lanes,
-        )  # fmt: skip
+            pack.swarms[lane] = min(first + lane, swarms - 1)
+        _load(given, outcome.states, pack)
+        _place(given, pack)
+        _run_pack(given, outcome, pack, lanes)
 
 
-@compiled
-def _run_pack(
-    stream, cells, leaders, best_fitness, factor, target, rest, limit, clamped, orthonormal, particles, dimensions,
-    coefficients, ring, threshold, chosen, states, positions, fitness, history, iterations, codes, lanes,
-):  # fmt: skip
-    """One pack from its placed particles to its end."""
-    count = len(coefficients)
-    judged, image = np.empty(LANES), np.empty(dimensions * LANES)
-    better, finite = np.empty(LANES, dtype=np.int64), np.empty(LANES, dtype=np.int64)
-    pack_best, pack_leader = np.empty(LANES), np.empty(LANES, dtype=np.int64)
-    at_work = np.ones(LANES, dtype=np.bool_)
-    best_fitness[:] = np.inf
-    for iteration in range(count + 1):
-        finite[:] = 0
-        for particle in range(particles):
-            cell = np.uint64(particle * dimensions * 3 * LANES)
-            if iteration > 0:
-                leader = np.uint64(particle * dimensions * LANES if ring else 0)
-                inertia, cognitive, social = coefficients[iteration - 1]
-                _move(stream, cells, cell, leaders, leader, limit, clamped, inertia, cognitive, social, dimensions, lanes)
-            _judge(cells, cell, factor, target, rest, orthonormal, judged, image, dimensions, lanes)
-            _remember(cells, cell, best_fitness, np.uint64(particle * LANES), judged, better, finite, dimensions, lanes)
-        _lead(cells, best_fitness, leaders, ring, pack_best, pack_leader, particles, dimensions)
-        working = 0
-        for lane in range(LANES):
-            if not at_work[lane]:
-                continue
-            swarm = chosen[lane]
-            history[swarm, iteration] = pack_best[lane]
-            reached = pack_best[lane] < threshold
-            gone = finite[lane] == 0 and not _any_finite(cells, lane, particles, dimensions)
-            if not (reached or gone or iteration == count):
-                working += 1
-                continue
-            at_work[lane] = False
-            codes[swarm] = _THRESHOLD if reached else (_DIVERGED if gone else _WHOLE)
-            iterations[swarm] = iteration
-            history[swarm, iteration:] = pack_best[lane]
-            for k in range(4):
-                states[swarm, k] = stream[k * LANES + lane]
-            if pack_best[lane] < np.inf:
-                fitness[swarm] = pack_best[lane]
-                for d in range(dimensions):
-                    best = (pack_leader[lane] * dimensions + d) * 3 + 2
-                    positions[swarm, d] = cells[best * LANES + lane]
-        if working == 0:
-            break
+@_compiled
+def _load(given: _Problems, states: Words, pack: _Pack) -> None:
+    """Lay the pack's problems and streams out lane by lane."""
+    dimensions = given.targets.shape[1]
+    padded = len(pack.image) // LANES
+    for lane in range(LANES):
+        swarm = pack.swarms[lane]
+        pack.tally[LANES + lane] = given.rests[swarm]
+        pack.at_work[lane] = True
+        for k in range(4):
+            pack.stream[k * LANES + lane] = states[swarm, k]
+        for aim in range(len(pack.aims) // (3 * LANES)):
+            pack.aims[(aim * 3 + 1) * LANES + lane] = given.targets[swarm, aim % dimensions]
+            pack.aims[(aim * 3 + 2) * LANES + lane] = given.speed_limits[swarm, aim % dimensions]
+        if given.orthonormal:
+            continue
+        for column in range(dimensions):
+            for row in range(column + 1):
+                entry = given.factors[given.factor_of[swarm], row, column]
+                pack.factor[(column * padded + row) * LANES + lane] = entry
 
 
-@compiled
-def _place(stream, cells, chosen, lower, width, particles, dimensions):
+@_compiled
+def _place(given: _Problems, pack: _Pack) -> None:
     """Every particle at rest, uniformly distributed in the search box."""
-    for cell in range(particles * dimensions):
+    dimensions, stream = given.targets.shape[1], pack.stream
+    for cell in range(given.particles * dimensions):
         for lane in range(LANES):
             a, b = stream[lane], stream[LANES + lane]
             c, counter = stream[2 * LANES + lane], stream[3 * LANES + lane]
@@ -175,129 +190,211 @@ def _place(stream, cells, chosen, lower, width, particles, dimensions):
             stream[LANES + lane] = c + (c << np.uint64(3))
             stream[2 * LANES + lane] = ((c << np.uint64(24)) | (c >> np.uint64(40))) + drawn
             stream[3 * LANES + lane] = counter + np.uint64(1)
-            swarm, d = chosen[lane], cell % dimensions
-            start = lower[swarm, d] + width[swarm, d] * (np.float64(np.int64(drawn >> np.uint64(11))) * _STEP)
-            cells[cell * 3 * LANES + lane] = start
-            cells[(cell * 3 + 1) * LANES + lane] = 0.0
-            cells[(cell * 3 + 2) * LANES + lane] = start
+            swarm, d = pack.swarms[lane], cell % dimensions
+            share = np.float64(np.int64(drawn >> np.uint64(11))) * _UNIT
+            start = given.lower[swarm, d] + given.width[swarm, d] * share
+            pack.cells[cell * 3 * LANES + lane] = start
+            pack.cells[(cell * 3 + 1) * LANES + lane] = 0.0
+            pack.cells[(cell * 3 + 2) * LANES + lane] = start
 
 
-@compiled
-def _move(stream, cells, cell, leaders, leader, limit, clamped, inertia, cognitive, social, dimensions, lanes):
-    """One particle's velocity update and step; SFC64 (Doty-Humphrey's PractRand, as in numpy) twice per dimension."""
-    bound = np.uint64(0)
+@_compiled
+def _run_pack(given: _Problems, outcome: _Outcome, pack: _Pack, lanes: np.uint64) -> None:
+    """One pack from its placed particles until its last swarm has stopped."""
+    dimensions, count = given.targets.shape[1], len(given.coefficients)
+    pack.best_fitness[:] = np.inf
+    for iteration in range(count + 1):
+        pack.tally[3 * LANES :] = 0.0
+        for particle in range(given.particles):
+            cell = np.uint64(particle * dimensions * 3 * LANES)
+            if iteration > 0:
+                aim = cell if given.ring else _NONE
+                weights = given.coefficients[iteration - 1]
+                _move(
+                    pack.stream, pack.cells, cell, pack.aims, aim, pack.tally, given.clamped, given.orthonormal,
+                    weights[0], weights[1], weights[2], dimensions, lanes,
+                )  # fmt: skip
+            elif given.orthonormal:
+                _sum_gaps(pack.cells, cell, pack.aims, pack.tally, dimensions, lanes)
+            if not given.orthonormal:
+                _sum_images(pack.cells, cell, pack.aims, pack.factor, pack.image, pack.tally, dimensions, lanes)
+            _judge(pack.tally, pack.best_fitness, np.uint64(particle * LANES), lanes)
+            _remember(pack.cells, cell, pack.tally, dimensions, lanes)
+        _lead(pack, given.ring, given.particles, dimensions, lanes)
+        if not _note(given, outcome, pack, iteration):
+            break
+
+
+@_compiled
+def _move(
+    stream: Words, cells: Array, cell: np.uint64, aims: Array, aim: np.uint64, tally: Array, clamped: bool,
+    orthonormal: bool, inertia: float, cognitive: float, social: float, dimensions: int, lanes: np.uint64,
+) -> None:  # fmt: skip
+    """`velocity_update` and step of one particle, and with an orthonormal factor the sum of its squares, in one pass.
+
+    SFC64 (C. Doty-Humphrey, PractRand; as in numpy) is drawn twice per dimension, for r1 and r2.
+    """
     for _ in range(dimensions):
         for lane in range(lanes):
             a = stream[lane]
-            b = stream[_LANES + lane]
-            c = stream[_LANES + _LANES + lane]
-            counter = stream[_CELL + lane]
+            b = stream[_ONE + lane]
+            c = stream[_TWO + lane]
+            counter = stream[_THREE + lane]
             drawn = a + b + counter
             counter += np.uint64(1)
             a = b ^ (b >> np.uint64(11))
             b = c + (c << np.uint64(3))
             c = ((c << np.uint64(24)) | (c >> np.uint64(40))) + drawn
             # below 2^53, so the signed conversion is exact; it is one instruction, the unsigned one is many
-            r1 = np.float64(np.int64(drawn >> np.uint64(11))) * _STEP
+            r1 = np.float64(np.int64(drawn >> np.uint64(11))) * _UNIT
             drawn = a + b + counter
-            counter += np.uint64(1)
             stream[lane] = b ^ (b >> np.uint64(11))
-            stream[_LANES + lane] = c + (c << np.uint64(3))
-            stream[_LANES + _LANES + lane] = ((c << np.uint64(24)) | (c >> np.uint64(40))) + drawn
-            stream[_CELL + lane] = counter
-            r2 = np.float64(np.int64(drawn >> np.uint64(11))) * _STEP
+            stream[_ONE + lane] = c + (c << np.uint64(3))
+            stream[_TWO + lane] = ((c << np.uint64(24)) | (c >> np.uint64(40))) + drawn
+            stream[_THREE + lane] = counter + np.uint64(1)
+            r2 = np.float64(np.int64(drawn >> np.uint64(11))) * _UNIT
             position = cells[cell + lane]
-            own_pull = (cells[cell + _LANES + _LANES + lane] - position) * r1 * cognitive
-            social_pull = (leaders[leader + lane] - position) * r2 * social
-            velocity = cells[cell + _LANES + lane] * inertia + own_pull + social_pull
+            own_pull = (cells[cell + _TWO + lane] - position) * r1 * cognitive
+            social_pull = (aims[aim + lane] - position) * r2 * social
+            velocity = cells[cell + _ONE + lane] * inertia + own_pull + social_pull
             if clamped:
-                if velocity < -limit[bound + lane]:
-                    velocity = -limit[bound + lane]
-                if velocity > limit[bound + lane]:
-                    velocity = limit[bound + lane]
-            cells[cell + _LANES + lane] = velocity
-            cells[cell + lane] = position + velocity
-        cell += _CELL
-        leader += _LANES
-        bound += _LANES
+                limit = aims[aim + _TWO + lane]
+                velocity = -limit if velocity < -limit else velocity
+                velocity = limit if velocity > limit else velocity
+            position += velocity
+            cells[cell + _ONE + lane] = velocity
+            cells[cell + lane] = position
+            if orthonormal:
+                gap = position - aims[aim + _ONE + lane]
+                tally[lane] += gap * gap
+        cell += _THREE
+        aim += _THREE
 
 
-@compiled
-def _judge(cells, cell, factor, target, rest, orthonormal, judged, image, dimensions, lanes):
-    """The RMS residual sqrt(|R z - b|^2 + rest) of one particle, into ``judged``."""
-    for lane in range(lanes):
-        judged[lane] = 0.0
-    if orthonormal:
-        row = np.uint64(0)
-        for _ in range(dimensions):
-            for lane in range(lanes):
-                gap = cells[cell + lane] - target[row + lane]
-                judged[lane] += gap * gap
-            cell += _CELL
-            row += _LANES
-    else:
-        # column by column, so that no sum waits for its own last term; the zeros below the diagonal are skipped
-        image[:] = -target
-        for column in range(dimensions):
-            for row in range(column + 1):
-                entry = np.uint64((row * dimensions + column) * LANES)
-                into = np.uint64(row * LANES)
-                for lane in range(lanes):
-                    image[into + lane] += factor[entry + lane] * cells[cell + lane]
-            cell += _CELL
-        into = np.uint64(0)
-        for _ in range(dimensions):
-            for lane in range(lanes):
-                judged[lane] += image[into + lane] * image[into + lane]
-            into += _LANES
-    for lane in range(lanes):
-        judged[lane] = np.sqrt(judged[lane] + rest[lane])
-
-
-@compiled
-def _remember(cells, cell, best_fitness, best, judged, better, finite, dimensions, lanes):
-    """Take over one particle's position as its best where it is better; NaN and infinity never are."""
-    improved = 0
-    for lane in range(lanes):
-        better[lane] = judged[lane] < best_fitness[best + lane]
-        finite[lane] += judged[lane] < np.inf
-        improved += better[lane]
-        best_fitness[best + lane] = judged[lane] if better[lane] else best_fitness[best + lane]
-    if improved == 0:
-        return
+@_compiled
+def _sum_gaps(
+    cells: Array, cell: np.uint64, aims: Array, tally: Array, dimensions: int, lanes: np.uint64
+) -> None:
+    """The sum of squares of one particle at an orthonormal factor, |z - b|^2."""
+    aim = _NONE
     for _ in range(dimensions):
         for lane in range(lanes):
-            kept = cells[cell + _LANES + _LANES + lane]
-            cells[cell + _LANES + _LANES + lane] = cells[cell + lane] if better[lane] else kept
-        cell += _CELL
+            gap = cells[cell + lane] - aims[aim + _ONE + lane]
+            tally[lane] += gap * gap
+        cell += _THREE
+        aim += _THREE
 
 
-@compiled
-def _lead(cells, best_fitness, leaders, ring, pack_best, pack_leader, particles, dimensions):
-    """Whom the particles follow in the next iteration, and the best of each swarm."""
-    pack_best[:] = np.inf
-    pack_leader[:] = 0
+@_compiled
+def _sum_images(
+    cells: Array, cell: np.uint64, aims: Array, factor: Array, image: Array, tally: Array, dimensions: int,
+    lanes: np.uint64,
+) -> None:  # fmt: skip
+    """The sum of squares of one particle at a triangular factor, |R z - b|^2, column by column without the zeros."""
+    image[:] = 0.0
+    rows = np.uint64(len(image))
+    column_start = _NONE
+    block = np.uint64(ROW_BLOCK) * _ONE
+    for column in range(dimensions):
+        used = np.uint64(column // ROW_BLOCK + 1) * block
+        for row in range(_NONE, used, block):
+            entry = column_start + row
+            for lane in range(lanes):
+                position = cells[cell + lane]
+                image[row + lane] += factor[entry + lane] * position
+                image[row + _ONE + lane] += factor[entry + _ONE + lane] * position
+                image[row + _TWO + lane] += factor[entry + _TWO + lane] * position
+                image[row + _THREE + lane] += factor[entry + _THREE + lane] * position
+        column_start += rows
+        cell += _THREE
+    row, aim = _NONE, _NONE
+    for _ in range(dimensions):
+        for lane in range(lanes):
+            gap = image[row + lane] - aims[aim + _ONE + lane]
+            tally[lane] += gap * gap
+        row += _ONE
+        aim += _THREE
+
+
+@_compiled
+def _judge(tally: Array, best_fitness: Array, particle: np.uint64, lanes: np.uint64) -> None:
+    """From one particle's sum of squares its RMS residual, and whether it is its best; NaN and infinity never are."""
+    for lane in range(lanes):
+        fitness = np.sqrt(tally[lane] + tally[_ONE + lane])
+        best = best_fitness[particle + lane]
+        better = fitness < best
+        tally[lane] = 0.0
+        tally[_TWO + lane] = 1.0 if better else 0.0
+        tally[_THREE + lane] += 1.0 if fitness < np.inf else 0.0
+        best_fitness[particle + lane] = fitness if better else best
+
+
+@_compiled
+def _remember(cells: Array, cell: np.uint64, tally: Array, dimensions: int, lanes: np.uint64) -> None:
+    """Make one particle's position its best where it is better."""
+    for _ in range(dimensions):
+        for lane in range(lanes):
+            position, best = cells[cell + lane], cells[cell + _TWO + lane]
+            cells[cell + _TWO + lane] = position if tally[_TWO + lane] > 0.0 else best
+        cell += _THREE
+
+
+@_compiled
+def _lead(pack: _Pack, ring: bool, particles: int, dimensions: int, lanes: np.uint64) -> None:
+    """Find the best of each swarm, and let the particles follow it, or the best of three on their ring."""
+    best_fitness, leader_fitness, leader = pack.best_fitness, pack.leader_fitness, pack.leader
+    leader_fitness[:] = np.inf
+    leader[:] = 0
     for particle in range(particles):
-        for lane in range(LANES):
-            candidate = best_fitness[particle * LANES + lane]
-            if candidate < pack_best[lane]:
-                pack_best[lane] = candidate
-                pack_leader[lane] = particle
+        first = np.uint64(particle * LANES)
+        for lane in range(lanes):
+            candidate, best = best_fitness[first + lane], leader_fitness[lane]
+            leader[lane] = particle if candidate < best else leader[lane]
+            leader_fitness[lane] = candidate if candidate < best else best
     for particle in range(particles if ring else 1):
         for lane in range(LANES):
-            followed = pack_leader[lane]
+            followed = leader[lane]
             if ring:
                 followed = particle
                 for neighbour in ((particle - 1) % particles, (particle + 1) % particles):
                     if best_fitness[neighbour * LANES + lane] < best_fitness[followed * LANES + lane]:
                         followed = neighbour
             for d in range(dimensions):
-                best = (followed * dimensions + d) * 3 + 2
-                leaders[(particle * dimensions + d) * LANES + lane] = cells[best * LANES + lane]
+                best = pack.cells[((followed * dimensions + d) * 3 + 2) * LANES + lane]
+                pack.aims[(particle * dimensions + d) * 3 * LANES + lane] = best
 
 
-@compiled
-def _any_finite(cells, lane, particles, dimensions):
+@_compiled
+def _note(given: _Problems, outcome: _Outcome, pack: _Pack, iteration: int) -> bool:
+    """Write down the swarms' progress and those that stop; whether any goes on."""
+    dimensions, last = given.targets.shape[1], len(given.coefficients)
+    any_at_work = False
+    for lane in range(LANES):
+        if not pack.at_work[lane]:
+            continue
+        swarm, fitness = pack.swarms[lane], pack.leader_fitness[lane]
+        outcome.history[swarm, iteration] = fitness
+        reached = fitness < given.threshold
+        gone = pack.tally[3 * LANES + lane] == 0.0 and not _any_finite(pack.cells, lane, given.particles, dimensions)
+        if not (reached or gone or iteration == last):
+            any_at_work = True
+            continue
+        pack.at_work[lane] = False
+        outcome.codes[swarm] = _THRESHOLD if reached else (_DIVERGED if gone else _OTHER)
+        outcome.iterations[swarm] = iteration
+        outcome.history[swarm, iteration:] = fitness
+        for k in range(4):
+            outcome.states[swarm, k] = pack.stream[k * LANES + lane]
+        if fitness < np.inf:
+            outcome.fitness[swarm] = fitness
+            for d in range(dimensions):
+                best = pack.cells[((pack.leader[lane] * dimensions + d) * 3 + 2) * LANES + lane]
+                outcome.positions[swarm, d] = best
+    return any_at_work
+
+
+@_compiled
+def _any_finite(cells: Array, lane: int, particles: int, dimensions: int) -> bool:
     """Whether any particle of a lane still has a finite position."""
     for particle in range(particles):
         finite = True
