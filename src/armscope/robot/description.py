@@ -17,12 +17,17 @@ Millimetres = Annotated[float, Field(ge=-20_000, le=20_000)]
 
 
 class DHRow(Strict):
-    """One row of a Denavit-Hartenberg table; ``theta_offset_deg`` is added to the joint's angle."""
+    """One row of a Denavit-Hartenberg table; ``theta_offset_deg`` is added to the joint's angle.
+
+    ``beta_deg`` turns about y after alpha (and a): the small angle that a calibrated arm needs between nearly parallel
+    axes, for which D-H rows alone are ill-defined (Hayati & Mirmirani 1985).
+    """
 
     a_mm: Millimetres
     alpha_deg: Degrees
     d_mm: Millimetres
     theta_offset_deg: Degrees = 0.0
+    beta_deg: Degrees = 0.0
 
 
 class DH(Strict):

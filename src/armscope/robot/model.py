@@ -25,13 +25,14 @@ def pinocchio_model(description: RobotDescription) -> pin.Model:
 def dh_halves(row: DHRow, convention: str) -> tuple[pin.SE3, pin.SE3]:
     """The fixed transforms (before, behind) the joint's rotation: one D-H row is before * Rz(q) * behind.
 
-    Standard rows (Denavit & Hartenberg 1955; Paul 1981): Rz(theta) Tz(d) Tx(a) Rx(alpha). Modified rows
-    (Craig 1986): Rx(alpha) Tx(a) Rz(theta) Tz(d), with d before the joint, so that the joint's frame has
-    the D-H origin.
+    Standard rows (Denavit & Hartenberg 1955; Paul 1981): Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta). Modified rows
+    (Craig 1986): Rx(alpha) Tx(a) Ry(beta) Rz(theta) Tz(d), with d before the joint, so that the joint's frame has
+    the D-H origin. beta is 0 except in calibrated rows.
     """
     turn = pin.SE3(pin.utils.rotate("z", np.radians(row.theta_offset_deg)), np.zeros(3))
     along_z = pin.SE3(np.eye(3), np.array([0, 0, row.d_mm * 1e-3]))
     twist_x = pin.SE3(pin.utils.rotate("x", np.radians(row.alpha_deg)), np.array([row.a_mm * 1e-3, 0, 0]))
+    twist_x = twist_x * pin.SE3(pin.utils.rotate("y", np.radians(row.beta_deg)), np.zeros(3))
     if convention == "standard":
         return pin.SE3.Identity(), turn * along_z * twist_x
     return twist_x * along_z, turn
