@@ -1,0 +1,1 @@
+"""From recordings to a verdict: atlas, selection, refit, certainty, leftover, validation."""

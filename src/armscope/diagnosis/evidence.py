@@ -1,0 +1,252 @@
+"""How well a hypothesis explains the data, as Gaussian marginal likelihood in closed form.
+
+A hypothesis is a set of whole effects with a size each (mm at the tool), a size of the geometric background, and the
+noise. Everything is linear, so coefficients are integrated out: log p(y) = -n log sigma - 1/2 log|I + P G / sigma^2|
+- 1/2 (yy - b' (G + sigma^2 P^-1)^-1 b) / sigma^2 with the prior variances P. Columns are scaled to
+1 mm RMS at the tool.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cholesky, solve_triangular
+
+from armscope.diagnosis.problem import Gram, Indices, Pool, scales
+
+Array = NDArray[np.float64]
+
+FRAME_PRIOR_MM = 50.0
+"""Frames are free: their prior is wide, and the same in all hypotheses."""
+TOLERANCE = 1.0e-3
+"""Geometric tolerance of an industrial arm: 1 mm and 1 mrad per D-H value."""
+BACKGROUND_SIZES = (0.003, 0.03, 0.1, 0.3, 1.0)
+"""Shares of the tolerance among which the background's size is averaged: from a perfect arm to an ordinary one."""
+SIZES = 5
+"""How many effect sizes are averaged, evenly in the logarithm between the noise and the mismatch."""
+CAUTION_NATS = 1.5
+"""What any name costs on top of its share of the library."""
+NOISE_STEPS = 3
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """An effect in a hypothesis: which candidate, with which size (index into the problem's sizes)."""
+
+    candidate: int
+    size: int
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """A Gram matrix made ready for weighing hypotheses.
+
+    Attributes:
+        pool: what the columns are.
+        gram: with columns scaled to 1 mm RMS at the tool.
+        scale: (p,) what they were divided by, mm per SI unit.
+        least_noise: mm; the noise is never taken to be below (stated, or seen in repeats).
+        sizes: (SIZES,) effect sizes that compete, mm at the tool.
+        costs: (candidates,) log prior odds against each candidate, nats.
+    """
+
+    pool: Pool
+    gram: Gram
+    scale: Array
+    least_noise: float
+    sizes: Array
+    costs: Array
+
+    @property
+    def n(self) -> float:
+        """Number of residuals."""
+        return self.gram.n
+
+    def with_gram(self, gram: Gram) -> Problem:
+        """The same problem on other rows; ``gram`` is unscaled."""
+        return Problem(self.pool, gram.scaled(self.scale), self.scale, self.least_noise, self.sizes, self.costs)
+
+
+def problem(pool: Pool, gram: Gram, least_noise: float) -> Problem:
+    """Scale a Gram matrix and set prior sizes and costs."""
+    scale = scales(gram, pool.frames)
+    scaled = gram.scaled(scale)
+    mismatch = _rms_after_frames(scaled, pool.frames)
+    low = max(least_noise, 0.02 * mismatch) / 2
+    sizes = np.geomspace(low, max(2 * mismatch, 4 * low), SIZES)
+    return Problem(pool, scaled, scale, least_noise, sizes, _costs(pool))
+
+
+def _rms_after_frames(gram: Gram, frames: Indices) -> float:
+    Gf = gram.G[np.ix_(frames, frames)]
+    explained = gram.b[frames] @ np.linalg.lstsq(Gf, gram.b[frames], rcond=1e-12)[0]
+    left = float(gram.yy - explained)
+    return float(np.sqrt(max(left, 0.0) / max(gram.n - len(frames), 1.0)))
+
+
+def _costs(pool: Pool) -> Array:
+    """Each effect type is as likely as any other, each of its locations as any other, each scanned number, too."""
+    locations: dict[str, set[str]] = {}
+    variants: dict[tuple[str, str], int] = {}
+    for placed in pool.candidates:
+        locations.setdefault(placed.name, set()).add(placed.location)
+        if placed.tried == 1:
+            variants[placed.key] = variants.get(placed.key, 0) + 1
+    kinds = float(len(locations))
+    return np.array(
+        [
+            CAUTION_NATS
+            + np.log(kinds)
+            + np.log(len(locations[placed.name]))
+            + np.log(placed.tried if placed.tried > 1 else variants[placed.key])
+            for placed in pool.candidates
+        ]
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Hypothesis:
+    """A weighed hypothesis.
+
+    Attributes:
+        chosen: its effects.
+        background: index into `BACKGROUND_SIZES`.
+        noise: mm per axis.
+        value: log evidence with prior, nats.
+        columns: columns of the pool that take part, ascending.
+        variance: their prior variances, mm^2 at the tool.
+        factor: Cholesky factor (lower) of G + noise^2 / variance.
+        mean: posterior mean of the scaled coefficients.
+        rss: penalised residual sum of squares, mm^2.
+    """
+
+    chosen: tuple[Chosen, ...]
+    background: int
+    noise: float
+    value: float
+    columns: Indices = field(repr=False)
+    variance: Array = field(repr=False)
+    factor: Array = field(repr=False)
+    mean: Array = field(repr=False)
+    rss: float = field(repr=False)
+
+    @property
+    def candidates(self) -> frozenset[int]:
+        """The numbers of its candidates."""
+        return frozenset(c.candidate for c in self.chosen)
+
+    def coefficients(self, p: int) -> Array:
+        """(p,) posterior mean of all scaled coefficients, zero where a column takes no part."""
+        full = np.zeros(p)
+        full[self.columns] = self.mean
+        return full
+
+
+def weigh(problem: Problem, chosen: tuple[Chosen, ...], background: int, noise: float) -> Hypothesis:
+    """Evidence of a hypothesis; the noise starts from ``noise`` and is re-estimated (MacKay 1992)."""
+    prior = prior_variances(problem, chosen, background)
+    columns = np.flatnonzero(prior > 0)
+    variance = prior[columns]
+    G, b = problem.gram.G[np.ix_(columns, columns)], problem.gram.b[columns]
+    for step in range(NOISE_STEPS):
+        last = step == NOISE_STEPS - 1
+        factor = cholesky(G + np.diag(noise**2 / variance), lower=True, check_finite=False)
+        half = solve_triangular(factor, b, lower=True, check_finite=False)
+        rss = float(problem.gram.yy - half @ half)
+        if last:
+            break
+        mean = solve_triangular(factor, half, lower=True, trans="T", check_finite=False)
+        inverse_diagonal = _inverse_diagonal(factor)
+        spent = len(columns) - noise**2 * np.sum(inverse_diagonal / variance)
+        misfit = rss - noise**2 * float(np.sum(mean**2 / variance))
+        updated = np.sqrt(max(misfit, 0.0) / max(problem.n - spent, 1.0))
+        updated = max(updated, problem.least_noise, 1e-6)
+        if abs(updated - noise) < 1e-3 * noise:
+            break
+        noise = updated
+    mean = solve_triangular(factor, half, lower=True, trans="T", check_finite=False)
+    logdet = 2 * np.sum(np.log(np.diag(factor))) + np.sum(np.log(variance)) - 2 * len(columns) * np.log(noise)
+    evidence = -problem.n * np.log(noise) - 0.5 * logdet - 0.5 * rss / noise**2
+    paid = sum(problem.costs[c.candidate] + np.log(len(problem.sizes)) for c in chosen)
+    return Hypothesis(chosen, background, noise, float(evidence - paid), columns, variance, factor, mean, rss)
+
+
+def _inverse_diagonal(factor: Array) -> Array:
+    """Diagonal of (L L')^-1."""
+    inverse = solve_triangular(factor, np.eye(len(factor)), lower=True, check_finite=False)
+    return np.asarray(np.sum(inverse**2, axis=0))
+
+
+def prior_variances(problem: Problem, chosen: tuple[Chosen, ...], background: int) -> Array:
+    """(p,) prior variances of the scaled columns, mm^2; zero where a column takes no part."""
+    prior = np.zeros(len(problem.scale))
+    pool = problem.pool
+    tolerance = BACKGROUND_SIZES[background] * TOLERANCE
+    prior[pool.background] = (tolerance * problem.scale[pool.background]) ** 2
+    prior[pool.frames] = FRAME_PRIOR_MM**2
+    for c in chosen:
+        shape = np.array(pool.candidates[c.candidate].shape)
+        prior[pool.columns[c.candidate]] += (problem.sizes[c.size] * shape) ** 2
+    return prior
+
+
+@dataclass(frozen=True, eq=False)
+class Groups:
+    """Candidates of equal numbers of columns, so that they are scored together."""
+
+    members: tuple[Indices, ...]
+    columns: tuple[Indices, ...]
+    shapes: tuple[Array, ...]
+
+
+def group(pool: Pool) -> Groups:
+    """Candidates by their number of columns."""
+    by_size: dict[int, list[int]] = {}
+    for number, columns in enumerate(pool.columns):
+        by_size.setdefault(len(columns), []).append(number)
+    return Groups(
+        tuple(np.array(members) for members in by_size.values()),
+        tuple(np.array([pool.columns[m] for m in members]) for members in by_size.values()),
+        tuple(np.array([pool.candidates[m].shape for m in members]) for members in by_size.values()),
+    )
+
+
+def gains(problem: Problem, groups: Groups, hypothesis: Hypothesis) -> tuple[Array, Indices]:
+    """What each candidate would add to a hypothesis' value, nats, and the best size index for each.
+
+    The posterior of the hypothesis is conditioned on (Schur complement), so the gain is exact up to the noise's
+    re-estimation, for which the profile of the likelihood over the noise is used.
+    """
+    G, b = problem.gram.G, problem.gram.b
+    S, noise = hypothesis.columns, hypothesis.noise
+    V = solve_triangular(hypothesis.factor, G[S], lower=True, check_finite=False)
+    half = solve_triangular(hypothesis.factor, b[S], lower=True, check_finite=False)
+    r_all = (b - half @ V) / noise**2
+    best = np.full(len(problem.costs), -np.inf)
+    which = np.zeros(len(problem.costs), dtype=np.intp)
+    s2 = problem.sizes**2
+    chi2 = hypothesis.rss / noise**2
+    for members, columns, shapes in zip(groups.members, groups.columns, groups.shapes, strict=True):
+        Vc = np.moveaxis(V[:, columns], 0, 1)
+        inner = G[columns[:, :, None], columns[:, None, :]] - np.swapaxes(Vc, 1, 2) @ Vc
+        D = inner / noise**2 * shapes[:, :, None] * shapes[:, None, :]
+        r = r_all[columns] * shapes
+        eigenvalues, vectors = np.linalg.eigh(D)
+        eigenvalues = np.maximum(eigenvalues, 0.0)
+        u2 = np.einsum("mij,mi->mj", vectors, r) ** 2
+        shrunk = s2[:, None, None] / (1 + s2[:, None, None] * eigenvalues)
+        quadratic = np.sum(u2 * shrunk, axis=2)
+        logdet = np.sum(np.log1p(s2[:, None, None] * eigenvalues), axis=2)
+        gain = _profiled(quadratic, chi2, problem.n, noise, problem.least_noise) - 0.5 * logdet
+        which[members] = np.argmax(gain, axis=0)
+        best[members] = np.max(gain, axis=0)
+    return best - problem.costs - np.log(len(problem.sizes)), which
+
+
+def _profiled(quadratic: Array, chi2: float, n: float, noise: float, least: float) -> Array:
+    """Gain of log likelihood when chi2 falls by ``quadratic`` and the noise follows, not below its least value."""
+    left = np.maximum(chi2 - quadratic, 1e-9 * chi2)
+    ratio = np.maximum(np.sqrt(left / chi2), min(1.0, least / noise))
+    return np.asarray(-n * np.log(ratio) + 0.5 * chi2 - 0.5 * left / ratio**2)

@@ -1,0 +1,119 @@
+"""Frames as they are: base per run and tool per target, from a closed-form start anywhere in space."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from armscope.physics.frames import TOOL_FRAME, free_frames, tool_keys
+from armscope.physics.model import Base, FittedModel
+from armscope.physics.scene import Part
+from armscope.recordings import Recordings
+from armscope.robot import Arm, chain
+
+Array = NDArray[np.float64]
+
+STEPS = 12
+CONVERGED_M = 1e-9
+HUBER = 2.0
+
+
+def fit_frames(arm: Arm, recordings: Recordings, tool_per_run: bool = False) -> FittedModel:
+    """The arm with base and tool fitted to the recordings and no effects.
+
+    Each run starts from the rigid motion that best maps the nominal tool points onto the measured ones (Kabsch 1976);
+    Gauss-Newton with Huber weights then fits bases and tools together.
+    """
+    frames = chain(arm, recordings.motor_angles)
+    keys = tool_keys(recordings, tool_per_run)
+    which_tool = _tool_of_row(recordings, keys)
+    runs, which_run = np.unique(recordings.run, return_inverse=True)
+    bases = [_rigid(frames.tool[which_run == r], recordings.positions[which_run == r]) for r in range(len(runs))]
+    tools = np.zeros((len(keys), 3))
+    for _ in range(STEPS):
+        residual, columns = _linear(recordings, frames.tool, frames.tool_rotation, bases, tools, which_run, which_tool)
+        step = _robust_step(residual, columns)
+        bases = [moved_base(base, step[6 * r : 6 * r + 6]) for r, base in enumerate(bases)]
+        tools = tools + step[6 * len(bases) :].reshape(-1, 3)
+        if np.abs(columns @ step).max() < CONVERGED_M:
+            break
+    return FittedModel(
+        arm,
+        {str(run): base for run, base in zip(runs, bases, strict=True)},
+        _tool_parts(recordings, tool_per_run, tools),
+    )
+
+
+def _tool_parts(recordings: Recordings, per_run: bool, tools: Array) -> tuple[Part, ...]:
+    placed = [p for p in free_frames(recordings, per_run) if p.effect is TOOL_FRAME]
+    return tuple(Part(p, t) for p, t in zip(placed, tools, strict=True))
+
+
+def _tool_of_row(recordings: Recordings, keys: list[tuple[str, str | None]]) -> NDArray[np.intp]:
+    index = {key: number for number, key in enumerate(keys)}
+    return np.array(
+        [
+            index[(str(t), None)] if (str(t), None) in index else index[(str(t), str(r))]
+            for t, r in zip(recordings.target, recordings.run, strict=True)
+        ]
+    )
+
+
+def _rigid(points: Array, measured: Array) -> Base:
+    """The rotation and translation that map points onto measured points, least squares."""
+    mean_p, mean_m = np.median(points, axis=0), np.median(measured, axis=0)
+    u, _, vt = np.linalg.svd((measured - mean_m).T @ (points - mean_p))
+    flip = np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ vt))])
+    rotation = u @ flip @ vt
+    return Base(rotation, mean_m - rotation @ mean_p)
+
+
+def _linear(
+    recordings: Recordings,
+    tool: Array,
+    rotation: Array,
+    bases: list[Base],
+    tools: Array,
+    which_run: NDArray[np.intp],
+    which_tool: NDArray[np.intp],
+) -> tuple[Array, Array]:
+    """Residual (3N,) in base axes and its columns by base twists and tool translations."""
+    count = len(tool)
+    points = tool + np.einsum("nij,nj->ni", rotation, tools[which_tool])
+    columns = np.zeros((count, 3, 6 * len(bases) + tools.size))
+    residual = np.empty((count, 3))
+    for r, base in enumerate(bases):
+        rows = which_run == r
+        residual[rows] = (recordings.positions[rows] - base.translation) @ base.rotation - points[rows]
+        columns[rows, :, 6 * r : 6 * r + 3] = np.eye(3)
+        columns[rows, :, 6 * r + 3 : 6 * r + 6] = _cross_columns(points[rows])
+    for t in range(len(tools)):
+        rows = which_tool == t
+        at = 6 * len(bases) + 3 * t
+        columns[rows, :, at : at + 3] = rotation[rows]
+    return residual.reshape(-1), columns.reshape(3 * count, -1)
+
+
+def _cross_columns(points: Array) -> Array:
+    """(N, 3, 3) displacement of points by unit rotations about x, y, z."""
+    x, y, z = points.T
+    zero = np.zeros_like(x)
+    return np.stack([np.stack([zero, z, -y], 1), np.stack([-z, zero, x], 1), np.stack([y, -x, zero], 1)], axis=1)
+
+
+def _robust_step(residual: Array, columns: Array) -> Array:
+    size = np.linalg.norm(residual.reshape(-1, 3), axis=1)
+    scale = HUBER * max(float(np.median(size)), 1e-12)
+    weight = np.repeat(np.minimum(1.0, scale / np.maximum(size, 1e-15)), 3)
+    left = columns * weight[:, None]
+    normal = left.T @ columns
+    # a held wrist leaves the tool's offset to the base: the tiny ridge keeps such a fit at its start
+    normal[np.diag_indices_from(normal)] += 1e-9 * np.trace(normal) / len(normal)
+    return np.asarray(np.linalg.solve(normal, left.T @ residual))
+
+
+def moved_base(base: Base, twist: Array) -> Base:
+    """The base after a twist (translation m, rotation rad) in its own axes."""
+    turn = Rotation.from_rotvec(twist[3:]).as_matrix()
+    return Base(base.rotation @ turn, base.translation + base.rotation @ twist[:3])

@@ -1,0 +1,183 @@
+"""The linear problem: every column of the library at the current model, boiled down to a Gram matrix.
+
+Columns live only chunk by chunk; what stays is X'WX, X'Wy and y'Wy per block of rows. Selection, resampling and
+cross-validation work on sums of blocks, so their cost does not depend on the number of rows.
+Lengths are mm here: y and the columns are displacements of the tool in base axes, mm per SI unit of a term.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.physics.effect import Placed, Term
+from armscope.physics.model import FittedModel
+from armscope.physics.scene import Posture
+from armscope.recordings import Recordings
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+CHUNK_ROWS = 1500
+LEAST_SEEN = 0.02
+"""A column of which frames absorb more than all but this share is scaled as if this share were left."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pool:
+    """All distinct terms that take part, and where each effect's terms stand among them.
+
+    Attributes:
+        terms: the columns, in order.
+        frames: columns of the free frames.
+        background: columns of the geometric background.
+        candidates: effects that compete.
+        columns: columns of each candidate.
+    """
+
+    terms: tuple[Term, ...]
+    frames: Indices
+    background: Indices
+    candidates: tuple[Placed, ...]
+    columns: tuple[Indices, ...]
+
+    def of(self, placed: Placed) -> Indices:
+        """Columns of an effect whose terms are all in the pool."""
+        index = self._index()
+        return np.array([index[term] for term in placed.terms])
+
+    def _index(self) -> dict[Term, int]:
+        return {term: number for number, term in enumerate(self.terms)}
+
+
+def pool(frames: Sequence[Placed], background: Sequence[Placed], candidates: Sequence[Placed]) -> Pool:
+    """Gather the terms of all effects, each once."""
+    index: dict[Term, int] = {}
+
+    def add(placed: Placed) -> Indices:
+        return np.array([index.setdefault(term, len(index)) for term in placed.terms], dtype=np.intp)
+
+    frame_columns = np.concatenate([add(p) for p in frames])
+    background_columns = np.concatenate([add(p) for p in background]) if background else np.empty(0, dtype=np.intp)
+    columns = tuple(add(p) for p in candidates)
+    return Pool(tuple(index), frame_columns, background_columns, tuple(candidates), columns)
+
+
+@dataclass(frozen=True, eq=False)
+class Gram:
+    """Sums over rows: G = X'WX (p, p), b = X'Wy (p,), yy = y'Wy, n = number of weighted residuals; mm."""
+
+    G: Array
+    b: Array
+    yy: float
+    n: float
+
+    def __add__(self, other: Gram) -> Gram:
+        return Gram(self.G + other.G, self.b + other.b, self.yy + other.yy, self.n + other.n)
+
+    def __sub__(self, other: Gram) -> Gram:
+        return Gram(self.G - other.G, self.b - other.b, self.yy - other.yy, self.n - other.n)
+
+    def scaled(self, scale: Array) -> Gram:
+        """With column k divided by scale[k]."""
+        return Gram(self.G / np.outer(scale, scale), self.b / scale, self.yy, self.n)
+
+    def rss(self, coefficients: Array) -> float:
+        """Residual sum of squares with these coefficients of all columns."""
+        return float(self.yy - 2 * self.b @ coefficients + coefficients @ self.G @ coefficients)
+
+
+def chunks(model: FittedModel, recordings: Recordings) -> Iterator[tuple[NDArray[np.intp], Posture]]:
+    """(rows, posture) of the model, chunk by chunk."""
+    for start in range(0, len(recordings), CHUNK_ROWS):
+        rows = np.arange(start, min(start + CHUNK_ROWS, len(recordings)))
+        scene = model.scene(recordings.rows(rows))
+        yield rows, model.posture(scene)
+
+
+def columns(posture: Posture, terms: Sequence[Term]) -> Array:
+    """(3N, p) columns in mm per SI unit of each term."""
+    stacked = np.empty((len(terms), len(posture.scene), 3))
+    for number, term in enumerate(terms):
+        stacked[number] = posture.column(term)
+    stacked *= 1e3
+    return stacked.reshape(len(terms), -1).T
+
+
+def residuals(model: FittedModel, recordings: Recordings) -> Array:
+    """(N, 3) measured minus modelled tool points, base axes, mm."""
+    left = np.empty((len(recordings), 3))
+    for rows, posture in chunks(model, recordings):
+        left[rows] = (model.to_base(recordings.positions[rows], recordings.run[rows]) - posture.tool) * 1e3
+    return left
+
+
+def accumulate(pool: Pool, model: FittedModel, recordings: Recordings, weights: Array, blocks: Indices) -> list[Gram]:
+    """Gram matrices per block of rows.
+
+    The response is the residual of the model plus what its own effects contribute linearly, so that every hypothesis
+    starts from no effects while the linearisation stands where the model stands.
+
+    Args:
+        weights: (N,) of the rows.
+        blocks: (N,) number of each row's block, from 0.
+    """
+    current = pool_values(pool, model)
+    count, p = int(blocks.max()) + 1, len(pool.terms)
+    G, b, yy, n = np.zeros((count, p, p)), np.zeros((count, p)), np.zeros(count), np.zeros(count)
+    for rows, posture in chunks(model, recordings):
+        X = columns(posture, pool.terms)
+        y = (model.to_base(recordings.positions[rows], recordings.run[rows]) - posture.tool).reshape(-1) * 1e3
+        y = y + X @ current
+        w = np.repeat(weights[rows], 3)
+        block_of = np.repeat(blocks[rows], 3)
+        for block in np.unique(block_of):
+            inside = block_of == block
+            root = np.sqrt(w[inside])
+            Xb, yb = X[inside] * root[:, None], y[inside] * root
+            G[block] += Xb.T @ Xb
+            b[block] += Xb.T @ yb
+            yy[block] += yb @ yb
+            n[block] += np.count_nonzero(w[inside] > 0.5)
+    return [Gram(G[k], b[k], float(yy[k]), float(n[k])) for k in range(count)]
+
+
+def pool_values(pool: Pool, model: FittedModel) -> Array:
+    """(p,) the model's values of the pool's terms (frames count as zero: they are part of the linearisation point)."""
+    index = {term: number for number, term in enumerate(pool.terms)}
+    values = np.zeros(len(pool.terms))
+    for part in (*model.background, *model.parts):
+        for term, value in zip(part.placed.terms, part.values, strict=True):
+            values[index[term]] += value
+    return values
+
+
+def total(blocks: Sequence[Gram]) -> Gram:
+    """The sum of blocks."""
+    whole = blocks[0]
+    for block in blocks[1:]:
+        whole = whole + block
+    return whole
+
+
+def scales(gram: Gram, frames: Indices) -> Array:
+    """(p,) RMS per axis at the tool of each column beyond what the free frames absorb, mm per SI unit."""
+    Gf = gram.G[np.ix_(frames, frames)]
+    ridge = 1e-10 * np.diag(np.diag(Gf)) + 1e-300 * np.eye(len(frames))
+    absorbed = np.sum(gram.G[frames] * np.linalg.solve(Gf + ridge, gram.G[frames]), axis=0)
+    raw = np.diag(gram.G)
+    seen = np.maximum(raw - absorbed, LEAST_SEEN**2 * raw)
+    seen[frames] = raw[frames]
+    return np.sqrt(np.maximum(seen / max(gram.n, 1.0), 1e-24))
+
+
+def contribution(gram: Gram, frames: Indices, coefficients: Array) -> float:
+    """RMS per axis at the tool, beyond the free frames, of a combination of columns (p,), mm."""
+    Gc = gram.G @ coefficients
+    Gf = gram.G[np.ix_(frames, frames)]
+    absorbed = Gc[frames] @ np.linalg.lstsq(Gf, Gc[frames], rcond=1e-12)[0]
+    left = float(coefficients @ Gc - absorbed)
+    return float(np.sqrt(max(left, 0.0) / max(gram.n, 1.0)))

@@ -1,0 +1,104 @@
+"""Drift: a base that moves with time, or a base or tool that jumps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Term, term
+from armscope.physics.placing import varies
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+
+LEAST_SPAN_S = 1.0
+
+
+def six_terms(location: str, driver: Driver, per: str = "", axes: tuple[str, ...] = AXES) -> tuple[Term, ...]:
+    """One term per direction of a frame, named x, y, z, rx, ry, rz, mm and rad."""
+    return tuple(
+        term(
+            axis.removeprefix("t"),
+            ("mm" if axis[0] == "t" else "rad") + per,
+            (Direction(location, axis), driver),
+            si=1e-3 if axis[0] == "t" else 1.0,
+        )
+        for axis in axes
+    )
+
+
+def _place_drift(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    if recordings.time is not None and varies(recordings.time, LEAST_SPAN_S):
+        start = float(recordings.time[recordings.time == recordings.time].min())
+        yield Placed(BASE_DRIFT, "base", six_terms("base", Driver("hours", (start,)), "/h"), (1.0,) * 6, "time")
+
+
+BASE_DRIFT = Effect(
+    "base_drift",
+    "drift",
+    _place_drift,
+    "The base (or the instrument) moves steadily during the recording.",
+    "Measure fixed reference points on the base at the start and the end.",
+    "Let the set-up settle and warm up; measure references in between and correct.",
+    needs=("time_s",),
+)
+
+
+def base_shift(recordings: Recordings, row: int, tried: int) -> Placed:
+    """The base jumps before a row (0-based) and stays so until the end of the row's run."""
+    return _shift(BASE_SHIFT, "base", AXES, recordings, row, tried)
+
+
+def tool_shift(recordings: Recordings, row: int, tried: int) -> Placed:
+    """The tool point jumps before a row (0-based) and stays so until the end of the row's run."""
+    return _shift(TOOL_SHIFT, "tool", AXES[:3], recordings, row, tried)
+
+
+def _shift(
+    effect: Effect, location: str, axes: tuple[str, ...], recordings: Recordings, row: int, tried: int
+) -> Placed:
+    run = str(recordings.run[row])
+    scanned: tuple[str, str, float]
+    if recordings.time is not None:
+        start = float(recordings.time[row])
+        driver, scanned = Driver("after time", (start, run)), ("time", "s", start)
+    else:
+        number = row_number(recordings, row)
+        driver, scanned = Driver("after row", (number, run)), ("row", "", number)
+    return Placed(
+        effect,
+        location,
+        six_terms(location, driver, axes=axes),
+        (1.0,) * len(axes),
+        "time" if recordings.time is not None else "order of rows",
+        scanned=(scanned,),
+        tried=tried,
+        variant=f"{run} {scanned[2]:g}",
+    )
+
+
+def row_number(recordings: Recordings, row: int) -> float:
+    """The table's id of a row where ids are numbers, else its number from 1."""
+    try:
+        return float(recordings.id[row])
+    except ValueError:
+        return float(row + 1)
+
+
+BASE_SHIFT = Effect(
+    "base_shift",
+    "drift",
+    lambda arm, recordings: iter(()),  # its time is scanned by the diagnosis
+    "The base or the instrument jumped during the recording.",
+    "Look into the log for what happened at that time; measure reference points on the base.",
+    "Fasten the base and the instrument; register again after each change.",
+)
+
+TOOL_SHIFT = Effect(
+    "tool_shift",
+    "drift",
+    lambda arm, recordings: iter(()),  # its time is scanned by the diagnosis
+    "The tool or its reflector moved on the flange during the recording.",
+    "Look into the log for what happened at that time; measure the tool point again.",
+    "Fasten the tool; calibrate the tool point again after each change.",
+)
+
+EFFECTS = [BASE_DRIFT, BASE_SHIFT, TOOL_SHIFT]

@@ -1,0 +1,218 @@
+"""What effects follow, evaluated for all rows of a table: angles, loads, side of approach, temperature, time.
+
+A driver's value is zero where its context was not recorded, so that a missing value neither helps nor hurts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.inputs import InputError
+from armscope.physics.effect import Driver
+from armscope.robot.gravity import gravity_torques, mass_moment_regressor
+
+if TYPE_CHECKING:
+    from armscope.physics.scene import Scene
+
+Array = NDArray[np.float64]
+
+REFERENCE_TEMPERATURE_C = 20.0
+"""Lengths hold at this temperature."""
+SECONDS_PER_HOUR = 3600.0
+
+
+def evaluate(scene: Scene, driver: Driver) -> Array:
+    """Values (N,) of a driver at the scene's rows, in SI units (time in hours).
+
+    Raises:
+        InputError: the recordings lack the column that the driver needs.
+    """
+    kind, arguments = driver.kind, driver.arguments
+    return np.asarray(_KINDS[kind](scene, *arguments), dtype=np.float64)
+
+
+def _one(scene: Scene) -> Array:
+    return np.ones(len(scene))
+
+
+def _angle(scene: Scene, j: int) -> Array:
+    return scene.recordings.motor_angles[:, j - 1]
+
+
+def _sine(scene: Scene, j: int, periods: int) -> Array:
+    return np.sin(periods * _angle(scene, j))
+
+
+def _cosine(scene: Scene, j: int, periods: int) -> Array:
+    return np.cos(periods * _angle(scene, j))
+
+
+def _chain_sine(scene: Scene, j: int, periods: int) -> Array:
+    return np.sin(periods * scene.chain_angles[:, j - 1])
+
+
+def _chain_cosine(scene: Scene, j: int, periods: int) -> Array:
+    return np.cos(periods * scene.chain_angles[:, j - 1])
+
+
+def _torque(scene: Scene, j: int) -> Array:
+    """Recorded torque where there is one (positive along gravity's pull), else gravity of the stated masses."""
+    return scene.torques[:, j - 1]
+
+
+def _payload_torque(scene: Scene, j: int) -> Array:
+    """Torque on motor j of the payload alone."""
+    if scene.recordings.payload is None:
+        raise _missing(scene, "payload_kg")
+    return _unit_mass_torques(scene)[:, j - 1] * np.nan_to_num(scene.recordings.payload)
+
+
+def _unit_mass_torques(scene: Scene) -> Array:
+    """(N, m) torque of one kilogram at the tool point."""
+
+    def compute() -> Array:
+        ones = np.ones(len(scene))
+        return gravity_torques(scene.arm, scene.nominal, ones) - gravity_torques(scene.arm, scene.nominal)
+
+    return scene.remember("unit mass torques", compute)
+
+
+def _regressor(scene: Scene, j: int, *weights: float) -> Array:
+    """Combination of the static torque regressor's columns of motor j: gravity torque of unknown mass moments."""
+    regressor = scene.remember("regressor", lambda: mass_moment_regressor(scene.arm, scene.nominal))
+    values: Array = regressor[:, j - 1] @ np.array(weights)
+    return values
+
+
+def _load_side(scene: Scene, j: int) -> Array:
+    return np.sign(_torque(scene, j))
+
+
+def _moment(scene: Scene, location: str, axis: int) -> Array:
+    """Moment of gravity about the frame's origin, in the frame's axes, N m."""
+    return scene.moment(location)[:, axis]
+
+
+def _bend(scene: Scene, link: int, axis: int) -> Array:
+    """Twist of a link's end per unit flexibility 1/(E I), Euler-Bernoulli cantilever under end force and moment."""
+    return scene.bending(link)[:, axis]
+
+
+def _approach(scene: Scene, j: int) -> Array:
+    if scene.recordings.approach is None:
+        raise _missing(scene, f"approach{j}")
+    return np.nan_to_num(scene.recordings.approach[:, j - 1])
+
+
+def _speed(scene: Scene, j: int) -> Array:
+    if scene.recordings.speed is None:
+        raise _missing(scene, f"dq{j}_rad_s")
+    return np.nan_to_num(scene.recordings.speed[:, j - 1])
+
+
+def _warmth(scene: Scene) -> Array:
+    """Temperature above the reference, K."""
+    if scene.recordings.temperature is None:
+        raise _missing(scene, "temperature_c")
+    return np.nan_to_num(scene.recordings.temperature - REFERENCE_TEMPERATURE_C)
+
+
+def _hours(scene: Scene, start: float) -> Array:
+    """Hours since ``start`` (s)."""
+    if scene.recordings.time is None:
+        raise _missing(scene, "time_s")
+    return np.nan_to_num((scene.recordings.time - start) / SECONDS_PER_HOUR)
+
+
+def _after_time(scene: Scene, start: float, run: str) -> Array:
+    if scene.recordings.time is None:
+        raise _missing(scene, "time_s")
+    return (scene.recordings.time >= start) & (scene.recordings.run == run)
+
+
+def _after_row(scene: Scene, first_row: float, run: str) -> Array:
+    """Rows are counted by the table's id (its row number where it has none), within a run."""
+    return (scene.row_numbers >= first_row) & (scene.recordings.run == run)
+
+
+def _in_run(scene: Scene, run: str) -> Array:
+    return scene.recordings.run == run
+
+
+def _on_target(scene: Scene, target: str) -> Array:
+    return scene.recordings.target == target
+
+
+def _on_target_in_run(scene: Scene, target: str, run: str) -> Array:
+    return (scene.recordings.target == target) & (scene.recordings.run == run)
+
+
+def _spline(scene: Scene, source: Driver, centre: float, width: float) -> Array:
+    """Cubic B-spline of another driver: a smooth bump about ``centre``, zero beyond two widths."""
+    u = np.abs(scene.driver(source) - centre) / width
+    inner = 2 / 3 - u**2 + u**3 / 2
+    outer = np.clip(2 - u, 0, None) ** 3 / 6
+    return np.where(u < 1, inner, outer)
+
+
+def _rod(scene: Scene) -> Array:
+    """Forearm angle per metre that rod minus upper arm differs from the parallelogram: -1 / (k sin gamma)."""
+    gamma = _crank_to_upper_arm(scene)
+    return -1.0 / (scene.linkage.rocker * _away_from_zero(np.sin(gamma)))
+
+
+def _rocker(scene: Scene) -> Array:
+    """Forearm angle per metre that rocker minus crank differs from the parallelogram: cot(gamma) / k."""
+    gamma = _crank_to_upper_arm(scene)
+    return np.cos(gamma) / (scene.linkage.rocker * _away_from_zero(np.sin(gamma)))
+
+
+def _crank_to_upper_arm(scene: Scene) -> Array:
+    return scene.elbow_angle + scene.linkage.crank_angle
+
+
+def _away_from_zero(values: Array) -> Array:
+    """A flat parallelogram has no defined forearm; its neighbourhood must not swamp everything else."""
+    return np.where(np.abs(values) < 0.1, np.where(values < 0, -0.1, 0.1), values)
+
+
+def _missing(scene: Scene, column: str) -> InputError:
+    return InputError(
+        scene.recordings.source,
+        "line 1",
+        f"no column {column}",
+        "an effect in the model follows this column",
+        "Add it to the table.",
+    )
+
+
+_KINDS: dict[str, Callable[..., Any]] = {
+    "one": _one,
+    "angle": _angle,
+    "sine": _sine,
+    "cosine": _cosine,
+    "chain sine": _chain_sine,
+    "chain cosine": _chain_cosine,
+    "torque": _torque,
+    "payload torque": _payload_torque,
+    "regressor": _regressor,
+    "load side": _load_side,
+    "moment": _moment,
+    "bend": _bend,
+    "approach": _approach,
+    "speed": _speed,
+    "warmth": _warmth,
+    "hours": _hours,
+    "after time": _after_time,
+    "after row": _after_row,
+    "in run": _in_run,
+    "on target": _on_target,
+    "on target in run": _on_target_in_run,
+    "spline": _spline,
+    "rod": _rod,
+    "rocker": _rocker,
+}

@@ -1,0 +1,153 @@
+"""Elastic effects: what gives way under gravity. Loads come from `armscope.physics.scene`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term, motor, term
+from armscope.physics.placing import varies
+from armscope.physics.scene import Scene
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+from armscope.robot.gravity import mass_moment_regressor
+
+Array = NDArray[np.float64]
+
+SHORTEST_BEAM_M = 0.05
+"""Rows shorter than this have no beam worth bending."""
+MASS_DIRECTIONS_SHARE = 1e-3
+"""Directions of the unknown mass moments that make up less of the torque's variation are left out."""
+
+
+def has_load(arm: Arm, recordings: Recordings) -> bool:
+    """Whether gravity's load is known: stated masses, or a recorded payload."""
+    return arm.has_masses or varies(recordings.payload, 1e-6)
+
+
+def _place_joints(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    if not has_load(arm, recordings) and recordings.torque is None:
+        yield from _unknown_masses(arm, recordings)
+        return
+    for j in range(1, arm.n_motors + 1):
+        compliance = term("compliance", "rad/(N m)", (motor(j), Driver("torque", (j,))))
+        yield Placed(JOINT_COMPLIANCE, f"joint {j}", (compliance,), (1.0,), f"load of joint {j}")
+    if recordings.torque is None:
+        yield from _unknown_masses(arm, recordings)
+
+
+def _unknown_masses(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    """Compliance with unknown mass moments: linear in compliance x mass moment; a payload keeps it absolute."""
+    scene = Scene(arm, recordings)
+    for j in range(1, arm.n_motors + 1):
+        terms = list(_mass_moment_terms(scene, j))
+        if not terms:
+            continue
+        shape = [1.0] * len(terms)
+        if varies(recordings.payload, 1e-6):
+            terms.append(term("compliance", "rad/(N m)", (motor(j), Driver("payload torque", (j,)))))
+            shape.append(1.0)
+        yield Placed(
+            JOINT_COMPLIANCE,
+            f"joint {j}",
+            tuple(terms),
+            tuple(shape),
+            f"load of joint {j}, masses unknown",
+            variant="unknown masses",
+        )
+
+
+def _mass_moment_terms(scene: Scene, j: int) -> Iterator[Term]:
+    """Combinations of mass moments that load motor j independently, strongest first (singular vectors)."""
+    regressor = scene.remember("regressor", lambda: _regressor(scene))[:, j - 1]
+    spread = regressor - regressor.mean(axis=0)
+    _, size, directions = np.linalg.svd(spread, full_matrices=False)
+    if size[0] < 1e-6:
+        return
+    for number, direction in enumerate(directions[size > MASS_DIRECTIONS_SHARE * size[0]], start=1):
+        weights = tuple(float(w) for w in direction)
+        yield term(f"compliance_times_moment_{number}", "rad/(m/s^2)", (motor(j), Driver("regressor", (j, *weights))))
+
+
+def _regressor(scene: Scene) -> Array:
+    return mass_moment_regressor(scene.arm, scene.nominal)
+
+
+JOINT_COMPLIANCE = Effect(
+    "joint_compliance",
+    "elastic",
+    _place_joints,
+    "The joint's drive gives way about its axis in proportion to the load that gravity puts on the motor.",
+    "Hang a known weight on the tool in the same pose and measure how far this joint turns.",
+    "Add torque x compliance to the commanded angle, or have the controller's elastic model do it.",
+)
+
+
+def _place_bearings(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    if not has_load(arm, recordings):
+        return
+    for j in range(1, arm.n_joints + 1):
+        yield Placed(BEARING_COMPLIANCE, f"joint {j}", (_tilt(f"joint {j}"),), (1.0,), f"moment across joint {j}")
+
+
+def _tilt(location: str) -> Term:
+    return term(
+        "compliance",
+        "rad/(N m)",
+        *(Product(Direction(location, axis), Driver("moment", (location, n))) for n, axis in enumerate(("rx", "ry"))),
+    )
+
+
+BEARING_COMPLIANCE = Effect(
+    "bearing_compliance",
+    "elastic",
+    _place_bearings,
+    "The joint's bearing tilts across its axis under the moment that everything beyond puts on it.",
+    "Hang a known weight on the outstretched arm and measure the tilt on both sides of the bearing.",
+    "Preload or replace the bearing, or compensate by moment x compliance.",
+)
+
+
+def _place_base(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    if has_load(arm, recordings):
+        yield Placed(BASE_COMPLIANCE, "base", (_tilt("base"),), (1.0,), "moment on the base")
+
+
+BASE_COMPLIANCE = Effect(
+    "base_compliance",
+    "elastic",
+    _place_base,
+    "The base (pedestal, floor, bolts) tilts under the arm's moment.",
+    "Put a reflector or an inclinometer on the base and swing the outstretched arm around.",
+    "Stiffen the mounting, or compensate by moment x compliance.",
+)
+
+
+def _place_beams(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    if not has_load(arm, recordings):
+        return
+    for j in range(1, arm.n_joints + 1):
+        step = arm.before[j - 1] if arm.is_modified_dh else arm.behind[j - 1]
+        if np.linalg.norm(step[:3, 3]) < SHORTEST_BEAM_M:
+            continue
+        site = f"joint {j}" if arm.is_modified_dh else f"link {j}"
+        flexibility = term(
+            "flexibility",
+            "1/(N m^2)",
+            *(Product(Direction(site, axis), Driver("bend", (j, n))) for n, axis in enumerate(AXES)),
+        )
+        yield Placed(LINK_BENDING, f"link {j}", (flexibility,), (1.0,), f"load at the end of link {j}")
+
+
+LINK_BENDING = Effect(
+    "link_bending",
+    "elastic",
+    _place_beams,
+    "The link bends like a beam under the load at its end.",
+    "Put reflectors on both ends of the link and load the arm.",
+    "Compensate by the beam's model, or stiffen the link.",
+)
+
+EFFECTS = [JOINT_COMPLIANCE, BEARING_COMPLIANCE, BASE_COMPLIANCE, LINK_BENDING]

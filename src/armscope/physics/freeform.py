@@ -1,0 +1,120 @@
+"""Free curves: structure that no physics of the library explains, located and followed, called `unknown`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.physics.drift import six_terms
+from armscope.physics.effect import Direction, Driver, Effect, Placed, Term, motor, term
+from armscope.physics.elastic import has_load
+from armscope.physics.placing import moving_joints, varies
+from armscope.physics.scene import Scene
+from armscope.physics.transmission import wave_terms
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+
+Array = NDArray[np.float64]
+
+SMOOTH_PERIODS = 6.0
+"""Periods per turn up to which a free curve's waves are equally likely; beyond, their size falls with the square."""
+KNOTS = 8
+ROWS_PER_WAVE = 12
+FEWEST_WAVES, MOST_WAVES, MOST_WAVES_OF_LONG_TABLES = 6, 16, 72
+LONG_TABLE = 1500
+
+
+def waves(recordings: Recordings) -> int:
+    """How many waves per turn a free curve gets: what the number of rows carries."""
+    if len(recordings) >= LONG_TABLE:
+        return MOST_WAVES_OF_LONG_TABLES
+    return int(np.clip(len(recordings) // ROWS_PER_WAVE, FEWEST_WAVES, MOST_WAVES))
+
+
+def _place(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    yield from _own_angle(recordings)
+    yield from _load(arm, recordings)
+    yield from _context(recordings)
+
+
+def _own_angle(recordings: Recordings) -> Iterator[Placed]:
+    count = waves(recordings)
+    flat = 24.0 if count > MOST_WAVES else SMOOTH_PERIODS
+    for j in moving_joints(recordings):
+        terms: list[Term] = []
+        shape: list[float] = []
+        for per_turn in range(1, count + 1):
+            terms += wave_terms(j, per_turn)
+            shape += [1 / (1 + (per_turn / flat) ** 2)] * 2
+        yield _curve(f"joint {j}", tuple(terms), shape, f"angle of joint {j}", "angle")
+
+
+def _load(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    if not has_load(arm, recordings) and recordings.torque is None:
+        return
+    scene = Scene(arm, recordings)
+    for j in range(1, arm.n_motors + 1):
+        source = Driver("torque", (j,))
+        values = scene.driver(source)
+        if np.ptp(values) > 1e-6:
+            terms = spline_terms(source, values, motor(j), "rad")
+            yield _curve(f"joint {j}", terms, [1.0] * len(terms), f"load of joint {j}", "load")
+
+
+def _context(recordings: Recordings) -> Iterator[Placed]:
+    """Base and joints that move with time or temperature, not steadily."""
+    for values, least, name, source in (
+        (recordings.time, 1.0, "time", "hours"),
+        (recordings.temperature, 0.2, "temperature", "warmth"),
+    ):
+        if not varies(values, least):
+            continue
+        assert values is not None
+        start = float(np.nanmin(values))
+        driver = Driver("hours", (start,)) if source == "hours" else Driver("warmth")
+        drives = (values - start) / 3600 if source == "hours" else values - 20.0
+        knots = _knots(drives[~np.isnan(drives)], 5)
+        base = [t for centre, width in knots for t in six_terms("base", Driver("spline", (driver, centre, width)))]
+        yield _curve("base", tuple(base), [1.0] * len(base), name, name)
+        for j in moving_joints(recordings):
+            terms = tuple(
+                term(f"at_{n}", "rad", (motor(j), Driver("spline", (driver, centre, width))))
+                for n, (centre, width) in enumerate(knots)
+            )
+            yield _curve(f"joint {j}", terms, [1.0] * len(terms), name, name)
+
+
+def _curve(location: str, terms: tuple[Term, ...], shape: list[float], driver: str, variant: str) -> Placed:
+    total = float(np.sqrt(np.sum(np.square(shape))))
+    return Placed(UNKNOWN, location, terms, tuple(s / total for s in shape), driver, variant=variant, reading="curve")
+
+
+def spline_terms(
+    source: Driver, values: Array, direction: Direction, unit: str, count: int = KNOTS
+) -> tuple[Term, ...]:
+    """Cubic B-splines over the range of a driver's values, each a term in one direction."""
+    return tuple(
+        term(f"at_{n}", unit, (direction, Driver("spline", (source, centre, width))))
+        for n, (centre, width) in enumerate(_knots(values, count))
+    )
+
+
+def _knots(values: Array, count: int) -> list[tuple[float, float]]:
+    """(centre, width) of ``count`` splines that cover a range, the outer ones centred on its ends."""
+    low, high = float(values.min()), float(values.max())
+    width = (high - low) / (count - 1)
+    return [(low + n * width, width) for n in range(count)]
+
+
+UNKNOWN = Effect(
+    "unknown",
+    "unknown",
+    _place,
+    "Something here follows its driver in a way that none of the library's effects explains.",
+    "Measure this joint alone in fine steps over the driver's range.",
+    "Correct by the fitted curve until its cause is found.",
+)
+
+EFFECTS = [UNKNOWN]

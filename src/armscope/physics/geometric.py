@@ -1,0 +1,150 @@
+"""Geometric effects: constant errors of the D-H rows, encoder zeros, axes that wobble, a linkage's bar lengths."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
+from armscope.physics.placing import moving_joints
+from armscope.physics.scene import LINKAGE_JOINT
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+
+MILLIMETRE = 1e-3
+PARALLEL_RAD = 1e-2
+"""Two consecutive axes closer than this to parallel need a turn about y, too (Hayati & Mirmirani 1985)."""
+
+
+def row_terms(arm: Arm, j: int) -> dict[str, Term]:
+    """Constant errors of D-H row j (1-based) by name: a, alpha, d, theta, and beta where axes are parallel.
+
+    Standard rows Rz(theta) Tz(d) Tx(a) Rx(alpha): theta and d act along the joint's axis, a and alpha along x of D-H
+    frame j. Modified rows Rx(alpha_j-1) Tx(a_j-1) Rz(theta) Tz(d): a and alpha act along x of D-H frame j-1. For a
+    URDF there are no rows: all six directions of the joint's frame, named by axis.
+    """
+    joint = f"joint {j}"
+    if arm.description.dh is None:
+        return {
+            axis: term(
+                axis, "mm" if axis[0] == "t" else "rad", (Direction(joint, axis), ONE), si=1e-3 if axis[0] == "t" else 1
+            )
+            for axis in ("tx", "ty", "tz", "rx", "ry", "rz")
+        }
+    across = (f"link {j - 1}" if j > 1 else "base") if arm.is_modified_dh else f"link {j}"
+    terms = {
+        "a": term("a", "mm", (Direction(across, "tx"), ONE), si=MILLIMETRE),
+        "alpha": term("alpha", "rad", (Direction(across, "rx"), ONE)),
+        "d": term("d", "mm", (Direction(joint, "tz"), ONE), si=MILLIMETRE),
+        "theta": term("theta", "rad", (Direction(joint, "rz"), ONE)),
+    }
+    if abs(np.sin(np.radians(arm.description.dh.joints[j - 1].alpha_deg))) < PARALLEL_RAD:
+        terms["beta"] = term("beta", "rad", (Direction(across, "ry"), ONE))
+    return terms
+
+
+def _place_offsets(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    for j in moving_joints(recordings):
+        yield Placed(JOINT_OFFSET, f"joint {j}", (term("offset", "rad", (motor(j), ONE)),), (1.0,), "constant")
+
+
+JOINT_OFFSET = Effect(
+    "joint_offset",
+    "geometric",
+    _place_offsets,
+    "The encoder's zero is off, so the joint always stands at an angle other than the commanded one.",
+    "Bring the joint to its calibration mark or level its link with an inclinometer at zero and read the angle.",
+    "Correct the encoder's zero (mastering) by the angle found.",
+)
+
+
+def _place_links(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    for j in range(1, arm.n_joints + 1):
+        terms = tuple(t for name, t in row_terms(arm, j).items() if name not in ("theta", "beta", "rz"))
+        yield Placed(LINK_GEOMETRY, f"link {j}", terms, (1.0,) * len(terms), "constant")
+
+
+LINK_GEOMETRY = Effect(
+    "link_geometry",
+    "geometric",
+    _place_links,
+    "The link is longer, shorter or more twisted than its D-H row says.",
+    "Measure the two neighbouring joint axes with the tracker by turning one joint at a time (circle-point analysis).",
+    "Put the corrected D-H row into the controller's model.",
+)
+
+
+def background(arm: Arm) -> list[Placed]:
+    """Every link's constant errors: what every real arm has, always allowed for with a prior of tolerance size."""
+    placed = []
+    for j in range(1, arm.n_joints + 1):
+        terms = tuple(row_terms(arm, j).values())
+        placed.append(Placed(BACKGROUND, f"link {j}", terms, (1.0,) * len(terms), "constant"))
+    return placed
+
+
+BACKGROUND = Effect(
+    "link_geometry",
+    "geometric",
+    lambda arm, recordings: iter(()),
+    "Geometric errors of tolerance size, as every arm has them.",
+    "Compare with the maker's tolerances.",
+    "A geometric calibration takes them out.",
+)
+
+
+def _place_wobbles(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    spans = np.ptp(recordings.motor_angles @ arm.actuation.T, axis=0)
+    for j in np.flatnonzero(spans > 1e-3) + 1:
+        for per_turn in (1, 2):
+            terms = tuple(
+                term(
+                    f"{wave}_{axis}",
+                    "rad",
+                    (Direction(f"joint {j}", axis), Driver(f"chain {wave}", (int(j), per_turn))),
+                )
+                for axis in ("rx", "ry")
+                for wave in ("cosine", "sine")
+            )
+            yield Placed(
+                AXIS_WOBBLE,
+                f"joint {j}",
+                terms,
+                (1.0,) * 4,
+                f"angle of joint {j}",
+                scanned=(("per_turn", "1/turn", per_turn),),
+                tried=2,
+                variant=str(per_turn),
+                reading="sine",
+            )
+
+
+AXIS_WOBBLE = Effect(
+    "axis_wobble",
+    "geometric",
+    _place_wobbles,
+    "The joint's axis does not keep its direction while the joint turns (bearing run-out).",
+    "Turn the joint alone through a full turn with a dial gauge against a ground surface near its bearing.",
+    "Replace or re-seat the bearing; until then compensate by the fitted tilt.",
+)
+
+
+def _place_linkage(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    if arm.description.parallelogram is None:
+        return
+    forearm = Direction(f"joint {LINKAGE_JOINT}", "rz")
+    terms = tuple(term(bar, "mm", Product(forearm, Driver(bar)), si=MILLIMETRE) for bar in ("rod", "rocker"))
+    yield Placed(PARALLELOGRAM_GEOMETRY, "parallelogram", terms, (1.0, 1.0), f"angle of joint {LINKAGE_JOINT}")
+
+
+PARALLELOGRAM_GEOMETRY = Effect(
+    "parallelogram_geometry",
+    "geometric",
+    _place_linkage,
+    "The linkage's opposite bars differ in length, so the forearm does not keep parallel to its crank.",
+    "Turn motor 2 alone and watch the forearm's inclination: in a true parallelogram it does not change.",
+    "Adjust the rod's length, or put the measured lengths into the controller's model.",
+)
+
+EFFECTS = [JOINT_OFFSET, LINK_GEOMETRY, AXIS_WOBBLE, PARALLELOGRAM_GEOMETRY]

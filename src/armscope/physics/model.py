@@ -1,0 +1,210 @@
+"""The fitted model: an arm, its frames, its effects; it predicts exactly, and is a file of its own (model.yaml)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.files import write_yaml
+from armscope.inputs import InputError, read_yaml, validate
+from armscope.physics.effect import Direction, Driver, Effect, Placed, Product, Term
+from armscope.physics.frames import BASE_FRAME, TOOL_FRAME
+from armscope.physics.geometric import BACKGROUND
+from armscope.physics.registry import EFFECTS
+from armscope.physics.scene import Part, Posture, Scene
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+from armscope.robot.arm import build_arm
+from armscope.robot.description import RobotDescription
+
+Array = NDArray[np.float64]
+FORMAT = "armscope model 1"
+
+
+@dataclass(frozen=True, eq=False)
+class Base:
+    """Measurement frame from base frame: measured = rotation @ tool + translation (m)."""
+
+    rotation: Array
+    translation: Array
+
+
+@dataclass(frozen=True, eq=False)
+class FittedModel:
+    """An arm with everything that was found about it.
+
+    Attributes:
+        arm: the nominal arm.
+        bases: where the base stands, by run.
+        tools: tool offsets as parts.
+        parts: the effects, SI units.
+        background: geometric errors of tolerance size, as parts.
+        payload_mass: kg on top of the stated payload; payload_offset: (3,) m off the tool point, last frame's axes.
+    """
+
+    arm: Arm
+    bases: Mapping[str, Base]
+    tools: tuple[Part, ...] = ()
+    parts: tuple[Part, ...] = ()
+    background: tuple[Part, ...] = ()
+    payload_mass: float = 0.0
+    payload_offset: Array = field(default_factory=lambda: np.zeros(3))
+
+    def scene(self, recordings: Recordings) -> Scene:
+        """The arm at the rows of a table."""
+        offset = self.payload_offset if np.any(self.payload_offset) else None
+        return Scene(self.arm, recordings, self.payload_mass, offset)
+
+    def posture(self, scene: Scene) -> Posture:
+        """The arm at a scene's rows with all effects in place."""
+        return scene.posture((*self.tools, *self.background, *self.parts))
+
+    def base_of(self, run: str) -> Base:
+        """The base of a run; of the last known one for a run that the model does not know."""
+        return self.bases.get(run) or self.bases[list(self.bases)[-1]]
+
+    def to_measurement(self, points: Array, runs: NDArray[np.str_]) -> Array:
+        """Points (N, 3) in base axes to the measurement frame, m."""
+        measured = np.empty_like(points)
+        for run in np.unique(runs):
+            rows = runs == run
+            base = self.base_of(str(run))
+            measured[rows] = points[rows] @ base.rotation.T + base.translation
+        return measured
+
+    def to_base(self, measured: Array, runs: NDArray[np.str_]) -> Array:
+        """Measured points (N, 3) to base axes, m."""
+        points = np.empty_like(measured)
+        for run in np.unique(runs):
+            rows = runs == run
+            base = self.base_of(str(run))
+            points[rows] = (measured[rows] - base.translation) @ base.rotation
+        return points
+
+    def unknown_runs(self, recordings: Recordings) -> list[str]:
+        """Runs of a table whose base the model does not know."""
+        return sorted(set(np.unique(recordings.run).tolist()) - set(self.bases))
+
+
+def predict(model: FittedModel, recordings: Recordings) -> Array:
+    """Tool points (N, 3) in the measurement frame, m, exact.
+
+    Raises:
+        InputError: the table lacks a context column that an effect of the model follows.
+    """
+    return model.to_measurement(model.posture(model.scene(recordings)).tool, recordings.run)
+
+
+def save_model(path: Path | str, model: FittedModel, extra: Mapping[str, Any] | None = None) -> None:
+    """Write model.yaml; the robot's description is part of it (a URDF by its path)."""
+    write_yaml(
+        path,
+        {
+            "format": FORMAT,
+            **(extra or {}),
+            "robot": model.arm.description.model_dump(mode="json", exclude_none=True),
+            "bases": {
+                run: {"rotation": base.rotation.tolist(), "translation_m": base.translation.tolist()}
+                for run, base in model.bases.items()
+            },
+            "payload": {"mass_kg": model.payload_mass, "offset_m": model.payload_offset.tolist()},
+            "tools": [_part_out(part) for part in model.tools],
+            "effects": [_part_out(part) for part in model.parts],
+            "background": [_part_out(part) for part in model.background],
+        },
+    )
+
+
+def load_model(path: Path | str) -> FittedModel:
+    """Read model.yaml.
+
+    Raises:
+        InputError: it is no model of this format.
+    """
+    content = read_yaml(path)
+    if not isinstance(content, dict) or content.get("format") != FORMAT:
+        found = content.get("format", "no key format") if isinstance(content, dict) else "no mapping"
+        raise InputError(
+            path, "format", found, f"a model file says `format: {FORMAT}`", "`armscope diagnose` writes one."
+        )
+    try:
+        arm = build_arm(validate(RobotDescription, content["robot"], path))
+        return FittedModel(
+            arm=arm,
+            bases={
+                str(run): Base(np.array(base["rotation"], dtype=float), np.array(base["translation_m"], dtype=float))
+                for run, base in content["bases"].items()
+            },
+            tools=tuple(_part_in(part) for part in content["tools"]),
+            parts=tuple(_part_in(part) for part in content["effects"]),
+            background=tuple(_part_in(part) for part in content["background"]),
+            payload_mass=float(content["payload"]["mass_kg"]),
+            payload_offset=np.array(content["payload"]["offset_m"], dtype=float),
+        )
+    except KeyError as error:
+        raise InputError(path, str(error.args[0]), "nothing", "this key is missing", "Was the file edited?") from error
+
+
+def _part_out(part: Part) -> dict[str, Any]:
+    placed = part.placed
+    return {
+        "effect": placed.name,
+        "location": placed.location,
+        "driver": placed.driver,
+        "scanned": [{"name": name, "unit": unit, "value": value} for name, unit, value in placed.scanned],
+        "reading": placed.reading,
+        "variant": placed.variant,
+        "terms": [
+            {
+                "name": term.name,
+                "unit": term.unit,
+                "si": term.si,
+                "value": float(value),
+                "products": [
+                    [p.direction.location, p.direction.axis, p.factor, *_driver_out(p.driver)] for p in term.products
+                ],
+            }
+            for term, value in zip(placed.terms, part.values, strict=True)
+        ],
+    }
+
+
+def _part_in(content: Mapping[str, Any]) -> Part:
+    terms = tuple(
+        Term(
+            term["name"],
+            term["unit"],
+            float(term["si"]),
+            tuple(Product(Direction(p[0], p[1]), _driver_in(p[3:]), float(p[2])) for p in term["products"]),
+        )
+        for term in content["terms"]
+    )
+    placed = Placed(
+        _definitions()[content["effect"]],
+        content["location"],
+        terms,
+        (1.0,) * len(terms),
+        content["driver"],
+        tuple((s["name"], s["unit"], float(s["value"])) for s in content["scanned"]),
+        variant=content["variant"],
+        reading=content["reading"],
+    )
+    return Part(placed, np.array([float(term["value"]) for term in content["terms"]]))
+
+
+def _driver_out(driver: Driver) -> list[Any]:
+    return [driver.kind, *[_driver_out(a) if isinstance(a, Driver) else a for a in driver.arguments]]
+
+
+def _driver_in(content: Iterable[Any]) -> Driver:
+    kind, *arguments = content
+    return Driver(kind, tuple(_driver_in(a) if isinstance(a, list) else a for a in arguments))
+
+
+def _definitions() -> dict[str, Effect]:
+    return {effect.name: effect for effect in (BASE_FRAME, TOOL_FRAME, BACKGROUND, *EFFECTS)}

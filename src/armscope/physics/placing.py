@@ -1,0 +1,37 @@
+"""What the families share when they place effects: which joints move, which context varies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.recordings import Recordings
+
+Array = NDArray[np.float64]
+
+STANDS_STILL_RAD = 1e-3
+"""A joint whose commanded angles span less than this tells nothing about what follows its angle."""
+
+
+def moving_joints(recordings: Recordings) -> list[int]:
+    """Motors (1-based) that move."""
+    spans = np.ptp(recordings.motor_angles, axis=0)
+    return [j + 1 for j in range(recordings.n_motors) if spans[j] > STANDS_STILL_RAD]
+
+
+def varies(values: Array | None, least: float) -> bool:
+    """Whether a context column is there and spans more than ``least``."""
+    if values is None:
+        return False
+    known = values[~np.isnan(values)]
+    return len(known) > 1 and float(np.ptp(known)) > least
+
+
+def varying_columns(values: Array | None, least: float) -> Iterator[int]:
+    """Numbers (1-based) of the columns that vary."""
+    if values is not None:
+        for j in range(values.shape[1]):
+            if varies(values[:, j], least):
+                yield j + 1

@@ -1,0 +1,291 @@
+"""The arm at the rows of a table: what drives its effects there, how it stands with them, and how it would move.
+
+`Scene` holds what does not change (nominal frames, loads, drivers); `Posture` holds the frames with some effects in
+place, and gives the columns of further ones. Loads are taken at the nominal geometry: the difference is of
+second order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.physics import drivers
+from armscope.physics.effect import AXES, Direction, Driver, Placed, Term
+from armscope.recordings import Recordings
+from armscope.robot import Arm, Chain, chain, twist_jacobian
+from armscope.robot.gravity import gravity_torques, gravity_wrenches
+from armscope.robot.kinematics import joint_jacobian
+from armscope.robot.parallelogram import Linkage, forearm_deviation
+
+Array = NDArray[np.float64]
+
+LINKAGE_JOINT = 3
+"""The chain joint that a parallelogram drives."""
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A placed effect with the values of its terms, SI units."""
+
+    placed: Placed
+    values: Array
+
+
+class Scene:
+    """An arm at N recorded rows.
+
+    Args:
+        arm: the arm.
+        recordings: the rows; only angles and context are used, not the measured positions.
+        payload_mass: kg added to the payload at the tool point, in all rows.
+        payload_offset: (3,) m, the load's centre off the tool point, in the last frame's axes.
+    """
+
+    def __init__(
+        self, arm: Arm, recordings: Recordings, payload_mass: float = 0.0, payload_offset: Array | None = None
+    ) -> None:
+        self.arm, self.recordings = arm, recordings
+        self.payload_mass, self.payload_offset = payload_mass, payload_offset
+        self.nominal: Chain = chain(arm, recordings.motor_angles)
+        self.chain_angles: Array = recordings.motor_angles @ arm.actuation.T
+        self._memory: dict[Any, Any] = {}
+
+    def __len__(self) -> int:
+        return len(self.recordings)
+
+    def remember(self, key: Any, compute: Callable[[], Any]) -> Any:
+        """The value of ``compute()``, computed once."""
+        if key not in self._memory:
+            self._memory[key] = compute()
+        return self._memory[key]
+
+    def driver(self, driver: Driver) -> Array:
+        """Values (N,) of a driver."""
+        values: Array = self.remember(driver, lambda: drivers.evaluate(self, driver))
+        return values
+
+    @property
+    def payload(self) -> Array:
+        """(N,) kg at the tool point: stated, plus the error under study."""
+        stated = self.recordings.payload
+        return self.payload_mass + (np.zeros(len(self)) if stated is None else np.nan_to_num(stated))
+
+    @property
+    def wrenches(self) -> tuple[Array, Array]:
+        """Force and moment (N, n, 3) of gravity at each joint, base axes."""
+
+        def compute() -> tuple[Array, Array]:
+            force, moment = gravity_wrenches(self.arm, self.nominal, self.payload)
+            if self.payload_offset is None:
+                return force, moment
+            off = self.nominal.tool_rotation @ self.payload_offset
+            return force, moment + np.cross(off, self.payload[:, None] * self.arm.gravity)[:, None, :]
+
+        wrenches: tuple[Array, Array] = self.remember("wrenches", compute)
+        return wrenches
+
+    @property
+    def torques(self) -> Array:
+        """(N, m) load torque on the motors, N m: recorded where recorded, else of gravity."""
+
+        def compute() -> Array:
+            if self.payload_offset is None:
+                gravity = gravity_torques(self.arm, self.nominal, self.payload)
+            else:
+                _, moment = self.wrenches
+                axes = self.nominal.joint_rotation[..., 2]
+                gravity = np.einsum("nji,nji->nj", axes, moment) @ self.arm.actuation
+            recorded = self.recordings.torque
+            return gravity if recorded is None else np.where(np.isnan(recorded), gravity, recorded)
+
+        torques: Array = self.remember("torques", compute)
+        return torques
+
+    def moment(self, location: str) -> Array:
+        """(N, 3) gravity's moment about a frame's origin in the frame's axes, N m."""
+
+        def compute() -> Array:
+            force, moment = self.wrenches
+            kind, _, number = location.partition(" ")
+            if kind == "base":
+                return moment[:, 0] + np.cross(self.nominal.joint_origin[:, 0], force[:, 0])
+            j = int(number) - 1
+            return np.einsum("nba,nb->na", self.nominal.joint_rotation[:, j], moment[:, j])
+
+        values: Array = self.remember(("moment", location), compute)
+        return values
+
+    def beam_site(self, link: int) -> str:
+        """Where the end of row ``link``'s beam stands: D-H frame j; for modified rows, before joint j turns."""
+        return f"joint {link}" if self.arm.is_modified_dh else f"link {link}"
+
+    def beam(self, link: int) -> Array:
+        """(3,) the step along row ``link``, in the axes of `beam_site`, m."""
+        step = self.arm.before[link - 1] if self.arm.is_modified_dh else self.arm.behind[link - 1]
+        along: Array = step[:3, :3].T @ step[:3, 3]
+        return along
+
+    def bending(self, link: int) -> Array:
+        """(N, 6) twist of the end of row ``link`` per unit 1/(E I), in the axes of `beam_site`.
+
+        Euler-Bernoulli cantilever of length L along e under the end force F and moment M of everything beyond:
+        turns L (M + L/2 e x F), moves L^2/2 M x e + L^3/3 F, parts along e left out.
+        """
+
+        def compute() -> Array:
+            step = self.beam(link)
+            length = float(np.linalg.norm(step))
+            e = step / length
+            rotation, origin = self.nominal.frame(self.beam_site(link))
+            force, moment = self.wrenches
+            lever = self.nominal.joint_origin[:, link - 1] - origin
+            at_end = moment[:, link - 1] + np.cross(lever, force[:, link - 1])
+            f = np.einsum("nba,nb->na", rotation, force[:, link - 1])
+            m = np.einsum("nba,nb->na", rotation, at_end)
+            f, m = f - np.outer(f @ e, e), m - np.outer(m @ e, e)
+            turn = length * (m + length / 2 * np.cross(e, f))
+            move = length**2 / 2 * np.cross(m, e) + length**3 / 3 * f
+            return np.concatenate([move, turn], axis=1)
+
+        twist: Array = self.remember(("bending", link), compute)
+        return twist
+
+    @property
+    def row_numbers(self) -> Array:
+        """(N,) the table's id as a number where all ids are, else the row's number from 1."""
+
+        def compute() -> Array:
+            try:
+                return self.recordings.id.astype(float)
+            except ValueError:
+                return np.arange(1.0, len(self) + 1)
+
+        numbers: Array = self.remember("row numbers", compute)
+        return numbers
+
+    @property
+    def linkage(self) -> Linkage:
+        """The nominal parallelogram."""
+        assert self.arm.description.parallelogram is not None
+        return Linkage.from_description(self.arm.description.parallelogram)
+
+    @property
+    def elbow_angle(self) -> Array:
+        """(N,) D-H angle of the joint that the parallelogram drives, rad."""
+        rows = self.arm.description.dh
+        offset = 0.0 if rows is None else np.radians(rows.joints[LINKAGE_JOINT - 1].theta_offset_deg)
+        angle: Array = self.chain_angles[:, LINKAGE_JOINT - 1] + offset
+        return angle
+
+    def twists(self, parts: Sequence[Part]) -> dict[str, Array]:
+        """Twists (N, 6) by frame of all parts together, SI units; motor turns become turns of the chain's joints."""
+        twists: dict[str, Array] = {}
+
+        def add(location: str, axis: int, amount: Array) -> None:
+            if location not in twists:
+                twists[location] = np.zeros((len(self), 6))
+            twists[location][:, axis] += amount
+
+        for part in parts:
+            if part.placed.name == "parallelogram_geometry":
+                add(f"joint {LINKAGE_JOINT}", 5, self._closed_loop(part))
+                continue
+            for value, term in zip(part.values, part.placed.terms, strict=True):
+                for product in term.products:
+                    amount = value * product.factor * self.driver(product.driver)
+                    direction = product.direction
+                    if direction.location.startswith("motor"):
+                        j = int(direction.location.split()[1]) - 1
+                        for joint in np.flatnonzero(self.arm.actuation[:, j]):
+                            add(f"joint {joint + 1}", 5, self.arm.actuation[joint, j] * amount)
+                    elif direction.location != "instrument":
+                        add(direction.location, AXES.index(direction.axis), amount)
+        return twists
+
+    def _closed_loop(self, part: Part) -> Array:
+        """The forearm's turn with the bars' lengths in error, the loop closed exactly, rad."""
+        errors = {term.name: value for term, value in zip(part.placed.terms, part.values, strict=True)}
+        nominal = self.linkage
+        actual = Linkage(
+            nominal.crank,
+            nominal.rocker + errors["rocker"],
+            nominal.rod + errors["rod"],
+            nominal.upper_arm,
+            nominal.crank_angle,
+        )
+        return forearm_deviation(actual, self.elbow_angle) - forearm_deviation(nominal, self.elbow_angle)
+
+    def stretch(self, parts: Sequence[Part]) -> float:
+        """The instrument's scale error of all parts together."""
+        return float(
+            sum(
+                value * product.factor
+                for part in parts
+                for value, term in zip(part.values, part.placed.terms, strict=True)
+                for product in term.products
+                if product.direction.location == "instrument"
+            )
+        )
+
+    def posture(self, parts: Sequence[Part] = ()) -> Posture:
+        """The arm with some effects (and tool offsets, as parts) in place."""
+        frames = chain(self.arm, self.recordings.motor_angles, self.twists(parts)) if parts else self.nominal
+        return Posture(self, frames, self.stretch(parts))
+
+
+@dataclass(eq=False)
+class Posture:
+    """An arm's frames at N rows with some effects in place, and the columns of further small effects there.
+
+    Attributes:
+        scene: rows and drivers.
+        frames: where the frames stand, base axes.
+        stretch: relative length error of the instrument.
+    """
+
+    scene: Scene
+    frames: Chain
+    stretch: float = 0.0
+    _levers: dict[Direction, Array] = field(default_factory=dict, repr=False)
+
+    @property
+    def tool(self) -> Array:
+        """(N, 3) tool points as the instrument sees them, in base axes, m."""
+        return self.frames.tool * (1 + self.stretch)
+
+    def lever(self, direction: Direction) -> Array:
+        """(N, 3) displacement of the tool point per unit of a direction, m."""
+        if direction not in self._levers:
+            self._add_levers(direction.location)
+        return self._levers[direction]
+
+    def _add_levers(self, location: str) -> None:
+        if location == "instrument":
+            self._levers[Direction(location, "scale")] = self.frames.tool
+        elif location.startswith("motor"):
+            by_motor = joint_jacobian(self.frames) @ self.scene.arm.actuation
+            for j in range(by_motor.shape[2]):
+                self._levers[Direction(f"motor {j + 1}", "turn")] = by_motor[:, :, j]
+        else:
+            jacobian = twist_jacobian(self.frames, location)
+            for axis, name in enumerate(AXES):
+                self._levers[Direction(location, name)] = jacobian[:, :, axis]
+
+    def column(self, term: Term) -> Array:
+        """(N, 3) displacement of the tool point per SI unit of a term, m."""
+        products = term.products
+        total = self._product(0, products)
+        for number in range(1, len(products)):
+            total = total + self._product(number, products)
+        return total
+
+    def _product(self, number: int, products: tuple[Any, ...]) -> Array:
+        product = products[number]
+        amount = product.factor * self.scene.driver(product.driver)
+        moved: Array = self.lever(product.direction) * amount[:, None]
+        return moved

@@ -1,0 +1,47 @@
+"""Thermal effects: lengths that grow with temperature; they hold at 20 C."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from armscope.physics.effect import Direction, Driver, Effect, Placed, Product, term
+from armscope.physics.placing import varies
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+
+LEAST_SPAN_K = 0.2
+SHORTEST_M = 0.02
+
+
+def _place_links(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    if not varies(recordings.temperature, LEAST_SPAN_K):
+        return
+    warmth = Driver("warmth")
+    for j in range(1, arm.n_joints + 1):
+        products = tuple(Product(direction, warmth, length) for direction, length in _lengths(arm, j) if length)
+        if sum(abs(product.factor) for product in products) > SHORTEST_M:
+            coefficient = term("coefficient", "1/K", *products)
+            yield Placed(THERMAL_EXPANSION, f"link {j}", (coefficient,), (1.0,), "temperature")
+
+
+def _lengths(arm: Arm, j: int) -> list[tuple[Direction, float]]:
+    """Directions along which row j grows and its length there, m."""
+    if arm.description.dh is None:
+        step = arm.before[j - 1][:3, :3].T @ arm.before[j - 1][:3, 3]
+        return [(Direction(f"joint {j}", axis), float(s)) for axis, s in zip(("tx", "ty", "tz"), step, strict=True)]
+    row = arm.description.dh.joints[j - 1]
+    across = (f"link {j - 1}" if j > 1 else "base") if arm.is_modified_dh else f"link {j}"
+    return [(Direction(across, "tx"), row.a_mm * 1e-3), (Direction(f"joint {j}", "tz"), row.d_mm * 1e-3)]
+
+
+THERMAL_EXPANSION = Effect(
+    "thermal_expansion",
+    "thermal",
+    _place_links,
+    "The link grows with temperature (steel 11-12, aluminium 23-24 millionths per K).",
+    "Measure one pose cold and warm, with a thermometer on the link.",
+    "Warm up before measuring, or correct the link's length by its temperature.",
+    needs=("temperature_c",),
+)
+
+EFFECTS = [THERMAL_EXPANSION]

@@ -1,0 +1,143 @@
+"""Transmission effects: what happens between the motor's commanded angle and the joint's true one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from armscope.physics.effect import Driver, Effect, Placed, Product, Term, motor, term
+from armscope.physics.placing import moving_joints, varying_columns
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+
+MESH_COUNTS = range(3, 129)
+"""Periods per joint turn that are tried for a gear mesh error."""
+
+
+def wave_terms(j: int, per_turn: int) -> tuple[Term, Term]:
+    """Cosine and sine of motor angle j, ``per_turn`` periods per turn, rad."""
+    return (
+        term(f"cosine_{per_turn}", "rad", (motor(j), Driver("cosine", (j, per_turn)))),
+        term(f"sine_{per_turn}", "rad", (motor(j), Driver("sine", (j, per_turn)))),
+    )
+
+
+def _place_ratios(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    for j in moving_joints(recordings):
+        ratio = term("ratio", "rad/rad", (motor(j), Driver("angle", (j,))))
+        yield Placed(GEAR_RATIO, f"joint {j}", (ratio,), (1.0,), f"angle of joint {j}")
+
+
+GEAR_RATIO = Effect(
+    "gear_ratio",
+    "transmission",
+    _place_ratios,
+    "The joint turns by a little more or less than commanded, in proportion to the angle.",
+    "Turn the joint alone by a large angle and back and measure the angle turned with the tracker.",
+    "Correct the gear ratio (or the belt's or encoder's scale) in the controller.",
+)
+
+
+def _place_eccentricities(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    for j in moving_joints(recordings):
+        for per_turn in (1, 2):
+            yield _cyclic(GEAR_ECCENTRICITY, j, per_turn, tried=2)
+
+
+def _cyclic(effect: Effect, j: int, per_turn: int, tried: int) -> Placed:
+    return Placed(
+        effect,
+        f"joint {j}",
+        wave_terms(j, per_turn),
+        (1.0, 1.0),
+        f"angle of joint {j}",
+        scanned=(("per_turn", "1/turn", per_turn),),
+        tried=tried,
+        variant=str(per_turn),
+        reading="sine",
+    )
+
+
+GEAR_ECCENTRICITY = Effect(
+    "gear_eccentricity",
+    "transmission",
+    _place_eccentricities,
+    "A gear or the encoder's disc sits off its centre, so the angle error repeats once or twice per joint turn.",
+    "Turn the joint alone in steps of 10 degrees over a full turn and look for one or two waves.",
+    "Re-centre the encoder disc or gear, or store the fitted wave as a correction table.",
+)
+
+
+def mesh(j: int, per_turn: int) -> Placed:
+    """A gear mesh error of motor j with ``per_turn`` periods per joint turn."""
+    return _cyclic(GEAR_MESH, j, per_turn, tried=len(MESH_COUNTS))
+
+
+GEAR_MESH = Effect(
+    "gear_mesh",
+    "transmission",
+    lambda arm, recordings: iter(()),  # its counts are scanned by the diagnosis
+    "The teeth of a gear stage engage unevenly, so the angle error repeats many times per joint turn.",
+    "Turn the joint alone in steps much finer than the period found and look for the wave.",
+    "Compare the period with the gear stages' tooth counts; replace the stage, or store the wave as a correction.",
+)
+
+
+def _place_backlash(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    moving = set(moving_joints(recordings))
+    for j in varying_columns(recordings.approach, 0.5):
+        if j in moving:
+            gap = term("gap", "rad", Product(motor(j), Driver("approach", (j,)), -0.5))
+            yield Placed(BACKLASH, f"joint {j}", (gap,), (1.0,), f"side of approach of joint {j}", variant="approach")
+    if arm.has_masses or recordings.torque is not None:
+        for j in sorted(moving):
+            gap = term("gap", "rad", Product(motor(j), Driver("load side", (j,)), 0.5))
+            yield Placed(BACKLASH, f"joint {j}", (gap,), (1.0,), f"side that gravity loads joint {j}", variant="load")
+
+
+BACKLASH = Effect(
+    "backlash",
+    "transmission",
+    _place_backlash,
+    "The gear has play: the joint rests on one flank or the other, by the side it came from or gravity pushes it to.",
+    "Approach one pose from both sides of this joint and compare.",
+    "Adjust or preload the gear; until then always approach from the same side.",
+)
+
+
+def _place_lags(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    for j in varying_columns(recordings.speed, 1e-4):
+        delay = term("delay", "s", Product(motor(j), Driver("speed", (j,)), -1.0))
+        yield Placed(SERVO_LAG, f"joint {j}", (delay,), (1.0,), f"speed of joint {j}")
+
+
+SERVO_LAG = Effect(
+    "servo_lag",
+    "transmission",
+    _place_lags,
+    "The joint runs behind its command in proportion to its speed.",
+    "Measure one point at several speeds, or at standstill: the error must vanish there.",
+    "Add velocity feed-forward, or give the instrument the right time stamp.",
+    needs=("dq_rad_s",),
+)
+
+
+def _place_couplings(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    moving = moving_joints(recordings)
+    for j in moving:
+        for k in moving:
+            # a joint's own angle is a gear ratio
+            if j != k:
+                coupling = term("coupling", "rad/rad", (motor(j), Driver("angle", (k,))))
+                yield Placed(JOINT_COUPLING, f"joint {j} from joint {k}", (coupling,), (1.0,), f"angle of joint {k}")
+
+
+JOINT_COUPLING = Effect(
+    "joint_coupling",
+    "transmission",
+    _place_couplings,
+    "The joint turns a little whenever another motor does (shared wrist gears, hoses, cables).",
+    "Turn the other motor alone over its range and watch this joint.",
+    "Put the coupling coefficient into the controller's wrist coupling table.",
+)
+
+EFFECTS = [GEAR_RATIO, GEAR_ECCENTRICITY, GEAR_MESH, BACKLASH, SERVO_LAG, JOINT_COUPLING]
