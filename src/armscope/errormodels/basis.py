@@ -65,10 +65,10 @@ class Basis:
     def half_widths(self, errors: Array) -> Array:
         """The search box |z_k| <= w_k, axes x m, for ``errors`` (N x axes): RMS(errors) / RMS(column k).
 
-        No coefficient is larger than that if its term works alone (Cauchy-Schwarz). In the QR basis terms do work alone,
-        so the box always holds the least-squares solution; elsewhere collinear terms may need coefficients outside of
-        it. That is no hindrance, since the box says where particles start and does not confine them; the larger box
-        that always holds the solution, RMS(errors) x |row k of U^-1|, leaves the swarm farther from it.
+        No coefficient is larger than that if its term works alone (Cauchy-Schwarz). In the QR basis terms do work
+        alone, so the box always holds the least-squares solution; elsewhere collinear terms may need coefficients
+        outside of it. That is no hindrance, since the box says where particles start and does not confine them; the
+        larger box that always holds the solution, RMS(errors) x |row k of U^-1|, leaves the swarm farther from it.
         """
         rms_errors = np.sqrt(np.mean(np.square(errors), axis=0))
         rms_columns = np.linalg.norm(self.triangular, axis=0)

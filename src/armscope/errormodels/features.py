@@ -77,9 +77,7 @@ class ModelSpec:
         moving = tuple(bool(width > STILL[self.space]) for width in spread)
         wavelengths = None
         if self.family == "fourier" and self.space == "cartesian":
-            wavelengths = tuple(
-                2 * float(width) if moves else 0.0 for width, moves in zip(spread, moving, strict=True)
-            )
+            wavelengths = tuple(2 * float(width) if moves else 0.0 for width, moves in zip(spread, moving, strict=True))
         return FeatureSet(self, names, moving, wavelengths)
 
 
@@ -131,7 +129,9 @@ class FeatureSet:
         """
         table = checked_inputs(inputs)
         if table.shape[1] != len(self.inputs):
-            raise ValueError(f"{table.shape[1]} inputs per row: this model takes {len(self.inputs)} ({', '.join(self.inputs)})")
+            raise ValueError(
+                f"{table.shape[1]} inputs per row: this model takes {len(self.inputs)} ({', '.join(self.inputs)})"
+            )
         columns = [np.ones(len(table))]
         for k in self._moving_indices():
             columns += self._columns_of(k, table[:, k])

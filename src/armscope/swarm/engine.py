@@ -15,6 +15,8 @@ from armscope.swarm.update import velocity_update
 
 Array = NDArray[np.float64]
 
+CACHED_VALUES = 32768  # coordinates of a chunk's particles: its dozen arrays then fit a megabyte or two
+
 
 class Objective(Protocol):
     """What a swarm minimises."""
@@ -29,7 +31,7 @@ def minimise(
     upper: ArrayLike,
     generators: Sequence[np.random.Generator],
     settings: SwarmSettings | None = None,
-    chunk: int = 16,
+    chunk: int | None = None,
 ) -> SwarmResult:
     """Let one swarm per generator look for the smallest value of ``objective``.
 
@@ -41,7 +43,8 @@ def minimise(
         lower, upper: the search box, D or S x D for S generators.
         generators: one for each swarm; each is advanced by the numbers that its swarm drew.
         settings: see `SwarmSettings`.
-        chunk: how many swarms are computed side by side; the result does not depend on it.
+        chunk: how many swarms are computed side by side; None: as many as a processor's cache holds. The result does
+            not depend on it.
 
     Raises:
         ValueError: bounds that are not finite, that are in the wrong order, or that do not fit the generators; an
@@ -49,6 +52,8 @@ def minimise(
     """
     settings = settings or SwarmSettings()
     lower, upper = checked_box(lower, upper, len(generators))
+    if chunk is None:
+        chunk = max(1, CACHED_VALUES // (settings.particles * lower.shape[1]))
     if chunk < 1:
         raise ValueError(f"chunk = {chunk!r}: must be 1 or more")
     parts = []
@@ -80,7 +85,9 @@ def checked_box(lower: ArrayLike, upper: ArrayLike, swarms: int) -> tuple[Array,
         raise ValueError("search box of no dimensions: at least one is needed")
     if not (np.isfinite(low).all() and np.isfinite(high).all()):
         raise ValueError("search box with NaN or infinite bounds: all must be finite")
-    if not np.isfinite(high - low).all():
+    with np.errstate(over="ignore"):
+        widths = high - low
+    if not np.isfinite(widths).all():
         raise ValueError("search box wider than the largest number: upper - lower must be finite")
     if (low > high).any():
         swarm, dimension = np.argwhere(low > high)[0]
@@ -158,20 +165,21 @@ class _Chunk:
         """Evaluate all particles, keep what is better, and let swarms stop that have a reason to."""
         fitness = np.asarray(self.objective(self.positions, self.swarms))
         if fitness.shape != self.best_fitness.shape:
-            raise ValueError(
-                f"the objective returned the shape {fitness.shape}: must be {self.best_fitness.shape}"
-            )
+            raise ValueError(f"the objective returned the shape {fitness.shape}: must be {self.best_fitness.shape}")
         better = (fitness < self.best_fitness) & np.isfinite(fitness)
-        gone = np.zeros(len(self.rows), dtype=bool)
+        gone: NDArray[np.bool_] = np.zeros(len(self.rows), dtype=bool)
         if not np.isfinite(self.positions.sum()):  # one cheap look; the thorough one only where it is needed
             finite = np.isfinite(self.positions).all(axis=2)
             better &= finite
-            gone = ~finite.any(axis=1)
+            gone = np.logical_not(np.any(finite, axis=1))
         np.copyto(self.best_fitness, fitness, where=better)
-        np.copyto(self.bests, self.positions, where=better[:, :, None])
+        improved = np.flatnonzero(better)  # few in most iterations, so that going to each beats a mask over all
+        dimensions = self.positions.shape[2]
+        self.bests.reshape(-1, dimensions)[improved] = self.positions.reshape(-1, dimensions)[improved]
         swarm_best = self.best_fitness.min(axis=1)
         self.result.history[self.rows, iteration] = swarm_best
-        reached = swarm_best < (-np.inf if self.settings.threshold is None else self.settings.threshold)
+        threshold = -np.inf if self.settings.threshold is None else self.settings.threshold
+        reached: NDArray[np.bool_] = np.less(swarm_best, threshold)
         if reached.any() or gone.any():
             self._retire(iteration, reached, gone)
 

@@ -93,13 +93,14 @@ def run_kernel(
     swarms, dimensions = problems.targets.shape
     count, clamp = settings.iterations, settings.velocity_clamp
     given = _Problems(
-        factors=np.ascontiguousarray(problems.factors, dtype=float),
-        factor_of=np.ascontiguousarray(problems.factor_of, dtype=np.int64),
-        targets=np.ascontiguousarray(problems.targets, dtype=float),
-        rests=np.ascontiguousarray(problems.rests, dtype=float),
-        lower=np.ascontiguousarray(lower),
-        width=np.ascontiguousarray(upper - lower),
-        speed_limits=(0.0 if clamp is None else clamp) * np.ascontiguousarray(upper - lower),
+        # copies, since arrays that are read-only or not contiguous would each need a compilation of their own
+        factors=np.array(problems.factors, dtype=float, order="C"),
+        factor_of=np.array(problems.factor_of, dtype=np.int64),
+        targets=np.array(problems.targets, dtype=float, order="C"),
+        rests=np.array(problems.rests, dtype=float),
+        lower=np.array(lower, order="C"),
+        width=np.array(upper - lower, order="C"),
+        speed_limits=np.array((upper - lower) * (0.0 if clamp is None else clamp), order="C"),
         coefficients=np.array([settings.rule.coefficients(i, count) for i in range(count)]).reshape(count, 3),
         particles=settings.particles,
         threshold=-np.inf if settings.threshold is None else float(settings.threshold),
@@ -120,7 +121,8 @@ def run_kernel(
     early = {_THRESHOLD: StopReason.THRESHOLD, _DIVERGED: StopReason.DIVERGED}
     reasons = np.empty(swarms, dtype=object)
     reasons[:] = [
-        early.get(code) or final_reason(best) for code, best in zip(outcome.codes.tolist(), outcome.fitness, strict=True)
+        early.get(code) or final_reason(best)
+        for code, best in zip(outcome.codes.tolist(), outcome.fitness, strict=True)
     ]
     return SwarmResult(outcome.positions, outcome.fitness, outcome.history, outcome.iterations, reasons)
 
@@ -272,9 +274,7 @@ def _move(
 
 
 @_compiled
-def _sum_gaps(
-    cells: Array, cell: np.uint64, aims: Array, tally: Array, dimensions: int, lanes: np.uint64
-) -> None:
+def _sum_gaps(cells: Array, cell: np.uint64, aims: Array, tally: Array, dimensions: int, lanes: np.uint64) -> None:
     """The sum of squares of one particle at an orthonormal factor, |z - b|^2."""
     aim = _NONE
     for _ in range(dimensions):
@@ -307,12 +307,12 @@ def _sum_images(
                 image[row + _THREE + lane] += factor[entry + _THREE + lane] * position
         column_start += rows
         cell += _THREE
-    row, aim = _NONE, _NONE
+    first, aim = _NONE, _NONE
     for _ in range(dimensions):
         for lane in range(lanes):
-            gap = image[row + lane] - aims[aim + _ONE + lane]
+            gap = image[first + lane] - aims[aim + _ONE + lane]
             tally[lane] += gap * gap
-        row += _ONE
+        first += _ONE
         aim += _THREE
 
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 import importlib.util
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -46,11 +47,15 @@ class LeastSquares:
     def __post_init__(self) -> None:
         swarms, dimensions = self.targets.shape
         if self.factors.shape[1:] != (dimensions, dimensions) or np.any(np.tril(self.factors, -1)):
-            raise ValueError(f"factors of shape {self.factors.shape}: must be upper triangular, M x D x D, D = {dimensions}")
+            raise ValueError(
+                f"factors of shape {self.factors.shape}: must be upper triangular, M x D x D, D = {dimensions}"
+            )
         if self.factor_of.shape != (swarms,) or self.rests.shape != (swarms,):
             raise ValueError(f"factor_of and rests must have one value for each of the {swarms} swarms")
+        if not np.isin(self.factor_of, np.arange(len(self.factors))).all():
+            raise ValueError(f"factor_of = {self.factor_of!r}: must lie between 0 and {len(self.factors) - 1}")
 
-    @property
+    @cached_property
     def is_orthonormal(self) -> bool:
         """Whether every factor is the identity, as on an orthonormal (QR) basis."""
         return bool(np.array_equal(self.factors, np.broadcast_to(np.eye(self.factors.shape[1]), self.factors.shape)))

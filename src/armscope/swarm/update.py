@@ -111,9 +111,7 @@ PRESETS: dict[str, UpdateRule] = {
     # as printed in Alici et al. (2006): neither inertia nor constriction, although c = 2.05 was made for the latter
     "original": UpdateRule(inertia=1.0, cognitive=2.05, social=2.05),
     # Clerc & Kennedy (2002); the same as a constant inertia of 0.7298 with c1 = c2 = 1.4962
-    "constriction": UpdateRule(
-        inertia=1.0, cognitive=2.05, social=2.05, constriction=clerc_constriction(2.05, 2.05)
-    ),
+    "constriction": UpdateRule(inertia=1.0, cognitive=2.05, social=2.05, constriction=clerc_constriction(2.05, 2.05)),
     # Shi & Eberhart (1999), "Empirical study of particle swarm optimization": inertia falling from 0.9 to 0.4
     "inertia": UpdateRule(inertia=0.9, cognitive=2.0, social=2.0, final_inertia=0.4),
 }
