@@ -1,0 +1,51 @@
+"""The 2006 paper: its printed numbers, robots anchored to them, Table 2, claims, audit, and the same on real arms.
+
+The way of a study, each step a pure function of the ones before:
+
+    errors = geometric_errors(arm, link_m, link_rad, base_m, base_rad)        # armscope.world.tolerances
+    paths = paper_paths_mm(...)                                               # name -> (N, 3) mm
+    trajectories = trajectory_poses(arm, paths)                               # pose table
+    identification, choice = identification_poses(errors, trajectories, ...)  # pose table, observability index
+    study = measure_virtual(errors, concat([identification, trajectories]), tracker, ensemble, seed)
+    study.robots.to_table()                                                   # anchored geometric errors
+    study.measurements.to_tables()                                            # poses, errors; and from_tables
+    fits = fit_swarms(study.measurements.fit_problems(specs, robots), seeds)  # armscope.errormodels
+    residuals = residual_table(study.measurements, fits)                      # one row per robot, model, cell, seed
+    table2(residuals), claims(...), audit(...), reading(...), sub_volumes(study.measurements)
+
+    real_measurements(arm, recordings, ...) gives Measurements of a real arm, for the same fits and tables.
+
+Everything here is in mm and rad, as the paper's equations.
+"""
+
+from armscope.paper.anchoring import ANCHORED, AnchoredRobots, anchor
+from armscope.paper.measurements import Measurements, PoseSet, pose_arrays, pose_table
+from armscope.paper.printed import predict_printed, printed_coefficients, printed_matrix, printed_table2
+from armscope.paper.reading import reading
+from armscope.paper.virtual import (
+    VirtualStudy,
+    identification_poses,
+    measure_virtual,
+    paper_paths_mm,
+    trajectory_poses,
+)
+
+__all__ = [
+    "ANCHORED",
+    "AnchoredRobots",
+    "Measurements",
+    "PoseSet",
+    "VirtualStudy",
+    "anchor",
+    "identification_poses",
+    "measure_virtual",
+    "paper_paths_mm",
+    "pose_arrays",
+    "pose_table",
+    "predict_printed",
+    "printed_coefficients",
+    "printed_matrix",
+    "printed_table2",
+    "reading",
+    "trajectory_poses",
+]

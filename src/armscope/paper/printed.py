@@ -1,0 +1,87 @@
+"""What the paper prints: Table 2 and the coefficients of Eqs. (9)-(20), as package data."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib import resources
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import yaml
+from numpy.typing import ArrayLike, NDArray
+
+from armscope.errormodels import FDP_AI, FDP_CI, SDP_AI, SDP_CI, FeatureSet, ModelSpec
+
+Array = NDArray[np.float64]
+
+AXES = ("x", "y", "z")
+UNCOMPENSATED = "Uncompensated"
+IDENTIFICATION = "identification"
+TEST_TRAJECTORIES = ("test 1", "test 2", "test 3")
+TRAJECTORIES = (IDENTIFICATION, *TEST_TRAJECTORIES)
+PRINTED_MODELS: dict[str, ModelSpec] = {spec.name: spec for spec in (FDP_CI, FDP_AI, SDP_CI, SDP_AI)}
+EQUATIONS = {"FDP(AI)": 9, "SDP(AI)": 12, "FDP(CI)": 15, "SDP(CI)": 18}
+"""The number of each model's first equation (x); y and z follow."""
+
+HALF_DIGIT_MM = 0.05
+"""Table 2 is printed with one decimal."""
+
+
+def printed_table2() -> pd.DataFrame:
+    """Table 2 (p. 961): columns model, trajectory, axis, printed. The paper says "RMS" and gives no unit."""
+    with _data("table2.csv").open() as stream:
+        return pd.read_csv(stream).rename(columns={"value": "printed"})
+
+
+def printed_coefficients() -> pd.DataFrame:
+    """Eqs. (9)-(20): columns model, equation, axis, term, coefficient, unit (mm per unit of the term)."""
+    rows = []
+    for key, by_axis in _equations().items():
+        model = _model_name(key)
+        for number, axis in enumerate(AXES):
+            for term, value in by_axis[axis].items():
+                rows.append((model, EQUATIONS[model] + number, axis, term, value, _unit(model, term)))
+    return pd.DataFrame(rows, columns=["model", "equation", "axis", "term", "coefficient", "unit"])
+
+
+def _unit(model: str, term: str) -> str:
+    if term == "const":
+        return "mm"
+    _, power, exponent = term.partition("^")
+    return f"mm/{'mm' if model.endswith('(CI)') else 'rad'}{power}{exponent}"
+
+
+def printed_matrix(model: str) -> Array:
+    """(3, terms) printed coefficients of "FDP(CI)", ..., in the order of `printed_features`."""
+    by_axis = _equations()[model.replace("(", "_").rstrip(")")]
+    terms = printed_features(model).term_names
+    return np.array([[by_axis[axis][term] for term in terms] for axis in AXES], dtype=float)
+
+
+def printed_features(model: str) -> FeatureSet:
+    """The terms of a printed model: px, py, pz, or theta1, theta2, theta3, theta6 of six (theta4 = theta5 = 0)."""
+    spec = PRINTED_MODELS[model]
+    if spec.space == "cartesian":
+        return FeatureSet(spec, ("px", "py", "pz"), (True, True, True))
+    names = tuple(f"theta{joint}" for joint in range(1, 7))
+    return FeatureSet(spec, names, (True, True, True, False, False, True))
+
+
+def predict_printed(model: str, inputs: ArrayLike) -> Array:
+    """(N, 3) errors in mm that the printed equations predict at ``inputs``: (N, 3) mm, or (N, 6) rad."""
+    return printed_features(model).matrix(inputs) @ printed_matrix(model).T
+
+
+@cache
+def _equations() -> dict[str, dict[str, dict[str, float]]]:
+    content: dict[str, Any] = yaml.safe_load(_data("equations.yaml").read_text(encoding="utf-8"))
+    return content
+
+
+def _model_name(key: str) -> str:
+    return f"{key.replace('_', '(')})"
+
+
+def _data(name: str) -> Any:
+    return resources.files("armscope.paper") / "data" / name

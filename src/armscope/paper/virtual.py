@@ -1,0 +1,133 @@
+"""The virtual SK120's measurements: test paths, identification poses, tracker, and the robots that are measured."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from numpy.typing import ArrayLike, NDArray
+
+from armscope.paper.anchoring import AnchoredRobots, anchor
+from armscope.paper.measurements import Measurements, PoseSet, pose_arrays, pose_table
+from armscope.paper.printed import IDENTIFICATION, TEST_TRAJECTORIES
+from armscope.robot import Arm, chain, forward_kinematics
+from armscope.robot.inverse import follow_path
+from armscope.world.poses import Choice, candidate_poses, choose_poses, joint_ranges
+from armscope.world.tolerances import GeometricErrors
+from armscope.world.tracker import Tracker
+from armscope.world.trajectories import archimedes_spiral, rectangle
+
+Array = NDArray[np.float64]
+
+HELD = {4: 0.0, 5: 0.0}
+"""theta4 = theta5 = 0 throughout (below Eq. 14)."""
+
+
+@dataclass(frozen=True, eq=False)
+class VirtualStudy:
+    """The anchored robot and its ensemble, measured."""
+
+    robots: AnchoredRobots
+    measurements: Measurements
+
+
+def paper_paths_mm(
+    corners_mm: ArrayLike,
+    points_per_side: int,
+    spiral_starts_mm: ArrayLike,
+    enlargement_mm: float,
+    turns_pi: float,
+    spiral_points: int,
+    rise_mm: float,
+) -> dict[str, Array]:
+    """The three test trajectories (sections 7.1, 7.2): name -> (N, 3) tool points in the base frame, mm.
+
+    Args:
+        corners_mm: (4, 3) corners of trajectory I, the first at (1100, 800, 600).
+        points_per_side: 50.
+        spiral_starts_mm: (2, 3) starts of II and III.
+        enlargement_mm: W of Eqs. (21)-(22), 20.
+        turns_pi: phi runs from 0 to this many times pi, 5.
+        spiral_points: 200.
+        rise_mm: change of the third coordinate (z of II, x of III) along the whole spiral.
+    """
+    second, third = np.asarray(spiral_starts_mm, dtype=float)
+    return {
+        "test 1": rectangle(corners_mm, points_per_side),
+        "test 2": archimedes_spiral(second, "xy", enlargement_mm, turns_pi, spiral_points, rise_mm),
+        "test 3": archimedes_spiral(third, "yz", enlargement_mm, turns_pi, spiral_points, rise_mm),
+    }
+
+
+def trajectory_poses(arm: Arm, paths_mm: Mapping[str, Array]) -> pd.DataFrame:
+    """The pose table (see `pose_table`) of paths followed with theta4 = theta5 = 0 and least motion, from motor angles 0.
+
+    Raises:
+        InputError: a point that can't be reached; it names path, point and reason.
+    """
+    held = {motor: angle for motor, angle in HELD.items() if motor <= arm.n_motors}
+    tables = []
+    for name, path in paths_mm.items():
+        angles = follow_path(arm, path * 1e-3, np.zeros(arm.n_motors), held).require_all(f"trajectory {name}")
+        tables.append(pose_table(name, angles, path))
+    return pd.concat(tables, ignore_index=True)
+
+
+def identification_poses(
+    errors: GeometricErrors,
+    trajectories: pd.DataFrame,
+    count: int,
+    candidates: int,
+    margin_rad: float,
+    motor_6_rad: float,
+    seed: int,
+) -> tuple[pd.DataFrame, Choice]:
+    """Poses that cover the trajectories' joint ranges and show the geometric errors best.
+
+    Args:
+        errors: the geometric errors to be shown (`armscope.world.tolerances.geometric_errors`).
+        trajectories: pose table of the test paths: only the range of each motor is taken from it.
+        count: 85.
+        candidates: how many poses, spread evenly over the ranges, to choose from.
+        margin_rad: the ranges are widened by this much to both sides.
+        motor_6_rad: theta6 ranges over +- this instead (the paths hardly move it).
+        seed: of the candidates and of the random choices that the observability index is compared with.
+
+    Returns:
+        The pose table of "identification", and the choice with its observability index.
+    """
+    angles, _ = pose_arrays(trajectories)
+    low, high = joint_ranges(angles, margin_rad)
+    if len(low) >= 6:
+        low[5], high[5] = -motor_6_rad, motor_6_rad
+    low, high = np.maximum(low, errors.arm.limits[:, 0]), np.minimum(high, errors.arm.limits[:, 1])
+    poses = candidate_poses(low, high, candidates, seed)
+    choice = choose_poses(errors.jacobian(chain(errors.arm, poses)), count, np.random.default_rng(seed))
+    chosen = poses[choice.rows]
+    return pose_table(IDENTIFICATION, chosen, forward_kinematics(errors.arm, chosen) * 1e3), choice
+
+
+def measure_virtual(
+    errors: GeometricErrors, poses: pd.DataFrame, tracker: Tracker, ensemble: int, seed: int
+) -> VirtualStudy:
+    """Anchor robots to the printed equations and measure them at all poses.
+
+    Args:
+        errors: the possible geometric errors.
+        poses: pose table of "identification" and the test paths.
+        tracker: measures each set of poses in a session of its own, with the same errors for every robot.
+        ensemble: robots besides the anchored one.
+        seed: of the tracker's errors and of the ensemble.
+    """
+    names = [IDENTIFICATION, *(name for name in TEST_TRAJECTORIES if name in set(poses["trajectory"]))]
+    arrays = {name: pose_arrays(poses[poses["trajectory"] == name]) for name in names}
+    for_tracker, for_ensemble = np.random.default_rng(seed).spawn(2)
+    noise = {name: tracker.measurement_errors(nominal * 1e-3, for_tracker) for name, (_, nominal) in arrays.items()}
+    robots = anchor(errors, arrays[IDENTIFICATION][0], noise[IDENTIFICATION], ensemble, for_ensemble)
+    sets = []
+    for name, (angles, nominal) in arrays.items():
+        measured_mm = (errors.positions(angles, robots.in_sigmas) + noise[name]) * 1e3
+        sets.append(PoseSet(name, angles, nominal, measured_mm - nominal))
+    return VirtualStudy(robots, Measurements(robots.names, tuple(sets)))

@@ -1,0 +1,117 @@
+"""Geometric errors of tolerance size: what machining and assembly leave wrong in an arm, and where its tool then is.
+
+Each error is a small twist in the exact forward model: the D-H values of each row (and a turn about y where two axes
+are parallel, since D-H values alone can't tilt them: Hayati & Mirmirani 1985), and the six of the base's registration.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from armscope.robot import Arm, Chain, forward_kinematics, twist_jacobian
+
+Array = NDArray[np.float64]
+
+PARALLEL = np.sin(np.radians(5))
+
+
+@dataclass(frozen=True)
+class GeometricErrors:
+    """K possible errors of an arm and their tolerances.
+
+    Attributes:
+        arm: the nominal arm.
+        names: "a2", "alpha2", "d2", "theta2", "beta2", "base x", ...
+        locations: where the twist acts: "base", "joint j" or "link j".
+        directions: (K, 6) twist of a unit error (m or rad) in that frame.
+        sigmas: (K,) one-sigma sizes, m or rad.
+        angular: (K,) whether it is an angle.
+    """
+
+    arm: Arm
+    names: tuple[str, ...]
+    locations: tuple[str, ...]
+    directions: Array
+    sigmas: Array
+    angular: NDArray[np.bool_]
+
+    def jacobian(self, frames: Chain) -> Array:
+        """(N, 3, K) displacement of the tool, m, per error of one sigma."""
+        by_location = {location: twist_jacobian(frames, location) for location in dict.fromkeys(self.locations)}
+        columns = [
+            by_location[location] @ direction
+            for location, direction in zip(self.locations, self.directions, strict=True)
+        ]
+        return np.stack(columns, axis=2) * self.sigmas
+
+    def positions(self, motor_angles: ArrayLike, in_sigmas: ArrayLike) -> Array:
+        """(R, N, 3) exact tool points, m, of R arms with errors ``in_sigmas`` (R, K) at ``motor_angles`` (N, m)."""
+        angles = np.asarray(motor_angles, dtype=float)
+        sizes = np.atleast_2d(np.asarray(in_sigmas, dtype=float)) * self.sigmas
+        n_poses, n_robots = len(angles), len(sizes)
+        twists: dict[str, Array] = {}
+        for k, location in enumerate(self.locations):
+            twist = sizes[:, k, None] * self.directions[k]
+            twists[location] = twists.get(location, np.zeros((n_robots, 6))) + twist
+        per_row = {location: np.repeat(twist, n_poses, axis=0) for location, twist in twists.items()}
+        tool = forward_kinematics(self.arm, np.tile(angles, (n_robots, 1)), per_row)
+        return tool.reshape(n_robots, n_poses, 3)
+
+
+def geometric_errors(
+    arm: Arm, link_m: float = 1e-3, link_rad: float = 1e-3, base_m: float = 3e-3, base_rad: float = 3e-3
+) -> GeometricErrors:
+    """The errors of an arm that is described by D-H rows, with one-sigma sizes per link and for the base.
+
+    Raises:
+        ValueError: the arm is described by a URDF.
+    """
+    if arm.description.dh is None:
+        raise ValueError(f"{arm.name} is described by a URDF: geometric errors are those of D-H rows")
+    rows: list[tuple[str, str, Array, float, bool]] = []
+    for axis, unit in enumerate(np.eye(6)):
+        rotation = axis >= 3
+        name = ("base x", "base y", "base z", "base rx", "base ry", "base rz")[axis]
+        rows.append((name, "base", unit, base_rad if rotation else base_m, rotation))
+    twists = _modified_row if arm.is_modified_dh else _standard_row
+    for number, row in enumerate(arm.description.dh.joints, start=1):
+        alpha, a, d = np.radians(row.alpha_deg), row.a_mm * 1e-3, row.d_mm * 1e-3
+        location, directions = twists(a, alpha, d)
+        parallel = abs(np.sin(alpha)) < PARALLEL and 0 < number - arm.is_modified_dh < arm.n_joints
+        for name, direction in directions.items():
+            if name == "beta" and not parallel:
+                continue
+            angular = name not in ("a", "d")
+            sigma = link_rad if angular else link_m
+            rows.append((f"{name}{number}", f"{location} {number}", direction, sigma, angular))
+    names, locations, columns, sigmas, angular_flags = zip(*rows, strict=True)
+    return GeometricErrors(arm, names, locations, np.array(columns), np.array(sigmas), np.array(angular_flags))
+
+
+def _standard_row(a: float, alpha: float, d: float) -> tuple[str, dict[str, Array]]:
+    """Unit errors of Rz(theta) Tz(d) Tx(a) Rx(alpha) as twists in link frame j."""
+    axis = np.array([0.0, np.sin(alpha), np.cos(alpha)])  # the joint's axis, seen from behind the twist alpha
+    x, y, zero = np.eye(3)[0], np.eye(3)[1], np.zeros(3)
+    return "link", {
+        "a": np.concatenate([x, zero]),
+        "alpha": np.concatenate([zero, x]),
+        "d": np.concatenate([axis, zero]),
+        "theta": np.concatenate([np.cross(axis, a * x), axis]),
+        "beta": np.concatenate([zero, y]),
+    }
+
+
+def _modified_row(a: float, alpha: float, d: float) -> tuple[str, dict[str, Array]]:
+    """Unit errors of Rx(alpha) Tx(a) Rz(theta) Tz(d) as twists in joint frame j, before it turns."""
+    x, y, z = np.eye(3)
+    zero = np.zeros(3)
+    return "joint", {
+        "a": np.concatenate([x, zero]),
+        "alpha": np.concatenate([np.cross(x, d * z), x]),
+        "d": np.concatenate([z, zero]),
+        "theta": np.concatenate([zero, z]),
+        "beta": np.concatenate([zero, y]),
+    }

@@ -1,0 +1,46 @@
+"""The test paths of the 2006 paper, a rectangle-like one and Archimedes spirals: tool points in the base frame, m."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+PLANES = {"xy": (0, 1, 2), "yz": (1, 2, 0)}
+"""The two axes of a spiral's plane and the third, which changes linearly."""
+
+
+def rectangle(corners: ArrayLike, points_per_side: int) -> Array:
+    """(4 n, 3) points of the closed path through four corners (4, 3): each side begins at its corner (section 7.1).
+
+    The fourth corner need not lie in the plane of the other three: "a rectangle-like Cartesian path in the
+    three-dimensional space".
+    """
+    corners = np.asarray(corners, dtype=float)
+    along = np.arange(points_per_side)[:, None] / points_per_side
+    sides = [begin + along * (end - begin) for begin, end in zip(corners, np.roll(corners, -1, axis=0), strict=True)]
+    return np.concatenate(sides)
+
+
+def archimedes_spiral(
+    start: ArrayLike, plane: str, enlargement: float, turns_pi: float, count: int, rise: float
+) -> Array:
+    """(N, 3) points of a spiral about ``start``: W phi (cos phi, sin phi) in its plane, Eqs. (21)-(22) with r = phi.
+
+    Args:
+        start: (3,) m; the spiral's centre and its first point.
+        plane: "xy" (trajectory II) or "yz" (trajectory III).
+        enlargement: W, m.
+        turns_pi: phi goes from 0 up to this many times pi (5), in ``count`` steps.
+        count: the number of points N (200); phi of the last is one step short of the end.
+        rise: change of the third coordinate from the first point to one step beyond the last, linear, m.
+    """
+    first, second, third = PLANES[plane]
+    share = np.arange(count) / count
+    phi = share * turns_pi * np.pi
+    points = np.tile(np.asarray(start, dtype=float), (count, 1))
+    points[:, first] += enlargement * phi * np.cos(phi)
+    points[:, second] += enlargement * phi * np.sin(phi)
+    points[:, third] += rise * share
+    return points
