@@ -1,8 +1,8 @@
 """The worlds of the proof: what is concealed in which arm, at which strength, under which circumstances.
 
 A `WorldSpec` says all that a world is made from; `armscope.world.folder.build` makes it. Half of the worlds have
-seeds that stay the same; the other half's are derived from the seed of the proof, so that nobody can have tuned anything
-to them.
+seeds that stay the same; the other half's are derived from the seed of the proof, so that nobody can have tuned
+anything to them.
 """
 
 from __future__ import annotations
@@ -170,15 +170,14 @@ def _nothing(rng: np.random.Generator) -> Details:
 
 def _single(kind: str, strength: float) -> Recipe:
     def recipe(rng: np.random.Generator) -> Details:
-        details: Details = {"wishes": [{"kind": kind, "strength": strength}]}
-        return details | _arm_for(kind)
+        return {"wishes": [{"kind": kind, "strength": strength}], **_arm_for(kind)}
 
     return recipe
 
 
 def _arm_for(kind: str) -> Details:
-    details: Details = {"arm": "parallelogram-120kg"} if kind == "parallelogram_geometry" else {}
-    return details
+    """A linkage's errors need an arm that has one."""
+    return {"arm": "parallelogram-120kg"} if kind == "parallelogram_geometry" else {}
 
 
 def _several(count: int, weak: bool) -> Recipe:
@@ -225,8 +224,9 @@ MISLEADING: tuple[Recipe, ...] = (
 
 def _unseparated(kind: str, poses: str, location: str | None = None, arm: str | None = None) -> Recipe:
     def recipe(rng: np.random.Generator) -> Details:
-        wish = {"kind": kind, "strength": float(rng.choice([3.0, 5.0])), "location": location}
-        return {"wishes": [wish], "poses": poses} | ({"arm": arm} if arm else {})
+        wish: Details = {"kind": kind, "strength": float(rng.choice([3.0, 5.0])), "location": location}
+        details: Details = {"wishes": [wish], "poses": poses}
+        return details | {"arm": arm} if arm else details
 
     return recipe
 
@@ -238,8 +238,8 @@ INSEPARABLE: tuple[Recipe, ...] = (
     _unseparated("gear_ratio", "lockstep", "joint 2", "six-axis"),
     _unseparated("joint_coupling", "lockstep", "joint 3 from joint 2", "six-axis"),
     _unseparated("gear_eccentricity", "narrow"),
-    _unseparated("joint_compliance", "narrow", "joint 2"),
     _unseparated("base_compliance", "free", "base", "six-axis"),
+    _unseparated("bearing_compliance", "free", "joint 1", "parallelogram-120kg"),
 )
 
 

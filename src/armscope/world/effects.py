@@ -30,7 +30,8 @@ axis_wobble tilts axis j, before it turns, by amplitude cos(per_turn theta - pha
 link_bending: a beam of length L along e, loaded at its end by the force F and moment M of everything that hangs on D-H
 frame j (its own mass included), turns there by L/(E I) (M + L/2 e x F) and moves by L^2/(2 E I) M x e + L^3/(3 E I) F,
 the parts along e left out; bent by segments, so to 0.4 %.
-A phase is stated in all cyclic effects: the angle error is amplitude times the cosine of (per_turn q - phase).
+Cyclic effects also list `linear`: cosine and sine parts, as in amplitude cos(per_turn q - phase) =
+cosine cos(per_turn q) + sine sin(per_turn q); axis_wobble has them about x and about y.
 """
 
 from __future__ import annotations
@@ -50,6 +51,7 @@ from armscope.world.kinds import (
     SPEED,
     TEMPERATURE,
     TIME,
+    Concealed,
     Kind,
     Parameter,
     Scene,
@@ -145,6 +147,24 @@ def _hide_wobble(hidden: Hidden, scene: Scene, location: str, values: Values) ->
 def _hide_link_geometry(hidden: Hidden, scene: Scene, location: str, values: Values) -> None:
     errors = [values.get("a", 0.0), values.get("alpha", 0.0), values.get("d", 0.0), 0.0]
     hidden.misshape(number(location), np.array(errors))
+
+
+def linear_numbers(effect: Concealed) -> dict[str, float]:
+    """Cosine and sine parts, rad, of an effect with a phase; nothing for the others."""
+    values = effect.values
+    if "phase" not in values:
+        return {}
+    order = f"{values['per_turn']:.0f}"
+    cosine, sine = values["amplitude"] * np.cos(values["phase"]), values["amplitude"] * np.sin(values["phase"])
+    if "direction" not in values:
+        return {f"cosine_{order}": float(cosine), f"sine_{order}": float(sine)}
+    x, y = np.cos(values["direction"]), np.sin(values["direction"])
+    return {
+        "cosine_rx": float(cosine * x),
+        "sine_rx": float(sine * x),
+        "cosine_ry": float(cosine * y),
+        "sine_ry": float(sine * y),
+    }
 
 
 def _draw_link_geometry(rng: np.random.Generator, scene: Scene, location: str) -> dict[str, float]:
@@ -321,7 +341,8 @@ LIBRARY: tuple[Kind, ...] = (
     ),
     Kind(
         "link_geometry", "", CONSTANT,
-        (Parameter("alpha", "rad"), Parameter("a", "mm", 1e-3), Parameter("d", "mm", 1e-3)), (), _links, _draw_link_geometry, _hide_link_geometry,
+        (Parameter("alpha", "rad"), Parameter("a", "mm", 1e-3), Parameter("d", "mm", 1e-3)), (),
+        _links, _draw_link_geometry, _hide_link_geometry,
     ),
     Kind(
         "link_bending", "", LOAD, (Parameter("flexibility", "1/(N m^2)"),), ("payload_kg",), links_longer_than(0.1),
@@ -334,7 +355,8 @@ LIBRARY: tuple[Kind, ...] = (
     ),
     Kind(
         "parallelogram_geometry", "", ANGLE, (Parameter("rod", "mm", 1e-3), Parameter("rocker", "mm", 1e-3)), (),
-        _linkages, lambda rng, scene, place: {name: float(rng.normal(0, 3e-4)) for name in ("rod", "rocker")}, _hide_linkage,
+        _linkages,
+        lambda rng, scene, place: {bar: float(rng.normal(0, 3e-4)) for bar in ("rod", "rocker")}, _hide_linkage,
     ),
     Kind(
         "instrument_scale", "", CONSTANT, (Parameter("scale", "m/m"),), (), only("instrument"),

@@ -70,6 +70,7 @@ class Geometry:
 
     def __init__(self, description: RobotDescription) -> None:
         assert description.dh is not None, "worlds are made from D-H arms"
+        assert not any(row.beta_deg for row in description.dh.joints), "worlds are made from plain D-H rows"
         self.modified = description.dh.convention == "modified"
         self.rows = np.array(
             [

@@ -1,8 +1,8 @@
 """Which other effects could stand in place of a concealed one: decided before anybody diagnoses anything.
 
 Every effect of the vocabulary is, to first order, a few displacement patterns of the tool: MuJoCo's site Jacobian of a
-slide or hinge times what drives it. An alternative is a place and an effect whose patterns, together with free frames and
-the other concealed effects, reproduce the concealed displacement up to what the noise hides.
+slide or hinge times what drives it. An alternative is a place and an effect whose patterns, together with free frames
+and the other concealed effects, reproduce the concealed displacement up to what the noise hides.
 """
 
 from __future__ import annotations
@@ -224,7 +224,7 @@ class Judge:
             explained = _explained(gram[span, span], overlap[span])
             price = 0.5 * (rival.columns.shape[1] - own) * np.log(len(pattern))
             gap = max(energy - explained, 0.0) / 2 + price
-            if gap < ALTERNATIVE_NATS and energy / 2 > gap:
+            if gap < min(ALTERNATIVE_NATS, energy / 4):
                 found[name] = min(gap, found.get(name, np.inf))
         ordered = sorted(found.items(), key=lambda item: item[1])
         return Visibility(energy, own, tuple(Alternative(*name, round(gap, 2)) for name, gap in ordered))

@@ -17,16 +17,12 @@ from armscope.world.statics import Session
 
 Array = NDArray[np.float64]
 
-PoseRule = Literal[
-    "free", "lockstep", "narrow", "held_wrist", "no_payload", "approach_by_side", "constant_speed", "warming_in_step"
-]
+PoseRule = Literal["free", "lockstep", "narrow", "no_payload", "constant_speed", "warming_in_step"]
 POSE_RULES: dict[str, str] = {
     "free": "random over the joints' ranges, all context varies",
     "lockstep": "joint 3 follows joint 2 to within 0.003 rad",
     "narrow": "every joint moves within a tenth of its range",
-    "held_wrist": "the joints from the fourth on stand still",
     "no_payload": "never a payload",
-    "approach_by_side": "each joint comes from the side its angle's sign says",
     "constant_speed": "each joint's speed is proportional to its angle",
     "warming_in_step": "the temperature rises in step with time",
 }
@@ -63,13 +59,11 @@ def random_session(
     temperature = _temperature(rng, time, warming)
     if rule == "no_payload":
         payload = np.zeros(count)
-    if rule == "approach_by_side":
-        approach = np.where(commanded - np.median(commanded, axis=0) >= 0, 1.0, -1.0)
     if rule == "constant_speed":
-        speed = (0.3 * commanded).round(3)
+        speed = 0.3 * commanded
     if rule == "warming_in_step":
         temperature = (20.5 + warming * time / time[-1] + rng.normal(0, 0.01 * warming, count)).round(2)
-    return Session(commanded, payload.round(3), time, temperature, run, approach, speed)
+    return Session(commanded, np.asarray(payload.round(3), dtype=float), time, temperature, run, approach, speed)
 
 
 def reachable_poses(description: RobotDescription, rng: np.random.Generator, count: int, rule: str = "free") -> Array:
@@ -77,20 +71,18 @@ def reachable_poses(description: RobotDescription, rng: np.random.Generator, cou
     assert description.joint_limits_deg is not None, "worlds need joint limits"
     geometry = Geometry(description)
     mechanism = Mechanism(geometry, Layout(row_errors=np.zeros((geometry.n_joints, 4))))
-    low, high = np.radians(np.array(description.joint_limits_deg)).T
+    limits = np.radians(np.array(description.joint_limits_deg, dtype=float))
+    low, high = limits[:, 0], limits[:, 1]
     centre, half = (low + high) / 2, (high - low) / 2
     if rule == "narrow":
         centre = centre + rng.uniform(-0.6, 0.6, len(half)) * half
         half = half / 10
-    held = rng.uniform(-0.7, 0.7, len(half)) * half + centre
     clear = 0.15 * (np.abs(geometry.rows[:, [0, 2]]).sum())
     poses: list[Array] = []
     for _ in range(1000 * count):
         pose = centre + rng.uniform(-1, 1, len(half)) * half
         if rule == "lockstep":
             pose[2] = 0.6 * pose[1] + rng.normal(0, 0.003)
-        if rule == "held_wrist":
-            pose[3:] = held[3:]
         pose = pose.round(7)
         if _reachable(mechanism, description, pose, clear):
             poses.append(pose)

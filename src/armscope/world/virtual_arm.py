@@ -1,0 +1,173 @@
+"""A virtual arm with what it conceals, ready to be measured: in its own session, and at poses asked for later."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from armscope.robot.description import load_description
+from armscope.world.catalogue import LARGEST_PAYLOAD_KG, WorldSpec
+from armscope.world.choice import choose, visibilities
+from armscope.world.kinds import Scene
+from armscope.world.rivals import Judge, Visibility
+from armscope.world.session import random_session
+from armscope.world.statics import Hidden, Session, balance
+from armscope.world.strength import Frames, Sized, make_scene
+
+Array = NDArray[np.float64]
+
+TEST_ROWS = 100
+BAD_SHARE = 0.02
+TO_TEN_NANOMETRES = 7
+
+
+@dataclass(frozen=True, eq=False)
+class VirtualArm:
+    """An arm, the session it was recorded in, and what it conceals.
+
+    Attributes:
+        spec: what it was made from.
+        scene: the nominal arm in the whole session, recorded and held-out rows, in order of time.
+        nominal: (N, 3) tool points of the nominal arm, m.
+        recorded, held_out: rows for the diagnosis and rows that test.
+        chosen: the concealed effects.
+        seen: how well those of the story (not `minor`) can be found, in their order.
+        frames: registration and tool error.
+        noise: generator of the measurement noise, fresh.
+    """
+
+    spec: WorldSpec
+    scene: Scene
+    nominal: Array
+    recorded: NDArray[np.intp]
+    held_out: NDArray[np.intp]
+    chosen: tuple[Sized, ...]
+    seen: tuple[Visibility, ...]
+    frames: Frames
+    noise: np.random.Generator
+
+
+def conceal(spec: WorldSpec, robots: Path) -> VirtualArm:
+    """The virtual arm of a specification; the same one gives the same arm.
+
+    Args:
+        spec: what to make.
+        robots: folder of the arms' descriptions.
+    """
+    poses, effects, noise = (np.random.default_rng(seed) for seed in np.random.SeedSequence(spec.seed).spawn(3))
+    description = load_description(robots / f"{spec.arm}.yaml")
+    # thermal growth needs a hall that warms up
+    warming = 8.0 if any(wish.kind == "thermal_expansion" for wish in spec.wishes) else 2.0
+    warming *= float(poses.uniform(1, 2))
+    payload = LARGEST_PAYLOAD_KG[spec.arm]
+    session = random_session(description, poses, spec.rows + TEST_ROWS, spec.poses, payload, warming)
+    scene, nominal = make_scene(description, session)
+    order = poses.permutation(spec.rows + TEST_ROWS)
+    recorded, held_out = np.sort(order[: spec.rows]), np.sort(order[spec.rows :])
+    seen_by_all = scene.rows(recorded)
+    judge = Judge(seen_by_all, nominal[recorded])
+    sigma = spec.sigma_mm * 1e-3
+    chosen = choose(seen_by_all, judge, spec.wishes, sigma, spec.category == "inseparable", effects)
+    seen = visibilities(judge, [size for size in chosen if not size.minor], sigma)
+    return VirtualArm(
+        spec, scene, nominal, recorded, held_out, tuple(chosen), tuple(seen), _random_frames(effects), noise
+    )
+
+
+def _random_frames(rng: np.random.Generator) -> Frames:
+    """Instrument set up to a few mm and mrad, tool point known to about 1 mm."""
+    return Frames(rng.uniform(-5e-3, 5e-3, 3), rng.uniform(-1.2e-3, 1.2e-3, 3), rng.uniform(-1e-3, 1e-3, 3))
+
+
+def true_points(arm: VirtualArm, scene: Scene) -> tuple[Array, Array]:
+    """Where the tool truly is in the measurement frame (N, 3), m, and the motors' gravity torques there (N, m), N m."""
+    hidden = Hidden.nothing(scene.geometry, scene.session)
+    for size in arm.chosen:
+        size.effect.hide(hidden, scene)
+    hidden.layout = replace(hidden.layout, tool_error=arm.frames.tool_error)
+    balanced = balance(scene.geometry, scene.session, hidden)
+    # the tool's error is part of the mechanism already
+    points = replace(arm.frames, tool_error=np.zeros(3)).place(balanced.tool, scene.tool_turn)
+    return points, balanced.motor_torque if np.any(balanced.motor_torque) else scene.torque
+
+
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """All rows of a virtual arm's own session as measured; m and N m.
+
+    Attributes:
+        points: (N, 3) true places in the measurement frame.
+        noise: (N, 3), bad shots included.
+        bad: (N,) rows that are bad shots.
+        torque: (N, m) gravity's torque on the motors.
+    """
+
+    points: Array
+    noise: Array
+    bad: NDArray[np.bool_]
+    torque: Array
+
+    @property
+    def readings(self) -> Array:
+        """(N, 3) what the instrument says, m."""
+        return (self.points + self.noise).round(TO_TEN_NANOMETRES)
+
+
+def measure_session(arm: VirtualArm) -> Measured:
+    """The arm measured in the session it was made for; bad shots only among the recorded rows."""
+    points, torque = true_points(arm, arm.scene)
+    rng, sigma = arm.noise, arm.spec.sigma_mm * 1e-3
+    heavy = arm.spec.noise == "heavy_tails"
+    noise = sigma * (rng.standard_t(3, points.shape) if heavy else rng.normal(size=points.shape))
+    bad = np.zeros(len(points), dtype=bool)
+    if arm.spec.noise == "outliers":
+        struck = rng.choice(arm.recorded, max(1, round(BAD_SHARE * len(arm.recorded))), replace=False)
+        bad[struck] = True
+        direction = rng.normal(size=(len(struck), 3))
+        direction /= np.linalg.norm(direction, axis=1, keepdims=True)
+        noise[struck] += direction * rng.uniform(1e-3, 10e-3, (len(struck), 1))
+    return Measured(points, noise, bad, torque)
+
+
+def measure_at(arm: VirtualArm, poses: pd.DataFrame, rng: np.random.Generator) -> pd.DataFrame:
+    """The same arm measured at further poses, for instance those that a diagnosis asks for.
+
+    Args:
+        arm: the virtual arm.
+        poses: columns q1_rad ... and, where it matters, payload_kg, time_s, temperature_c, approach1 ..., dq1_rad_s ...
+            (otherwise none, after the session's end, 20 degrees, from below, at rest).
+        rng: of the Gaussian noise.
+
+    Returns:
+        ``poses`` with x_mm, y_mm, z_mm.
+    """
+    session = _asked(arm, poses)
+    scene, _ = make_scene(arm.scene.description, session)
+    points, _ = true_points(arm, replace(scene, torque_scale=arm.scene.torque_scale))
+    readings = (points + rng.normal(0, arm.spec.sigma_mm * 1e-3, points.shape)).round(TO_TEN_NANOMETRES)
+    return poses.assign(**{f"{axis}_mm": (readings[:, k] * 1e3).round(4) for k, axis in enumerate("xyz")})
+
+
+def _asked(arm: VirtualArm, poses: pd.DataFrame) -> Session:
+    motors = range(1, arm.scene.geometry.n_motors + 1)
+    count = len(poses)
+
+    def column(name: str, otherwise: Array | float) -> Array:
+        return np.asarray(poses[name] if name in poses else np.full(count, otherwise), dtype=float)
+
+    def per_motor(name: str, otherwise: float) -> Array:
+        return np.column_stack([column(name.format(m), otherwise) for m in motors])
+
+    return Session(
+        commanded=np.column_stack([np.asarray(poses[f"q{m}_rad"], dtype=float) for m in motors]),
+        payload=column("payload_kg", 0.0),
+        time=column("time_s", arm.scene.session.time[-1] + 30.0),
+        temperature=column("temperature_c", 20.0),
+        run=np.full(count, arm.scene.session.run[-1]),
+        approach=per_motor("approach{}", 1.0),
+        speed=per_motor("dq{}_rad_s", 0.0),
+    )

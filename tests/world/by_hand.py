@@ -1,0 +1,91 @@
+"""Arms worked out by hand: products of D-H matrices and sums over masses, sharing nothing with MuJoCo or pinocchio."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import yaml
+
+ROBOTS = Path(__file__).parents[2] / "config" / "robots"
+ARMS = ("parallelogram-120kg", "six-axis", "seven-axis")
+
+
+def turn(axis: str, angle: float) -> np.ndarray:
+    c, s = np.cos(angle), np.sin(angle)
+    matrix = np.eye(4)
+    if axis == "z":
+        matrix[:2, :2] = [[c, -s], [s, c]]
+    elif axis == "x":
+        matrix[1:3, 1:3] = [[c, -s], [s, c]]
+    return matrix
+
+
+def shift(x: float, y: float, z: float) -> np.ndarray:
+    matrix = np.eye(4)
+    matrix[:3, 3] = x, y, z
+    return matrix
+
+
+class HandArm:
+    """One arm; `rows` (a m, alpha rad, d m, theta rad) may be changed."""
+
+    def __init__(self, content: dict[str, Any]) -> None:
+        self.modified = content["dh"]["convention"] == "modified"
+        self.rows = np.array(
+            [
+                [r["a_mm"] / 1e3, np.radians(r["alpha_deg"]), r["d_mm"] / 1e3, np.radians(r["theta_offset_deg"])]
+                for r in content["dh"]["joints"]
+            ]
+        )
+        n = len(self.rows)
+        self.actuation = np.eye(n)
+        if "actuation" in content:
+            self.actuation = np.array([[row.get(f"q{m + 1}", 0) for m in range(n)] for row in content["actuation"]])
+        self.tool = np.array(content["tool_mm"]) / 1e3
+        self.masses = [link["mass_kg"] for link in content["links"]]
+        self.centres = [np.array(link["com_mm"]) / 1e3 for link in content["links"]]
+        self.gravity = np.array(content["gravity_m_s2"], dtype=float)
+
+    @classmethod
+    def named(cls, name: str) -> HandArm:
+        return cls(yaml.safe_load((ROBOTS / f"{name}.yaml").read_text()))
+
+    def frames(self, chain_angles: np.ndarray, rows: np.ndarray | None = None) -> tuple[list, list]:
+        """Frame that carries each joint (z is its axis, origin its D-H origin), and each D-H frame."""
+        carrying, behind, now = [], [], np.eye(4)
+        for (a, alpha, d, theta), angle in zip(self.rows if rows is None else rows, chain_angles, strict=True):
+            if self.modified:
+                now = now @ turn("x", alpha) @ shift(a, 0, 0) @ shift(0, 0, d)
+                carrying.append(now)
+                now = now @ turn("z", theta + angle)
+            else:
+                carrying.append(now)
+                now = now @ turn("z", theta + angle) @ shift(0, 0, d) @ shift(a, 0, 0) @ turn("x", alpha)
+            behind.append(now)
+        return carrying, behind
+
+    def point(self, motors: np.ndarray, rows: np.ndarray | None = None, bent: np.ndarray | float = 0.0) -> np.ndarray:
+        """Tool point at motor angles; ``bent`` is added to the chain's angles."""
+        _, behind = self.frames(self.actuation @ motors + bent, rows)
+        return (behind[-1] @ np.append(self.tool, 1))[:3]
+
+    def loads(self, motors: np.ndarray, payload: float, from_link: int = 0) -> list[tuple[np.ndarray, np.ndarray]]:
+        """(place, weight) of every mass from a link (0-based) on, payload at the tool point."""
+        _, behind = self.frames(self.actuation @ motors)
+        found = [
+            ((behind[j] @ np.append(self.centres[j], 1))[:3], self.masses[j] * self.gravity)
+            for j in range(from_link, len(self.rows))
+        ]
+        return [*found, (self.point(motors), payload * self.gravity)]
+
+    def moment(self, motors: np.ndarray, payload: float, about: np.ndarray, from_link: int) -> np.ndarray:
+        """Gravity's moment about a point, of everything from a link (0-based) on."""
+        return sum(np.cross(place - about, weight) for place, weight in self.loads(motors, payload, from_link))
+
+    def torques(self, motors: np.ndarray, payload: float) -> np.ndarray:
+        """Gravity's torque on the motors, by virtual work."""
+        carrying, _ = self.frames(self.actuation @ motors)
+        chain = [self.moment(motors, payload, f[:3, 3], j) @ f[:3, 2] for j, f in enumerate(carrying)]
+        return self.actuation.T @ np.array(chain)
