@@ -1,0 +1,6 @@
+"""Plain geometric calibration: frames in closed form, identifiable constants, covariance, held-out numbers, export."""
+
+from armscope.calibration.calibrate import Calibration, Priors, calibrate
+from armscope.calibration.held_out import HeldOut, held_out
+
+__all__ = ["Calibration", "HeldOut", "Priors", "calibrate", "held_out"]

@@ -1,0 +1,126 @@
+"""The constants of an arm that a calibration may change, what each does to the tool, and the arm that results."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from armscope.robot import Arm, Chain, twist_jacobian
+from armscope.robot.arm import build_arm
+from armscope.robot.description import DHRow
+
+Array = NDArray[np.float64]
+Unit = Literal["m", "rad"]
+
+DH_FIELDS = {"theta": "theta_offset_deg", "a": "a_mm", "alpha": "alpha_deg", "d": "d_mm", "beta": "beta_deg"}
+TWIST_NAMES = ("x", "y", "z", "rx", "ry", "rz")
+
+
+@dataclass(frozen=True)
+class Constant:
+    """One constant of the arm's geometry: of joint ``joint`` (from 1); ``kind`` as in `DH_FIELDS` or `TWIST_NAMES`."""
+
+    joint: int
+    kind: str
+
+    @property
+    def unit(self) -> Unit:
+        """Metres or radians."""
+        return "m" if self.kind in ("a", "d", "x", "y", "z") else "rad"
+
+    @property
+    def name(self) -> str:
+        """For tables: "joint 3 alpha"."""
+        return f"joint {self.joint} {self.kind}"
+
+    @property
+    def is_zero_offset(self) -> bool:
+        """Whether it is the joint's angle at encoder zero."""
+        return self.kind in ("theta", "rz")
+
+
+def constants_of(arm: Arm) -> tuple[Constant, ...]:
+    """Everything that a geometric calibration may change.
+
+    Arms with D-H rows: a, alpha, d, theta and the turn about y of every row. Arms from a URDF: the six of every joint's
+    placement. Far more than can be identified: choosing among them is `identifiability`'s task.
+    """
+    kinds = tuple(DH_FIELDS) if arm.description.dh is not None else TWIST_NAMES
+    return tuple(Constant(joint, kind) for joint in range(1, arm.n_joints + 1) for kind in kinds)
+
+
+def corrected(arm: Arm, constants: tuple[Constant, ...], values: Array) -> Arm:
+    """The arm with ``values`` (m, rad) added to its constants.
+
+    Only the arm's own arrays change for a URDF: its description still names the nominal file (see `export`).
+    """
+    if arm.description.dh is None:
+        return _with_placements(arm, constants, values)
+    changes: dict[int, dict[str, float]] = {}
+    for constant, value in zip(constants, values, strict=True):
+        row = arm.description.dh.joints[constant.joint - 1]
+        field = DH_FIELDS[constant.kind]
+        in_file = value * 1e3 if constant.unit == "m" else np.degrees(value)
+        changes.setdefault(constant.joint, {})[field] = getattr(row, field) + float(in_file)
+    rows = [
+        row.model_copy(update=changes.get(joint, {})) for joint, row in enumerate(arm.description.dh.joints, start=1)
+    ]
+    return _with_rows(arm, rows)
+
+
+def _with_rows(arm: Arm, rows: list[DHRow]) -> Arm:
+    assert arm.description.dh is not None
+    table = arm.description.dh.model_copy(update={"joints": tuple(rows)})
+    return build_arm(arm.description.model_copy(update={"dh": table}))
+
+
+def _with_placements(arm: Arm, constants: tuple[Constant, ...], values: Array) -> Arm:
+    twists = np.zeros((arm.n_joints, 6))
+    for constant, value in zip(constants, values, strict=True):
+        twists[constant.joint - 1, TWIST_NAMES.index(constant.kind)] = value
+    before = arm.before.copy()
+    before[:, :3, 3] += np.einsum("nij,nj->ni", arm.before[:, :3, :3], twists[:, :3])
+    before[:, :3, :3] = arm.before[:, :3, :3] @ Rotation.from_rotvec(twists[:, 3:]).as_matrix()
+    return replace(arm, before=before)
+
+
+def columns(arm: Arm, frames: Chain, constants: tuple[Constant, ...]) -> Array:
+    """(N, 3, P) displacement of the tool point by a unit of each constant, in base axes; m/m or m/rad.
+
+    Exact for D-H rows at any values; for a URDF's placements exact at zero turns, and to their size beyond.
+    """
+    result = np.empty((len(frames.tool), 3, len(constants)))
+    jacobians: dict[str, Array] = {}
+    for column, constant in enumerate(constants):
+        location, twist = _twist(arm, constant)
+        if location not in jacobians:
+            jacobians[location] = twist_jacobian(frames, location)
+        result[:, :, column] = jacobians[location] @ twist
+    return result
+
+
+def _twist(arm: Arm, constant: Constant) -> tuple[str, Array]:
+    """Frame and twist (translation, rotation in its axes) that a unit of the constant is."""
+    twist = np.zeros(6)
+    joint = f"joint {constant.joint}"
+    if arm.description.dh is None:
+        twist[TWIST_NAMES.index(constant.kind)] = 1.0
+        return joint, twist
+    if constant.kind in ("theta", "d"):
+        twist[5 if constant.kind == "theta" else 2] = 1.0
+        return joint, twist
+    row = arm.description.dh.joints[constant.joint - 1]
+    beta, d = np.radians(row.beta_deg), row.d_mm * 1e-3
+    along = np.array([np.cos(beta), 0.0, np.sin(beta)])  # the row's x axis, seen past the turn about y
+    axis = along if constant.kind in ("a", "alpha") else np.array([0.0, 1.0, 0.0])
+    twist[:3] = axis if constant.kind == "a" else 0.0
+    twist[3:] = 0.0 if constant.kind == "a" else axis
+    if not arm.is_modified_dh:
+        return f"link {constant.joint}", twist
+    # in Craig's rows these stand before d, so they turn about a point d behind the joint frame's origin
+    twist[:3] += np.cross(twist[3:], [0.0, 0.0, d])
+    return joint, twist

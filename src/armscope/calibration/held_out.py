@@ -1,0 +1,94 @@
+"""Held-out numbers in the reference protocol: configurations split at random, test RMS of the 3D distance."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.calibration.calibrate import Priors, Redundancy, fit, freedom, rms_distance
+from armscope.calibration.fit import placed
+from armscope.calibration.model import LEVELS, Level, set_up
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+
+Array = NDArray[np.float64]
+TRAIN_SHARE = 0.7
+
+
+@dataclass(frozen=True)
+class HeldOut:
+    """Test RMS of the 3D distance per split, m."""
+
+    level: Level
+    per_split: tuple[float, ...]
+
+    @property
+    def mean(self) -> float:
+        """Mean over the splits, m."""
+        return float(np.mean(self.per_split))
+
+    @property
+    def std(self) -> float:
+        """Standard deviation over the splits, m."""
+        return float(np.std(self.per_split))
+
+    @property
+    def median(self) -> float:
+        """Median over the splits, m."""
+        return float(np.median(self.per_split))
+
+
+def split(recordings: Recordings, seed: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Rows to train on and rows to test on: `default_rng(seed).permutation` of the configurations, 70 % to train on.
+
+    A configuration is an id within its run; all its targets stay together.
+    """
+    keys = np.char.add(np.char.add(recordings.run, "\n"), recordings.id)
+    _, first, number = np.unique(keys, return_index=True, return_inverse=True)
+    rank = np.empty_like(first)
+    rank[np.argsort(first)] = np.arange(len(first))
+    configuration = rank[number]
+    order = np.random.default_rng(seed).permutation(len(first))
+    train = order[: int(TRAIN_SHARE * len(first))]
+    in_train = np.isin(configuration, train)
+    return np.flatnonzero(in_train), np.flatnonzero(~in_train)
+
+
+def held_out(
+    arm: Arm,
+    recordings: Recordings,
+    levels: Iterable[Level] = LEVELS,
+    seeds: Sequence[int] = (0, 1, 2, 3, 4),
+    *,
+    redundancy: Redundancy = "priors",
+    priors: Priors | None = None,
+    robust: bool = False,
+    one_base: bool = False,
+    tool_per_run: bool = False,
+    most_rows: int | None = None,
+) -> list[HeldOut]:
+    """Fit each level on 70 % of the configurations and test it on the rest, for several splits.
+
+    Args:
+        arm, recordings, redundancy, priors, robust, one_base, tool_per_run: as for `calibrate`.
+        levels: which levels; "compliance" is left out where no loads are known.
+        seeds: one split each.
+        most_rows: train on the first so many of the training rows, as the reference does for very long runs.
+    """
+    rows = set_up(arm, recordings, one_base, tool_per_run)
+    levels = [level for level in levels if level != "compliance" or rows.loads is not None]
+    found: dict[Level, list[float]] = {level: [] for level in levels}
+    for seed in seeds:
+        train, test = split(recordings, seed)
+        if most_rows is not None:
+            train = np.random.default_rng(seed).permutation(train)[:most_rows]
+        training, testing = rows.rows(train), rows.rows(test)
+        start = placed(training)
+        for level in levels:
+            free, stiffness = freedom(training, start, level, redundancy, priors or Priors())
+            fitted = fit(training, start, free, stiffness, robust)
+            found[level].append(rms_distance(testing.residuals(fitted.state)))
+    return [HeldOut(level, tuple(values)) for level, values in found.items()]

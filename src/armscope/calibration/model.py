@@ -1,0 +1,234 @@
+"""One set-up: rows of measurements, their base frames and tools, the arm's constants; residuals and exact columns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from armscope.calibration.geometry import Constant, columns, constants_of, corrected
+from armscope.inputs import InputError
+from armscope.recordings import Recordings
+from armscope.robot import Arm, Chain, chain, position_jacobian
+from armscope.robot.gravity import gravity_torques
+
+Array = NDArray[np.float64]
+Level = Literal["nominal", "offsets", "geometric", "compliance"]
+LEVELS: tuple[Level, ...] = ("nominal", "offsets", "geometric", "compliance")
+"""What is free beyond base and tool: nothing; each joint's zero; all constants; and one compliance per motor."""
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """Values of everything that may be free.
+
+    Attributes:
+        rotations, translations: (R, 3, 3), (R, 3) measurement frame from arm base, per base frame.
+        tools: (K, 3) offsets in the last frame, m.
+        constants: (P,) added to the arm's constants, m and rad.
+        compliances: (m,) rad/(N m), angle += compliance * load.
+    """
+
+    rotations: Array
+    translations: Array
+    tools: Array
+    constants: Array
+    compliances: Array
+
+    def moved(self, step: Array) -> State:
+        """A step in the order of `SetUp.names`; base steps are twists in the base's own axes."""
+        n_bases, n_tools, n_constants = len(self.rotations), len(self.tools), len(self.constants)
+        base, tools, constants, compliances = np.split(step, np.cumsum([6 * n_bases, 3 * n_tools, n_constants]))
+        base = base.reshape(n_bases, 6)
+        return State(
+            rotations=self.rotations @ Rotation.from_rotvec(base[:, 3:]).as_matrix(),
+            translations=self.translations + np.einsum("rij,rj->ri", self.rotations, base[:, :3]),
+            tools=self.tools + tools.reshape(n_tools, 3),
+            constants=self.constants + constants,
+            compliances=self.compliances + compliances,
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class SetUp:
+    """What is fitted to what.
+
+    Attributes:
+        arm: the nominal arm.
+        angles, measured: (N, m) rad, (N, 3) m.
+        base, tool: (N,) number of each row's base frame and tool.
+        base_names, tool_names: what these are called.
+        constants: the arm's constants.
+        loads: (N, m) N m, torque that turns each motor, recorded or from the mass table; None if neither is known.
+        load_source: "recorded torques", "gravity of the mass table" or "".
+    """
+
+    arm: Arm
+    angles: Array
+    measured: Array
+    base: NDArray[np.intp]
+    tool: NDArray[np.intp]
+    base_names: tuple[str, ...]
+    tool_names: tuple[str, ...]
+    constants: tuple[Constant, ...]
+    loads: Array | None
+    load_source: str
+
+    def __len__(self) -> int:
+        return len(self.angles)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Every parameter's name, in the order of columns and steps."""
+        axes = ("x", "y", "z", "rx", "ry", "rz")
+        base = [f"base{_of(name)} {axis}" for name in self.base_names for axis in axes]
+        tool = [f"tool{_of(name)} {axis}" for name in self.tool_names for axis in "xyz"]
+        motors = range(1, self.arm.n_motors + 1)
+        return (*base, *tool, *(each.name for each in self.constants), *(f"joint {j} compliance" for j in motors))
+
+    @property
+    def units(self) -> tuple[str, ...]:
+        """Unit of each parameter: m, rad or rad/(N m)."""
+        base = ["m"] * 3 + ["rad"] * 3
+        compliances = ["rad/(N m)"] * self.arm.n_motors
+        tools = ["m"] * 3 * len(self.tool_names)
+        return (*(base * len(self.base_names)), *tools, *(each.unit for each in self.constants), *compliances)
+
+    @property
+    def tiers(self) -> NDArray[np.intp]:
+        """Order of preference where parameters imitate each other: frames, compliances, the arm, turns about y."""
+        n_frames = 6 * len(self.base_names) + 3 * len(self.tool_names)
+        arm = [3 if constant.kind == "beta" else 2 for constant in self.constants]
+        return np.array([0] * n_frames + arm + [1] * self.arm.n_motors)
+
+    def free(self, level: Level) -> NDArray[np.bool_]:
+        """Which parameters a level lets free, identifiable or not."""
+        n_frames = 6 * len(self.base_names) + 3 * len(self.tool_names)
+        arm = [
+            level in ("geometric", "compliance") or (level == "offsets" and constant.is_zero_offset)
+            for constant in self.constants
+        ]
+        return np.array([True] * n_frames + arm + [level == "compliance"] * self.arm.n_motors)
+
+    def rows(self, which: NDArray[np.bool_] | NDArray[np.intp]) -> SetUp:
+        """The set-up with some of its rows; frames and names stay."""
+        loads = None if self.loads is None else self.loads[which]
+        return replace(
+            self,
+            angles=self.angles[which],
+            measured=self.measured[which],
+            base=self.base[which],
+            tool=self.tool[which],
+            loads=loads,
+        )
+
+    def frames(self, state: State) -> tuple[Arm, Chain]:
+        """The corrected arm and its frames, the tool points those of each row's tool."""
+        arm = corrected(self.arm, self.constants, state.constants) if state.constants.any() else self.arm
+        angles = self.angles
+        if self.loads is not None and state.compliances.any():
+            angles = angles + self.loads * state.compliances
+        frames = chain(arm, angles)
+        offset = state.tools[self.tool] - arm.tool
+        return arm, replace(frames, tool=frames.tool + np.einsum("nij,nj->ni", frames.tool_rotation, offset))
+
+    def residuals(self, state: State) -> Array:
+        """(N, 3) measured minus predicted, in the measurement frame, m."""
+        _, frames = self.frames(state)
+        return self.measured - self._in_measured(state, frames)
+
+    def predicted(self, state: State) -> Array:
+        """(N, 3) predicted points in the measurement frame, m."""
+        return self._in_measured(state, self.frames(state)[1])
+
+    def _in_measured(self, state: State, frames: Chain) -> Array:
+        turned: Array = np.einsum("nij,nj->ni", state.rotations[self.base], frames.tool)
+        return turned + state.translations[self.base]
+
+    def linearised(self, state: State, free: NDArray[np.bool_]) -> tuple[Array, Array]:
+        """Residuals (3N,) and the columns (3N, free) of the prediction, both in the axes of each row's arm base."""
+        arm, frames = self.frames(state)
+        back = np.swapaxes(state.rotations[self.base], 1, 2)
+        seen = np.einsum("nij,nj->ni", back, self.measured - state.translations[self.base])
+        n_rows, n_frames = len(self), 6 * len(self.base_names) + 3 * len(self.tool_names)
+        jacobian = np.zeros((n_rows, 3, len(free)))
+        rows = np.arange(n_rows)
+        for axis in range(3):
+            jacobian[rows, axis, 6 * self.base + axis] = 1.0
+            turned = np.cross(np.eye(3)[axis], frames.tool)
+            offset = 6 * len(self.base_names) + 3 * self.tool + axis
+            for row_axis in range(3):
+                jacobian[rows, row_axis, 6 * self.base + 3 + axis] = turned[:, row_axis]
+                jacobian[rows, row_axis, offset] = frames.tool_rotation[:, row_axis, axis]
+        chosen = np.flatnonzero(free[n_frames : n_frames + len(self.constants)])
+        jacobian[:, :, n_frames + chosen] = columns(arm, frames, tuple(self.constants[each] for each in chosen))
+        if self.loads is not None and free[n_frames + len(self.constants) :].any():
+            jacobian[:, :, n_frames + len(self.constants) :] = position_jacobian(arm, frames) * self.loads[:, None, :]
+        return (seen - frames.tool).ravel(), jacobian.reshape(3 * n_rows, -1)[:, free]
+
+
+def _of(name: str) -> str:
+    return f" of {name}" if name else ""
+
+
+def set_up(arm: Arm, recordings: Recordings, one_base: bool = False, tool_per_run: bool = False) -> SetUp:
+    """Recordings as a set-up of base frames (one per run) and tools (one per target).
+
+    Args:
+        arm: the nominal arm.
+        recordings: measured points.
+        one_base: one base frame for all runs, where nothing was moved between them.
+        tool_per_run: a tool of its own for every run, where it was taken off in between.
+
+    Raises:
+        InputError: another number of motors than the arm has.
+    """
+    if recordings.n_motors != arm.n_motors:
+        raise InputError(
+            recordings.source,
+            "motor angles",
+            f"{recordings.n_motors} motors",
+            f"{arm.name} has {arm.n_motors}",
+            "Is this the right robot for the recordings?",
+        )
+    base_names, base = _groups(np.full(len(recordings), "") if one_base else recordings.run)
+    labels = recordings.target
+    if tool_per_run:
+        joined = [" in ".join(filter(None, pair)) for pair in zip(recordings.target, recordings.run, strict=True)]
+        labels = np.array(joined)
+    tool_names, tool = _groups(labels)
+    loads, load_source = _loads(arm, recordings)
+    return SetUp(
+        arm=arm,
+        angles=recordings.motor_angles,
+        measured=recordings.positions,
+        base=base,
+        tool=tool,
+        base_names=base_names,
+        tool_names=tool_names,
+        constants=constants_of(arm),
+        loads=loads,
+        load_source=load_source,
+    )
+
+
+def _groups(labels: NDArray[np.str_]) -> tuple[tuple[str, ...], NDArray[np.intp]]:
+    """Names in the order of their first row, and each row's number among them."""
+    names, first, number = np.unique(labels, return_index=True, return_inverse=True)
+    order = np.argsort(first)
+    rank = np.empty_like(order)
+    rank[order] = np.arange(len(order))
+    return tuple(str(name) for name in names[order]), rank[number]
+
+
+def _loads(arm: Arm, recordings: Recordings) -> tuple[Array | None, str]:
+    """Recorded torques where they are complete, otherwise gravity of the mass table."""
+    if recordings.torque is not None and np.isfinite(recordings.torque).all():
+        return recordings.torque, "recorded torques"
+    if arm.has_masses:
+        frames = chain(arm, recordings.motor_angles)
+        return gravity_torques(arm, frames, recordings.payload), "gravity of the mass table"
+    return None, ""
