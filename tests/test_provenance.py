@@ -35,3 +35,21 @@ def test_the_digest_follows_the_sources(monkeypatch, tmp_path):
 def test_an_unknown_module_is_an_error():
     with pytest.raises(ModuleNotFoundError, match="nothing is not a module"):
         provenance.sources("armscope.nothing")
+
+
+def test_a_command_depends_on_itself_what_it_calls_and_what_it_imports(monkeypatch, tmp_path):
+    module = "def one():\n    from armscope.two import x\n    return helper(x)\ndef helper(x): return x\ndef other(): return {}\n"
+    (tmp_path / "two.py").write_text("x = 1\n")
+    monkeypatch.setattr(provenance, "PACKAGE", tmp_path)
+
+    def digest(text):
+        provenance.sources.cache_clear()
+        (tmp_path / "one.py").write_text(text)
+        return provenance.digest("armscope.one:one")
+
+    before = digest(module.format(1))
+    assert digest(module.format(2)) == before
+    assert digest(module.format(1).replace("return x", "return -x")) != before
+    (tmp_path / "two.py").write_text("x = 2\n")
+    assert digest(module.format(1)) != before
+    provenance.sources.cache_clear()

@@ -47,7 +47,7 @@ class Identification(Strict):
     poses: Stated[Count]
     candidates: Stated[Count]
     margin_rad: Stated[Annotated[float, Field(ge=0)]]
-    forearm_motor_6_rad: Stated[Positive]
+    motor_6_rad: Stated[Positive]
 
 
 class Trajectories(Strict):
@@ -90,8 +90,8 @@ class Model(Strict):
     """An error model: a family of functions of Cartesian or angular input, for each axis."""
 
     family: Literal["polynomial", "fourier"]
-    degree: Count = Field(description="degree of the polynomial, or number of harmonics")
-    input: Literal["cartesian", "angular"]
+    order: Count = Field(description="degree of the polynomial, or number of harmonics")
+    space: Literal["cartesian", "angular"]
 
 
 class Paper(Strict):
@@ -103,7 +103,7 @@ class Paper(Strict):
     identification: Identification
     trajectories: Trajectories
     tracker: Tracker
-    models: dict[str, Model]
+    models: tuple[Model, ...] = Field(min_length=1)
     swarm: Swarm = Swarm()
 
 

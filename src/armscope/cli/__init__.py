@@ -1,0 +1,43 @@
+"""The command line: thin commands that read files, call the package and write files.
+
+Each command imports what it needs when it runs, so that `armscope --help` and short jobs start quickly.
+"""
+
+from __future__ import annotations
+
+import sys
+
+import typer
+
+from armscope.cli import diagnosis, paper, recordings
+from armscope.inputs import InputError
+
+app = typer.Typer(
+    name="armscope",
+    help="See where a robot arm misses its target, and why.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    add_completion=False,
+)
+app.add_typer(diagnosis.app)
+app.add_typer(recordings.app)
+app.add_typer(paper.app, name="paper", help="The 2006 paper, step by step; the workflow calls these.")
+
+
+@app.command("schema")
+def print_schema() -> None:
+    """Print the JSON schema of config.yaml."""
+    import json
+
+    from armscope.config import schema
+
+    print(json.dumps(schema(), indent=2))
+
+
+def main() -> None:
+    """Run the command line; bad input ends it with one clear sentence and exit code 2."""
+    try:
+        app()
+    except InputError as error:
+        print(f"armscope: {error}", file=sys.stderr)
+        sys.exit(2)

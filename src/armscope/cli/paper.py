@@ -1,0 +1,145 @@
+"""The 2006 paper, step by step: each command reads tables, calls `armscope.paper`, and writes tables or figures."""
+
+from __future__ import annotations
+
+import gzip
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from armscope.inputs import InputError, Model, validate
+
+if TYPE_CHECKING:
+    from armscope.errormodels import FittedModel
+    from armscope.paper import Measurements
+
+app = typer.Typer(no_args_is_help=True)
+
+Settings = Annotated[str, typer.Option(help="JSON: the parts of the configuration that this step follows")]
+Output = Annotated[Path, typer.Option("--output", "-o", help="where to write")]
+Poses = Annotated[Path, typer.Argument(help="poses.csv of a study")]
+Errors = Annotated[Path, typer.Argument(help="errors.csv.gz of a study")]
+
+
+@app.command()
+def measure(
+    robot: Annotated[Path, typer.Argument(help="robot.yaml")],
+    settings: Settings,
+    output: Annotated[Path, typer.Option("--output", "-o", help="folder for poses, errors, robots and observability")],
+) -> None:
+    """Anchor virtual robots to the printed equations and measure them on identification poses and test paths."""
+    import pandas as pd
+
+    from armscope.cli.paper_settings import MeasureSettings, tracker_of
+    from armscope.files import write_table
+    from armscope.paper import identification_poses, measure_virtual, paper_paths_mm, trajectory_poses
+    from armscope.robot import load_arm
+    from armscope.world.tolerances import geometric_errors
+
+    chosen = _settings(MeasureSettings, settings)
+    arm = load_arm(robot)
+    sizes, paths, poses = chosen.tolerances, chosen.trajectories, chosen.identification
+    errors = geometric_errors(
+        arm,
+        sizes.link_mm.value * 1e-3,
+        sizes.link_mrad.value * 1e-3,
+        sizes.base_mm.value * 1e-3,
+        sizes.base_mrad.value * 1e-3,
+    )
+    trajectories = trajectory_poses(
+        arm,
+        paper_paths_mm(
+            paths.corners_mm.value,
+            paths.points_per_side.value,
+            paths.spiral_starts_mm.value,
+            paths.spiral_enlargement.value,
+            paths.spiral_turns_pi.value,
+            paths.spiral_points.value,
+            paths.third_coordinate_rise_mm.value,
+        ),
+    )
+    identification, choice = identification_poses(
+        errors,
+        trajectories,
+        poses.poses.value,
+        poses.candidates.value,
+        poses.margin_rad.value,
+        poses.motor_6_rad.value,
+        chosen.seed,
+    )
+    study = measure_virtual(
+        errors,
+        pd.concat([identification, trajectories], ignore_index=True),
+        tracker_of(chosen.tracker),
+        chosen.ensemble_robots,
+        chosen.seed,
+    )
+    pose_rows, error_rows = study.measurements.to_tables()
+    write_table(output / "poses.csv", pose_rows)
+    write_table(output / "errors.csv.gz", error_rows)
+    write_table(output / "robots.csv", study.robots.to_table())
+    write_table(output / "observability.csv", _observability(choice))
+
+
+@app.command()
+def fit(poses: Poses, errors: Errors, settings: Settings, output: Output) -> None:
+    """Fit the error models by particle swarm: many seeds on the first robot, fewer on the ensemble."""
+    from armscope.cli.paper_settings import FitSettings, specs_of, swarm_settings_of
+    from armscope.errormodels import fit_swarms
+
+    chosen = _settings(FitSettings, settings)
+    measurements = _measurements(poses, errors)
+    swarm, specs = chosen.swarm, specs_of(chosen.models)
+    fits: list[FittedModel] = []
+    first, *ensemble = measurements.robots
+    for robots, seeds in ((([first]), swarm.seeds), (ensemble, chosen.ensemble_seeds)):
+        problems = measurements.fit_problems(specs, robots)
+        first_seed = chosen.seed
+        fits += fit_swarms(
+            problems, range(first_seed, first_seed + seeds), swarm_settings_of(swarm), swarm.basis, swarm.engine
+        )
+    _write_fits(output, fits)
+
+
+def _settings(model: type[Model], text: str) -> Model:
+    try:
+        content = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise InputError("--settings", f"character {error.pos}", text, "this must be JSON", error.msg) from error
+    return validate(model, content, "--settings")
+
+
+def _observability(choice: Any) -> Any:
+    import pandas as pd
+
+    return pd.DataFrame(
+        {
+            "choice": ["chosen", "random (median)"],
+            "poses": len(choice.rows),
+            "parameters": choice.n_parameters,
+            "observability_index_O1": [choice.index, choice.random_index],
+        }
+    )
+
+
+def _measurements(poses: Path, errors: Path) -> Measurements:
+    import pandas as pd
+
+    from armscope.paper import Measurements
+
+    return Measurements.from_tables(pd.read_csv(poses), pd.read_csv(errors))
+
+
+def _write_fits(path: Path, fits: list[FittedModel]) -> None:
+    from armscope.files import replacing
+
+    with replacing(path) as beside:
+        beside.write_bytes(gzip.compress(json.dumps([fit.to_dict() for fit in fits]).encode(), mtime=0))
+
+
+def _read_fits(path: Path) -> list[FittedModel]:
+    from armscope.errormodels import FittedModel
+
+    return [FittedModel.from_dict(content) for content in json.loads(gzip.decompress(path.read_bytes()))]

@@ -1,0 +1,36 @@
+# What all rules share: the checked configuration, where results go, and which sources a rule depends on.
+import json
+import os
+import sys
+from pathlib import Path
+
+from armscope.config import Config
+from armscope.inputs import InputError, validate
+from armscope.provenance import digest
+
+# `snakemake` may be called by its path, without the environment being activated
+os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+
+try:
+    CONFIG = validate(Config, config, "configuration (config/config.yaml and what overrides it)")
+except InputError as error:
+    raise WorkflowError(str(error)) from None
+
+RESULTS = CONFIG.results
+RECORDINGS = CONFIG.recordings_dir
+
+
+def settings(**parts):
+    """Parts of the configuration as JSON: what a command is told, and what reruns it when it changes."""
+    return json.dumps({name: _plain(part) for name, part in parts.items()})
+
+
+def _plain(part):
+    if isinstance(part, tuple):
+        return [_plain(each) for each in part]
+    return part.model_dump(mode="json") if hasattr(part, "model_dump") else part
+
+
+def code(*modules):
+    """A digest of the package's sources that a rule uses, so that a changed one reruns it."""
+    return digest(*modules)
