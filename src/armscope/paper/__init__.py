@@ -11,7 +11,11 @@ The way of a study, each step a pure function of the ones before:
     study.measurements.to_tables()                                            # poses, errors; and from_tables
     fits = fit_swarms(study.measurements.fit_problems(specs, robots), seeds)  # armscope.errormodels
     residuals = residual_table(study.measurements, fits)                      # one row per robot, model, cell, seed
-    table2(residuals), claims(...), audit(...), reading(...), sub_volumes(study.measurements)
+    table2(residuals)                                                         # beside the printed one
+    sub_volumes(study.measurements)                                           # one, two, four regions
+    claims(residuals, fits, sub_volumes(...), fits_as_printed)                # verdicts
+    reading(study.measurements.identification.nominal_mm)                     # Eqs. (15)-(17) as physics
+    audit(...)                                                                # printed against printed
 
     real_measurements(arm, recordings, ...) gives Measurements of a real arm, for the same fits and tables.
 
@@ -19,9 +23,13 @@ Everything here is in mm and rad, as the paper's equations.
 """
 
 from armscope.paper.anchoring import ANCHORED, AnchoredRobots, anchor
+from armscope.paper.claims import claims
 from armscope.paper.measurements import Measurements, PoseSet, pose_arrays, pose_table
 from armscope.paper.printed import predict_printed, printed_coefficients, printed_matrix, printed_table2
 from armscope.paper.reading import reading
+from armscope.paper.residuals import residual_table
+from armscope.paper.sub_volumes import sub_volumes
+from armscope.paper.table2 import table2
 from armscope.paper.virtual import (
     VirtualStudy,
     identification_poses,
@@ -37,6 +45,7 @@ __all__ = [
     "PoseSet",
     "VirtualStudy",
     "anchor",
+    "claims",
     "identification_poses",
     "measure_virtual",
     "paper_paths_mm",
@@ -47,5 +56,8 @@ __all__ = [
     "printed_matrix",
     "printed_table2",
     "reading",
+    "residual_table",
+    "sub_volumes",
+    "table2",
     "trajectory_poses",
 ]

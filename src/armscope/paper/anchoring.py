@@ -1,8 +1,8 @@
 """Robots that stand in for the lost one: geometric errors of tolerance size that agree with the printed equations.
 
-The fit of FDP(CI) by least squares is linear in the measured errors, and these are nearly linear in the geometric errors
-e (in tolerances, prior N(0, 1)): the orthonormal coordinates of the fit are A e + noise. The printed Eqs. (15)-(17) are
-12 such numbers b. Then
+The fit of FDP(CI) by least squares is linear in the measured errors, and these are nearly linear in the geometric
+errors e (in tolerances, prior N(0, 1)): the orthonormal coordinates of the fit are A e + noise. The printed
+Eqs. (15)-(17) are 12 such numbers b. Then
 
     most likely e  =  A' (A A')^-1 b                      (the anchored robot)
     drawn given b  =  e0 + A' (A A')^-1 (b - A e0)        (the ensemble; e0 drawn from the prior)

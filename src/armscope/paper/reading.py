@@ -17,15 +17,15 @@ def reading(points_mm: ArrayLike, model: str = "FDP(CI)") -> pd.DataFrame:
         model: "FDP(CI)".
 
     Returns:
-        Columns quantity, value, unit, meaning. delta = t + G p with G = scale 1 + [rotation]x + rest (symmetric, without
-        trace); the translation is given at the robot's base and at the points' centre.
+        Columns quantity, value, unit, meaning. delta = t + G p with G = scale 1 + [rotation]x + rest (symmetric,
+        without trace); the translation is given at the robot's base and at the points' centre.
     """
     points = np.asarray(points_mm, dtype=float)
     coefficients = printed_matrix(model)
     translation, gradient = coefficients[:, 0], coefficients[:, 1:]
     turn = (gradient - gradient.T) / 2
     rotation = np.array([turn[2, 1], turn[0, 2], turn[1, 0]])
-    scale = np.trace(gradient) / 3
+    scale = float(np.trace(gradient)) / 3
     rest = (gradient + gradient.T) / 2 - scale * np.eye(3)
     centre = points.mean(axis=0)
     arms = points - centre
@@ -35,7 +35,7 @@ def reading(points_mm: ArrayLike, model: str = "FDP(CI)") -> pd.DataFrame:
         "scale": scale * arms,
         "rest": arms @ rest.T,
     }
-    rows = [("rotation", np.linalg.norm(rotation) * 1e3, "mrad", "size of the rotation vector")]
+    rows = [("rotation", float(np.linalg.norm(rotation)) * 1e3, "mrad", "size of the rotation vector")]
     for axis, k in zip(AXES, range(3), strict=True):
         moved_centre = shares["translation of the centre"][0, k]
         rows += [
@@ -44,7 +44,9 @@ def reading(points_mm: ArrayLike, model: str = "FDP(CI)") -> pd.DataFrame:
             (f"translation {axis} of the centre", moved_centre, "mm", "at the points' centre"),
         ]
     rows.append(("scale", scale * 100, "%", "negative: measured distances are shorter than nominal ones"))
-    rows.append(("rest", np.linalg.norm(rest) * 1e3, "mm/m", "Frobenius norm of what is neither motion nor scale"))
+    rows.append(
+        ("rest", float(np.linalg.norm(rest)) * 1e3, "mm/m", "Frobenius norm of what is neither motion nor scale")
+    )
     for name, value in zip(("largest", "middle", "smallest"), np.linalg.eigvalsh(rest)[::-1], strict=True):
         rows.append((f"rest, {name} strain", value * 1e3, "mm/m", "principal strain of the rest"))
     total = points @ gradient.T + translation

@@ -62,7 +62,7 @@ def paper_paths_mm(
 
 
 def trajectory_poses(arm: Arm, paths_mm: Mapping[str, Array]) -> pd.DataFrame:
-    """The pose table (see `pose_table`) of paths followed with theta4 = theta5 = 0 and least motion, from motor angles 0.
+    """The pose table (see `pose_table`) of paths followed with theta4 = theta5 = 0 and least motion, from angles 0.
 
     Raises:
         InputError: a point that can't be reached; it names path, point and reason.

@@ -1,0 +1,86 @@
+"""How much error is left: for every robot, model, trajectory and axis, uncompensated and after each prediction."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from armscope.errormodels import FittedModel
+from armscope.paper.measurements import Measurements
+from armscope.paper.printed import AXES, UNCOMPENSATED
+
+Array = NDArray[np.float64]
+
+SPATIAL = "3D"
+"""The fourth "axis": the length of the error vector."""
+
+NO_SEED = -1
+COLUMNS = ["robot", "model", "trajectory", "axis", "method", "seed", "points", "rss_mm", "rms_mm"]
+
+
+def residual_table(measurements: Measurements, fits: Sequence[FittedModel]) -> pd.DataFrame:
+    """One row per robot, model, trajectory, axis and fit.
+
+    Args:
+        measurements: of the robots.
+        fits: whose labels are robots' names (`Measurements.fit_problems`); robots without a fit keep their
+            uncompensated rows.
+
+    Returns:
+        Columns robot, model ("Uncompensated", "FDP(CI)", ...), trajectory, axis (x, y, z, 3D), method ("none", "swarm",
+        "random search", "least squares"), seed (-1 where there is none), points, rss_mm (root of the sum of squares
+        over the points) and rms_mm (root of their mean). Residual = measured - predicted error.
+    """
+    parts = [
+        _rows(robot, UNCOMPENSATED, each.name, "none", (NO_SEED,), each.errors_mm[row][None])
+        for row, robot in enumerate(measurements.robots)
+        for each in measurements.sets
+    ]
+    for fit in fits:
+        row = measurements.robots.index(fit.label)
+        for each in measurements.sets:
+            terms = fit.features.matrix(each.inputs(fit.features.spec))
+            errors = each.errors_mm[row]
+            swarms = errors - np.matmul(terms, fit.coefficients.transpose(0, 2, 1))
+            parts.append(_rows(fit.label, fit.name, each.name, fit.method, fit.seeds, swarms))
+            least_squares = (errors - terms @ fit.least_squares.T)[None]
+            parts.append(_rows(fit.label, fit.name, each.name, "least squares", (NO_SEED,), least_squares))
+    columns = {name: np.concatenate([part[name] for part in parts]) for name in COLUMNS}
+    return pd.DataFrame(columns)
+
+
+def _rows(
+    robot: str, model: str, trajectory: str, method: str, seeds: Sequence[int], residuals: Array
+) -> dict[str, NDArray]:
+    """The table's columns for residuals (S, N, 3) of S fits."""
+    n_points = residuals.shape[1]
+    squares = np.einsum("sna,sna->sa", residuals, residuals)
+    squares = np.column_stack([squares, squares.sum(axis=1)]).ravel()
+    count = len(squares)
+    return {
+        "robot": np.full(count, robot, dtype=object),
+        "model": np.full(count, model, dtype=object),
+        "trajectory": np.full(count, trajectory, dtype=object),
+        "axis": np.array([*AXES, SPATIAL] * len(seeds), dtype=object),
+        "method": np.full(count, method, dtype=object),
+        "seed": np.repeat(np.asarray(seeds, dtype=int), len(AXES) + 1),
+        "points": np.full(count, n_points),
+        "rss_mm": np.sqrt(squares),
+        "rms_mm": np.sqrt(squares / n_points),
+    }
+
+
+def typical(residuals: pd.DataFrame, method: str = "swarm", value: str = "rms_mm") -> pd.DataFrame:
+    """The median over seeds: one row per robot, columns (model, trajectory, axis); robots in their first order.
+
+    Args:
+        residuals: see `residual_table`.
+        method: whose fits; the uncompensated errors are always in.
+        value: "rms_mm" or "rss_mm".
+    """
+    chosen = residuals[residuals["method"].isin(["none", method])]
+    medians = chosen.groupby(["robot", "model", "trajectory", "axis"], sort=False)[value].median()
+    return medians.unstack(["model", "trajectory", "axis"]).reindex(residuals["robot"].unique())

@@ -1,0 +1,52 @@
+"""Table 2 again: what the paper prints beside what its method gives on the anchored robot and its ensemble."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+
+from armscope.paper.printed import printed_table2
+from armscope.paper.residuals import typical
+
+ENSEMBLE_RANGE = (5, 95)
+"""Per cent of the robots between which the ensemble's range is given."""
+
+READINGS = {"rss": "root of the sum of squares", "rms": "root of the mean square"}
+"""The two ways to read the table's "RMS": by name of the columns."""
+
+
+def table2(residuals: pd.DataFrame, robot: str | None = None) -> pd.DataFrame:
+    """One row per model, trajectory and axis (x, y, z, 3D), in the order of the fits.
+
+    Args:
+        residuals: see `residual_table`.
+        robot: the one to show; None takes the first (the anchored one). All others are its ensemble.
+
+    Returns:
+        Columns model, trajectory, axis, points, printed (as in the paper, no unit; NaN for models, sets and axes that
+        it does not have), and for each reading r of "RMS" ("rss", "rms"), in mm: r_median, r_low, r_high (over the seeds),
+        r_least_squares, r_ensemble_low, r_ensemble_median, r_ensemble_high (5, 50, 95 % of the other robots, each with
+        its median seed; NaN without an ensemble), and r_ratio = r_median / printed.
+    """
+    robots = residuals["robot"].unique()
+    shown = robots[0] if robot is None else robot
+    keys = ["model", "trajectory", "axis"]
+    mine = residuals[residuals["robot"] == shown]
+    fitted = mine[mine["method"] != "least squares"].groupby(keys, sort=False)
+    least_squares = mine[mine["method"].isin(["least squares", "none"])].set_index(keys)
+    table = fitted["points"].first().to_frame()
+    printed = printed_table2().set_index(keys)["printed"]
+    table["printed"] = printed.reindex(table.index)
+    for reading in READINGS:
+        values = fitted[f"{reading}_mm"]
+        table[f"{reading}_median"] = values.median()
+        table[f"{reading}_low"] = values.min()
+        table[f"{reading}_high"] = values.max()
+        table[f"{reading}_least_squares"] = least_squares[f"{reading}_mm"].reindex(table.index)
+        ensemble = typical(residuals[residuals["robot"] != shown], value=f"{reading}_mm")
+        bounds = (*ENSEMBLE_RANGE[:1], 50, *ENSEMBLE_RANGE[1:])
+        for name, per_cent in zip(("low", "median", "high"), bounds, strict=True):
+            quantile = ensemble.quantile(per_cent / 100) if len(ensemble) else pd.Series(dtype=float)
+            table[f"{reading}_ensemble_{name}"] = quantile.reindex(table.index) if len(quantile) else np.nan
+        table[f"{reading}_ratio"] = table[f"{reading}_median"] / table["printed"]
+    return table.reset_index()
