@@ -164,8 +164,8 @@ def _corrected_urdf(calibration: Calibration) -> str:
 
 def _placement_of(origin: ET.Element) -> Array:
     placement = np.eye(4)
-    placement[:3, 3] = np.fromstring(origin.get("xyz", "0 0 0"), sep=" ")
-    rpy = np.fromstring(origin.get("rpy", "0 0 0"), sep=" ")
+    placement[:3, 3] = _numbers(origin.get("xyz", "0 0 0"))
+    rpy = _numbers(origin.get("rpy", "0 0 0"))
     placement[:3, :3] = Rotation.from_euler("xyz", rpy).as_matrix()
     return placement
 
@@ -175,6 +175,10 @@ def _origin(placement: Array) -> dict[str, str]:
         "xyz": _words(placement[:3, 3]),
         "rpy": _words(Rotation.from_matrix(placement[:3, :3]).as_euler("xyz", suppress_warnings=True)),
     }
+
+
+def _numbers(words: str) -> Array:
+    return np.array([float(word) for word in words.split()])
 
 
 def _words(values: Array) -> str:

@@ -1,0 +1,75 @@
+"""What is exported loads back to the calibrated positions."""
+
+import numpy as np
+import pytest
+import yaml
+
+from armscope.calibration import calibrate
+from armscope.calibration.export import export
+from armscope.inputs import InputError
+from armscope.robot import chain, forward_kinematics, load_arm
+from tests.calibration.test_calibrate import ARMS, arm  # noqa: F401 - the arms in every form
+from tests.calibration.worlds import far_away, measured, planted, poses, ur_like
+
+assert ARMS
+
+
+def test_robot_yaml_and_urdf_load_back_to_the_calibrated_positions(arm, tmp_path):  # noqa: F811
+    rng = np.random.default_rng(1)
+    tools = {"near": [0.05, 0.1, 0.2], "far": [0.3, 0, 0.1]}
+    calibration = calibrate(arm, measured(planted(arm, rng), poses(rng, 80, arm.n_motors), far_away(rng), tools))
+    angles = poses(rng, 40, arm.n_motors)
+    frames = chain(calibration.arm, angles)
+    for number, target in enumerate(tools):
+        written = export(calibration, tmp_path / target, target)
+        offset = calibration.state.tools[number] - arm.tool
+        expected = frames.tool + frames.tool_rotation @ offset
+        loaded = [path for path in written if path.name in ("robot.yaml", "robot_urdf.yaml")]
+        assert len(loaded) == (1 if arm.description.dh is None else 2)
+        for path in loaded:
+            again = load_arm(path)
+            np.testing.assert_allclose(forward_kinematics(again, angles), expected, atol=1e-8, err_msg=path.name)
+            # a negative control: the nominal arm is elsewhere
+            assert np.abs(forward_kinematics(arm, angles) - expected).max() > 1e-3
+
+
+def test_base_and_tools_stand_in_frames_yaml_and_give_the_measured_points(tmp_path):
+    from scipy.spatial.transform import Rotation
+
+    rng = np.random.default_rng(2)
+    recordings = measured(planted(ur_like(), rng), poses(rng, 60, 6), far_away(rng), {"": [0.05, 0.1, 0.2]})
+    calibration = calibrate(ur_like(), recordings)
+    export(calibration, tmp_path)
+    base = yaml.safe_load((tmp_path / "frames.yaml").read_text())["base_frames"][0]
+    w, x, y, z = base["quaternion_wxyz"]
+    points = forward_kinematics(load_arm(tmp_path / "robot.yaml"), recordings.motor_angles)
+    seen = Rotation.from_quat([x, y, z, w]).apply(points) + np.array(base["position_mm"]) * 1e-3
+    np.testing.assert_allclose(seen, recordings.positions, atol=1e-7)
+
+
+def test_masses_and_limits_go_along(tmp_path):
+    from tests.robot.arms import random_masses
+
+    rng = np.random.default_rng(3)
+    nominal = ur_like(
+        links=random_masses(rng, 6), joint_limits_deg=[[-100, 110]] * 6, tool_load={"mass_kg": 3, "com_mm": [0, 0, 50]}
+    )
+    calibration = calibrate(
+        nominal, measured(planted(nominal, rng), poses(rng, 60, 6), far_away(rng), {"": [0, 0, 0.1]})
+    )
+    export(calibration, tmp_path)
+    for name in ("robot.yaml", "robot_urdf.yaml"):
+        again = load_arm(tmp_path / name)
+        np.testing.assert_allclose(again.masses, calibration.arm.masses)
+        np.testing.assert_allclose(again.centres, calibration.arm.centres, atol=1e-8)
+        np.testing.assert_allclose(again.limits, nominal.limits)
+
+
+def test_an_unknown_target_is_named(tmp_path):
+    rng = np.random.default_rng(4)
+    calibration = calibrate(
+        ur_like(), measured(ur_like(), poses(rng, 40, 6), far_away(rng), {"left": [0, 0, 0.1]}), "nominal"
+    )
+    with pytest.raises(InputError, match="left"):
+        export(calibration, tmp_path, "lefft")
+    assert not list(tmp_path.iterdir())
