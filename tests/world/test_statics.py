@@ -16,7 +16,9 @@ from tests.world.by_hand import ARMS, HandArm
 from tests.world.scenes import drawn, scene_of
 
 
-def one_joint(alpha_deg: float, tool_mm: tuple[float, float, float] = (0, 0, 0), gravity: tuple = (0, 0, -9.81)) -> RobotDescription:
+def one_joint(
+    alpha_deg: float, tool_mm: tuple[float, float, float] = (0, 0, 0), gravity: tuple = (0, 0, -9.81)
+) -> RobotDescription:
     """A link of one metre on one joint, without mass."""
     return RobotDescription.model_validate(
         {

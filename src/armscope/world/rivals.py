@@ -186,7 +186,7 @@ class Visibility:
     Attributes:
         noncentrality: squared size of its displacement, in noise units, that frames and the other effects don't take.
         columns: how many numbers an oracle that knows what to test would fit.
-        alternatives: the answers that are as good, best first.
+        alternatives: the answers that are as good, best first; none where there is nothing to see.
     """
 
     noncentrality: float
@@ -215,6 +215,8 @@ class Judge:
         gram, overlap = matrix.T @ matrix, matrix.T @ pattern
         energy = float(pattern @ pattern)
         own = self._columns_of(truth)
+        if energy / 2 < ALTERNATIVE_NATS:
+            return Visibility(energy, own, ())
         found: dict[tuple[str, str], float] = {}
         for number, rival in enumerate(self.rivals):
             name = (rival.effect, rival.location)
@@ -223,7 +225,7 @@ class Judge:
             span = slice(self._starts[number], self._starts[number + 1])
             explained = _explained(gram[span, span], overlap[span])
             price = 0.5 * (rival.columns.shape[1] - own) * np.log(len(pattern))
-            gap = max(energy - explained, 0.0) / 2 + price
+            gap = float(max(energy - explained, 0.0) / 2 + price)
             if gap < min(ALTERNATIVE_NATS, energy / 4):
                 found[name] = min(gap, found.get(name, np.inf))
         ordered = sorted(found.items(), key=lambda item: item[1])

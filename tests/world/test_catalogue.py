@@ -1,0 +1,71 @@
+"""The proof's worlds are those that were declared, and half of them can't be known beforehand."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import pytest
+import yaml
+
+from armscope.world.catalogue import KINDS, STRENGTHS, WorldSpec, catalogue
+from armscope.world.effects import LIBRARY
+from armscope.world.outside import OUTSIDE
+from tests.world.by_hand import ARMS
+
+CATEGORIES = {"clean", "single", "multiple", "outside", "misleading", "inseparable", "real", "bad_shots"}
+
+
+def test_the_full_proof_has_over_300_worlds_of_every_category_on_every_arm():
+    worlds = catalogue(1, "full")
+    assert len(worlds) >= 300
+    assert {world.category for world in worlds} == CATEGORIES
+    assert min(Counter(world.arm for world in worlds).values()) > 60
+    assert {world.arm for world in worlds} == set(ARMS)
+    assert all(60 <= world.rows <= 300 for world in worlds)
+    assert len({world.id for world in worlds}) == len(worlds)
+
+
+def test_the_small_proof_has_24_worlds_of_every_category():
+    worlds = catalogue(1)
+    assert len(worlds) == 24
+    assert {world.category for world in worlds} == CATEGORIES
+
+
+def test_every_effect_stands_alone_at_every_strength():
+    alone = {(w.wishes[0].kind, w.wishes[0].strength) for w in catalogue(1, "full") if w.category == "single"}
+    assert alone == {(kind.name, strength) for kind in LIBRARY for strength in STRENGTHS}
+
+
+def test_every_kind_outside_the_library_is_there_at_several_strengths():
+    outside = Counter(w.wishes[0].kind for w in catalogue(1, "full") if w.category == "outside")
+    assert set(outside) == {kind.name for kind in OUTSIDE}
+    assert min(outside.values()) >= 4
+
+
+def test_two_to_six_effects_come_together():
+    counts = {len(world.wishes) for world in catalogue(1, "full") if world.category == "multiple"}
+    assert counts == {2, 3, 4, 5, 6}
+
+
+@pytest.mark.parametrize("size", ["small", "full"])
+def test_half_of_the_worlds_depend_on_the_proofs_seed_and_half_do_not(size):
+    one, two = catalogue(1, size), catalogue(2, size)
+    assert abs(sum(world.fresh for world in one) - len(one) / 2) <= 1
+    for a, b in zip(one, two, strict=True):
+        assert (a.seed != b.seed) == a.fresh == b.fresh
+        assert a.fresh or a == b
+
+
+def test_no_two_worlds_share_a_seed():
+    seeds = [world.seed for world in catalogue(5, "full")]
+    assert len(set(seeds)) == len(seeds)
+
+
+def test_a_spec_survives_being_written_and_read():
+    for world in catalogue(7):
+        text = yaml.safe_dump(world.model_dump(mode="json"))
+        assert WorldSpec.model_validate(yaml.safe_load(text)) == world
+
+
+def test_every_wish_names_a_known_kind():
+    assert {wish.kind for world in catalogue(1, "full") for wish in world.wishes} <= set(KINDS)
