@@ -38,7 +38,8 @@ def test_an_unknown_module_is_an_error():
 
 
 def test_a_command_depends_on_itself_what_it_calls_and_what_it_imports(monkeypatch, tmp_path):
-    module = "def one():\n    from armscope.two import x\n    return helper(x)\ndef helper(x): return x\ndef other(): return {}\n"
+    module = "def one():\n    from armscope.two import x\n    return helper(x)\n"
+    module += "def helper(x): return x\ndef other(): return {}\n"
     (tmp_path / "two.py").write_text("x = 1\n")
     monkeypatch.setattr(provenance, "PACKAGE", tmp_path)
 

@@ -64,7 +64,9 @@ def _file(module: str) -> Path:
 def _with_callees(file: Path, function: str) -> list[ast.stmt]:
     """The definitions of a function and of what it uses from its own module, in the module's order."""
     definitions = {
-        node.name: node for node in ast.parse(file.read_bytes()).body if isinstance(node, ast.FunctionDef | ast.ClassDef)
+        node.name: node
+        for node in ast.parse(file.read_bytes()).body
+        if isinstance(node, ast.FunctionDef | ast.ClassDef)
     }
     if function not in definitions:
         raise AttributeError(f"{file.name} defines no {function}")

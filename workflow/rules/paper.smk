@@ -1,5 +1,6 @@
 # The 2006 paper on the virtual SK120: measure, fit, tabulate, draw, report.
 PAPER = f"{RESULTS}/paper"
+FIGURES = [f"fig{number:02}" for number in range(3, 12)]
 
 
 rule measure:
@@ -47,6 +48,56 @@ rule fit:
         "armscope paper fit {input.poses} {input.errors} --settings {params.settings:q} -o {output} > {log} 2>&1"
 
 
+rule convergence:
+    input:
+        poses=rules.measure.output.poses,
+        errors=rules.measure.output.errors,
+    output:
+        f"{PAPER}/convergence.csv",
+    params:
+        settings=settings(seed=CONFIG.seed, models=CONFIG.paper.models, swarm=CONFIG.paper.swarm),
+        code=code("armscope.cli.paper:convergence"),
+    log:
+        f"{RESULTS}/logs/convergence.log",
+    shell:
+        "armscope paper convergence {input.poses} {input.errors} --settings {params.settings:q} -o {output} > {log} 2>&1"
+
+
+rule figure:
+    input:
+        poses=rules.measure.output.poses,
+        errors=rules.measure.output.errors,
+        fits=rules.fit.output,
+    output:
+        multiext(f"{PAPER}/figures/{{figure}}", ".png", ".svg", ".pdf"),
+    wildcard_constraints:
+        figure=r"fig\d\d",
+    params:
+        code=code("armscope.cli.paper:figure"),
+    log:
+        f"{RESULTS}/logs/{{figure}}.log",
+    shell:
+        "armscope paper figure {wildcards.figure} {input.poses} {input.errors} {input.fits} -o {output[0]} > {log} 2>&1"
+
+
+rule convergence_figure:
+    input:
+        rules.convergence.output,
+    output:
+        multiext(f"{PAPER}/figures/convergence", ".png", ".svg", ".pdf"),
+    params:
+        code=code("armscope.cli.paper:convergence_figure"),
+    log:
+        f"{RESULTS}/logs/convergence_figure.log",
+    shell:
+        "armscope paper convergence-figure {input} -o {output[0]} > {log} 2>&1"
+
+
+rule figures:
+    input:
+        expand(f"{PAPER}/figures/{{figure}}.png", figure=[*FIGURES, "convergence"]),
+
+
 rule paper:
     input:
-        rules.fit.output,
+        rules.figures.input,

@@ -103,6 +103,53 @@ def fit(poses: Poses, errors: Errors, settings: Settings, output: Output) -> Non
     _write_fits(output, fits)
 
 
+@app.command()
+def convergence(poses: Poses, errors: Errors, settings: Settings, output: Output) -> None:
+    """Compare the velocity updates: which reaches the least-squares optimum, and when."""
+    from armscope.cli.paper_settings import SwarmStudySettings, specs_of, swarm_settings_of
+    from armscope.files import write_table
+    from armscope.paper.convergence import convergence as histories
+
+    chosen = _settings(SwarmStudySettings, settings)
+    measurements = _measurements(poses, errors)
+    problems = measurements.fit_problems(specs_of(chosen.models), [measurements.robots[0]])
+    swarm = chosen.swarm
+    seeds = range(chosen.seed, chosen.seed + swarm.seeds)
+    write_table(output, histories(problems, seeds, swarm_settings_of(swarm), swarm.basis, swarm.engine), digits=5)
+
+
+@app.command()
+def figure(
+    name: Annotated[str, typer.Argument(help="fig03 ... fig11")],
+    poses: Poses,
+    errors: Errors,
+    fits: Annotated[Path, typer.Argument(help="fits.json.gz of a study")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="a path; PNG, SVG and PDF are written there")],
+) -> None:
+    """Draw one figure of the paper from what was measured and fitted."""
+    from armscope.inputs import nearest
+    from armscope.report.paper_figures import FIGURES, draw
+    from armscope.report.style import save_figure
+
+    if name not in FIGURES:
+        raise InputError("the figure's name", "", name, "the paper's plots are Figs. 3-11", nearest(name, FIGURES))
+    save_figure(draw(name, _measurements(poses, errors), _read_fits(fits)), output)
+
+
+@app.command("convergence-figure")
+def convergence_figure(
+    history: Annotated[Path, typer.Argument(help="convergence.csv")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="a path; PNG, SVG and PDF are written there")],
+) -> None:
+    """Draw how the swarms converge."""
+    import pandas as pd
+
+    from armscope.report.paper_figures import convergence
+    from armscope.report.style import save_figure
+
+    save_figure(convergence(pd.read_csv(history)), output)
+
+
 def _settings(model: type[Model], text: str) -> Model:
     try:
         content = json.loads(text)

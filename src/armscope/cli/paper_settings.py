@@ -29,6 +29,14 @@ class FitSettings(Strict):
     ensemble_seeds: Count
 
 
+class SwarmStudySettings(Strict):
+    """`armscope paper convergence`."""
+
+    seed: int
+    models: tuple[Model, ...]
+    swarm: Swarm
+
+
 def tracker_of(tracker: Tracker) -> VirtualTracker:
     """The virtual tracker, in SI units."""
     x, y, z = (coordinate * 1e-3 for coordinate in tracker.position_mm.value)

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
-from armscope.errormodels import FittedModel, FitProblem, fit_random_search, fit_swarms
+from armscope.errormodels import FitProblem, FittedModel, fit_random_search, fit_swarms
 from armscope.swarm import SwarmSettings
 
 RULES: dict[str, dict[str, object]] = {

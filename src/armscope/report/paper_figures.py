@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -11,6 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from armscope.errormodels import FittedModel
+from armscope.paper import Measurements
 from armscope.report.style import (
     AXIS_NAMES,
     BLACK,
@@ -18,8 +20,6 @@ from armscope.report.style import (
     GREEN,
     GREY,
     ORANGE,
-    PURPLE,
-    SKY,
     VERMILION,
     legend_above,
     styled,
@@ -27,8 +27,53 @@ from armscope.report.style import (
 
 Array = NDArray[np.float64]
 
-MODEL_COLOURS = {"FDP(CI)": BLUE, "SDP(CI)": SKY, "FDP(AI)": VERMILION, "SDP(AI)": ORANGE}
-MODEL_STYLES = {"FDP(CI)": "-", "SDP(CI)": "-", "FDP(AI)": "--", "SDP(AI)": "--"}
+
+TEST_FIGURES = {"fig05": "test 1", "fig08": "test 2", "fig09": "test 3"}
+ESTIMATION_FIGURES = {
+    "fig06": ("test 1", ("FDP(CI)", "SDP(CI)")),
+    "fig07": ("test 1", ("FDP(AI)", "SDP(AI)")),
+    "fig10": ("test 2", ("FDP(CI)", "SDP(CI)")),
+    "fig11": ("test 2", ("FDP(AI)", "SDP(AI)")),
+}
+MODELLING = ("FDP(CI)", "SDP(CI)", "FDP(AI)", "SDP(AI)")
+FIGURES = ("fig03", "fig04", "fig05", "fig06", "fig07", "fig08", "fig09", "fig10", "fig11")
+
+
+def draw(name: str, measurements: Measurements, fits: Sequence[FittedModel]) -> Figure:
+    """One of `FIGURES`, for the study's first robot.
+
+    Args:
+        name: "fig03" ... "fig11".
+        measurements: of the study.
+        fits: of its first robot, one per model.
+    """
+    by_model = {fit.name: fit for fit in fits if fit.label == measurements.robots[0]}
+    if name == "fig03":
+        return errors_of_positions(measurements.identification.errors_mm[0])
+    if name == "fig04":
+        rows = measurements.identification
+        return modelling_performance(rows.errors_mm[0], _predictions(by_model, MODELLING, rows.inputs, np.median))
+    if name in TEST_FIGURES:
+        path = measurements[TEST_FIGURES[name]]
+        return trajectory(path.nominal_mm, path.motor_angles)
+    set_name, models = ESTIMATION_FIGURES[name]
+    path = measurements[set_name]
+    medians, lows, highs = (_predictions(by_model, models, path.inputs, f) for f in (np.median, np.min, np.max))
+    return estimation_performance(path.errors_mm[0], medians, {m: np.stack([lows[m], highs[m]]) for m in models})
+
+
+def _predictions(
+    fits: Mapping[str, FittedModel],
+    models: Sequence[str],
+    inputs: Callable[..., Array],
+    over_seeds: Callable[..., Array],
+) -> dict[str, Array]:
+    """By model, the seeds' predictions (N, 3) mm reduced to one."""
+    return {
+        model: over_seeds(fits[model].predict_all(inputs(fits[model].features.spec)), axis=0)
+        for model in models
+        if model in fits
+    }
 
 
 def errors_of_positions(errors: Array) -> Figure:
@@ -79,16 +124,18 @@ def trajectory(positions: Array, motor_angles: Array) -> Figure:
         motor_angles: (N, m) rad.
     """
     with styled():
-        figure = plt.figure(figsize=(9, 4))
-        space = figure.add_subplot(1, 2, 1, projection="3d")
+        figure = plt.figure(figsize=(10, 4.4))
+        grid = figure.add_gridspec(1, 2, width_ratios=(1.1, 1))
+        space = figure.add_subplot(grid[0], projection="3d")
         space.plot(*positions.T, color=BLUE)
         space.scatter(*positions[0], color=VERMILION, s=25, label="start", depthshade=False)
-        space.set(xlabel="x (mm)", ylabel="y (mm)")
-        space.set_zlabel("z (mm)")
-        space.set_box_aspect(None, zoom=0.85)
+        space.set_xlabel("x (mm)", labelpad=6)
+        space.set_ylabel("y (mm)", labelpad=6)
+        space.set_zlabel("z (mm)", labelpad=2)
+        space.set_box_aspect((4, 4, 3), zoom=0.95)
         space.locator_params(nbins=5)
         space.legend(loc="upper left")
-        joints = figure.add_subplot(1, 2, 2)
+        joints = figure.add_subplot(grid[1])
         styles = ("-", "--", "-.", ":", (0, (5, 1)), (0, (1, 1)))
         for motor in range(motor_angles.shape[1]):
             joints.plot(
@@ -109,7 +156,7 @@ def estimation_performance(errors: Array, predictions: Mapping[str, Array], band
         bands: by model, (2, N, 3) smallest and largest over the seeds, mm.
     """
     with styled():
-        figure, panels = plt.subplots(3, len(predictions), figsize=(9, 6.5), sharex=True, sharey="row")
+        figure, panels = plt.subplots(3, len(predictions), figsize=(9, 6.5), sharex=True, sharey="row", squeeze=False)
         points = np.arange(1, len(errors) + 1)
         for column, (model, predicted) in enumerate(predictions.items()):
             for axis in range(3):
@@ -136,7 +183,9 @@ def convergence(history: pd.DataFrame) -> Figure:
         history: columns rule, model, iteration, and the excess of the best fitness over the least-squares optimum in
             percent: median, low, high (over seeds and axes).
     """
-    colours = {"constriction": BLUE, "inertia": GREEN, "original": VERMILION, "random search": GREY, "ring": PURPLE}
+    colours = {"constriction": BLUE, "inertia": GREEN, "constriction, ring": SKY, "original": VERMILION,
+               "original, clamped": ORANGE, "random search": BLACK}  # fmt: skip
+    dashes = {"random search": ":", "original, clamped": "--"}
     models = list(dict.fromkeys(history["model"]))
     with styled():
         columns = min(3, len(models))
@@ -148,7 +197,7 @@ def convergence(history: pd.DataFrame) -> Figure:
             panel.set_visible(False)
         for panel, model in zip(panels.flat, models, strict=False):
             for rule, rows_of_rule in history[history["model"] == model].groupby("rule", sort=False):
-                colour = colours.get(str(rule), ORANGE)
+                colour = colours[str(rule)]
                 iteration = rows_of_rule["iteration"]
                 panel.fill_between(
                     iteration, rows_of_rule["low"], rows_of_rule["high"], color=colour, alpha=0.2, linewidth=0
