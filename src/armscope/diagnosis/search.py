@@ -103,6 +103,10 @@ class Search:
             if number in parent.candidates or (placed.key, placed.driver) in keys
         ]
 
+    def resized(self, hypothesis: Hypothesis, background: int) -> Hypothesis:
+        """The hypothesis with another size of the geometric background."""
+        return weigh(self.problem, hypothesis.chosen, background, hypothesis.noise)
+
     def without(self, hypothesis: Hypothesis, removed: Iterable[int]) -> Hypothesis:
         """The hypothesis without some candidates."""
         gone = set(removed)

@@ -7,7 +7,7 @@ recordings cannot tell. What the verdict must not hide stands in ``notices``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -17,6 +17,7 @@ from armscope.physics.model import FittedModel
 
 Array = NDArray[np.float64]
 Specific = Literal["effect", "region", "family"]
+Answer = Literal["nothing missing", "explained", "partly explained", "cannot tell"]
 INTERVAL = 1.959964
 """Half width of a 95 % interval in standard errors."""
 
@@ -209,7 +210,7 @@ class Verdict:
     source: str
     rows: int
     runs: tuple[str, ...]
-    answer: Literal["nothing missing", "explained", "partly explained", "cannot tell"]
+    answer: Answer
     headline: str
     mismatch: bool | None
     noise_mm: float
@@ -229,6 +230,10 @@ class Verdict:
     model: FittedModel
     seconds: float = 0.0
     settings: dict[str, Any] = field(default_factory=dict)
+
+    def after(self, seconds: float, settings: dict[str, Any]) -> Verdict:
+        """The verdict with how long it took and what was asked for."""
+        return replace(self, seconds=seconds, settings=dict(settings))
 
     def to_json(self) -> dict[str, Any]:
         """The content of verdict.json: the contract's names, and further ones."""

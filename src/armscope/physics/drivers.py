@@ -59,6 +59,19 @@ def _chain_cosine(scene: Scene, j: int, periods: int) -> Array:
     return np.cos(periods * scene.chain_angles[:, j - 1])
 
 
+def _chain_angle(scene: Scene, j: int) -> Array:
+    return scene.chain_angles[:, j - 1]
+
+
+def _payload(scene: Scene) -> Array:
+    return scene.payload
+
+
+def _force(scene: Scene, location: str, axis: int) -> Array:
+    """Weight beyond a frame, in the frame's axes, N."""
+    return scene.force(location)[:, axis]
+
+
 def _torque(scene: Scene, j: int) -> Array:
     """Recorded torque where there is one (positive along gravity's pull), else gravity of the stated masses."""
     return scene.torques[:, j - 1]
@@ -152,8 +165,12 @@ def _on_target_in_run(scene: Scene, target: str, run: str) -> Array:
 
 
 def _spline(scene: Scene, source: Driver, centre: float, width: float) -> Array:
-    """Cubic B-spline of another driver: a smooth bump about ``centre``, zero beyond two widths."""
-    u = np.abs(scene.driver(source) - centre) / width
+    return cubic_spline(scene.driver(source), centre, width)
+
+
+def cubic_spline(at: Array, centre: float, width: float) -> Array:
+    """Cubic B-spline: a smooth bump about ``centre``, zero beyond two widths."""
+    u = np.abs(at - centre) / width
     inner = 2 / 3 - u**2 + u**3 / 2
     outer = np.clip(2 - u, 0, None) ** 3 / 6
     return np.where(u < 1, inner, outer)
@@ -197,6 +214,9 @@ _KINDS: dict[str, Callable[..., Any]] = {
     "cosine": _cosine,
     "chain sine": _chain_sine,
     "chain cosine": _chain_cosine,
+    "chain angle": _chain_angle,
+    "payload": _payload,
+    "force": _force,
     "torque": _torque,
     "payload torque": _payload_torque,
     "regressor": _regressor,

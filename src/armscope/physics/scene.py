@@ -120,6 +120,20 @@ class Scene:
         values: Array = self.remember(("moment", location), compute)
         return values
 
+    def force(self, location: str) -> Array:
+        """(N, 3) weight of everything beyond a frame, in the frame's axes, N."""
+
+        def compute() -> Array:
+            force, _ = self.wrenches
+            kind, _, number = location.partition(" ")
+            j = 0 if kind == "base" else int(number) - 1
+            if kind == "base":
+                return force[:, 0]
+            return np.einsum("nba,nb->na", self.nominal.joint_rotation[:, j], force[:, j])
+
+        values: Array = self.remember(("force", location), compute)
+        return values
+
     def beam_site(self, link: int) -> str:
         """Where the end of row ``link``'s beam stands: D-H frame j; for modified rows, before joint j turns."""
         return f"joint {link}" if self.arm.is_modified_dh else f"link {link}"

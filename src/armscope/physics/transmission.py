@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from armscope.physics.effect import Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.placing import moving_joints, varying_columns
+from armscope.physics.scene import Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
 MESH_COUNTS = range(3, 129)
 """Periods per joint turn that are tried for a gear mesh error."""
+LEAST_OTHER_SIDE = 0.03
+"""Share of the rows in which gravity must push to the other side."""
 
 
 def wave_terms(j: int, per_turn: int) -> tuple[Term, Term]:
@@ -89,7 +94,11 @@ def _place_backlash(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
             gap = term("gap", "rad", Product(motor(j), Driver("approach", (j,)), -0.5))
             yield Placed(BACKLASH, f"joint {j}", (gap,), (1.0,), f"side of approach of joint {j}", variant="approach")
     if arm.has_masses or recordings.torque is not None:
+        scene = Scene(arm, recordings)
         for j in sorted(moving):
+            pulled = np.mean(scene.driver(Driver("load side", (j,))) > 0)
+            if min(pulled, 1 - pulled) < LEAST_OTHER_SIDE:
+                continue  # gravity always pushes to one side: a constant
             gap = term("gap", "rad", Product(motor(j), Driver("load side", (j,)), 0.5))
             yield Placed(BACKLASH, f"joint {j}", (gap,), (1.0,), f"side that gravity loads joint {j}", variant="load")
 

@@ -1,0 +1,124 @@
+"""Where: the share of the residual that each location x direction x driver explains on top of a model."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cholesky, solve_triangular
+
+from armscope.diagnosis.extra import conditioned, explained, weigh_blocks
+from armscope.diagnosis.problem import Gram, Pool
+from armscope.diagnosis.verdict import Atlas
+from armscope.physics.effect import AXES, ONE, Direction, Driver, Term, term
+from armscope.physics.elastic import has_load
+from armscope.physics.model import FittedModel
+from armscope.physics.placing import varies
+from armscope.recordings import Recordings
+
+Array = NDArray[np.float64]
+
+ATLAS_ROWS = 4000
+Cell = tuple[int, int, int]
+
+
+def atlas(pool: Pool, model: FittedModel, recordings: Recordings, weights: Array, fitted: Gram) -> Atlas:
+    """The atlas on top of the free frames and on top of the fitted model.
+
+    Args:
+        pool: of the fitted model.
+        fitted: Gram matrix of the pool's columns.
+    """
+    rows = np.unique(np.linspace(0, len(recordings) - 1, min(len(recordings), ATLAS_ROWS)).astype(np.intp))
+    share = len(rows) / len(recordings)
+    table, w = recordings.rows(rows), weights[rows] / share
+    locations = ("base", *(f"joint {j}" for j in range(1, model.arm.n_joints + 1)))
+    drivers = _drivers(model, recordings)
+    names = tuple(name for name, _ in drivers)
+    before = np.full((len(locations), len(AXES), len(names)), np.nan)
+    left = before.copy()
+    total = _left_after(fitted, pool.frames)
+    for size in (1, 2):
+        cells = _cells(model, recordings, locations, drivers, size)
+        if not cells:
+            continue
+        for target, inside in ((before, pool.frames), (left, np.arange(len(pool.terms)))):
+            sums = weigh_blocks([terms for _, terms in cells], pool, inside, model, table, w)
+            G = fitted.G[np.ix_(inside, inside)]
+            ridge = 1e-9 * np.diag(G) + 1e-12
+            factor = cholesky(G + np.diag(ridge), lower=True)
+            half = solve_triangular(factor, fitted.b[inside], lower=True)
+            gain = explained(*conditioned(sums, factor, half), np.einsum("mcc->mc", sums.own))
+            for (at, _), value in zip(cells, gain, strict=True):
+                target[at] = value / max(total, 1e-30)
+    return Atlas(locations, AXES, names, np.clip(before, 0, 1), np.clip(left, 0, 1))
+
+
+def _left_after(gram: Gram, inside: NDArray[np.intp]) -> float:
+    G = gram.G[np.ix_(inside, inside)]
+    return float(gram.yy - gram.b[inside] @ np.linalg.lstsq(G, gram.b[inside], rcond=1e-12)[0])
+
+
+def _drivers(model: FittedModel, recordings: Recordings) -> list[tuple[str, str]]:
+    """(name, kind) of the drivers that the recordings hold."""
+    drivers = [("constant", "one"), ("own angle", "angle"), ("once per turn", "1"), ("twice per turn", "2")]
+    if has_load(model.arm, recordings) or recordings.torque is not None:
+        drivers.append(("gravity load", "load"))
+    if recordings.approach is not None:
+        drivers.append(("side of approach", "approach"))
+    if recordings.speed is not None:
+        drivers.append(("speed", "speed"))
+    if varies(recordings.temperature, 0.1):
+        drivers.append(("temperature", "warmth"))
+    if varies(recordings.time, 1.0):
+        drivers.append(("time", "hours"))
+    if varies(recordings.payload, 1e-6):
+        drivers.append(("payload", "payload"))
+    return drivers
+
+
+def _cells(
+    model: FittedModel,
+    recordings: Recordings,
+    locations: tuple[str, ...],
+    drivers: list[tuple[str, str]],
+    size: int,
+) -> list[tuple[Cell, tuple[Term, ...]]]:
+    """Cells with ``size`` columns: where they stand in the atlas, and their terms."""
+    cells = []
+    for row, location in enumerate(locations):
+        for column, axis in enumerate(AXES):
+            for depth, (_, kind) in enumerate(drivers):
+                chosen = _driver(model, recordings, location, axis, kind)
+                if len(chosen) == size:
+                    terms = tuple(term(f"{n}", "", (Direction(location, axis), d)) for n, d in enumerate(chosen))
+                    cells.append(((row, column, depth), terms))
+    return cells
+
+
+def _driver(model: FittedModel, recordings: Recordings, location: str, axis: str, kind: str) -> tuple[Driver, ...]:
+    """The driver(s) of a kind at one direction of a location; empty where there is none."""
+    number = int(location.split()[1]) if location != "base" else 0
+    if kind == "one":
+        return (ONE,)
+    if kind in ("hours", "warmth", "payload"):
+        return (Driver(kind, (0.0,)) if kind == "hours" else Driver(kind),)
+    if kind == "load":
+        return _load(model, recordings, location, axis, number)
+    if number == 0:
+        return ()
+    if kind in ("1", "2"):
+        return Driver("chain cosine", (number, int(kind))), Driver("chain sine", (number, int(kind)))
+    if kind == "angle":
+        return (Driver("chain angle", (number,)),)
+    moves = np.flatnonzero(model.arm.actuation[number - 1])
+    return (Driver(kind, (int(moves[-1] if number - 1 not in moves else number - 1) + 1,)),)
+
+
+def _load(model: FittedModel, recordings: Recordings, location: str, axis: str, number: int) -> tuple[Driver, ...]:
+    """The load in the direction that it pushes: force for shifts, moment for tilts, torque for turns about the axis."""
+    if axis[0] == "t":
+        return (Driver("force", (location, "xyz".index(axis[1]))),)
+    if number and axis == "rz":
+        moves = np.flatnonzero(model.arm.actuation[number - 1])
+        return (Driver("torque", (int(number if number - 1 in moves else moves[-1] + 1),)),)
+    return (Driver("moment", (location, "xyz".index(axis[1]))),)

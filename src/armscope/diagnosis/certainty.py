@@ -1,0 +1,104 @@
+"""How sure: what else could stand in an effect's place, how often it is chosen when rows are resampled."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+
+import numpy as np
+
+from armscope.diagnosis.evidence import Hypothesis, Problem
+from armscope.diagnosis.problem import Gram
+from armscope.diagnosis.search import Search
+from armscope.diagnosis.verdict import Alternative, Specific
+from armscope.physics.effect import Placed, region
+
+LISTED_NATS = 10.0
+"""Alternatives that lose more evidence than this are not listed."""
+TELLS_APART_NATS = 3.0
+"""Evidence of 20 to 1: two readings closer than this are both named."""
+LOOKED_AT = 12
+
+
+def alternatives(search: Search, best: Hypothesis, candidate: int) -> list[tuple[float, Placed, Hypothesis]]:
+    """(gap in nats, effect, hypothesis) of what could replace one effect, nearest first, each name once."""
+    base = search.without(best, [candidate])
+    taken = {search.placed(c).key for c in best.candidates}
+    nearest: dict[tuple[str, str], tuple[float, Placed, Hypothesis]] = {}
+    for other in search.additions(base, LOOKED_AT, without=[candidate]):
+        placed = search.placed(other.chosen[-1].candidate)
+        gap = best.value - other.value
+        if placed.key in taken or gap > LISTED_NATS:
+            continue
+        if placed.key not in nearest or gap < nearest[placed.key][0]:
+            nearest[placed.key] = (gap, placed, other)
+    return sorted(nearest.values(), key=lambda entry: entry[0])
+
+
+def listed(found: Sequence[tuple[float, Placed, Hypothesis]]) -> tuple[Alternative, ...]:
+    """Alternatives as a verdict lists them."""
+    return tuple(
+        Alternative(placed.name, placed.location, placed.family, float(gap), placed.driver) for gap, placed, _ in found
+    )
+
+
+def name(placed: Placed, rivals: Sequence[Placed]) -> tuple[Specific, str]:
+    """How specific the name may be, and the name in words, given the rivals that cannot be told apart from it."""
+    if not rivals:
+        return "effect", f"{_words(placed.name)} at {placed.location}"
+    together = [placed, *rivals]
+    regions = sorted({region(p) for p in together})
+    families = sorted({p.family for p in together})
+    if len(families) > 1:
+        return "region", " or ".join(f"{_words(p.name)} at {p.location}" for p in together[:3])
+    if len(regions) == 1 or _adjacent(regions):
+        return "region", f"{families[0]}, around {_places(regions)}"
+    return "family", f"{families[0]}, somewhere around {_places(regions)}"
+
+
+def _adjacent(regions: Sequence[str]) -> bool:
+    """Whether regions lie beside each other along the arm; the base lies beside joint 1."""
+    numbers = sorted(0 if r == "base" else int(r) for r in regions if r == "base" or r.isdigit())
+    return len(numbers) == len(regions) and all(b - a <= 1 for a, b in itertools.pairwise(numbers))
+
+
+def _places(regions: Sequence[str]) -> str:
+    return ", ".join(f"joint {r}" if r.isdigit() else r for r in regions)
+
+
+def _words(effect: str) -> str:
+    return effect.replace("_", " ")
+
+
+def inclusion(
+    problem: Problem, blocks: Sequence[Gram], best: Hypothesis, draws: int, rng: np.random.Generator
+) -> dict[int, float]:
+    """How often each chosen effect's place is chosen again when blocks of rows are drawn with replacement."""
+    if not blocks or not best.chosen:
+        return {}
+    places = {c: _place(problem.pool.candidates[c]) for c in best.candidates}
+    hits = dict.fromkeys(best.candidates, 0)
+    for _ in range(draws):
+        times = np.bincount(rng.integers(0, len(blocks), len(blocks)), minlength=len(blocks))
+        gram = _weighted(blocks, times)
+        again = Search.on(problem.with_gram(gram), beam=1, branches=2).best(starts=(best.background,))
+        found = {_place(problem.pool.candidates[c]) for c in again.candidates}
+        for candidate, place in places.items():
+            hits[candidate] += place in found
+    return {candidate: count / draws for candidate, count in hits.items()}
+
+
+def _place(placed: Placed) -> tuple[str, str]:
+    return placed.key
+
+
+def _weighted(blocks: Sequence[Gram], times: np.ndarray) -> Gram:
+    drawn = [int(k) for k in np.flatnonzero(times)]
+    G = sum(times[k] * blocks[k].G for k in drawn)
+    b = sum(times[k] * blocks[k].b for k in drawn)
+    return Gram(
+        np.asarray(G),
+        np.asarray(b),
+        float(sum(times[k] * blocks[k].yy for k in drawn)),
+        float(sum(times[k] * blocks[k].n for k in drawn)),
+    )

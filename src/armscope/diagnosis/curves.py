@@ -1,0 +1,120 @@
+"""What an effect does over its driver, as a curve with a band, and in words."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.diagnosis.verdict import Curve
+from armscope.physics.drivers import cubic_spline
+from armscope.physics.effect import Driver, Placed
+from armscope.physics.scene import Scene
+
+Array = NDArray[np.float64]
+
+GRID = 361
+TELLING = 0.7
+"""Share of a curve's variation that a simple shape must explain to be named."""
+UNITS = {"angle": "rad", "torque": "N m", "hours": "h", "warmth": "K above 20 C"}
+
+
+def source_of(placed: Placed) -> Driver | None:
+    """The one driver that all of an effect's terms are functions of; None where there are several or none."""
+    sources = {_root(product.driver) for term in placed.terms for product in term.products}
+    return sources.pop() if len(sources) == 1 else None
+
+
+def _root(driver: Driver) -> Driver | None:
+    if driver.kind in ("sine", "cosine"):
+        return Driver("angle", (driver.arguments[0],))
+    if driver.kind == "spline":
+        return _root(driver.arguments[0]) if isinstance(driver.arguments[0], Driver) else None
+    return driver if driver.kind in UNITS else None
+
+
+def curve_of(placed: Placed, values: Array, covariance: Array, scene: Scene) -> Curve | None:
+    """The turn or shift that an effect makes over its driver's recorded range; the direction that moves most."""
+    source = source_of(placed)
+    if source is None:
+        return None
+    recorded = scene.driver(source)
+    at = np.linspace(recorded.min(), recorded.max(), GRID)
+    directions = {term.products[0].direction for term in placed.terms}
+    best: tuple[float, Array, Array, str] | None = None
+    for direction in sorted(directions, key=lambda d: (d.location, d.axis)):
+        inside = [n for n, term in enumerate(placed.terms) if term.products[0].direction == direction]
+        basis = np.column_stack(
+            [placed.terms[n].products[0].factor * _value(placed.terms[n].products[0].driver, at) for n in inside]
+        )
+        value = basis @ values[inside]
+        band = np.sqrt(np.maximum(np.einsum("ni,ij,nj->n", basis, covariance[np.ix_(inside, inside)], basis), 0.0))
+        telling = float(np.std(value) / max(float(np.median(band)), 1e-30))
+        if best is None or telling > best[0]:
+            best = telling, value, band, "m" if direction.axis[0] == "t" and direction.axis != "turn" else "rad"
+    assert best is not None
+    value, band = best[1], best[2]
+    periods = _periods(placed, values) if source.kind == "angle" else ()
+    return Curve(
+        placed.driver, UNITS[source.kind], at, value, band, best[3], periods, describe(at, value, recorded, periods)
+    )
+
+
+def _value(driver: Driver, at: Array) -> Array:
+    """A driver as a function of its source's values."""
+    if driver.kind == "sine":
+        return np.sin(float(driver.arguments[1]) * at)  # type: ignore[arg-type]
+    if driver.kind == "cosine":
+        return np.cos(float(driver.arguments[1]) * at)  # type: ignore[arg-type]
+    if driver.kind == "spline":
+        return cubic_spline(at, float(driver.arguments[1]), float(driver.arguments[2]))  # type: ignore[arg-type]
+    return at
+
+
+def _periods(placed: Placed, values: Array) -> tuple[tuple[int, float], ...]:
+    """The strongest waves per turn and their amplitudes, rad."""
+    lines: dict[int, float] = {}
+    for term, value in zip(placed.terms, values, strict=True):
+        driver = term.products[0].driver
+        if driver.kind in ("sine", "cosine"):
+            count = int(driver.arguments[1])  # type: ignore[call-overload]
+            lines[count] = lines.get(count, 0.0) + float(value) ** 2
+    strongest = sorted(lines.items(), key=lambda line: -line[1])[:5]
+    return tuple((count, float(np.sqrt(power))) for count, power in strongest)
+
+
+def describe(at: Array, value: Array, recorded: Array, periods: tuple[tuple[int, float], ...] = ()) -> str:
+    """The simple shape that comes closest to a curve, weighted by where rows were recorded."""
+    density, _ = np.histogram(recorded, bins=np.append(at, at[-1] + 1e-9))
+    weight = np.convolve(density, np.ones(9) / 9, mode="same") + 1e-6 * max(density.max(), 1)
+    shapes: list[tuple[float, str]] = [(_explained(value, [at], weight), "a trend in proportion to its driver")]
+    span = at[-1] - at[0]
+    for cut in np.linspace(at[0] + 0.1 * span, at[-1] - 0.1 * span, 33):
+        shapes.append((_explained(value, [np.tanh((at - cut) / (0.03 * span))], weight), f"a step at {cut:.3g}"))
+        shapes.append((_explained(value, [np.clip(at - cut, 0, None)], weight), f"only beyond {cut:.3g}"))
+        shapes.append((_explained(value, [np.clip(cut - at, 0, None)], weight), f"only below {cut:.3g}"))
+        for width in (0.04, 0.08):
+            bump = np.exp(-0.5 * ((at - cut) / (width * span)) ** 2)
+            shapes.append((_explained(value, [bump], weight), f"a local bump at {cut:.3g}"))
+    for count, _ in periods[:3]:
+        waves = [np.cos(count * at), np.sin(count * at)]
+        shapes.append((_explained(value, waves, weight), f"a wave, {count} per turn"))
+    share, words = max(shapes)
+    trend = shapes[0]
+    if trend[0] > share - 0.02:
+        share, words = trend
+    return words if share > TELLING else "a free curve" + _strongest(periods)
+
+
+def _strongest(periods: tuple[tuple[int, float], ...]) -> str:
+    if not periods:
+        return ""
+    return ", strongest waves per turn: " + ", ".join(str(count) for count, _ in periods[:3])
+
+
+def _explained(value: Array, shapes: list[Array], weight: Array) -> float:
+    root = np.sqrt(weight)
+    X = np.column_stack([np.ones_like(value), *shapes]) * root[:, None]
+    y = value * root
+    left = y - X @ np.linalg.lstsq(X, y, rcond=None)[0]
+    centred = (value - np.average(value, weights=weight)) * root
+    return 1 - float(left @ left) / max(float(centred @ centred), 1e-300)

@@ -1,0 +1,86 @@
+"""Blocks of columns that are weighed against a model without entering its Gram matrix: for scans and for the atlas."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import solve_triangular
+
+from armscope.diagnosis.problem import Pool, chunks, columns, pool_values
+from armscope.physics.effect import Term
+from armscope.physics.model import FittedModel
+from armscope.recordings import Recordings
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Blocks:
+    """m blocks of c columns beside k columns of a model; mm per SI unit.
+
+    Attributes:
+        own: (m, c, c) X'WX within each block.
+        cross: (m, k, c) model columns against the block's.
+        b: (m, c) X'Wy.
+    """
+
+    own: Array
+    cross: Array
+    b: Array
+
+
+def weigh_blocks(
+    blocks: Sequence[Sequence[Term]],
+    pool: Pool,
+    inside: NDArray[np.intp],
+    model: FittedModel,
+    recordings: Recordings,
+    weights: Array,
+) -> Blocks:
+    """Sums over rows for blocks of equally many terms against the pool's columns ``inside``."""
+    m, c = len(blocks), len(blocks[0])
+    flat = [term for block in blocks for term in block]
+    model_terms = [pool.terms[i] for i in inside]
+    current = pool_values(pool, model)[inside]
+    own, cross, b = np.zeros((m, c, c)), np.zeros((len(inside), m * c)), np.zeros((m, c))
+    for rows, posture in chunks(model, recordings):
+        root = np.sqrt(np.repeat(weights[rows], 3))
+        X = columns(posture, model_terms)
+        y = (model.to_base(recordings.positions[rows], recordings.run[rows]) - posture.tool).reshape(-1) * 1e3
+        y = (y + X @ current) * root
+        X *= root[:, None]
+        E = columns(posture, flat) * root[:, None]
+        cross += X.T @ E
+        b += (y @ E).reshape(m, c)
+        blockwise = np.ascontiguousarray(E.T).reshape(m, c, -1)
+        own += blockwise @ np.swapaxes(blockwise, 1, 2)
+    return Blocks(own, np.moveaxis(cross.reshape(-1, m, c), 1, 0), b)
+
+
+def conditioned(blocks: Blocks, factor: Array, half: Array) -> tuple[Array, Array]:
+    """(own, b) of the blocks once the model's posterior is conditioned on.
+
+    Args:
+        factor: (k, k) Cholesky factor of the model's penalised Gram matrix, in the blocks' units.
+        half: (k,) factor^-1 X'Wy of the model.
+    """
+    m, k, c = blocks.cross.shape
+    V = solve_triangular(factor, blocks.cross.transpose(1, 0, 2).reshape(k, m * c), lower=True, check_finite=False)
+    V = np.moveaxis(V.reshape(k, m, c), 0, 1)
+    return blocks.own - np.swapaxes(V, 1, 2) @ V, blocks.b - np.einsum("mkc,k->mc", V, half)
+
+
+def explained(own: Array, b: Array, before: Array, tiny: float = 1e-6) -> Array:
+    """(m,) reduction of the sum of squares by each block; directions that the model absorbs already count nothing.
+
+    Args:
+        before: (m, c) diagonal of the blocks' own matrices before conditioning: what "absorbed" is measured against.
+    """
+    norm = np.sqrt(np.maximum(before, 1e-300))
+    scaled = own / (norm[:, :, None] * norm[:, None, :])
+    values, vectors = np.linalg.eigh(scaled)
+    u = np.einsum("mij,mi->mj", vectors, b / norm)
+    return np.asarray(np.sum(np.where(values > tiny, u**2 / np.maximum(values, tiny), 0.0), axis=1))

@@ -1,0 +1,300 @@
+"""The verdict: what the selected hypothesis means, in words and numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.diagnosis import certainty
+from armscope.diagnosis.atlas import atlas
+from armscope.diagnosis.curves import curve_of
+from armscope.diagnosis.evidence import BACKGROUND_SIZES, Hypothesis, Problem
+from armscope.diagnosis.nextposes import next_poses
+from armscope.diagnosis.noise import Noise
+from armscope.diagnosis.parameters import parameters
+from armscope.diagnosis.problem import Gram, contribution
+from armscope.diagnosis.refit import Refit
+from armscope.diagnosis.search import Search
+from armscope.diagnosis.validation import Blocks, cross_validate
+from armscope.diagnosis.verdict import (
+    Answer,
+    Background,
+    FoundEffect,
+    HeldOut,
+    Notice,
+    Residuals,
+    SuspectRow,
+    Unexplained,
+    Verdict,
+    WaterfallStep,
+)
+from armscope.physics.effect import Placed
+from armscope.physics.model import FittedModel
+from armscope.physics.scene import Part, Scene
+from armscope.recordings import Recordings
+
+Array = NDArray[np.float64]
+Progress = Callable[[str, float], None]
+
+MINOR_SHARE = 0.01
+"""Effects worth less of the residual variance are apart from the story."""
+NOISE_EXCESS = 1.15
+"""A residual this many times the stated noise is more than the noise."""
+BACKGROUND_SEEN_NATS = 5.0
+SUSPECT_WEIGHT = 0.5
+LISTED_SUSPECTS = 200
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """Everything that the rounds of selection leave behind."""
+
+    start: FittedModel
+    recordings: Recordings
+    first: Array
+    noise: Noise
+    notices: tuple[Notice, ...]
+    layout: Blocks
+    problem: Problem
+    blocks: list[Gram]
+    best: Hypothesis
+    fit: Refit
+
+
+def judge(
+    evidence: Evidence, resamples: int, cross_validation: bool, rng: np.random.Generator, tell: Progress
+) -> Verdict:
+    """Certainty, validation, atlas and words."""
+    fit, best, problem = evidence.fit, evidence.best, evidence.problem
+    search = Search.on(problem)
+    tell("weighing alternatives", 0.55)
+    rivals = {c.candidate: certainty.alternatives(search, best, c.candidate) for c in best.chosen}
+    often = certainty.inclusion(problem, evidence.blocks, best, resamples, rng) if resamples else {}
+    scene = fit.model.scene(evidence.recordings)
+    variance = _variance_after_frames(fit)
+    found = {
+        c.candidate: _found(evidence, search, c.candidate, part, rivals[c.candidate], often, scene, variance)
+        for c, part in zip(best.chosen, fit.model.parts, strict=True)
+    }
+    order = sorted(found, key=lambda c: -found[c].rms_at_tool_mm)
+    held_out = HeldOut(float("nan"), float("nan"))
+    waterfall: tuple[WaterfallStep, ...] = ()
+    if cross_validation:
+        tell("validating on held-out rows", 0.75)
+        held_out, waterfall = cross_validate(problem, evidence.blocks, evidence.layout, best, order)
+    tell("drawing the atlas", 0.9)
+    background = _background(evidence, search, variance)
+    effects = tuple(found[c] for c in order)
+    unexplained = _unexplained(effects, evidence)
+    answer, mismatch = _answer(effects, background, unexplained, evidence)
+    separating = next_poses(search, best, rivals, fit, evidence.recordings, rng)
+    draft = Verdict(
+        arm=fit.model.arm.name,
+        source=evidence.recordings.source,
+        rows=len(evidence.recordings),
+        runs=tuple(str(run) for run in np.unique(evidence.recordings.run)),
+        answer=answer,
+        headline="",
+        mismatch=mismatch,
+        noise_mm=fit.noise,
+        noise_source=evidence.noise.source,
+        residual_before_mm=float(np.sqrt(variance)),
+        residual_after_mm=_weighted_rms(fit),
+        effects=effects,
+        background=background,
+        unexplained=unexplained,
+        held_out=held_out,
+        waterfall=waterfall,
+        atlas=atlas(fit.pool, fit.model, evidence.recordings, fit.weights, fit.gram),
+        residuals=_residuals(evidence),
+        suspects=_suspects(evidence),
+        next_poses=separating,
+        notices=(*evidence.notices, *_carefully(evidence)),
+        model=fit.model,
+    )
+    return replace(draft, headline=headline(draft))
+
+
+def _found(
+    evidence: Evidence,
+    search: Search,
+    candidate: int,
+    part: Part,
+    rivals: Sequence[tuple[float, Placed, Hypothesis]],
+    often: dict[int, float],
+    scene: Scene,
+    variance: float,
+) -> FoundEffect:
+    """One effect with everything that is known about it."""
+    fit, placed = evidence.fit, part.placed
+    covariance = fit.covariance_of(placed)
+    coefficients = np.zeros(len(fit.pool.terms))
+    coefficients[fit.pool.of(placed)] = part.values
+    rms = contribution(fit.gram, fit.pool.frames, coefficients)
+    share = rms**2 / variance if variance > 0 else 0.0
+    close = [rival for gap, rival, _ in rivals if gap < certainty.TELLS_APART_NATS]
+    named_as, title = certainty.name(placed, close)
+    worth = evidence.best.value - search.without(evidence.best, [candidate]).value
+    return FoundEffect(
+        effect=placed.name,
+        location=placed.location,
+        family=placed.family,
+        driver=placed.driver,
+        named_as=named_as,
+        title=title,
+        minor=share < MINOR_SHARE,
+        parameters=parameters(placed, part.values, covariance),
+        rms_at_tool_mm=rms,
+        share=share,
+        evidence_nats=float(worth),
+        alternatives=certainty.listed(rivals),
+        inclusion=often.get(candidate),
+        curve=curve_of(placed, part.values, covariance, scene),
+        physics=placed.effect.physics,
+        confirm=placed.effect.confirm,
+        cure=placed.effect.cure,
+    )
+
+
+def _variance_after_frames(fit: Refit) -> float:
+    """Residual variance per axis after the free frames only, mm^2."""
+    frames = fit.pool.frames
+    G = fit.gram.G[np.ix_(frames, frames)]
+    explained = fit.gram.b[frames] @ np.linalg.lstsq(G, fit.gram.b[frames], rcond=1e-12)[0]
+    left = float(fit.gram.yy - explained)
+    return max(left, 0.0) / max(fit.gram.n, 1.0)
+
+
+def _weighted_rms(fit: Refit) -> float:
+    trusted = fit.weights > SUSPECT_WEIGHT * np.median(fit.weights)
+    return float(np.sqrt(np.mean(fit.residuals[trusted] ** 2)))
+
+
+def _background(evidence: Evidence, search: Search, variance: float) -> Background:
+    """What the geometric background amounts to, and whether the evidence asks for it."""
+    fit, best = evidence.fit, evidence.best
+    coefficients = np.zeros(len(fit.pool.terms))
+    for part in fit.model.background:
+        coefficients[fit.pool.of(part.placed)] = part.values
+    rms = contribution(fit.gram, fit.pool.frames, coefficients)
+    least = search.resized(best, 0)
+    present = best.background > 0 and best.value - least.value > BACKGROUND_SEEN_NATS
+    return Background(present, BACKGROUND_SIZES[best.background], rms, rms**2 / variance if variance > 0 else 0.0)
+
+
+def _unexplained(effects: Sequence[FoundEffect], evidence: Evidence) -> Unexplained:
+    """The largest free curve; or noise far above what was stated."""
+    curves = [effect for effect in effects if effect.effect == "unknown"]
+    if curves:
+        largest = curves[0]
+        words = largest.curve.description if largest.curve else ""
+        return Unexplained(True, largest.location, largest.driver, largest.rms_at_tool_mm, words)
+    stated = evidence.noise.stated_mm
+    if stated and evidence.fit.noise > NOISE_EXCESS * stated and _significant(evidence):
+        extra = float(np.sqrt(evidence.fit.noise**2 - stated**2))
+        return Unexplained(True, None, None, extra, "residual above the stated noise that follows nothing in the table")
+    return Unexplained(False)
+
+
+def _significant(evidence: Evidence) -> bool:
+    """Whether the residual's excess over the stated noise is beyond chance (five standard errors of an RMS)."""
+    freedom = max(evidence.fit.gram.n - evidence.fit.spent, 1.0)
+    return evidence.fit.noise > evidence.noise.stated_mm * (1 + 5 / np.sqrt(2 * freedom))
+
+
+def _answer(
+    effects: Sequence[FoundEffect], background: Background, unexplained: Unexplained, evidence: Evidence
+) -> tuple[Answer, bool | None]:
+    if effects or background.present:
+        return ("partly explained" if unexplained.present else "explained"), True
+    if unexplained.present:
+        return "cannot tell", True
+    return "nothing missing", False
+
+
+def _residuals(evidence: Evidence) -> Residuals:
+    table, fit = evidence.recordings, evidence.fit
+    return Residuals(
+        points=fit.model.to_base(table.positions, table.run) * 1e3,
+        before=evidence.first,
+        after=fit.residuals,
+        weight=fit.weights,
+        id=table.id,
+        run=table.run,
+    )
+
+
+def _suspects(evidence: Evidence) -> tuple[SuspectRow, ...]:
+    fit, table = evidence.fit, evidence.recordings
+    relative = fit.weights / np.median(fit.weights)
+    rows = np.flatnonzero(relative < SUSPECT_WEIGHT)
+    size = np.linalg.norm(fit.residuals, axis=1)
+    worst = rows[np.argsort(-size[rows])][:LISTED_SUSPECTS]
+    return tuple(SuspectRow(str(table.id[r]), str(table.run[r]), float(size[r]), float(relative[r])) for r in worst)
+
+
+def _carefully(evidence: Evidence) -> list[Notice]:
+    """What the fit itself says against too much trust."""
+    notices = []
+    stated, fitted = evidence.noise.stated_mm, evidence.fit.noise
+    if stated and fitted < 0.75 * stated:
+        text = f"The residual ({fitted:.3g} mm) is well below the stated noise ({stated:.3g} mm): is that number right?"
+        notices.append(Notice("stated noise", text))
+    return notices
+
+
+def headline(verdict: Verdict) -> str:
+    """The first sentence of the report."""
+    if verdict.answer == "nothing missing":
+        return f"Nothing is missing: the residual of {verdict.residual_after_mm:.3g} mm is noise."
+    if verdict.answer == "cannot tell":
+        return "There is more than noise, but nothing in the table explains it: it cannot be told what is missing."
+    story = [effect for effect in verdict.effects if not effect.minor][:3]
+    parts = [f"{e.title} ({e.rms_at_tool_mm:.2g} mm, {100 * e.share:.0f} %)" for e in story]
+    if verdict.background.present:
+        share = 100 * verdict.background.share
+        parts.append(f"geometric tolerances of all links ({verdict.background.rms_at_tool_mm:.2g} mm, {share:.0f} %)")
+    rest = f"; {verdict.residual_before_mm:.3g} mm become {verdict.residual_after_mm:.3g} mm"
+    return ("; ".join(parts) or "Minor effects only") + rest + "."
+
+
+def undecided(
+    start: FittedModel,
+    recordings: Recordings,
+    residuals: Array,
+    noise: Noise,
+    notices: tuple[Notice, ...],
+    seconds: float,
+) -> Verdict:
+    """The verdict where no effect can honestly be named."""
+    rms = float(np.sqrt(np.mean(residuals**2)))
+    points = start.to_base(recordings.positions, recordings.run) * 1e3
+    count = len(recordings)
+    return Verdict(
+        arm=start.arm.name,
+        source=recordings.source,
+        rows=count,
+        runs=tuple(str(run) for run in np.unique(recordings.run)),
+        answer="cannot tell",
+        headline="It cannot be told: " + notices[-1].text,
+        mismatch=None,
+        noise_mm=noise.stated_mm or float("nan"),
+        noise_source=noise.source,
+        residual_before_mm=rms,
+        residual_after_mm=rms,
+        effects=(),
+        background=Background(False, 0.0, 0.0, 0.0),
+        unexplained=Unexplained(False),
+        held_out=HeldOut(float("nan"), float("nan")),
+        waterfall=(),
+        atlas=None,
+        residuals=Residuals(points, residuals, residuals, np.ones(count), recordings.id, recordings.run),
+        suspects=(),
+        next_poses=None,
+        notices=notices,
+        model=start,
+        seconds=seconds,
+    )

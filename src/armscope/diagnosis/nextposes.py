@@ -1,0 +1,110 @@
+"""Which poses to measure next: those where two readings that fit equally well predict the tool farthest apart."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import solve_triangular
+
+from armscope.diagnosis.certainty import TELLS_APART_NATS
+from armscope.diagnosis.evidence import Hypothesis
+from armscope.diagnosis.problem import columns
+from armscope.diagnosis.refit import Refit
+from armscope.diagnosis.search import Search
+from armscope.diagnosis.verdict import NextPoses
+from armscope.physics.effect import Placed
+from armscope.physics.scene import Scene
+from armscope.recordings import Recordings
+
+Array = NDArray[np.float64]
+Rivals = Mapping[int, Sequence[tuple[float, Placed, Hypothesis]]]
+
+TRIED = 400
+ASKED = 12
+DECISIVE_NATS = 6.0
+PAYLOAD_KG = 10.0
+"""Tried on top of no payload where the recordings never carried one, kg."""
+
+
+def next_poses(
+    search: Search,
+    best: Hypothesis,
+    rivals: Rivals,
+    fit: Refit,
+    recordings: Recordings,
+    rng: np.random.Generator,
+) -> NextPoses | None:
+    """Poses that separate the closest pair of readings; None where no two are close.
+
+    Greedy: each next pose is the one where the two predictions differ most, measured against what the rival could still
+    adapt to (its posterior covariance, updated after each choice) and the noise.
+    """
+    pairs = [(gap, c, placed, other) for c, found in rivals.items() for gap, placed, other in found[:1]]
+    if not pairs:
+        return None
+    gap, candidate, placed, other = min(pairs, key=lambda pair: pair[0])
+    if gap > TELLS_APART_NATS:
+        return None
+    table = _reachable(fit, recordings, rng)
+    scene = Scene(fit.model.arm, table)
+    X = columns(scene.posture(), search.problem.pool.terms).reshape(len(table), 3, -1) / search.problem.scale
+    p = X.shape[2]
+    apart = X @ (best.coefficients(p) - other.coefficients(p))
+    spread = solve_triangular(other.factor, np.eye(len(other.columns)), lower=True, check_finite=False)
+    covariance = other.noise**2 * spread.T @ spread
+    chosen, separation = _greedy(X[:, :, other.columns], apart, covariance, other.noise)
+    nats = float(np.sum(separation**2)) / (2 * other.noise**2)
+    repeats = float(np.ceil(DECISIVE_NATS / nats)) if nats > 1e-6 else float("inf")
+    payload = np.zeros(len(chosen)) if table.payload is None else table.payload[chosen]
+    first = str(search.placed(candidate))
+    return NextPoses(table.motor_angles[chosen], payload, separation, first, str(placed), repeats)
+
+
+def _reachable(fit: Refit, recordings: Recordings, rng: np.random.Generator) -> Recordings:
+    """Random poses within the joint limits (where none are stated: the recorded range), with and without payload."""
+    arm = fit.model.arm
+    low, high = recordings.motor_angles.min(axis=0), recordings.motor_angles.max(axis=0)
+    stated = np.isfinite(arm.limits).all(axis=1)
+    low, high = np.where(stated, arm.limits[:, 0], low), np.where(stated, arm.limits[:, 1], high)
+    angles = rng.uniform(low, high, (TRIED, arm.n_motors))
+    heaviest = np.nanmax(recordings.payload) if recordings.payload is not None else 0.0
+    run = np.full(TRIED, recordings.run[-1])
+    shape = (TRIED, arm.n_motors)
+    return replace(
+        recordings,
+        motor_angles=angles,
+        positions=np.full((TRIED, 3), np.nan),
+        run=run,
+        target=np.full(TRIED, recordings.target[-1]),
+        id=np.arange(1, TRIED + 1).astype(str),
+        orientation=None,
+        sigma=None,
+        extra=None,
+        torque=None,
+        payload=rng.choice([0.0, heaviest or PAYLOAD_KG], TRIED),
+        approach=None if recordings.approach is None else rng.choice([-1.0, 1.0], shape),
+        speed=None if recordings.speed is None else np.zeros(shape),
+        time=None if recordings.time is None else np.full(TRIED, np.nanmax(recordings.time)),
+        temperature=None if recordings.temperature is None else np.full(TRIED, np.nanmedian(recordings.temperature)),
+    )
+
+
+def _greedy(X: Array, apart: Array, covariance: Array, noise: float) -> tuple[NDArray[np.intp], Array]:
+    """Numbers of the poses and how far apart the predictions are there, mm."""
+    chosen: list[int] = []
+    separation: list[float] = []
+    left = apart.copy()
+    for _ in range(ASKED):
+        blocks = X @ covariance @ np.swapaxes(X, 1, 2) + noise**2 * np.eye(3)
+        score = np.einsum("ni,ni->n", left, np.linalg.solve(blocks, left[:, :, None])[:, :, 0])
+        score[chosen] = -1
+        pose = int(np.argmax(score))
+        chosen.append(pose)
+        separation.append(float(np.linalg.norm(left[pose])))
+        gain = covariance @ X[pose].T @ np.linalg.inv(blocks[pose])
+        left = left - X @ (gain @ left[pose])
+        covariance = covariance - gain @ X[pose] @ covariance
+    return np.array(chosen), np.array(separation)

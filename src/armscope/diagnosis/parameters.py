@@ -1,0 +1,67 @@
+"""Fitted values as parameters in the field's units, with standard errors carried through."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.diagnosis.verdict import Parameter
+from armscope.physics.effect import Placed
+
+Array = NDArray[np.float64]
+Reading = Callable[[Array], Array]
+
+
+def parameters(placed: Placed, values: Array, covariance: Array) -> tuple[Parameter, ...]:
+    """The parameters of an effect from its terms' values and covariance, SI units."""
+    names, units, reading = _reading(placed)
+    read = reading(values)
+    slope = _slope(reading, values, np.sqrt(np.maximum(np.diag(covariance), 1e-300)))
+    stderr = np.sqrt(np.maximum(np.einsum("ki,ij,kj->k", slope, covariance, slope), 0.0))
+    told = [
+        Parameter(name, unit, float(value), float(error))
+        for name, unit, value, error in zip(names, units, read, stderr, strict=True)
+    ]
+    told += [Parameter(name, unit, float(value), 0.0) for name, unit, value in placed.scanned]
+    return tuple(told)
+
+
+def _reading(placed: Placed) -> tuple[list[str], list[str], Reading]:
+    if placed.reading == "sine" and len(placed.terms) == 2:
+        return ["amplitude", "phase"], ["rad", "rad"], _wave
+    if placed.reading == "sine":
+        return ["amplitude", "phase", "direction"], ["rad"] * 3, _turning_wave
+    if placed.reading == "curve":
+        return ["rms"], [placed.terms[0].unit], lambda v: np.array([np.sqrt(np.mean(v**2))])
+    si = np.array([term.si for term in placed.terms])
+    return [t.name for t in placed.terms], [t.unit for t in placed.terms], lambda v: v / si
+
+
+def _wave(values: Array) -> Array:
+    """(cosine, sine) as amplitude cos(k q - phase)."""
+    cosine, sine = values
+    return np.array([np.hypot(cosine, sine), np.arctan2(sine, cosine)])
+
+
+def _turning_wave(values: Array) -> Array:
+    """(cosine, sine) about x and about y as amplitude cos(k q - phase) about the best direction (cos, sin)."""
+    u, size, vt = np.linalg.svd(values.reshape(2, 2))
+    direction = float(np.arctan2(u[1, 0], u[0, 0]))
+    phase = float(np.arctan2(vt[0, 1], vt[0, 0]))
+    if not -np.pi / 2 < direction <= np.pi / 2:
+        # the opposite direction half a period later is the same wobble
+        direction = direction - np.sign(direction) * np.pi
+        phase = phase - np.sign(phase) * np.pi
+    return np.array([size[0], phase, direction])
+
+
+def _slope(reading: Reading, values: Array, errors: Array) -> Array:
+    """Derivative of the reading by the values, central differences over a hundredth of a standard error."""
+    columns = []
+    for n, error in enumerate(errors):
+        step = np.zeros_like(values)
+        step[n] = 1e-2 * error
+        columns.append((reading(values + step) - reading(values - step)) / (2 * step[n]))
+    return np.array(columns).T

@@ -1,0 +1,174 @@
+"""How much: all chosen effects together with frames and background, with the exact model and robust weights."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.diagnosis import robust
+from armscope.diagnosis.evidence import BACKGROUND_SIZES, FRAME_PRIOR_MM, TOLERANCE
+from armscope.diagnosis.frames import moved_base
+from armscope.diagnosis.problem import Gram, Pool, accumulate, pool, residuals, scales
+from armscope.physics.effect import AXES, Placed, Term
+from armscope.physics.model import FittedModel
+from armscope.physics.scene import Part
+from armscope.recordings import Recordings
+
+Array = NDArray[np.float64]
+
+STEPS = 6
+CONVERGED_MM = 1e-6
+FREE = 100.0
+"""A named effect's values are held by a prior this many times wider than its size, that is: not at all."""
+
+
+@dataclass(frozen=True, eq=False)
+class Refit:
+    """An exact fit.
+
+    Attributes:
+        model: the fitted model.
+        pool: frames, background and effects that were fitted.
+        gram: at the solution, mm per SI unit.
+        covariance: (p, p) of all values, SI units.
+        noise: mm per axis.
+        spent: effective number of fitted values.
+        weights: (N,).
+        residuals: (N, 3) mm, base axes.
+    """
+
+    model: FittedModel
+    pool: Pool
+    gram: Gram
+    covariance: Array
+    noise: float
+    spent: float
+    weights: Array
+    residuals: Array
+
+    def covariance_of(self, placed: Placed) -> Array:
+        """Covariance of one effect's terms, SI units."""
+        at = self.pool.of(placed)
+        return np.asarray(self.covariance[np.ix_(at, at)])
+
+
+def refit(
+    model: FittedModel,
+    recordings: Recordings,
+    frames: Sequence[Placed],
+    background: Sequence[Placed],
+    background_size: int,
+    effects: Sequence[tuple[Placed, float]],
+    uncertainty: Array,
+    least_noise: float,
+    row_weights: Array | None = None,
+) -> Refit:
+    """Gauss-Newton on the exact model, weights and noise re-estimated at each step.
+
+    Args:
+        model: where to start from; its effects are replaced.
+        effects: (effect, size at the tool, mm).
+        uncertainty: (N,) relative uncertainty of the rows.
+        row_weights: fixed weights; None lets the residuals decide.
+    """
+    named = {term for placed, _ in effects for term in placed.terms}
+    background = [kept for placed in background if (kept := _without(placed, named)) is not None]
+    parts = pool(frames, background, [placed for placed, _ in effects])
+    model = _start(model, background, effects)
+    blocks = np.zeros(len(recordings), dtype=np.intp)
+    noise = least_noise
+    for _ in range(STEPS):
+        left = residuals(model, recordings)
+        w = robust.weights(left, uncertainty, least_noise) if row_weights is None else row_weights
+        gram = accumulate(parts, model, recordings, w, blocks)[0]
+        noise = noise or robust.scale_of(left)
+        precision = _precision(parts, gram, background_size, effects)
+        A = gram.G + np.diag(noise**2 * precision)
+        values, covariance = _solve(A, gram.b)
+        spent = float(len(values) - noise**2 * np.sum(np.diag(covariance) * precision))
+        misfit = gram.rss(values)
+        noise = max(float(np.sqrt(max(misfit, 0.0) / max(gram.n - spent, 1.0))), 1e-9)
+        updated = _updated(model, parts, background, effects, values)
+        moved = np.abs(residuals(updated, recordings) - left).max()
+        model = updated
+        if moved < CONVERGED_MM:
+            break
+    left = residuals(model, recordings)
+    return Refit(model, parts, gram, noise**2 * covariance, noise, spent, w, left)
+
+
+def _without(placed: Placed, named: set[Term]) -> Placed | None:
+    """A background effect without the terms that a named effect has: one term, one value."""
+    kept = [n for n, term in enumerate(placed.terms) if term not in named]
+    if not kept:
+        return None
+    return replace(placed, terms=tuple(placed.terms[n] for n in kept), shape=tuple(placed.shape[n] for n in kept))
+
+
+def _start(model: FittedModel, background: Sequence[Placed], effects: Sequence[tuple[Placed, float]]) -> FittedModel:
+    """The model with the new set of effects, values taken over where a term was there before."""
+    known = {
+        term: value
+        for part in (*model.background, *model.parts)
+        for term, value in zip(part.placed.terms, part.values, strict=True)
+    }
+
+    def part(placed: Placed) -> Part:
+        return Part(placed, np.array([known.get(term, 0.0) for term in placed.terms]))
+
+    return replace(
+        model, background=tuple(part(p) for p in background), parts=tuple(part(placed) for placed, _ in effects)
+    )
+
+
+def _precision(parts: Pool, gram: Gram, background_size: int, effects: Sequence[tuple[Placed, float]]) -> Array:
+    """(p,) prior precisions in SI units."""
+    scale = scales(gram, parts.frames)
+    variance = np.full(len(parts.terms), np.inf)
+    variance[parts.background] = (BACKGROUND_SIZES[background_size] * TOLERANCE) ** 2
+    for (placed, size), at in zip(effects, parts.columns, strict=True):
+        wide = 1.0 if placed.reading == "curve" or placed.variant == "unknown masses" else FREE
+        variance[at] = (wide * size * np.array(placed.shape) / scale[at]) ** 2
+    variance[parts.frames] = (FRAME_PRIOR_MM / scale[parts.frames]) ** 2
+    return np.asarray(1 / variance)
+
+
+def _solve(A: Array, b: Array) -> tuple[Array, Array]:
+    """(A^-1 b, A^-1), equilibrated first: SI units differ by many powers of ten."""
+    d = 1 / np.sqrt(np.diag(A))
+    inverse = np.linalg.inv(A * np.outer(d, d)) * np.outer(d, d)
+    return inverse @ b, inverse
+
+
+def _updated(
+    model: FittedModel,
+    parts: Pool,
+    background: Sequence[Placed],
+    effects: Sequence[tuple[Placed, float]],
+    values: Array,
+) -> FittedModel:
+    """The model with new values; frame columns are increments at the linearisation point."""
+    index = {term: number for number, term in enumerate(parts.terms)}
+
+    def new(placed: Placed) -> Array:
+        return values[[index[term] for term in placed.terms]]
+
+    bases = dict(model.bases)
+    for term, number in index.items():
+        product = term.products[0]
+        if product.driver.kind == "in run":
+            run = str(product.driver.arguments[0])
+            twist = np.zeros(6)
+            twist[AXES.index(product.direction.axis)] = values[number]
+            bases[run] = moved_base(bases[run], twist)
+    tools = tuple(Part(part.placed, part.values + new(part.placed)) for part in model.tools)
+    return replace(
+        model,
+        bases=bases,
+        tools=tools,
+        background=tuple(Part(p, new(p)) for p in background),
+        parts=tuple(Part(placed, new(placed)) for placed, _ in effects),
+    )
