@@ -15,7 +15,7 @@ The way of a study, each step a pure function of the ones before:
     sub_volumes(study.measurements)                                           # one, two, four regions
     claims(residuals, fits, sub_volumes(...), fits_as_printed)                # verdicts
     reading(study.measurements.identification.nominal_mm)                     # Eqs. (15)-(17) as physics
-    audit(...)                                                                # printed against printed
+    audit()                                                                   # printed against printed
 
     real_measurements(arm, recordings, ...) gives Measurements of a real arm, for the same fits and tables.
 
@@ -23,6 +23,7 @@ Everything here is in mm and rad, as the paper's equations.
 """
 
 from armscope.paper.anchoring import ANCHORED, AnchoredRobots, anchor
+from armscope.paper.audit import AuditScope, audit
 from armscope.paper.claims import claims
 from armscope.paper.measurements import Measurements, PoseSet, pose_arrays, pose_table
 from armscope.paper.printed import predict_printed, printed_coefficients, printed_matrix, printed_table2
@@ -41,10 +42,12 @@ from armscope.paper.virtual import (
 __all__ = [
     "ANCHORED",
     "AnchoredRobots",
+    "AuditScope",
     "Measurements",
     "PoseSet",
     "VirtualStudy",
     "anchor",
+    "audit",
     "claims",
     "identification_poses",
     "measure_virtual",

@@ -138,7 +138,7 @@ def claims(
         _row(
             "Fourier polynomials are more accurate than ordinary polynomials",
             "p. 962, section 6.3",
-            "3D error of Fourier (2 harmonics) below 4th degree (75 coefficients each) over trajectories I-III together",
+            "over I-III together, Fourier with 2 harmonics comes closer than the 4th degree (75 coefficients each)",
             "",
             "ratio ordinary / Fourier of the 3D errors over trajectories I-III",
             three_dimensional.better(FOURIER, FOURTH),

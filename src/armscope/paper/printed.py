@@ -59,6 +59,15 @@ def printed_matrix(model: str) -> Array:
     return np.array([[by_axis[axis][term] for term in terms] for axis in AXES], dtype=float)
 
 
+def printed_half_digits(model: str) -> Array:
+    """(3, terms) half of the last printed digit of each coefficient, in the order of `printed_features`."""
+    text: dict[str, Any] = yaml.load(_data("equations.yaml").read_text(encoding="utf-8"), Loader=yaml.BaseLoader)
+    by_axis = text[model.replace("(", "_").rstrip(")")]
+    terms = printed_features(model).term_names
+    decimals = [[len(by_axis[axis][term].partition(".")[2]) for term in terms] for axis in AXES]
+    return 0.5 * 10.0 ** -np.array(decimals)
+
+
 def printed_features(model: str) -> FeatureSet:
     """The terms of a printed model: px, py, pz, or theta1, theta2, theta3, theta6 of six (theta4 = theta5 = 0)."""
     spec = PRINTED_MODELS[model]

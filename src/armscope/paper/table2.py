@@ -24,9 +24,9 @@ def table2(residuals: pd.DataFrame, robot: str | None = None) -> pd.DataFrame:
 
     Returns:
         Columns model, trajectory, axis, points, printed (as in the paper, no unit; NaN for models, sets and axes that
-        it does not have), and for each reading r of "RMS" ("rss", "rms"), in mm: r_median, r_low, r_high (over the seeds),
-        r_least_squares, r_ensemble_low, r_ensemble_median, r_ensemble_high (5, 50, 95 % of the other robots, each with
-        its median seed; NaN without an ensemble), and r_ratio = r_median / printed.
+        it does not have), and for each reading r of "RMS" ("rss", "rms"), in mm: r_median, r_low, r_high (over the
+        seeds), r_least_squares, r_ensemble_low, r_ensemble_median, r_ensemble_high (5, 50, 95 % of the other robots,
+        each with its median seed; NaN without an ensemble), and r_ratio = r_median / printed.
     """
     robots = residuals["robot"].unique()
     shown = robots[0] if robot is None else robot
