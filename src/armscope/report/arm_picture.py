@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import pairwise
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Colormap, LinearSegmentedColormap, Normalize, to_rgb
+from matplotlib.colors import Colormap, LinearSegmentedColormap, Normalize, to_rgb, to_rgba
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 from numpy.typing import NDArray
@@ -28,14 +30,13 @@ NAMED_SHARE = 0.005
 
 
 def share_colours() -> Colormap:
-    """Light to dark, even in lightness for every kind of colour vision: magma without its black and white ends."""
-    dark_to_light = plt.get_cmap("magma")(np.linspace(0.18, 0.97, 256))
+    """Light to dark, even in lightness for every kind of colour vision: magma without its black end."""
+    dark_to_light = plt.get_cmap("magma")(np.linspace(0.18, 1.0, 256))
+    dark_to_light[-12:] = np.linspace(dark_to_light[-12], to_rgba("#FFFBF0"), 12)
     return LinearSegmentedColormap.from_list("share", dark_to_light[::-1])
 
 
-def draw_arm(
-    arm: Arm, motor_angles: Array, shares: Mapping[str, float], row_name: str = ""
-) -> Figure:
+def draw_arm(arm: Arm, motor_angles: Array, shares: Mapping[str, float]) -> Figure:
     """The arm in a typical recorded pose, coloured by share.
 
     Args:
@@ -43,7 +44,6 @@ def draw_arm(
         motor_angles: (N, m) recorded poses to choose from, rad.
         shares: by location ("base", "joint 2", "link 3", "tool", "parallelogram", "payload", "instrument",
             "joint 6 from joint 5"), 0 to 1.
-        row_name: what the drawn row is called in the caption under the picture; default its number.
     """
     row, view = typical_pose(arm, motor_angles)
     shape = arm_shape(arm, motor_angles[row])
@@ -51,12 +51,14 @@ def draw_arm(
     top = _round_up(max([0.0, *by_place.values()]))
     norm, colours = Normalize(0, top), share_colours()
 
-    def colour(place: str) -> str | tuple[float, ...]:
+    def colour(place: str) -> Any:
         share = by_place.get(place, 0.0)
         return colours(norm(share)) if share > 0 else UNTOUCHED
 
     with styled():
-        figure, axes = plt.subplots(figsize=(7.2, 5.6))
+        flat = view.flat(shape.points)
+        wide, high = np.ptp(flat, axis=0) + 0.34 * np.max(np.ptp(flat, axis=0))
+        figure, axes = plt.subplots(figsize=(float(np.clip(5.4 * wide / high, 3.4, 7.0)) + 1.0, 5.4))
         picture = _Picture(axes, shape, view)
         picture.frame_it()
         picture.floor(colour("base"))
@@ -117,38 +119,38 @@ class _Picture:
         """Half the thickness of the arm at a joint: slimmer towards the tool."""
         return self.size * float(np.interp(joint, [0, self.n_joints + 1], [0.042, 0.021]))
 
-    def floor(self, colour: object) -> None:
+    def floor(self, colour: Any) -> None:
         """The plate that the arm stands on, coloured as the base."""
         ring = np.linspace(0, 2 * np.pi, 60)
         plate = 0.11 * self.size * np.column_stack([np.cos(ring), np.sin(ring), 0 * ring])
         body = np.vstack([self.view.flat(plate), self.view.flat(plate - [0, 0, 0.035 * self.size])])
         hull = body[ConvexHull(body).vertices]
         self.axes.add_patch(Polygon(hull, facecolor=_shaded(colour), edgecolor=OUTLINE, linewidth=1.0, zorder=1))
-        top = Polygon(self.view.flat(plate), facecolor=colour, edgecolor=OUTLINE, linewidth=0.7, zorder=1.1)  # type: ignore[arg-type]
+        top = Polygon(self.view.flat(plate), facecolor=colour, edgecolor=OUTLINE, linewidth=0.7, zorder=1.1)
         self.axes.add_patch(top)
 
-    def link(self, line: Array, colour: object, place: str) -> None:
+    def link(self, line: Array, colour: Any, place: str) -> None:
         number = _number(place) if place != "tool" else self.n_joints + 1
         width = 0.62 * self.radius(number)
         order = 10 + self._order(line.mean(axis=0))
         for extra, face, above in ((0.0045 * self.size, OUTLINE, 0.0), (0.0, colour, 0.1)):
-            for start, end in zip(line[:-1], line[1:], strict=True):
+            for start, end in pairwise(line):
                 outline = _capsule(self.view.flat(start), self.view.flat(end), width + extra)
-                self.axes.add_patch(Polygon(outline, facecolor=face, edgecolor="none", zorder=order + above))  # type: ignore[arg-type]
-        for start, end in zip(line[:-1], line[1:], strict=True):
+                self.axes.add_patch(Polygon(outline, facecolor=face, edgecolor="none", zorder=order + above))
+        for start, end in pairwise(line):
             for along in np.linspace(0, 1, 12):
                 self.obstacles.append((self.view.flat(start + along * (end - start)), width))
 
-    def linkage(self, rod: Array, colour: object) -> None:
+    def linkage(self, rod: Array, colour: Any) -> None:
         flat = self.view.flat(rod)
         order = 9 + self._order(rod.mean(axis=0))
         for width, face in ((5.0, OUTLINE), (3.4, colour)):
-            self.axes.plot(*flat.T, color=face, linewidth=width, solid_capstyle="round", zorder=order)  # type: ignore[arg-type]
-        for start, end in zip(rod[:-1], rod[1:], strict=True):
+            self.axes.plot(*flat.T, color=face, linewidth=width, solid_capstyle="round", zorder=order)
+        for start, end in pairwise(rod):
             for along in np.linspace(0, 1, 12):
                 self.obstacles.append((self.view.flat(start + along * (end - start)), 0.01 * self.size))
 
-    def disc(self, centre: Array, axis: Array, colour: object, joint: int) -> None:
+    def disc(self, centre: Array, axis: Array, colour: Any, joint: int) -> None:
         """A short cylinder about the joint's axis, and the axis with an arrow in its positive direction."""
         radius = 1.15 * self.radius(joint)
         across = np.linalg.svd(axis[None])[2][1:]
@@ -166,15 +168,13 @@ class _Picture:
                         "linestyle": (0, (5, 2, 1, 2))},
         )  # fmt: skip
         self.axes.add_patch(Polygon(hull, facecolor=_shaded(colour), edgecolor=OUTLINE, linewidth=1.0, zorder=order))
-        self.axes.add_patch(
-            Polygon(front, facecolor=colour, edgecolor=OUTLINE, linewidth=0.7, zorder=order + 0.05)  # type: ignore[arg-type]
-        )
+        self.axes.add_patch(Polygon(front, facecolor=colour, edgecolor=OUTLINE, linewidth=0.7, zorder=order + 0.05))
         self.obstacles.append((self.view.flat(centre), 1.1 * radius))
         self.obstacles.append((tip, 0.01 * self.size))
 
-    def tool(self, colour: object, payload: object | None) -> None:
+    def tool(self, colour: Any, payload: Any | None) -> None:
         point = self.view.flat(self.shape.tool)
-        self.axes.plot(*point, marker="o", markersize=6, color=colour, markeredgecolor=BLACK, zorder=40)  # type: ignore[arg-type]
+        self.axes.plot(*point, marker="o", markersize=6, color=colour, markeredgecolor=BLACK, zorder=40)
         self.axes.plot(*point, marker="+", markersize=12, color=BLACK, markeredgewidth=1.0, zorder=41)
         self.obstacles.append((point, 0.02 * self.size))
         if payload is not None:
@@ -182,10 +182,10 @@ class _Picture:
             low = point - [side, 3.4 * side]
             box = low + 2 * side * np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
             self.axes.plot([point[0]] * 2, [point[1], low[1] + 2 * side], color=OUTLINE, linewidth=1.0, zorder=38)
-            self.axes.add_patch(Polygon(box, facecolor=payload, edgecolor=OUTLINE, zorder=39))  # type: ignore[arg-type]
+            self.axes.add_patch(Polygon(box, facecolor=payload, edgecolor=OUTLINE, zorder=39))
             self.obstacles.append((box.mean(axis=0), 1.3 * side))
 
-    def instrument(self, colour: object) -> None:
+    def instrument(self, colour: Any) -> None:
         """A tracker on its stand, in the corner that is farthest from the arm."""
         (left, right), (bottom, top) = self.axes.get_xlim(), self.axes.get_ylim()
         unit = 0.03 * self.size
@@ -196,7 +196,7 @@ class _Picture:
         for end in (-1, 0, 1):
             self.axes.plot([x, x + end * unit], [foot + 3 * unit, foot], color=OUTLINE, linewidth=1.2, zorder=5)
         head = np.array([x, foot + 3.6 * unit]) + unit * np.array([[-1, -0.6], [1, -0.6], [1, 0.6], [-1, 0.6]])
-        self.axes.add_patch(Polygon(head, facecolor=colour, edgecolor=OUTLINE, zorder=6))  # type: ignore[arg-type]
+        self.axes.add_patch(Polygon(head, facecolor=colour, edgecolor=OUTLINE, zorder=6))
         self.instrument_at = head.mean(axis=0)
         self.obstacles.append((self.instrument_at, 1.5 * unit))
 
@@ -250,8 +250,8 @@ class _Picture:
                 spot = anchor + reach * np.array([np.cos(angle), np.sin(angle)])
                 clear = np.maximum(np.abs(points - spot) - half, 0)
                 overlap = np.maximum(radii + 0.008 * self.size - np.linalg.norm(clear, axis=1), 0).sum()
-                outside = np.maximum(inside[:, 0] - spot + half, 0).sum() + np.maximum(spot + half - inside[:, 1], 0).sum()
-                cost = 30 * overlap + 100 * outside + reach
+                outside = np.maximum(inside[:, 0] - spot + half, 0) + np.maximum(spot + half - inside[:, 1], 0)
+                cost = 30 * overlap + 100 * outside.sum() + reach
                 if cost < least:
                     best, least = spot, cost
         return best
@@ -270,7 +270,7 @@ class _Picture:
         start = np.array([left + 0.03 * (right - left), top - 0.02 * self.size])
         self.axes.annotate("", start - [0, 0.1 * self.size], start,
                            arrowprops={"arrowstyle": "-|>", "color": OUTLINE, "linewidth": 1.2})  # fmt: skip
-        self.axes.text(*(start + [0.015 * self.size, -0.05 * self.size]), "gravity", fontsize=8, color=OUTLINE,
+        self.axes.text(start[0] + 0.015 * self.size, start[1] - 0.05 * self.size, "gravity", fontsize=8, color=OUTLINE,
                        va="center")  # fmt: skip
 
     def _order(self, point: Array) -> float:
@@ -300,6 +300,6 @@ def _number(location: str) -> float:
     return float(last) if last.isdigit() else 0.0
 
 
-def _shaded(colour: object) -> Array:
+def _shaded(colour: Any) -> Array:
     """The side of a disc: darker than its face."""
-    return 0.78 * np.array(to_rgb(colour))  # type: ignore[arg-type]
+    return 0.78 * np.array(to_rgb(colour))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -178,7 +179,7 @@ def _disc_centres(origins: Array, axes: Array, lines: list[Array]) -> Array:
 def _places_on_axis(origin: Array, axis: Array, lines: list[Array], size: float) -> list[Array]:
     places = [origin]
     for line in lines:
-        for start, end in zip(line[:-1], line[1:], strict=True):
+        for start, end in pairwise(line):
             length = np.linalg.norm(end - start)
             if length < 0.02 * size or np.linalg.norm(np.cross(end - start, axis)) > 1e-6 * length:
                 continue

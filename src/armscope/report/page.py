@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import re
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,14 @@ _TEMPLATES = jinja2.Environment(
     lstrip_blocks=True,
     undefined=jinja2.StrictUndefined,
 )
+
+
+def unbroken(text: str) -> str:
+    """Numbers keep their units beside them: no line break between "55" and "%"."""
+    return re.sub(r"(?<=\d) (?=[%°µa-zA-Z])", "\u00a0", text)
+
+
+_TEMPLATES.filters["unbroken"] = unbroken
 
 
 def render_page(template: str, **content: Any) -> str:

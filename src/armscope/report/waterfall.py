@@ -31,14 +31,14 @@ def draw_waterfall(
     limit = 1.24 * max([largest, *(min(rms, 1.6 * largest) for _, rms in shown)])
     n_bars = len(steps) + len(shown)
     with styled():
-        figure, axes = plt.subplots(figsize=(8.2, 0.36 * n_bars + (0.5 if shown else 0) + 1.35))
-        for place, (name, rms) in enumerate(steps):
+        figure, axes = plt.subplots(figsize=(8.2, 0.36 * n_bars + (0.6 if shown else 0) + 1.35))
+        for place, (_, rms) in enumerate(steps):
             ends = place in (0, len(steps) - 1)
-            if place == 0 or (ends and len(steps) > 2):
+            if ends:
                 axes.barh(place, rms, height=0.62, color=VERMILION if place == 0 else BLUE, zorder=3)
             else:
                 _drop(axes, place, heights[place - 1], rms)
-            if place == len(steps) - 1 and len(steps) > 2:
+            if ends and place > 0:
                 _gain(axes, place, heights[place - 1], rms)
             error = None if spreads is None or not np.isfinite(spreads[place]) else spreads[place]
             if error:
@@ -47,8 +47,10 @@ def draw_waterfall(
             axes.text(edge + 0.012 * limit, place, _millimetres(rms), va="center", fontsize=8.5, zorder=5)
             if place + 1 < len(steps):
                 axes.plot([rms, rms], [place - 0.31, place + 1.31], color=GREY, linewidth=0.7, zorder=2)
-        start = len(steps) + 0.5
-        for place, (name, rms) in enumerate(shown):
+        start = len(steps) + 0.75
+        if shown:
+            axes.text(0, start - 0.72, "for comparison, fitted to the same rows:", fontsize=8.5, color="#5C6670")
+        for place, (_, rms) in enumerate(shown):
             axes.barh(start + place, min(rms, limit), height=0.62, color="#C9CFD5", zorder=3)
             beyond = rms > limit
             axes.text(
@@ -60,7 +62,7 @@ def draw_waterfall(
             axes.axvline(noise_mm, color=GREEN, linewidth=1.6, linestyle="--", zorder=6)
             axes.annotate(
                 f"noise {_millimetres(noise_mm)}", (noise_mm, 1), (4, 3), xycoords=("data", "axes fraction"),
-                textcoords="offset points", color=GREEN, fontsize=8.5, fontweight="bold",
+                textcoords="offset points", color=GREEN, fontsize=8.5, fontweight="bold", annotation_clip=False,
             )  # fmt: skip
         ticks = [*range(len(steps)), *(start + np.arange(len(shown)))]
         axes.set_yticks(ticks, [name for name, _ in steps] + [name for name, _ in shown])

@@ -1,0 +1,148 @@
+"""All figures of a diagnosis, drawn from its verdict and kept as files."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from armscope.diagnosis.verdict import Atlas, FoundEffect, Verdict
+from armscope.diagnosis.verdict import Curve as FoundCurve
+from armscope.recordings import Recordings
+from armscope.report.arm_picture import draw_arm
+from armscope.report.atlas_figure import draw_atlas
+from armscope.report.leftover_figure import Curve, draw_curves
+from armscope.report.pose_figure import draw_poses
+from armscope.report.residual_vectors import draw_along_joints, draw_vectors, evenly
+from armscope.report.style import save_figure
+from armscope.report.waterfall import draw_waterfall
+from armscope.report.wording import shown_unit
+from armscope.robot import Arm, chain, position_jacobian
+
+Array = NDArray[np.float64]
+
+FORMATS = ("png", "svg")
+MOST_ROWS = 20_000
+"""Running means along the joints need no more rows than this."""
+BAND = 1.959964
+
+
+@dataclass(frozen=True)
+class SavedFigure:
+    """A figure's file for the page (SVG) and what it shows, for those who can't see it."""
+
+    path: Path
+    alt: str
+
+
+def save_all(
+    verdict: Verdict, arm: Arm, recordings: Recordings, folder: Path, references: Sequence[tuple[str, float]]
+) -> dict[str, SavedFigure]:
+    """Draw and save all figures that this verdict has something for, by name.
+
+    Args:
+        verdict, arm, recordings: the diagnosis and what it was made of.
+        folder: where the files go.
+        references: other models' RMS on held-out rows, mm, for the waterfall.
+    """
+    saved: dict[str, SavedFigure] = {}
+
+    def keep(name: str, figure: Figure, alt: str) -> None:
+        paths = save_figure(figure, folder / name, FORMATS)
+        saved[name] = SavedFigure(paths[-1], alt)
+
+    keep(
+        "arm",
+        draw_arm(arm, recordings.motor_angles, location_shares(verdict)),
+        "The arm in a recorded pose, joints and links coloured by their share of the mismatch",
+    )
+    if verdict.atlas is not None and np.isfinite(verdict.atlas.share).any():
+        shares, left, marked = atlas_tables(verdict.atlas, verdict.effects)
+        keep("atlas", draw_atlas(shares, marked, left), "Map of the share of the mismatch by location and driver")
+    steps = [(step.label, step.held_out_mm) for step in verdict.waterfall if np.isfinite(step.held_out_mm)]
+    if steps:
+        noise = verdict.noise_mm if np.isfinite(verdict.noise_mm) else None
+        keep("waterfall", draw_waterfall(steps, noise, references), "Held-out error as effects enter the model")
+    residuals = verdict.residuals
+    keep(
+        "vectors",
+        draw_vectors(residuals.points * 1e-3, residuals.before, residuals.after),
+        "Residual vectors in the workspace, before and after",
+    )
+    rows = evenly(len(recordings), MOST_ROWS)
+    angles = recordings.motor_angles[rows]
+    if np.any(np.ptp(angles, axis=0) > 1e-3):
+        jacobian = position_jacobian(arm, chain(arm, angles))
+        keep(
+            "along_joints",
+            draw_along_joints(angles, jacobian, residuals.before[rows], residuals.after[rows]),
+            "Residual along each joint's motion against its angle, before and after",
+        )
+    for number, effect in enumerate(verdict.effects, start=1):
+        if effect.curve is not None and len(effect.curve.at) > 1:
+            keep(
+                f"curve_{number}",
+                draw_curves([curve_of(effect, effect.curve)]),
+                f"What happens at {effect.location} over the {effect.curve.driver}, with its 95 % band",
+            )
+    if verdict.next_poses is not None and len(verdict.next_poses.motor_angles):
+        keep("next_poses", draw_poses(arm, verdict.next_poses.motor_angles), "The arm in the poses to measure next")
+    return saved
+
+
+def location_shares(verdict: Verdict) -> dict[str, float]:
+    """Share of the mismatch by location: of all effects found, and of what is left unexplained at a known place."""
+    shares: dict[str, float] = {}
+    for effect in verdict.effects:
+        shares[effect.location] = shares.get(effect.location, 0.0) + max(effect.share, 0.0)
+    left = verdict.unexplained
+    if left.present and left.location and verdict.residual_before_mm > 0:
+        share = (left.rms_mm / verdict.residual_before_mm) ** 2
+        shares[left.location] = shares.get(left.location, 0.0) + min(share, 1.0)
+    return shares
+
+
+def atlas_tables(
+    atlas: Atlas, effects: Sequence[FoundEffect]
+) -> tuple[pd.DataFrame, pd.DataFrame, list[tuple[str, str]]]:
+    """Location x driver tables of the best direction's share, on top of the frames and of the model; named cells."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # all directions NaN: there is no such effect
+        tables = [
+            pd.DataFrame(np.nanmax(values, axis=1), index=atlas.locations, columns=atlas.drivers)
+            for values in (atlas.share, atlas.left)
+        ]
+    there = tables[0].notna().to_numpy()
+    rows, columns = there.any(axis=1), there.any(axis=0)
+    shares, left = (table.loc[rows, columns] for table in tables)
+    marked = [
+        (effect.location, driver)
+        for effect in effects
+        for driver in shares.columns
+        if effect.location in shares.index and effect.driver.startswith(str(driver))
+    ]
+    return shares, left, marked
+
+
+def curve_of(effect: FoundEffect, found: FoundCurve) -> Curve:
+    """An effect's curve in the units of a figure: degrees for angles, µrad or mm for what it does."""
+    x, x_unit = (np.degrees(found.at), "deg") if found.driver_unit == "rad" else (found.at, found.driver_unit)
+    size = float(np.max(np.abs(found.value), initial=0.0))
+    factor, unit = shown_unit(found.value_unit, size)
+    value, band = factor * found.value, BAND * factor * found.stderr
+    does = "moves by" if "m" in found.value_unit.removesuffix("rad") else "turns by"
+    return Curve(
+        title=f"{effect.location}, by the {found.driver}",
+        x=x,
+        value=value,
+        low=value - band,
+        high=value + band,
+        x_label=f"{found.driver} ({x_unit})" if x_unit else found.driver,
+        y_label=f"{effect.location} {does} ({unit})",
+    )

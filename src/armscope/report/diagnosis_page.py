@@ -1,0 +1,207 @@
+"""out/report.html: what a diagnosis found, on one page that needs no network."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from armscope.diagnosis.verdict import NextPoses, SuspectRow, Verdict
+from armscope.files import write_text
+from armscope.recordings import Recordings
+from armscope.report.diagnosis_figures import SavedFigure, save_all
+from armscope.report.effect_cards import Card, card
+from armscope.report.page import render_page
+from armscope.report.reference_models import held_out_rms
+from armscope.report.wording import main_and_minor, millimetres, percent
+from armscope.robot import Arm
+
+MOST_SUSPECTS = 40
+ANSWERS = {
+    "nothing missing": ("holds", "nothing is missing"),
+    "explained": ("holds", "explained"),
+    "partly explained": ("depends", "partly explained"),
+    "cannot tell": ("depends", "cannot tell"),
+}
+GLOSSARY = (
+    ("Mismatch, residual", "Measured tool position minus the position that the model predicts from the joint angles."),
+    ("Free frames", "Where the robot's base stands in the instrument's frame, and where the measured point sits on the "
+     "tool. Both are always fitted first: nobody knows them beforehand to a tenth of a millimetre."),
+    ("RMS per axis", "Typical size of the residual: root of the mean square over all x, y and z values. The typical "
+     "3D distance is 1.7 times as large."),
+    ("Held-out rows", "Rows that took no part in finding or fitting the effects. A model that merely memorises the "
+     "rows it has seen fails on them."),
+    ("Noise", "What remains when the model is right: instrument and repeatability together, 1 sigma per axis."),
+    ("Share of the mismatch", "How much of the squared residual after the free frames an effect accounts for. Effects "
+     "that look alike share, so the shares need not add up to 100 %."),
+    ("Driver", "What an effect follows: a joint's angle, the load of gravity on it, temperature, time, ..."),
+    ("Evidence, nats", "How much more probable the recordings are with the effect than without it, as a natural "
+     "logarithm, after paying for the size of the library searched. 1 nat is odds of 3 to 1, 5 nats 150 to 1."),
+    ("95 % interval", "Where the true number lies in 95 of 100 such analyses, if the model is right."),
+    ("Chosen in resampled data", "The rows are drawn anew with replacement and the search is repeated: an effect that "
+     "is chosen nearly every time does not hang on a few rows."),
+    ("Compliance, stiffness", "How far something gives way per unit of load, and its reciprocal."),
+    ("D-H row", "The four numbers (a, α, d, θ; Denavit and Hartenberg) that place one joint relative to the last."),
+    ("µrad, mrad", "Millionth and thousandth of a radian. 1 mrad is 0.057° and moves a point 1 m away by 1 mm."),
+)  # fmt: skip
+
+
+def write_report(verdict: Verdict, arm: Arm, recordings: Recordings, folder: Path | str) -> Path:
+    """Write ``report.html`` and ``figures/*`` (PNG and SVG) for a diagnosis; returns the page's path.
+
+    Args:
+        verdict: the diagnosis.
+        arm: the nominal arm that was diagnosed.
+        recordings: the rows it was made from, in the verdict's order.
+        folder: where the page goes.
+    """
+    folder = Path(folder)
+    references = held_out_rms(arm, recordings, verdict.residuals.before)
+    figures = save_all(verdict, arm, recordings, folder / "figures", references)
+    page = render_page("diagnosis.html.j2", **_content(verdict, arm, recordings, figures, references))
+    write_text(folder / "report.html", page)
+    return folder / "report.html"
+
+
+def _content(
+    verdict: Verdict,
+    arm: Arm,
+    recordings: Recordings,
+    figures: Mapping[str, SavedFigure],
+    references: Sequence[tuple[str, float]],
+) -> dict[str, Any]:
+    numbered = {id(effect): number for number, effect in enumerate(verdict.effects, start=1)}
+
+    def as_card(effect: Any) -> Card:
+        number = numbered[id(effect)]
+        name = f"curve_{number}"
+        return card(effect, number, name if name in figures else "")
+
+    main, minor = main_and_minor(verdict.effects)
+    tag, answer = ANSWERS[verdict.answer]
+    return {
+        "version": importlib.metadata.version("armscope"),
+        "verdict": verdict,
+        "arm": arm,
+        "headline": verdict.headline,
+        "tag": tag,
+        "answer": answer,
+        "tiles": _tiles(verdict),
+        "improvement": improvement(verdict),
+        "figures": figures,
+        "cards": [as_card(effect) for effect in main],
+        "minor": [as_card(effect) for effect in minor],
+        "background_share": percent(verdict.background.share),
+        "background_rms": millimetres(verdict.background.rms_at_tool_mm),
+        "steps": _steps(verdict, references),
+        "unexplained_rms": millimetres(verdict.unexplained.rms_mm),
+        "suspects": _suspects(verdict.suspects),
+        "suspects_left_out": max(0, len(verdict.suspects) - MOST_SUSPECTS),
+        "next_poses": None if verdict.next_poses is None else _next_poses(verdict.next_poses),
+        "assumptions": assumptions(verdict, arm, recordings),
+        "glossary": GLOSSARY,
+        "settings": pd.DataFrame(
+            [(str(key).replace("_", " "), str(value)) for key, value in verdict.settings.items()],
+            columns=["setting", "value"],
+        ),
+    }
+
+
+def _tiles(verdict: Verdict) -> list[tuple[str, str, str]]:
+    """(number, what it is, details) for the strip under the headline."""
+    held_out = math.isfinite(verdict.held_out.before) and math.isfinite(verdict.held_out.after)
+    before = verdict.held_out.before if held_out else verdict.residual_before_mm
+    after = verdict.held_out.after if held_out else verdict.residual_after_mm
+    where = "RMS per axis on held-out rows" if held_out else "RMS per axis on the fitted rows (no held-out rows)"
+    runs = f" in {len(verdict.runs)} runs" if len(verdict.runs) > 1 else ""
+    return [
+        (millimetres(before), "mismatch before", where),
+        (millimetres(after), "mismatch with the fitted model", where),
+        (millimetres(verdict.noise_mm), "noise", f"per axis, {verdict.noise_source}"),
+        (f"{verdict.rows:,}".replace(",", " "), "recorded rows", f"{verdict.source}{runs}"),
+    ]
+
+
+def improvement(verdict: Verdict) -> str:
+    """One sentence: how much smaller the error becomes on rows that took no part."""
+    before, after = verdict.held_out.before, verdict.held_out.after
+    if not (math.isfinite(before) and math.isfinite(after)):
+        return (
+            "There are too few rows to keep some aside, so it was not tested whether the model holds on rows that "
+            "took no part in the fit."
+        )
+    folds = f"{verdict.held_out.folds} parts" if verdict.held_out.folds else "parts"
+    by = f", split by {verdict.held_out.grouped_by}" if verdict.held_out.grouped_by else ""
+    start = f"On rows that took no part in search or fit (whole diagnosis repeated, {folds}{by}), the error "
+    if after < 0.98 * before:
+        noise = f"; the noise is {millimetres(verdict.noise_mm)}" if math.isfinite(verdict.noise_mm) else ""
+        return f"{start}falls from {millimetres(before)} to {millimetres(after)} RMS per axis{noise}."
+    return f"{start}stays where it is: {millimetres(before)} before, {millimetres(after)} after."
+
+
+def _steps(verdict: Verdict, references: Sequence[tuple[str, float]]) -> pd.DataFrame:
+    rows = [(step.label, step.held_out_mm, step.fitted_mm) for step in verdict.waterfall]
+    rows += [(f"for comparison: {name}", rms, np.nan) for name, rms in references]
+    return pd.DataFrame(rows, columns=["model", "held-out RMS (mm)", "RMS on the fitted rows (mm)"])
+
+
+def _suspects(suspects: Sequence[SuspectRow]) -> pd.DataFrame:
+    worst = sorted(suspects, key=lambda row: row.weight)[:MOST_SUSPECTS]
+    table = pd.DataFrame(
+        [(row.id, row.run or "–", row.residual_mm, row.weight) for row in worst],
+        columns=["row (id)", "run", "left over (mm)", "weight kept (1 = full)"],
+    )
+    return table.drop(columns="run") if all(not row.run for row in worst) else table
+
+
+def _next_poses(poses: NextPoses) -> pd.DataFrame:
+    table = pd.DataFrame(
+        np.degrees(poses.motor_angles), columns=[f"q{j} (deg)" for j in range(1, poses.motor_angles.shape[1] + 1)]
+    ).round(1)
+    table.insert(0, "pose", np.arange(1, len(table) + 1))
+    if np.any(np.nan_to_num(poses.payload_kg) != 0):
+        table["payload (kg)"] = poses.payload_kg
+    table["the two differ by (mm)"] = poses.separation_mm
+    return table
+
+
+def assumptions(verdict: Verdict, arm: Arm, recordings: Recordings) -> list[str]:
+    """What the verdict rests on, in sentences."""
+    loads = (
+        "Gravity loads come from the recorded joint torques."
+        if recordings.torque is not None
+        else "Gravity loads come from the masses that robot.yaml states."
+        if arm.has_masses
+        else "robot.yaml states no masses: loads are known up to unknown mass moments, so compliances are products "
+        "with them unless a known payload sets the scale."
+    )
+    context = {
+        "side of approach (backlash)": recordings.approach,
+        "joint speed (lag)": recordings.speed,
+        "temperature (thermal expansion)": recordings.temperature,
+        "time (drift)": recordings.time,
+        "payload": recordings.payload,
+    }
+    missing = [name for name, values in context.items() if values is None]
+    still = [f"joint {j + 1}" for j in np.flatnonzero(np.ptp(recordings.motor_angles, axis=0) <= 1e-3)]
+    sentences = [
+        "The base's place in the measurement frame is free for each run, the tool point for each target; what they "
+        "can absorb is not part of the mismatch.",
+        "Every link may have geometric errors of tolerance size (assumed: about 1 mm and 1 mrad); such an error is "
+        "named only when the recordings ask for it by themselves.",
+        loads,
+        f"The noise per axis, {millimetres(verdict.noise_mm)}, is {verdict.noise_source}.",
+        "Joint angles are the commanded ones, lengths hold at 20 °C, the arm stands still or moves slowly, and each "
+        "effect is small: it is found in a linear picture and then fitted exactly.",
+    ]
+    if missing:
+        sentences.append(f"Not recorded, so nothing that follows it can be seen: {', '.join(missing)}.")
+    if still:
+        sentences.append(f"Never moved, so nothing that follows its angle can be seen: {', '.join(still)}.")
+    sentences.extend(f"{note[:1].upper()}{note[1:]}." for note in recordings.notes)
+    return sentences

@@ -1,0 +1,126 @@
+"""One card per effect: everything a person needs to believe it, check it and cure it."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from armscope.diagnosis.verdict import FoundEffect
+from armscope.report.wording import (
+    Reading,
+    effect_in_words,
+    evidence_in_words,
+    millimetres,
+    percent,
+    read_parameter,
+)
+
+MOST_PARAMETERS = 8
+"""A free curve has dozens of coefficients, which its picture tells better."""
+TOO_CLOSE_NATS = 3.0
+"""Alternatives nearer than this can't be told apart (odds below 20 to 1)."""
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """What else could stand in an effect's place, in words."""
+
+    name: str
+    gap: str
+    too_close: bool
+
+
+@dataclass(frozen=True)
+class Card:
+    """The texts of a card; `anchor` is its id in the page, `figure` the name of its curve's figure or ""."""
+
+    anchor: str
+    title: str
+    what: str
+    location: str
+    family: str
+    share: str
+    share_width: float
+    size: str
+    readings: tuple[Reading, ...]
+    parameters_left_out: int
+    shape: str
+    evidence: str
+    evidence_words: str
+    alternatives: tuple[Alternative, ...]
+    chosen: str
+    how_specific: str
+    physics: str
+    confirm: str
+    cure: str
+    carries_over: str
+    figure: str = ""
+
+
+def card(effect: FoundEffect, number: int, figure: str = "") -> Card:
+    """The card of the ``number``-th effect."""
+    readings = tuple(read_parameter(p) for p in effect.parameters)
+    shown = () if effect.curve is not None and len(readings) > MOST_PARAMETERS else readings[:MOST_PARAMETERS]
+    return Card(
+        anchor=f"effect-{number}-{re.sub('[^a-z0-9]+', '-', f'{effect.effect} {effect.location}'.lower())}",
+        title=capitalised(effect.title or effect_in_words(effect.effect, effect.location)),
+        what=effect_in_words(effect.effect, effect.location),
+        location=effect.location,
+        family=effect.family,
+        share=percent(effect.share),
+        share_width=min(100.0, max(0.0, 100 * effect.share)),
+        size=millimetres(effect.rms_at_tool_mm),
+        readings=shown,
+        parameters_left_out=len(readings) - len(shown),
+        shape=effect.curve.description if effect.curve else "",
+        evidence=f"{effect.evidence_nats:.{0 if effect.evidence_nats >= 10 else 1}f} nats",
+        evidence_words=evidence_in_words(effect.evidence_nats),
+        alternatives=tuple(
+            Alternative(
+                effect_in_words(other.effect, other.location) + _followed(other.effect, other.driver),
+                f"{other.evidence_gap_nats:.1f} nats worse" if other.evidence_gap_nats >= 0
+                else f"{-other.evidence_gap_nats:.1f} nats better",
+                other.evidence_gap_nats < TOO_CLOSE_NATS,
+            )
+            for other in effect.alternatives
+        ),
+        chosen=chosen_how_often(effect.inclusion),
+        how_specific=how_specific(effect),
+        physics=effect.physics,
+        confirm=effect.confirm,
+        cure=effect.cure,
+        carries_over=effect.carries_over,
+        figure=figure,
+    )  # fmt: skip
+
+
+def chosen_how_often(inclusion: float | None) -> str:
+    """How stable the choice is when rows are drawn anew."""
+    if inclusion is None:
+        return "not tested (resampling was switched off)"
+    return f"chosen in {100 * inclusion:.0f} % of the resampled data sets"
+
+
+def how_specific(effect: FoundEffect) -> str:
+    """Why a name is not more specific than it is; empty for one that is as specific as it can be."""
+    if effect.named_as == "effect":
+        return ""
+    if effect.named_as == "region":
+        return (
+            "These recordings show the kind of physics and the neighbourhood, not the exact part. "
+            f"The single best reading is {effect_in_words(effect.effect, effect.location)}; its rivals stand below."
+        )
+    return (
+        "These recordings show the kind of physics, not where it sits. "
+        f"The single best reading is {effect_in_words(effect.effect, effect.location)}; its rivals stand below."
+    )
+
+
+def capitalised(text: str) -> str:
+    """With a capital first letter, the rest untouched."""
+    return text[:1].upper() + text[1:]
+
+
+def _followed(effect: str, driver: str) -> str:
+    """A free curve says what it follows, since its name doesn't."""
+    return f" (follows {driver})" if effect == "unknown" and driver else ""

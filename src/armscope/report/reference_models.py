@@ -1,0 +1,58 @@
+"""The paper's polynomial and Fourier models on the rows of a diagnosis, for comparison on held-out rows."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.errormodels import PAPER_MODELS, ModelSpec, fit_least_squares
+from armscope.recordings import Recordings
+from armscope.robot import Arm, forward_kinematics
+
+Array = NDArray[np.float64]
+
+FOLDS = 5
+MOST_ROWS = 4000
+"""Longer tables are thinned: the comparison does not need more."""
+
+
+def held_out_rms(arm: Arm, recordings: Recordings, residual: Array, seed: int = 0) -> list[tuple[str, float]]:
+    """(model, RMS per axis in mm) by cross-validation in five folds of whole configurations.
+
+    Args:
+        arm: the nominal arm, whose tool points the Cartesian models take.
+        recordings: the rows.
+        residual: (N, 3) what is to be modelled, mm: measured minus nominal after the free frames.
+        seed: of the folds.
+    """
+    rows = np.unique(np.linspace(0, len(residual) - 1, min(len(residual), MOST_ROWS)).astype(int))
+    angles = recordings.motor_angles[rows]
+    inputs = {"cartesian": 1e3 * forward_kinematics(arm, angles), "angular": angles}
+    folds = _folds(angles, np.random.default_rng(seed))
+    found = []
+    for spec in PAPER_MODELS:
+        rms = _cross_validated(spec, inputs[spec.space], residual[rows], folds)
+        if rms is not None:
+            found.append((spec.name, rms))
+    return found
+
+
+def _folds(angles: Array, random: np.random.Generator) -> NDArray[np.intp]:
+    """(N,) the fold of each row; rows of one configuration (several targets, repeats) stay together."""
+    _, configuration = np.unique(np.round(angles, 6), axis=0, return_inverse=True)
+    fold_of = random.permutation(configuration.max() + 1) % FOLDS
+    folds: NDArray[np.intp] = fold_of[configuration.ravel()]
+    return folds
+
+
+def _cross_validated(spec: ModelSpec, inputs: Array, residual: Array, folds: NDArray[np.intp]) -> float | None:
+    """None where a fold has fewer rows than the model has terms."""
+    left = np.empty_like(residual)
+    for fold in range(FOLDS):
+        held_out = folds == fold
+        features = spec.features(inputs[~held_out])
+        if np.count_nonzero(~held_out) <= len(features.term_names):
+            return None
+        coefficients, _ = fit_least_squares(features, inputs[~held_out], residual[~held_out])
+        left[held_out] = residual[held_out] - features.matrix(inputs[held_out]) @ coefficients.T
+    return float(np.sqrt(np.mean(left**2)))
