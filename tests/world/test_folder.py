@@ -86,6 +86,16 @@ def test_each_effect_is_as_strong_as_wished(tmp_path):
     assert sizes == sorted(sizes, reverse=True)
 
 
+def test_the_same_displacement_is_not_concealed_twice(tmp_path):
+    """On this arm a tilting base and a tilting first bearing are one; the second wish is left out."""
+    tilts = [
+        {"kind": "base_compliance", "strength": 5.0},
+        {"kind": "bearing_compliance", "strength": 5.0, "location": "joint 1"},
+    ]
+    truth, *_ = read(build(spec(category="multiple", wishes=tilts), tmp_path, ROBOTS))
+    assert [effect["effect"] for effect in truth["effects"]] == ["base_compliance"]
+
+
 def test_a_clean_arm_has_nothing_to_find(tmp_path):
     truth, *_ = read(build(spec(category="clean", wishes=[]), tmp_path, ROBOTS))
     assert truth["effects"] == []

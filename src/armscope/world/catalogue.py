@@ -222,9 +222,15 @@ MISLEADING: tuple[Recipe, ...] = (
 )
 
 
-def _unseparated(kind: str, poses: str, location: str | None = None, arm: str | None = None) -> Recipe:
+def _unseparated(
+    kind: str,
+    poses: str,
+    location: str | None = None,
+    arm: str | None = None,
+    strengths: tuple[float, ...] = (3.0, 5.0),
+) -> Recipe:
     def recipe(rng: np.random.Generator) -> Details:
-        wish: Details = {"kind": kind, "strength": float(rng.choice([3.0, 5.0])), "location": location}
+        wish: Details = {"kind": kind, "strength": float(rng.choice(strengths)), "location": location}
         details: Details = {"wishes": [wish], "poses": poses}
         return details | {"arm": arm} if arm else details
 
@@ -237,7 +243,7 @@ INSEPARABLE: tuple[Recipe, ...] = (
     _unseparated("gear_ratio", "constant_speed", "joint 3"),
     _unseparated("gear_ratio", "lockstep", "joint 2", "six-axis"),
     _unseparated("joint_coupling", "lockstep", "joint 3 from joint 2", "six-axis"),
-    _unseparated("gear_eccentricity", "narrow"),
+    _unseparated("gear_eccentricity", "narrow", strengths=(2.0,)),
     _unseparated("base_compliance", "free", "base", "six-axis"),
     _unseparated("bearing_compliance", "free", "joint 1", "parallelogram-120kg"),
 )

@@ -16,6 +16,8 @@ LARGEST_FACTOR = 15.0
 """An effect sits where no more than this multiple of its natural size is needed, if there is such a place."""
 LEAST_TORQUE = 0.02
 """Share of the arm's largest torque below which a joint counts as unloaded."""
+LEAST_LEFT = 0.05
+"""Share of an effect's squared size that the effects already chosen must leave to see."""
 TRIES = 4
 TRIES_FOR_AMBIGUITY = 12
 
@@ -34,7 +36,7 @@ def choose(
         rng: draws places and numbers.
 
     Raises:
-        RuntimeError: a wish of the story can't be had anywhere in this arm.
+        RuntimeError: the first wish of the story can't be had anywhere in this arm.
     """
     chosen: list[Sized] = []
     for wish in wishes:
@@ -58,7 +60,10 @@ def _background(scene: Scene, wish: Wish, chosen: list[Sized], sigma: float, rng
 def _of_the_story(
     scene: Scene, judge: Judge, wish: Wish, chosen: list[Sized], sigma: float, ambiguous: bool, rng: np.random.Generator
 ) -> list[Sized]:
-    """The best of a few places: one where the answer is unique (or, if so wanted, isn't)."""
+    """The best of a few places: one where the answer is unique (or, if so wanted, isn't).
+
+    None where the effects already there leave nothing of it: a world doesn't conceal the same displacement twice.
+    """
     kind = KINDS[wish.kind]
     places = [wish.location] if wish.location else kind.places(scene.description)
     places = [place for place in places if not _taken(kind, place, chosen) and _loaded(scene, kind, place)]
@@ -73,13 +78,18 @@ def _of_the_story(
             size = sized(scene, effect, wish.strength * sigma, largest_factor=largest_factor)
             if size is None:
                 continue
+            visibility = judge.visibility(size, chosen, sigma)
+            if visibility.noncentrality < LEAST_LEFT * size.pattern.size * (size.rms / sigma) ** 2:
+                continue
             found.append(size)
-            if bool(judge.visibility(size, chosen, sigma).alternatives) == ambiguous:
+            if bool(visibility.alternatives) == ambiguous:
                 return [size]
             if len(found) == tries:
                 break
         if found:
             return [found[0]]
+    if chosen:
+        return []
     raise RuntimeError(
         f"{kind.name} at {wish.strength} times the noise can't be seen anywhere in {scene.description.name}"
     )
