@@ -86,6 +86,16 @@ class Swarm(Strict):
     engine: Literal["auto", "numba", "numpy"] = "auto"
 
 
+class Audit(Strict):
+    """What the audit scans: where the arm's tool can be at all, and how far a third coordinate may rise."""
+
+    box_low_mm: Stated[Point]
+    box_high_mm: Stated[Point]
+    largest_rise_mm: Stated[Positive]
+    rise_step_mm: Stated[Positive]
+    corner_samples: Stated[Count]
+
+
 class Model(Strict):
     """An error model: a family of functions of Cartesian or angular input, for each axis."""
 
@@ -103,6 +113,7 @@ class Paper(Strict):
     identification: Identification
     trajectories: Trajectories
     tracker: Tracker
+    audit: Audit
     models: tuple[Model, ...] = Field(min_length=1)
     swarm: Swarm = Swarm()
 

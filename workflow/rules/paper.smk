@@ -48,6 +48,89 @@ rule fit:
         "armscope paper fit {input.poses} {input.errors} --settings {params.settings:q} -o {output} > {log} 2>&1"
 
 
+rule fit_as_printed:
+    # the velocity update without inertia or constriction, exactly as section 5 prints it, on the anchored robot only
+    input:
+        poses=rules.measure.output.poses,
+        errors=rules.measure.output.errors,
+    output:
+        f"{PAPER}/fits_as_printed.json.gz",
+    params:
+        settings=settings(
+            seed=CONFIG.seed,
+            models=CONFIG.paper.models,
+            swarm=CONFIG.paper.swarm.model_copy(update={"update": "original", "velocity_clamp": None}),
+            ensemble_seeds=CONFIG.paper.ensemble.seeds,
+        ),
+        code=code("armscope.cli.paper:fit"),
+    log:
+        f"{RESULTS}/logs/fit_as_printed.log",
+    shell:
+        "armscope paper fit {input.poses} {input.errors} --settings {params.settings:q} -o {output} > {log} 2>&1"
+
+
+rule residuals:
+    input:
+        poses=rules.measure.output.poses,
+        errors=rules.measure.output.errors,
+        fits=rules.fit.output,
+    output:
+        residuals=f"{PAPER}/residuals.csv.gz",
+        table2=f"{PAPER}/table2.csv",
+        coefficients=f"{PAPER}/coefficients.csv",
+    params:
+        folder=PAPER,
+        code=code("armscope.cli.paper:residuals"),
+    log:
+        f"{RESULTS}/logs/residuals.log",
+    shell:
+        "armscope paper residuals {input.poses} {input.errors} {input.fits} -o {params.folder} > {log} 2>&1"
+
+
+rule claims:
+    input:
+        poses=rules.measure.output.poses,
+        errors=rules.measure.output.errors,
+        fits=rules.fit.output,
+        as_printed=rules.fit_as_printed.output,
+        residuals=rules.residuals.output.residuals,
+    output:
+        claims=f"{PAPER}/claims.csv",
+        sub_volumes=f"{PAPER}/sub_volumes.csv",
+    params:
+        folder=PAPER,
+        code=code("armscope.cli.paper:claims_"),
+    log:
+        f"{RESULTS}/logs/claims.log",
+    shell:
+        "armscope paper claims {input} -o {params.folder} > {log} 2>&1"
+
+
+rule audit:
+    output:
+        f"{PAPER}/audit.csv",
+    params:
+        settings=settings(seed=CONFIG.seed, trajectories=CONFIG.paper.trajectories, audit=CONFIG.paper.audit),
+        code=code("armscope.cli.paper:audit_"),
+    log:
+        f"{RESULTS}/logs/audit.log",
+    shell:
+        "armscope paper audit --settings {params.settings:q} -o {output} > {log} 2>&1"
+
+
+rule reading:
+    input:
+        rules.measure.output.poses,
+    output:
+        f"{PAPER}/reading.csv",
+    params:
+        code=code("armscope.cli.paper:reading_"),
+    log:
+        f"{RESULTS}/logs/reading.log",
+    shell:
+        "armscope paper reading {input} -o {output} > {log} 2>&1"
+
+
 rule convergence:
     input:
         poses=rules.measure.output.poses,
@@ -101,3 +184,7 @@ rule figures:
 rule paper:
     input:
         rules.figures.input,
+        rules.residuals.output,
+        rules.claims.output,
+        rules.audit.output,
+        rules.reading.output,

@@ -104,6 +104,73 @@ def fit(poses: Poses, errors: Errors, settings: Settings, output: Output) -> Non
 
 
 @app.command()
+def residuals(
+    poses: Poses,
+    errors: Errors,
+    fits: Annotated[Path, typer.Argument(help="fits.json.gz of a study")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="folder for the tables")],
+) -> None:
+    """Table 2 and the coefficients: what every fit leaves of the errors, beside what the paper prints."""
+    from armscope.files import write_table
+    from armscope.paper import residual_table, table2
+    from armscope.paper.coefficients import coefficient_table
+
+    measurements, fitted = _measurements(poses, errors), _read_fits(fits)
+    rows = residual_table(measurements, fitted)
+    write_table(output / "residuals.csv.gz", rows)
+    write_table(output / "table2.csv", table2(rows), digits=6)
+    of_first = [fit for fit in fitted if fit.label == measurements.robots[0]]
+    write_table(output / "coefficients.csv", coefficient_table(of_first), digits=6)
+
+
+@app.command("claims")
+def claims_(
+    poses: Poses,
+    errors: Errors,
+    fits: Annotated[Path, typer.Argument(help="fits.json.gz of a study")],
+    fits_as_printed: Annotated[Path, typer.Argument(help="fits of swarms that move as the paper prints it")],
+    residuals: Annotated[Path, typer.Argument(help="residuals.csv.gz of the study")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="folder for claims.csv and sub_volumes.csv")],
+) -> None:
+    """Whether each claim of the paper holds: for the anchored robot and for which share of the ensemble."""
+    import pandas as pd
+
+    from armscope.files import write_table
+    from armscope.paper import claims, sub_volumes
+
+    regions = sub_volumes(_measurements(poses, errors))
+    write_table(output / "sub_volumes.csv", regions, digits=6)
+    judged = claims(pd.read_csv(residuals), _read_fits(fits), regions, _read_fits(fits_as_printed))
+    write_table(output / "claims.csv", judged, digits=4)
+
+
+@app.command("audit")
+def audit_(
+    output: Annotated[Path, typer.Option("--output", "-o", help="audit.csv")],
+    settings: Settings,
+) -> None:
+    """Whether the printed table, equations and trajectories can all be true."""
+    from armscope.cli.paper_settings import AuditSettings, audit_scope_of
+    from armscope.files import write_table
+    from armscope.paper import audit
+
+    write_table(output, audit(audit_scope_of(_settings(AuditSettings, settings))), digits=4)
+
+
+@app.command("reading")
+def reading_(poses: Poses, output: Output) -> None:
+    """Read the printed Eqs. (15)-(17) as a rigid motion, a scale and a rest."""
+    import pandas as pd
+
+    from armscope.files import write_table
+    from armscope.paper import reading
+
+    table = pd.read_csv(poses)
+    identification = table[table["trajectory"] == "identification"]
+    write_table(output, reading(identification[["x_mm", "y_mm", "z_mm"]].to_numpy()), digits=5)
+
+
+@app.command()
 def convergence(poses: Poses, errors: Errors, settings: Settings, output: Output) -> None:
     """Compare the velocity updates: which reaches the least-squares optimum, and when."""
     from armscope.cli.paper_settings import SwarmStudySettings, specs_of, swarm_settings_of
@@ -183,7 +250,7 @@ def _write_fits(path: Path, fits: list[FittedModel]) -> None:
     from armscope.files import replacing
 
     with replacing(path) as beside:
-        beside.write_bytes(gzip.compress(json.dumps([fit.to_dict() for fit in fits]).encode(), mtime=0))
+        beside.write_bytes(gzip.compress(json.dumps([fit.to_dict(history=True) for fit in fits]).encode(), mtime=0))
 
 
 def _read_fits(path: Path) -> list[FittedModel]:

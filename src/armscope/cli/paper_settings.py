@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from armscope.config import Count, Identification, Model, Swarm, Tolerances, Tracker, Trajectories
+from armscope.config import Audit, Count, Identification, Model, Swarm, Tolerances, Tracker, Trajectories
 from armscope.errormodels import ModelSpec
 from armscope.inputs import Strict
+from armscope.paper import AuditScope
 from armscope.swarm import SwarmSettings
 from armscope.world.tracker import Tracker as VirtualTracker
 
@@ -37,6 +38,14 @@ class SwarmStudySettings(Strict):
     swarm: Swarm
 
 
+class AuditSettings(Strict):
+    """`armscope paper audit`."""
+
+    seed: int
+    trajectories: Trajectories
+    audit: Audit
+
+
 def tracker_of(tracker: Tracker) -> VirtualTracker:
     """The virtual tracker, in SI units."""
     x, y, z = (coordinate * 1e-3 for coordinate in tracker.position_mm.value)
@@ -63,4 +72,20 @@ def swarm_settings_of(swarm: Swarm) -> SwarmSettings:
         neighbourhood=swarm.neighbourhood,
         velocity_clamp=swarm.velocity_clamp,
         threshold=swarm.threshold_mm,
+    )
+
+
+def audit_scope_of(settings: AuditSettings) -> AuditScope:
+    """What the audit scans."""
+    scanned, paths = settings.audit, settings.trajectories
+    steps = round(scanned.largest_rise_mm.value / scanned.rise_step_mm.value)
+    second, third = paths.spiral_starts_mm.value
+    return AuditScope(
+        rises=tuple(scanned.rise_step_mm.value * step for step in range(-steps, steps + 1)),
+        low=scanned.box_low_mm.value,
+        high=scanned.box_high_mm.value,
+        corner_samples=scanned.corner_samples.value,
+        first_corner=paths.corners_mm.value[0],
+        spiral_starts=(second, third),
+        seed=settings.seed,
     )

@@ -20,6 +20,7 @@ from armscope.report.style import (
     GREEN,
     GREY,
     ORANGE,
+    SKY,
     VERMILION,
     legend_above,
     styled,
@@ -200,9 +201,9 @@ def convergence(history: pd.DataFrame) -> Figure:
                 colour = colours[str(rule)]
                 iteration = rows_of_rule["iteration"]
                 panel.fill_between(
-                    iteration, rows_of_rule["low"], rows_of_rule["high"], color=colour, alpha=0.2, linewidth=0
+                    iteration, rows_of_rule["low"], rows_of_rule["high"], color=colour, alpha=0.15, linewidth=0
                 )
-                panel.plot(iteration, rows_of_rule["median"], color=colour, label=str(rule))
+                panel.plot(iteration, rows_of_rule["median"], dashes.get(str(rule), "-"), color=colour, label=str(rule))
             panel.set(title=model, yscale="log")
             panel.axhline(1, color=BLACK, linewidth=0.6, linestyle=":")
         figure.supxlabel("iteration")
