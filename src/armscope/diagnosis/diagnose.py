@@ -160,9 +160,9 @@ def _scanned(
     """New candidates whose scanned numbers promise something, given the best hypothesis and given none."""
     known = {(placed.key, placed.variant) for placed in columns.candidates}
     new: dict[tuple[tuple[str, str], str], Placed] = {}
-    for hypothesis in (best, Search.on(weighed).empty()) if best.chosen else (best,):
-        for scan in (mesh_lines, jumps):
-            for placed in scan(weighed, hypothesis, model, recordings, weights):
-                if (placed.key, placed.variant) not in known:
-                    new[(placed.key, placed.variant)] = placed
+    given = (best, Search.on(weighed).empty()) if best.chosen else (best,)
+    for scan in (mesh_lines, jumps):
+        for placed in scan(weighed, given, model, recordings, weights):
+            if (placed.key, placed.variant) not in known:
+                new[(placed.key, placed.variant)] = placed
     return list(new.values())

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import cholesky, solve_triangular
+from scipy.linalg.lapack import dpotrf, dtrtri, dtrtrs
 
 from armscope.diagnosis.problem import Gram, Indices, Pool, scales
 
@@ -29,6 +29,7 @@ SIZES = 5
 CAUTION_NATS = 1.5
 """What any name costs on top of its share of the library."""
 NOISE_STEPS = 3
+NOISE_SETTLED = 3e-3
 
 
 @dataclass(frozen=True)
@@ -117,7 +118,7 @@ class Hypothesis:
         value: log evidence with prior, nats.
         columns: columns of the pool that take part, ascending.
         variance: their prior variances, mm^2 at the tool.
-        factor: Cholesky factor (lower) of G + noise^2 / variance.
+        factor: Cholesky factor (lower) of G + noise^2 / variance; ``inverse`` is its inverse.
         mean: posterior mean of the scaled coefficients.
         rss: penalised residual sum of squares, mm^2.
     """
@@ -129,6 +130,7 @@ class Hypothesis:
     columns: Indices = field(repr=False)
     variance: Array = field(repr=False)
     factor: Array = field(repr=False)
+    inverse: Array = field(repr=False)
     mean: Array = field(repr=False)
     rss: float = field(repr=False)
 
@@ -151,32 +153,59 @@ def weigh(problem: Problem, chosen: tuple[Chosen, ...], background: int, noise: 
     variance = prior[columns]
     G, b = problem.gram.G[np.ix_(columns, columns)], problem.gram.b[columns]
     for step in range(NOISE_STEPS):
-        last = step == NOISE_STEPS - 1
-        factor = cholesky(G + np.diag(noise**2 / variance), lower=True, check_finite=False)
-        half = solve_triangular(factor, b, lower=True, check_finite=False)
+        factor = lower_factor(G, noise**2 / variance)
+        half = forward(factor, b)
         rss = float(problem.gram.yy - half @ half)
-        if last:
+        inverse = dtrtri(factor, lower=1)[0]
+        mean = half @ inverse
+        if step == NOISE_STEPS - 1:
             break
-        mean = solve_triangular(factor, half, lower=True, trans="T", check_finite=False)
-        inverse_diagonal = _inverse_diagonal(factor)
-        spent = len(columns) - noise**2 * np.sum(inverse_diagonal / variance)
+        spent = len(columns) - noise**2 * float(np.sum(np.sum(inverse**2, axis=0) / variance))
         misfit = rss - noise**2 * float(np.sum(mean**2 / variance))
         updated = np.sqrt(max(misfit, 0.0) / max(problem.n - spent, 1.0))
-        updated = max(updated, problem.least_noise, 1e-6)
-        if abs(updated - noise) < 1e-3 * noise:
+        updated = max(float(updated), problem.least_noise, 1e-6)
+        if abs(updated - noise) < NOISE_SETTLED * noise:
             break
         noise = updated
-    mean = solve_triangular(factor, half, lower=True, trans="T", check_finite=False)
     logdet = 2 * np.sum(np.log(np.diag(factor))) + np.sum(np.log(variance)) - 2 * len(columns) * np.log(noise)
     evidence = -problem.n * np.log(noise) - 0.5 * logdet - 0.5 * rss / noise**2
     paid = sum(problem.costs[c.candidate] + np.log(len(problem.sizes)) for c in chosen)
-    return Hypothesis(chosen, background, noise, float(evidence - paid), columns, variance, factor, mean, rss)
+    return Hypothesis(chosen, background, noise, float(evidence - paid), columns, variance, factor, inverse, mean, rss)
 
 
-def _inverse_diagonal(factor: Array) -> Array:
-    """Diagonal of (L L')^-1."""
-    inverse = solve_triangular(factor, np.eye(len(factor)), lower=True, check_finite=False)
-    return np.asarray(np.sum(inverse**2, axis=0))
+def lower_factor(G: Array, ridge: Array) -> Array:
+    """Cholesky factor (lower) of G + diag(ridge)."""
+    A = G.copy()
+    A[np.diag_indices_from(A)] += ridge
+    factor, failed = dpotrf(A, lower=1, clean=1, overwrite_a=1)
+    if failed:
+        raise np.linalg.LinAlgError(f"the Gram matrix is not positive definite at column {failed}")
+    return np.asarray(factor)
+
+
+def forward(factor: Array, right: Array) -> Array:
+    """factor^-1 right."""
+    return np.asarray(dtrtrs(factor, right, lower=1)[0])
+
+
+def losses(problem: Problem, hypothesis: Hypothesis) -> Array:
+    """What each chosen effect's removal would cost, nats, at the noise as it is (Savage-Dickey ratio)."""
+    at = {int(column): n for n, column in enumerate(hypothesis.columns)}
+    lost = []
+    for c in hypothesis.chosen:
+        own = np.array([at[int(column)] for column in problem.pool.columns[c.candidate]])
+        added = (problem.sizes[c.size] * np.array(problem.pool.candidates[c.candidate].shape)) ** 2
+        rest = np.maximum(hypothesis.variance[own] - added, 1e-12 * added)
+        inverse = hypothesis.inverse[:, own]
+        sigma = hypothesis.noise**2 * (inverse.T @ inverse)
+        # removal replaces the prior precision 1/v by 1/rest; where nothing is left, the columns are pinned to zero
+        extra = 1 / rest - 1 / hypothesis.variance[own]
+        M = np.eye(len(own)) + sigma * extra[None, :]
+        mean = hypothesis.mean[own]
+        quadratic = mean @ (extra * np.linalg.solve(M, mean))
+        logdet = np.linalg.slogdet(M)[1] - np.sum(np.log(hypothesis.variance[own] / rest))
+        lost.append(0.5 * quadratic + 0.5 * logdet - problem.costs[c.candidate] - np.log(len(problem.sizes)))
+    return np.array(lost)
 
 
 def prior_variances(problem: Problem, chosen: tuple[Chosen, ...], background: int) -> Array:
@@ -221,8 +250,8 @@ def gains(problem: Problem, groups: Groups, hypothesis: Hypothesis) -> tuple[Arr
     """
     G, b = problem.gram.G, problem.gram.b
     S, noise = hypothesis.columns, hypothesis.noise
-    V = solve_triangular(hypothesis.factor, G[S], lower=True, check_finite=False)
-    half = solve_triangular(hypothesis.factor, b[S], lower=True, check_finite=False)
+    V = hypothesis.inverse @ G[S]
+    half = hypothesis.inverse @ b[S]
     r_all = (b - half @ V) / noise**2
     best = np.full(len(problem.costs), -np.inf)
     which = np.zeros(len(problem.costs), dtype=np.intp)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_triangular
 
+from armscope.diagnosis.evidence import forward
 from armscope.diagnosis.problem import Pool, chunks, columns, pool_values
 from armscope.physics.effect import Term
 from armscope.physics.model import FittedModel
@@ -68,8 +68,8 @@ def conditioned(blocks: Blocks, factor: Array, half: Array) -> tuple[Array, Arra
         half: (k,) factor^-1 X'Wy of the model.
     """
     m, k, c = blocks.cross.shape
-    V = solve_triangular(factor, blocks.cross.transpose(1, 0, 2).reshape(k, m * c), lower=True, check_finite=False)
-    V = np.moveaxis(V.reshape(k, m, c), 0, 1)
+    V = forward(factor, blocks.cross.transpose(1, 0, 2).reshape(k, m * c))
+    V = V.reshape(k, m, c).transpose(1, 0, 2)
     return blocks.own - np.swapaxes(V, 1, 2) @ V, blocks.b - np.einsum("mkc,k->mc", V, half)
 
 

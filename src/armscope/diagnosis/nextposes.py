@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_triangular
 
 from armscope.diagnosis.certainty import TELLS_APART_NATS
 from armscope.diagnosis.evidence import Hypothesis
@@ -53,8 +52,7 @@ def next_poses(
     X = columns(scene.posture(), search.problem.pool.terms).reshape(len(table), 3, -1) / search.problem.scale
     p = X.shape[2]
     apart = X @ (best.coefficients(p) - other.coefficients(p))
-    spread = solve_triangular(other.factor, np.eye(len(other.columns)), lower=True, check_finite=False)
-    covariance = other.noise**2 * spread.T @ spread
+    covariance = other.noise**2 * other.inverse.T @ other.inverse
     chosen, separation = _greedy(X[:, :, other.columns], apart, covariance, other.noise)
     nats = float(np.sum(separation**2)) / (2 * other.noise**2)
     repeats = float(np.ceil(DECISIVE_NATS / nats)) if nats > 1e-6 else float("inf")

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_triangular
 
 from armscope.diagnosis.evidence import Hypothesis, Problem
-from armscope.diagnosis.extra import conditioned, weigh_blocks
+from armscope.diagnosis.extra import Blocks, conditioned, weigh_blocks
 from armscope.diagnosis.problem import chunks, columns, pool_values
 from armscope.physics.drift import base_shift, tool_shift
 from armscope.physics.effect import Placed
@@ -32,26 +31,27 @@ WORTH_A_LOOK = 3.0
 
 
 def mesh_lines(
-    problem: Problem, hypothesis: Hypothesis, model: FittedModel, recordings: Recordings, weights: Array
+    problem: Problem, given: Sequence[Hypothesis], model: FittedModel, recordings: Recordings, weights: Array
 ) -> Iterator[Placed]:
-    """The most promising mesh counts of each joint, given a hypothesis."""
+    """The most promising mesh counts of each joint, given each of some hypotheses; the first has all columns."""
     rows = _spread(len(recordings))
     table = recordings.rows(rows)
     joints = moving_joints(recordings)
     if not joints:
         return
     placed = [mesh(j, count) for j in joints for count in MESH_COUNTS]
-    factor, half = _in_si(problem, hypothesis)
     share = len(rows) / len(recordings)
-    blocks = weigh_blocks(
-        [p.terms for p in placed], problem.pool, hypothesis.columns, model, table, weights[rows] / share
-    )
-    gain = _gain(problem, hypothesis, *conditioned(blocks, factor, half), np.einsum("mcc->mc", blocks.own))
-    by_joint = gain.reshape(len(joints), -1)
-    for number, row in enumerate(by_joint):
-        for at in np.argsort(-row)[:LINES_KEPT]:
-            if row[at] > WORTH_A_LOOK:
-                yield placed[number * len(MESH_COUNTS) + at]
+    columns = given[0].columns
+    sums = weigh_blocks([p.terms for p in placed], problem.pool, columns, model, table, weights[rows] / share)
+    before = np.einsum("mcc->mc", sums.own)
+    for hypothesis in given:
+        inside = np.isin(columns, hypothesis.columns)
+        narrowed = Blocks(sums.own, sums.cross[:, inside], sums.b)
+        gain = _gain(problem, hypothesis, *conditioned(narrowed, *_in_si(problem, hypothesis)), before)
+        for number, row in enumerate(gain.reshape(len(joints), -1)):
+            for at in np.argsort(-row)[:LINES_KEPT]:
+                if row[at] > WORTH_A_LOOK:
+                    yield placed[number * len(MESH_COUNTS) + at]
 
 
 def _spread(count: int) -> NDArray[np.intp]:
@@ -61,7 +61,7 @@ def _spread(count: int) -> NDArray[np.intp]:
 def _in_si(problem: Problem, hypothesis: Hypothesis) -> tuple[Array, Array]:
     """The hypothesis' Cholesky factor for columns in mm per SI unit, and factor^-1 b."""
     at = hypothesis.columns
-    half = solve_triangular(hypothesis.factor, problem.gram.b[at], lower=True, check_finite=False)
+    half = hypothesis.inverse @ problem.gram.b[at]
     return hypothesis.factor * problem.scale[at][:, None], half
 
 
@@ -79,22 +79,26 @@ def _gain(problem: Problem, hypothesis: Hypothesis, own: Array, b: Array, before
 
 
 def jumps(
-    problem: Problem, hypothesis: Hypothesis, model: FittedModel, recordings: Recordings, weights: Array
+    problem: Problem, given: Sequence[Hypothesis], model: FittedModel, recordings: Recordings, weights: Array
 ) -> Iterator[Placed]:
-    """The most promising moment at which the base, or the tool, jumped, given a hypothesis."""
+    """The most promising moment at which the base, or the tool, jumped, given each of some hypotheses."""
     pieces = list(_pieces(recordings))
-    if not pieces:
-        return
     tried = sum(len(cuts) for _, cuts in pieces)
     for build in (base_shift, tool_shift):
-        best: tuple[float, Placed] | None = None
+        best: list[tuple[float, Placed] | None] = [None] * len(given)
         for rows, cuts in pieces:
-            gain = _step_gains(problem, hypothesis, model, recordings, weights, rows, cuts, build)
-            at = int(np.argmax(gain))
-            if best is None or gain[at] > best[0]:
-                best = float(gain[at]), build(recordings, int(rows[cuts[at]]), tried)
-        if best is not None and best[0] > WORTH_A_LOOK + np.log(tried):
-            yield best[1]
+            sums = _step_sums(problem, given[0], model, recordings, weights, rows, cuts, build)
+            before = np.einsum("mcc->mc", sums.own)
+            for number, hypothesis in enumerate(given):
+                inside = np.isin(given[0].columns, hypothesis.columns)
+                narrowed = Blocks(sums.own, sums.cross[:, inside], sums.b)
+                gain = _gain(problem, hypothesis, *conditioned(narrowed, *_in_si(problem, hypothesis)), before)
+                at = int(np.argmax(gain))
+                promising = float(gain[at]), build(recordings, int(rows[cuts[at]]), tried)
+                best[number] = max((b for b in (best[number], promising) if b), key=lambda entry: entry[0])
+        for found in best:
+            if found is not None and found[0] > WORTH_A_LOOK + np.log(tried):
+                yield found[1]
 
 
 def _pieces(recordings: Recordings) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
@@ -110,7 +114,7 @@ def _pieces(recordings: Recordings) -> Iterator[tuple[NDArray[np.intp], NDArray[
             yield rows, np.unique(np.linspace(SHORTEST_PIECE, len(rows) - SHORTEST_PIECE, count).astype(np.intp))
 
 
-def _step_gains(
+def _step_sums(
     problem: Problem,
     hypothesis: Hypothesis,
     model: FittedModel,
@@ -119,8 +123,8 @@ def _step_gains(
     rows: NDArray[np.intp],
     cuts: NDArray[np.intp],
     build: Callable[[Recordings, int, int], Placed],
-) -> Array:
-    """Gain of a step before each cut, from sums over the rows behind it."""
+) -> Blocks:
+    """Sums over the rows behind each cut."""
     pool, inside = problem.pool, hypothesis.columns
     table = recordings.rows(rows)
     terms = build(recordings, int(rows[0]), 1).terms
@@ -140,9 +144,4 @@ def _step_gains(
         np.add.at(cross, segment[part], np.einsum("nik,nic->nkc", X.reshape(n, 3, k), wE, optimize=True))
         np.add.at(b, segment[part], np.einsum("ni,nic->nc", y.reshape(n, 3), wE))
     own, cross, b = (np.cumsum(x[::-1], axis=0)[::-1][1:] for x in (own, cross, b))
-    factor, half = _in_si(problem, hypothesis)
-    m = len(cuts)
-    V = solve_triangular(factor, cross.transpose(1, 0, 2).reshape(k, m * c), lower=True, check_finite=False)
-    V = np.moveaxis(V.reshape(k, m, c), 0, 1)
-    left = own - np.swapaxes(V, 1, 2) @ V
-    return _gain(problem, hypothesis, left, b - np.einsum("mkc,k->mc", V, half), np.einsum("mcc->mc", own))
+    return Blocks(own, cross, b)

@@ -19,6 +19,7 @@ from armscope.diagnosis.evidence import (
     Problem,
     gains,
     group,
+    losses,
     weigh,
 )
 from armscope.physics.effect import Placed, region
@@ -28,6 +29,8 @@ BRANCHES = 3
 MOST_EFFECTS = 16
 STARTS = (0, 2, 4)
 """Background sizes to start from."""
+WORTH_TRYING_NATS = 2.0
+"""A removal that loses more than this at the present noise can't pay when the noise is re-estimated."""
 GAIN = 1e-3
 """Nats by which a move must better a hypothesis."""
 
@@ -116,7 +119,11 @@ class Search:
     def _pruned(self, hypothesis: Hypothesis) -> Hypothesis:
         """With every effect removed that has stopped paying for itself."""
         while len(hypothesis.chosen) > 1:
-            shorter = max((self.without(hypothesis, [c.candidate]) for c in hypothesis.chosen), key=_value)
+            lost = losses(self.problem, hypothesis)
+            weakest = int(np.argmin(lost))
+            if lost[weakest] > WORTH_TRYING_NATS:
+                break
+            shorter = self.without(hypothesis, [hypothesis.chosen[weakest].candidate])
             if shorter.value <= hypothesis.value:
                 break
             hypothesis = shorter
