@@ -17,7 +17,8 @@ The way of a study, each step a pure function of the ones before:
     reading(study.measurements.identification.nominal_mm)                     # Eqs. (15)-(17) as physics
     audit()                                                                   # printed against printed
 
-    real_measurements(arm, recordings, ...) gives Measurements of a real arm, for the same fits and tables.
+    rows = select_rows(recordings, run, first_id)                             # a real arm's
+    real_measurements(arm, rows, seed).measurements                           # for the same fits and tables
 
 Everything here is in mm and rad, as the paper's equations.
 """
@@ -28,6 +29,7 @@ from armscope.paper.claims import claims
 from armscope.paper.measurements import Measurements, PoseSet, pose_arrays, pose_table
 from armscope.paper.printed import predict_printed, printed_coefficients, printed_matrix, printed_table2
 from armscope.paper.reading import reading
+from armscope.paper.real import RealStudy, real_measurements, select_rows
 from armscope.paper.residuals import residual_table
 from armscope.paper.sub_volumes import sub_volumes
 from armscope.paper.table2 import table2
@@ -45,6 +47,7 @@ __all__ = [
     "AuditScope",
     "Measurements",
     "PoseSet",
+    "RealStudy",
     "VirtualStudy",
     "anchor",
     "audit",
@@ -59,7 +62,9 @@ __all__ = [
     "printed_matrix",
     "printed_table2",
     "reading",
+    "real_measurements",
     "residual_table",
+    "select_rows",
     "sub_volumes",
     "table2",
     "trajectory_poses",
