@@ -68,7 +68,7 @@ from armscope.world.statics import Hidden
 Array = NDArray[np.float64]
 HOUR_S = 3600.0
 REFERENCE_C = 20.0
-SOFT_SIDE = 0.01
+SOFT_SIDE = 0.001
 """Share of a joint's largest load within which a gap that gravity loads passes from one side to the other."""
 
 
@@ -126,8 +126,9 @@ def _hide_cyclic(hidden: Hidden, scene: Scene, location: str, values: Values) ->
 
 def _hide_backlash_by_load(hidden: Hidden, scene: Scene, location: str, values: Values) -> None:
     """The gap closes on the side gravity loads; around zero load it changes sides softly, as oil and friction do."""
-    soft = SOFT_SIDE * scene.largest_torque(number(location))
     half = values["gap"] / 2
+    # no steeper than gravity's torque changes across the gap, so that there is one equilibrium
+    soft = max(SOFT_SIDE, values["gap"]) * scene.largest_torque(number(location))
     hidden.curves.append((number(location), lambda torque: half * min(max(torque / soft, -1.0), 1.0)))
 
 
