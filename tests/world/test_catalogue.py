@@ -56,6 +56,10 @@ def test_half_of_the_worlds_depend_on_the_proofs_seed_and_half_do_not(size):
         assert a.fresh or a == b
 
 
+def test_a_worlds_name_says_nothing_about_what_is_inside():
+    assert all(world.id == f"world-{number:03d}" for number, world in enumerate(catalogue(1, "full")))
+
+
 def test_no_two_worlds_share_a_seed():
     seeds = [world.seed for world in catalogue(5, "full")]
     assert len(set(seeds)) == len(seeds)

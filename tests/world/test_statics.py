@@ -6,12 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 from armscope.robot.description import RobotDescription
 from armscope.world.mechanism import Geometry
 from armscope.world.statics import Hidden, Session, balance
-from armscope.world.strength import stand
+from armscope.world.strength import make_scene, stand
 from tests.world.by_hand import ARMS, HandArm
 from tests.world.scenes import drawn, scene_of
 
@@ -41,6 +43,33 @@ def test_an_arm_that_conceals_nothing_stands_where_the_product_of_dh_matrices_sa
     by_hand = [HandArm.named(name).point(q) for q in scene.session.commanded]
     assert np.abs(tool - by_hand).max() < 1e-12
     assert np.abs(stand(scene, []).tool - by_hand).max() < 1e-12
+
+
+rows = st.lists(
+    st.tuples(*(st.floats(-1500, 1500), st.floats(-180, 180), st.floats(-1500, 1500), st.floats(-180, 180))),
+    min_size=1,
+    max_size=7,
+)
+
+
+@given(rows=rows, convention=st.sampled_from(["standard", "modified"]), seed=st.integers(0, 2**32 - 1))
+@settings(deadline=None, max_examples=40)
+def test_any_dh_table_becomes_the_mechanism_that_its_matrices_describe(rows, convention, seed):
+    keys = ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg")
+    content = {
+        "name": "any arm",
+        "dh": {"convention": convention, "joints": [dict(zip(keys, row, strict=True)) for row in rows]},
+        "tool_mm": [10, -20, 30],
+        "links": [{"mass_kg": 1, "com_mm": [0, 0, 0]}] * len(rows),
+        "gravity_m_s2": [0, 0, -9.81],
+    }
+    q = np.random.default_rng(seed).uniform(-3, 3, len(rows))
+    one = np.ones((1, len(rows)))
+    session = Session(q[None], np.zeros(1), np.zeros(1), np.full(1, 20.0), np.ones(1, int), one, one)
+    scene, tool = make_scene(RobotDescription.model_validate(content), session)
+    arm = HandArm(content)
+    assert tool[0] == pytest.approx(arm.point(q), abs=1e-10)
+    assert scene.torque[0] == pytest.approx(arm.torques(q, 0.0), abs=1e-8)
 
 
 @pytest.mark.parametrize("name", ARMS)

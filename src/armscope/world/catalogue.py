@@ -55,7 +55,7 @@ class WorldSpec(Strict):
     """All that a world is made from.
 
     Attributes:
-        id: its folder's name.
+        id: its folder's name; it says nothing about what is inside.
         category: what it is there to show.
         arm: file in config/robots without its ending.
         seed: of everything random in it.
@@ -110,7 +110,7 @@ def _spec(number: int, category: Category, recipe: Recipe, proof_seed: int) -> W
     low, high = NOISE_MM[str(details["arm"])]
     return WorldSpec.model_validate(
         {
-            "id": f"{number:03d}-{category}",
+            "id": f"world-{number:03d}",
             "category": category,
             "seed": int(sequence.generate_state(1)[0]),
             "fresh": fresh,
