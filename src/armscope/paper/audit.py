@@ -42,7 +42,6 @@ Array = NDArray[np.float64]
 MODELS = ("FDP(CI)", "SDP(CI)")
 CHECKS = (*MODELS, " and ".join(MODELS))
 READINGS = ("rss", "rms")
-SEARCH_GENERATIONS = 100
 
 Predictions = dict[str, tuple[Array, Array]]
 """By model: predicted errors (variants, N, 3), mm, and how far the rounding of the coefficients may move each."""
@@ -58,6 +57,7 @@ class AuditScope:
         corner_samples: sets of three corners tried for trajectory I.
         first_corner, spiral_starts: as printed.
         seed: of the corner sets.
+        search_generations: of the search for the best corners, where none of the samples obeys.
     """
 
     rises: tuple[float, ...] = tuple(float(rise) for rise in np.arange(-1500, 1501, 20))
@@ -67,6 +67,7 @@ class AuditScope:
     first_corner: tuple[float, float, float] = (1100.0, 800.0, 600.0)
     spiral_starts: tuple[tuple[float, float, float], ...] = ((1200.0, -600.0, 600.0), (500.0, 500.0, 1400.0))
     seed: int = 2006
+    search_generations: int = 100
 
 
 def audit(scope: AuditScope | None = None) -> pd.DataFrame:
@@ -88,7 +89,7 @@ def audit(scope: AuditScope | None = None) -> pd.DataFrame:
         family = _family(trajectory, scope)
         predicted = _predicted(family.paths(family.samples), MODELS)
         for reading in READINGS:
-            audited = _Audited(printed, trajectory, reading, family, predicted)
+            audited = _Audited(printed, trajectory, reading, family, predicted, scope.search_generations)
             single = [(axis, check) for axis in AXES for check in CHECKS]
             rows += [audited.row([each]) for each in single]
             rows.append(audited.row(single))
@@ -178,6 +179,7 @@ class _Audited:
     reading: str
     family: _Family
     of_samples: Predictions
+    search_generations: int
 
     def row(self, checks: list[tuple[str, str]]) -> dict[str, object]:
         """One row for one (axis, check), or for several that the same path must pass."""
@@ -220,7 +222,7 @@ class _Audited:
             x0=start,
             vectorized=True,
             updating="deferred",
-            maxiter=SEARCH_GENERATIONS,
+            maxiter=self.search_generations,
             polish=False,
             rng=np.random.default_rng(0),
         )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from armscope.paper.printed import printed_table2
+from armscope.paper.printed import TEST_TRAJECTORIES, printed_table2
 from armscope.paper.residuals import typical
 
 ENSEMBLE_RANGE = (5, 95)
@@ -24,9 +24,10 @@ def table2(residuals: pd.DataFrame, robot: str | None = None) -> pd.DataFrame:
 
     Returns:
         Columns model, trajectory, axis, points, printed (as in the paper, no unit; NaN for models, sets and axes that
-        it does not have), and for each reading r of "RMS" ("rss", "rms"), in mm: r_median, r_low, r_high (over the
-        seeds), r_least_squares, r_ensemble_low, r_ensemble_median, r_ensemble_high (5, 50, 95 % of the other robots,
-        each with its median seed; NaN without an ensemble), and r_ratio = r_median / printed.
+        it does not have, and throughout for studies of other arms), and for each reading r of "RMS" ("rss", "rms"), in
+        mm: r_median, r_low, r_high (over the seeds), r_least_squares, r_ensemble_low, r_ensemble_median,
+        r_ensemble_high (5, 50, 95 % of the other robots, each with its median seed; NaN without an ensemble), and
+        r_ratio = r_median / printed.
     """
     robots = residuals["robot"].unique()
     shown = robots[0] if robot is None else robot
@@ -35,8 +36,9 @@ def table2(residuals: pd.DataFrame, robot: str | None = None) -> pd.DataFrame:
     fitted = mine[mine["method"] != "least squares"].groupby(keys, sort=False)
     least_squares = mine[mine["method"].isin(["least squares", "none"])].set_index(keys)
     table = fitted["points"].first().to_frame()
+    of_paper = set(TEST_TRAJECTORIES) <= set(residuals["trajectory"])
     printed = printed_table2().set_index(keys)["printed"]
-    table["printed"] = printed.reindex(table.index)
+    table["printed"] = printed.reindex(table.index) if of_paper else np.nan
     for reading in READINGS:
         values = fitted[f"{reading}_mm"]
         table[f"{reading}_median"] = values.median()
