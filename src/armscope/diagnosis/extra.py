@@ -44,13 +44,16 @@ def weigh_blocks(
     m, c = len(blocks), len(blocks[0])
     flat = [term for block in blocks for term in block]
     model_terms = [pool.terms[i] for i in inside]
-    current = pool_values(pool, model)[inside]
+    values = pool_values(pool, model)
+    active = np.flatnonzero(values)
+    present = [pool.terms[i] for i in active]
     own, cross, b = np.zeros((m, c, c)), np.zeros((len(inside), m * c)), np.zeros((m, c))
     for rows, posture in chunks(model, recordings):
         root = np.sqrt(np.repeat(weights[rows], 3))
         X = columns(posture, model_terms)
         y = (model.to_base(recordings.positions[rows], recordings.run[rows]) - posture.tool).reshape(-1) * 1e3
-        y = (y + X @ current) * root
+        # the response before any effect, also of those that are not among the columns inside
+        y = (y + columns(posture, present) @ values[active] if present else y) * root
         X *= root[:, None]
         E = columns(posture, flat) * root[:, None]
         cross += X.T @ E
