@@ -34,7 +34,12 @@ class Fitted:
 
 
 def least_squares(
-    set_up: SetUp, state: State, free: NDArray[np.bool_], stiffness: Array | None = None, weights: Array | None = None
+    set_up: SetUp,
+    state: State,
+    free: NDArray[np.bool_],
+    stiffness: Array | None = None,
+    weights: Array | None = None,
+    most_steps: int = LARGEST_STEPS,
 ) -> Fitted:
     """Minimise sum of weights * squared residuals + sum of stiffness * squared change, from ``state``.
 
@@ -44,13 +49,14 @@ def least_squares(
         free: (P,) which parameters move.
         stiffness: (P,) m^2 per squared unit, holds parameters near zero (a prior); None holds none.
         weights: (N,) per row; None counts all alike.
+        most_steps: after so many steps the fit stops where it is.
     """
     weights = np.ones(len(set_up)) if weights is None else weights
     stiffness = np.zeros(len(free)) if stiffness is None else stiffness
     per_component = np.repeat(weights, 3)
     damping, cost = 0.0, np.inf
     change = _changes(state)
-    for steps in range(1, LARGEST_STEPS + 1):
+    for steps in range(1, most_steps + 1):
         residual, jacobian = set_up.linearised(state, free)
         cost = _cost(residual, per_component, stiffness, change)
         weighted = jacobian * per_component[:, None]
@@ -69,7 +75,7 @@ def least_squares(
         state, change, damping = candidate, change + step, damping / 100 if damping > 1e-6 else 0.0
         if np.sqrt(np.mean((jacobian @ step[free]) ** 2)) < NEGLIGIBLE:
             return Fitted(state, weights, steps, "the step became negligible")
-    return Fitted(state, weights, LARGEST_STEPS, "the largest number of steps was made")
+    return Fitted(state, weights, most_steps, "the largest number of steps was made")
 
 
 def _changes(state: State) -> Array:
@@ -122,8 +128,13 @@ def _bisquare(distance: Array) -> Array:
     return np.clip(1 - (distance / BISQUARE_TUNING) ** 2, 0.0, None) ** 2
 
 
-def placed(set_up: SetUp) -> State:
-    """Base frames and tools of the nominal arm, from closed-form starts refined; the start of every calibration."""
+def placed(set_up: SetUp, most_steps: int = LARGEST_STEPS) -> State:
+    """Base frames and tools of the nominal arm, from closed-form starts refined; the start of every calibration.
+
+    Args:
+        set_up: rows and arm.
+        most_steps: of refinement; a few are enough to see whether an arm explains its points at all.
+    """
     blank = State(
         rotations=np.tile(np.eye(3), (len(set_up.base_names), 1, 1)),
         translations=np.zeros((len(set_up.base_names), 3)),
@@ -145,7 +156,7 @@ def placed(set_up: SetUp) -> State:
             rotations[base], translations[base] = placement.rotation, placement.translation
             tools.append(placement.tools)
         start = State(rotations, translations, _mean_known(np.array(tools)), blank.constants, blank.compliances)
-        candidates.append(least_squares(set_up, start, free).state)
+        candidates.append(least_squares(set_up, start, free, most_steps=most_steps).state)
     return min(candidates, key=lambda state: float(np.sum(set_up.residuals(state) ** 2)))
 
 

@@ -1,0 +1,171 @@
+"""What a recordings table holds, without asking any model: counts, ranges, gaps, repeats."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from armscope.recordings import Recordings
+
+Array = NDArray[np.float64]
+
+MOVED_RAD = np.radians(0.5)
+"""A joint that stays within this range counts as held: servo noise, not motion."""
+
+SAME_POSE_RAD = 5e-4
+"""Joint angles within this distance count as the same pose visited again."""
+
+MOST_ROWS_FOR_REPEATS = 50_000
+
+
+@dataclass(frozen=True)
+class RunContents:
+    """One run: its rows, configurations (ids), targets, and the extent of its measured points, m."""
+
+    name: str
+    rows: int
+    configurations: int
+    targets: tuple[str, ...]
+    extent: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Coverage:
+    """Range of one motor, rad; ``moved`` says whether it is more than servo noise."""
+
+    motor: int
+    low: float
+    high: float
+    moved: bool
+
+
+@dataclass(frozen=True)
+class Context:
+    """One recorded context quantity: rows without a value, and its range over the rest, in the table's unit."""
+
+    name: str
+    unit: str
+    missing: int
+    low: float
+    high: float
+
+    @property
+    def constant(self) -> bool:
+        """Whether it never changes, so that nothing can be learned from it."""
+        return self.low == self.high
+
+
+@dataclass(frozen=True)
+class Repeats:
+    """Poses that were measured more than once.
+
+    Attributes:
+        copies: rows that repeat another row's angles and position to the last digit.
+        visits: poses visited again (apart from copies), as many groups.
+        rows: rows in these groups.
+        scatter: RMS per axis about each group's mean, m; NaN without groups.
+        looked_at: how many rows were looked at (very long tables: the first ones).
+    """
+
+    copies: int
+    visits: int
+    rows: int
+    scatter: float
+    looked_at: int
+
+
+@dataclass(frozen=True)
+class Contents:
+    """What a table holds."""
+
+    source: str
+    rows: int
+    runs: tuple[RunContents, ...]
+    motors: tuple[Coverage, ...]
+    context: tuple[Context, ...]
+    repeats: Repeats
+    notes: tuple[str, ...]
+
+
+def contents_of(recordings: Recordings) -> Contents:
+    """Count what a table holds."""
+    return Contents(
+        source=recordings.source,
+        rows=len(recordings),
+        runs=tuple(_run(recordings, name) for name in dict.fromkeys(recordings.run.tolist())),
+        motors=tuple(_coverage(recordings, motor) for motor in range(recordings.n_motors)),
+        context=tuple(_context(recordings)),
+        repeats=_repeats(recordings),
+        notes=recordings.notes,
+    )
+
+
+def _run(recordings: Recordings, name: str) -> RunContents:
+    rows = recordings.run == name
+    extent = np.ptp(recordings.positions[rows], axis=0)
+    return RunContents(
+        name=name,
+        rows=int(rows.sum()),
+        configurations=len(np.unique(recordings.id[rows])),
+        targets=tuple(target for target in dict.fromkeys(recordings.target[rows].tolist()) if target),
+        extent=(float(extent[0]), float(extent[1]), float(extent[2])),
+    )
+
+
+def _coverage(recordings: Recordings, motor: int) -> Coverage:
+    angles = recordings.motor_angles[:, motor]
+    return Coverage(motor + 1, float(angles.min()), float(angles.max()), bool(np.ptp(angles) > MOVED_RAD))
+
+
+def _context(recordings: Recordings) -> list[Context]:
+    named: list[tuple[str, str, Array | None]] = [
+        ("time", "s", recordings.time),
+        ("temperature", "degC", recordings.temperature),
+        ("payload", "kg", recordings.payload),
+        ("orientation", "", None if recordings.orientation is None else recordings.orientation[:, 0]),
+    ]
+    for name, unit, values in (
+        ("approach", "", recordings.approach),
+        ("speed", "rad/s", recordings.speed),
+        ("torque", "N m", recordings.torque),
+    ):
+        if values is not None:
+            named += [(f"{name} {motor + 1}", unit, values[:, motor]) for motor in range(recordings.n_motors)]
+    if recordings.sigma is not None:
+        named += [(f"sigma {axis}", "mm", recordings.sigma[:, k] * 1e3) for k, axis in enumerate("xyz")]
+    return [_one_context(name, unit, values) for name, unit, values in named if values is not None]
+
+
+def _one_context(name: str, unit: str, values: Array) -> Context:
+    known = values[np.isfinite(values)]
+    return Context(name, unit, len(values) - len(known), float(known.min()), float(known.max()))
+
+
+def _repeats(recordings: Recordings) -> Repeats:
+    looked_at = min(len(recordings), MOST_ROWS_FOR_REPEATS)
+    some = recordings.rows(slice(looked_at))
+    _, group = np.unique(np.char.add(some.run, np.char.add("\n", some.target)), return_inverse=True)
+    rows = np.column_stack([group, some.motor_angles, some.positions])
+    _, first = np.unique(rows, axis=0, return_index=True)
+    copies = looked_at - len(first)
+    single = np.sort(first)
+    # rows of other runs and targets stand far away, so that they are never neighbours
+    tree = cKDTree(np.column_stack([group[single] * 100.0, some.motor_angles[single]]))
+    pairs = tree.query_pairs(SAME_POSE_RAD, output_type="ndarray")
+    if not len(pairs):
+        return Repeats(copies, 0, 0, float("nan"), looked_at)
+    links = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(single), len(single)))
+    _, label = connected_components(links, directed=False)
+    size = np.bincount(label)
+    again = size[label] > 1
+    positions, label = some.positions[single][again], label[again]
+    sums = np.stack([np.bincount(label, weights=positions[:, axis], minlength=len(size)) for axis in range(3)], axis=1)
+    about_mean = positions - sums[label] / size[label, None]
+    visits = int((size > 1).sum())
+    scatter = float(np.sqrt(np.sum(about_mean**2) / (3 * (len(positions) - visits))))
+    return Repeats(copies, visits, len(positions), scatter, looked_at)

@@ -1,0 +1,135 @@
+"""`armscope check`: what a recordings table holds and what looks wrong in it, in words."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from armscope.check.contents import Contents, Context, RunContents, contents_of
+from armscope.check.suspicions import Consistency, Suspicion, against_arm
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+
+ONE_POINT = 1e-3
+"""Points within so many metres of each other are one point, measured again."""
+
+FLAT = 1e-3
+"""Points whose extent along one axis is below this share of the largest lie in a plane."""
+
+
+@dataclass(frozen=True)
+class CheckReport:
+    """Contents of a table and, where an arm was given, how they fit it."""
+
+    contents: Contents
+    consistency: Consistency | None
+    suspicions: tuple[Suspicion, ...]
+
+    @property
+    def has_problems(self) -> bool:
+        """Whether anything makes results from this table meaningless."""
+        return any(each.weight == "problem" for each in self.suspicions)
+
+    def text(self) -> str:
+        """The report as plain text."""
+        return "\n".join(
+            [*_table_lines(self.contents), *_arm_lines(self.consistency), *_verdict_lines(self.suspicions)]
+        )
+
+
+def check(recordings: Recordings, arm: Arm | None = None) -> CheckReport:
+    """Look through a table.
+
+    Args:
+        recordings: the table; read it without a number of motors, so that a wrong one can be reported.
+        arm: the robot it should belong to; None looks at the table alone.
+    """
+    contents = contents_of(recordings)
+    consistency = None if arm is None else against_arm(arm, recordings)
+    found = _of_table(contents)
+    return CheckReport(contents, consistency, (*(consistency.suspicions if consistency else ()), *found))
+
+
+def _of_table(contents: Contents) -> tuple[Suspicion, ...]:
+    found = []
+    for context in contents.context:
+        if context.constant and context.name != "orientation" and not context.name.startswith("sigma"):
+            found.append(Suspicion("hint", f"{context.name} never changes, so nothing can be learned from it"))
+    if contents.repeats.copies:
+        statement = f"{contents.repeats.copies} rows are copies of other rows, to the last digit"
+        found.append(Suspicion("hint", statement, "They count twice, and make the noise look smaller than it is."))
+    if not any(motor.moved for motor in contents.motors):
+        found.append(Suspicion("problem", "no joint moves"))
+    for run in contents.runs:
+        found += _of_extent(run)
+    return tuple(found)
+
+
+def _of_extent(run: RunContents) -> list[Suspicion]:
+    """What the extent of a run's points says."""
+    extent = np.sort(run.extent)
+    if extent[2] < ONE_POINT:
+        statement = f"all rows{_of(run.name)} are at one point"
+        return [Suspicion("hint", statement, "They tell the noise, and nothing about the arm.")]
+    if extent[0] < FLAT * extent[2]:
+        statement = f"all points{_of(run.name)} lie in one plane of the measurement frame"
+        return [Suspicion("hint", statement, "Errors across it can't be seen.")]
+    return []
+
+
+def _of(run: str) -> str:
+    return f" of run {run}" if run else ""
+
+
+def _table_lines(contents: Contents) -> list[str]:
+    lines = [f"{contents.source}: {contents.rows} rows, {len(contents.runs)} run(s)"]
+    for run in contents.runs:
+        targets = f", targets {', '.join(run.targets)}" if run.targets else ""
+        size = " x ".join(f"{length * 1e3:.4g}" for length in run.extent)
+        lines.append(
+            f"  run {run.name or '(no name)'}: {run.rows} rows, {run.configurations} configurations{targets}; "
+            f"points within {size} mm"
+        )
+    lines.append("joints (degrees):")
+    for motor in contents.motors:
+        state = "" if motor.moved else "  held"
+        lines.append(f"  q{motor.motor}: {np.degrees(motor.low):8.2f} ... {np.degrees(motor.high):8.2f}{state}")
+    lines.append("context:" if contents.context else "context: none recorded")
+    lines += [f"  {_context_line(context)}" for context in contents.context]
+    repeats = contents.repeats
+    seen = f" (first {repeats.looked_at} rows)" if repeats.looked_at < contents.rows else ""
+    if repeats.visits:
+        lines.append(
+            f"repeats{seen}: {repeats.visits} poses were visited again, {repeats.rows} rows, "
+            f"scatter {repeats.scatter * 1e3:.3g} mm per axis"
+        )
+    else:
+        lines.append(f"repeats{seen}: no pose was visited again")
+    return lines + [f"note: {note}" for note in contents.notes]
+
+
+def _context_line(context: Context) -> str:
+    missing = f", missing in {context.missing} rows" if context.missing else ""
+    if context.name == "orientation":
+        return f"orientation{missing}"
+    unit = f" {context.unit}" if context.unit else ""
+    if context.constant:
+        return f"{context.name}: {context.low:.6g}{unit} throughout{missing}"
+    return f"{context.name}: {context.low:.6g} ... {context.high:.6g}{unit}{missing}"
+
+
+def _arm_lines(consistency: Consistency | None) -> list[str]:
+    if consistency is None or np.isnan(consistency.rms):
+        return []
+    return [
+        f"nominal arm, base and tool fitted: {consistency.rms * 1e3:.4g} mm RMS distance "
+        f"of a {consistency.spread * 1e3:.4g} mm spread, over {consistency.rows} rows"
+    ]
+
+
+def _verdict_lines(suspicions: tuple[Suspicion, ...]) -> list[str]:
+    if not suspicions:
+        return ["nothing looks wrong"]
+    ordered = sorted(suspicions, key=lambda each: each.weight != "problem")
+    return [f"{each.weight}: {each.text()}" for each in ordered]

@@ -1,0 +1,161 @@
+"""Common mistakes are named by what they are, sound tables are left in peace."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from armscope.check import check
+from armscope.recordings import read_recordings
+from armscope.robot import chain, load_arm
+from tests.calibration.worlds import far_away, measured, planted, poses, ur_like
+from tests.robot.arms import STANDARD, dh_arm
+
+ROOT = Path(__file__).parents[2]
+SHARED = ROOT.parent / "shared" / "recordings"
+TOOL = {"": [0.05, 0.1, 0.2]}
+
+
+@pytest.fixture
+def arm():
+    return ur_like()
+
+
+@pytest.fixture
+def sound(arm):
+    """A table with nothing wrong: an arm of usual tolerances, an instrument far away, orientations included."""
+    rng = np.random.default_rng(1)
+    real, base, angles = planted(arm, rng), far_away(rng), poses(rng, 80, 6)
+    recordings = measured(real, angles, base, TOOL, 5e-5, rng)
+    turned = Rotation.from_matrix(base[0] @ chain(real, angles).tool_rotation) * Rotation.from_rotvec([0.3, -1.0, 0.5])
+    return replace(recordings, orientation=np.roll(turned.as_quat(), 1, axis=1))
+
+
+def problems(recordings, arm):
+    return [each.text() for each in check(recordings, arm).suspicions if each.weight == "problem"]
+
+
+def test_a_sound_table_has_no_suspicions(arm, sound):
+    report = check(sound, arm)
+    assert report.suspicions == ()
+    assert "nothing looks wrong" in report.text()
+    assert not report.has_problems
+    # no orientation, no arm, one row in ten: still sound
+    assert check(replace(sound, orientation=None), arm).suspicions == ()
+    assert check(sound).suspicions == ()
+    assert check(sound.rows(slice(0, None, 2)), arm).suspicions == ()
+
+
+def _exchange(table):
+    positions = table.positions.copy()
+    positions[[10, 40]] = positions[[40, 10]]
+    return replace(table, positions=positions)
+
+
+def _flip(table, motor):
+    return replace(table, motor_angles=table.motor_angles * np.where(np.arange(6) == motor, -1, 1))
+
+
+@pytest.mark.parametrize(
+    ("mistake", "words"),
+    [
+        (lambda t: replace(t, motor_angles=np.degrees(t.motor_angles)), "degrees that were declared as radians"),
+        (lambda t: replace(t, motor_angles=np.radians(t.motor_angles)), "radians that were declared as degrees"),
+        (lambda t: replace(t, positions=t.positions / 1e3), "metres that were declared as millimetres"),
+        (lambda t: replace(t, positions=t.positions * 1e3), "millimetres that were declared as metres"),
+        (lambda t: replace(t, positions=t.positions * [1, -1, 1]), "left-handed"),
+        (lambda t: replace(t, positions=t.positions[:, [1, 0, 2]]), "left-handed"),
+        (lambda t: replace(t, motor_angles=t.motor_angles[:, ::-1]), "reverse order"),
+        (lambda t: replace(t, positions=np.roll(t.positions, 1, axis=0)), "1 row(s) too late"),
+        (lambda t: replace(t, positions=np.roll(t.positions, -2, axis=0)), "2 row(s) too early"),
+        (lambda t: _flip(t, 2), "joint 3 turns the other way"),
+        (_exchange, "2 rows seem to have exchanged their points: a: 11, a: 41"),
+        (lambda t: replace(t, orientation=np.roll(t.orientation, -1, axis=1)), "in the order x, y, z, w ("),
+        (lambda t: replace(t, orientation=t.orientation * [1, -1, -1, -1]), "turn the other way"),
+        (
+            lambda t: replace(t, orientation=np.roll(t.orientation * [1, -1, -1, -1], -1, axis=1)),
+            "order x, y, z, w and turn the other way",
+        ),
+        (
+            lambda t: replace(t, positions=t.positions[np.random.default_rng(0).permutation(len(t))]),
+            "does not explain the points",
+        ),
+    ],
+)
+def test_a_mistake_is_named_by_what_it_is(mistake, words, arm, sound):
+    found = problems(mistake(sound), arm)
+    assert len(found) == 1
+    assert words in found[0]
+
+
+def test_another_robot_is_said_to_be_one(sound):
+    assert "does not explain the points" in problems(sound, dh_arm(STANDARD))[0]
+    found = problems(sound, dh_arm(STANDARD[:5]))
+    assert found == ["the table has 6 motor angles, test arm has 5 motors. Is this the right robot for the recordings?"]
+
+
+def test_the_report_counts_what_the_table_holds(arm, sound):
+    payload = np.full(80, 2.0)
+    temperature = np.where(np.arange(80) < 8, np.nan, np.linspace(20, 25, 80))
+    again = sound.rows(np.r_[np.arange(80), 5, 6, 7])
+    again = replace(again, payload=np.r_[payload, [2.0] * 3], temperature=np.r_[temperature, [21.0] * 3])
+    again.positions[81] += [1e-4, 0, 0]
+    again.positions[82] += [0, 1e-4, 0]
+    angles = again.motor_angles.copy()
+    angles[:, 4] = 0.3 + np.random.default_rng(0).normal(scale=1e-4, size=83)
+    report = check(replace(again, motor_angles=angles))
+    assert [motor.moved for motor in report.contents.motors] == [True] * 4 + [False, True]
+    assert report.contents.runs[0].rows == 83
+    assert report.contents.runs[0].configurations == 80
+    missing = {context.name: context.missing for context in report.contents.context}
+    assert missing == {"temperature": 8, "payload": 0, "orientation": 0}
+    text = report.text()
+    assert "payload: 2 kg throughout" in text
+    assert "payload never changes" in text
+    # revisits, with the joint noise above, of poses 5, 6 and 7; held apart from exact copies
+    assert check(again).contents.repeats.copies == 1
+    assert check(again).contents.repeats.visits == 2
+    assert check(again).contents.repeats.scatter == pytest.approx(1e-4 / np.sqrt(2 * 3), rel=1e-3)
+
+
+def test_points_at_one_place_or_in_one_plane_are_said():
+    rng = np.random.default_rng(2)
+    arm, base = ur_like(), (np.eye(3), np.zeros(3))
+    still = measured(arm, np.tile([0.1, -1, 1, 0.2, 0.3, 0.4], (20, 1)), base, TOOL, 1e-5, rng)
+    report = check(still)
+    assert report.has_problems
+    assert "no joint moves" in report.text()
+    assert "at one point" in report.text()
+    turning = np.tile([0.1, -1, 1, 0.2, 0.3, 0.4], (20, 1))
+    turning[:, 0] = np.linspace(-2, 2, 20)
+    assert "lie in one plane" in check(measured(arm, turning, base, TOOL)).text()
+
+
+def test_too_few_rows_are_looked_at_without_the_arm(arm, sound):
+    for count in (1, 2, 3):
+        assert isinstance(check(sound.rows(slice(count)), arm).text(), str)
+
+
+def test_joints_beyond_their_limits_are_counted(sound):
+    arm = ur_like(joint_limits_deg=[[-360, 360]] * 5 + [[-90, 90]])
+    beyond = int(np.sum(np.abs(sound.motor_angles[:, 5]) > np.pi / 2 + 1e-3))
+    assert f"joint 6 is outside its limits in {beyond} rows" in check(sound, arm).text()
+
+
+@pytest.mark.parametrize("name", ["ur10-ipa", "iiwa7-payload", "ma1400-leica", "irb120-offsets", "panda-charuco"])
+def test_real_tables_have_no_problems_and_their_mistakes_are_still_named(name):
+    if not SHARED.is_dir():
+        pytest.skip("../shared/recordings is not here, so there is nothing to look at")
+    recordings = read_recordings(SHARED / name / "recordings.csv.gz")
+    arm = load_arm(ROOT / "config" / "recordings" / name / "robot.yaml")
+    report = check(recordings, arm)
+    assert not report.has_problems, report.text()
+    assert ("tool seems to have moved" in report.text()) == (name == "iiwa7-payload")
+    mirrored = problems(replace(recordings, positions=recordings.positions * [1, 1, -1]), arm)
+    assert len(mirrored) == 1
+    assert "left-handed" in mirrored[0]
+    if recordings.orientation is not None:
+        other = replace(recordings, orientation=np.roll(recordings.orientation, -1, axis=1))
+        assert "order x, y, z, w" in problems(other, arm)[0]
