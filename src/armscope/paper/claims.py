@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property, partial
 
 import numpy as np
 import pandas as pd
@@ -43,6 +44,18 @@ class _Judged:
     printed: float = float("nan")
 
 
+@dataclass(frozen=True)
+class _Claim:
+    """What the paper says, where, what counts as yes for one robot, what the number is, and who judges."""
+
+    claim: str
+    source: str
+    criterion: str
+    unit: str
+    number_is: str
+    judge: Callable[[_Evidence], _Judged | None]
+
+
 def claims(
     residuals: pd.DataFrame,
     fits: Sequence[FittedModel],
@@ -63,136 +76,19 @@ def claims(
         the robots), number_anchored, number_low, number_high (5 and 95 % of the robots), number_printed (the same
         number from the printed Table 2, if it has one), unit, number_is.
     """
-    cells = typical(residuals)
-    three_dimensional = _SpatialErrors(pd.DataFrame(cells.xs(SPATIAL, axis=1, level="axis")), _printed_spatial())
-    rows = [
-        _row(
-            "The models predict the errors: what is left is smaller",
-            "p. 965, section 8",
-            "each of the four models leaves a smaller 3D error on each of the three test trajectories",
-            "",
-            "smallest ratio uncompensated / residual of the 3D errors",
-            three_dimensional.reduced(),
-        ),
-        _row(
-            "The models predict the errors: they shrink as printed",
-            "p. 961, Table 2; p. 965, section 8",
-            "in at least half of the printed cells the error shrinks at least by the printed factor",
-            "%",
-            "share of the 48 printed cells that shrink at least by the printed factor",
-            _shrink(cells),
-        ),
-        _row(
-            "Second-degree polynomials fit the identification poses at least as well as first-degree ones",
-            "p. 961, Table 2",
-            "SDP <= FDP in x, y and z, for both inputs",
-            "",
-            "largest ratio SDP / FDP",
-            _second_degree(cells),
-        ),
-    ]
-    for number, trajectory in enumerate(TEST_TRAJECTORIES[:2]):
-        rows.append(
-            _row(
-                f"Cartesian input beats angular input on trajectory {'I' * (number + 1)}",
-                ("p. 962, section 7.1", "p. 964, section 7.2")[number],
-                "3D error of FDP(CI) below FDP(AI), and of SDP(CI) below SDP(AI)",
-                "",
-                "ratio AI / CI of the 3D errors, the smaller of FDP and SDP",
-                three_dimensional.cartesian_beats_angular(trajectory),
-            )
-        )
-    rows.append(
-        _row(
-            "PSO is an alternative to least squares",
-            "p. 961, section 6.3",
-            f"no fit ends more than {CLOSE_PER_CENT:g} % above least squares (constriction factor)",
-            "%",
-            "largest excess over the least-squares RMS residual",
-            _excess(fits, cells.index),
-        )
-    )
-    rows.append(
-        _row(
-            "200 iterations suffice",
-            "p. 960, section 5",
-            f"every fit is within {CLOSE_PER_CENT:g} % of least squares by its last iteration (constriction factor)",
-            "iterations",
-            f"until the slowest fit is within {CLOSE_PER_CENT:g} % of least squares (infinite: never)",
-            _iterations(fits, cells.index),
-        )
-    )
-    if fits_as_printed:
-        robots = pd.Index(dict.fromkeys(fit.label for fit in fits_as_printed))
-        rows.append(
-            _row(
-                "200 iterations suffice with the velocity update as printed",
-                "p. 960, section 5",
-                f"every fit is within {CLOSE_PER_CENT:g} % of least squares by its last iteration",
-                "%",
-                "median excess over the least-squares RMS residual",
-                _excess(fits_as_printed, robots, np.median),
-            )
-        )
-    rows += [
-        _row(
-            "Fourier polynomials are more accurate than ordinary polynomials",
-            "p. 962, section 6.3",
-            "over I-III together, Fourier with 2 harmonics comes closer than the 4th degree (75 coefficients each)",
-            "",
-            "ratio ordinary / Fourier of the 3D errors over trajectories I-III",
-            three_dimensional.better(FOURIER, FOURTH),
-        ),
-        _row(
-            "75 coefficients remedy the angular models",
-            "p. 962, section 7.1",
-            "over I-III together, Fourier or 4th degree (AI) comes at least as close as FDP(CI)",
-            "",
-            "ratio FDP(CI) / best of the two, 3D errors over trajectories I-III",
-            three_dimensional.remedied(),
-        ),
-        _row(
-            "75 coefficients improve on the angular first degree",
-            "p. 964, section 7.2",
-            "over I-III together, both Fourier and 4th degree (AI) come closer than FDP(AI)",
-            "",
-            "ratio FDP(AI) / worse of the two, 3D errors over trajectories I-III",
-            three_dimensional.improved(),
-        ),
-    ]
-    for regions in (2, 4):
-        rows.append(
-            _row(
-                f"Sub-volumes improve accuracy: {regions} regions",
-                "p. 961, section 6.3; p. 965, section 8",
-                f"3D error of FDP(CI) with {regions} regions below that with one, over I-III together (held out)",
-                "",
-                "ratio one region / several, 3D errors over trajectories I-III",
-                _sub_volumes(sub_volume_residuals, regions, cells.index, held_out=True),
-            )
-        )
-    rows.append(
-        _row(
-            "Sub-volumes improve accuracy: 4 regions, on their own poses",
-            "p. 961, section 6.3; p. 965, section 8",
-            "3D error of FDP(CI) with 4 regions below that with one on the identification poses",
-            "",
-            "ratio one region / several, 3D errors on the identification poses",
-            _sub_volumes(sub_volume_residuals, 4, cells.index, held_out=False),
-        )
-    )
-    return pd.DataFrame(rows)
+    evidence = _Evidence(typical(residuals), list(fits), list(fits_as_printed), sub_volume_residuals)
+    judged = [(each, each.judge(evidence)) for each in CLAIMS]
+    return pd.DataFrame([_row(each, outcome) for each, outcome in judged if outcome is not None])
 
 
-def _row(claim: str, source: str, criterion: str, unit: str, number_is: str, judged: _Judged) -> dict[str, object]:
+def _row(claim: _Claim, judged: _Judged) -> dict[str, object]:
     share = float(np.mean(judged.per_robot))
-    verdict = "holds" if share >= HOLDS_FROM else "does not hold" if share <= FAILS_TO else "depends"
     low, median, high = _quantiles(judged.numbers)
     return {
-        "claim": claim,
-        "source": source,
-        "criterion": criterion,
-        "verdict": verdict,
+        "claim": claim.claim,
+        "source": claim.source,
+        "criterion": claim.criterion,
+        "verdict": "holds" if share >= HOLDS_FROM else "does not hold" if share <= FAILS_TO else "depends",
         "anchored": "yes" if judged.per_robot[0] else "no",
         "share_of_robots": share,
         "robots": len(judged.per_robot),
@@ -201,8 +97,8 @@ def _row(claim: str, source: str, criterion: str, unit: str, number_is: str, jud
         "number_low": low,
         "number_high": high,
         "number_printed": judged.printed,
-        "unit": unit,
-        "number_is": number_is,
+        "unit": claim.unit,
+        "number_is": claim.number_is,
     }
 
 
@@ -212,89 +108,120 @@ def _quantiles(numbers: Array) -> tuple[float, float, float]:
     return float(low), float(median), float(high)
 
 
-def _shrink(cells: pd.DataFrame) -> _Judged:
-    printed = printed_table2().set_index(["model", "trajectory", "axis"])["printed"]
-    shares = []
-    for model in PRINTED_MODELS:
-        for trajectory in TRAJECTORIES:
-            for axis in AXES:
-                factor = printed[UNCOMPENSATED, trajectory, axis] / printed[model, trajectory, axis]
-                mine = cells[UNCOMPENSATED, trajectory, axis] / cells[model, trajectory, axis]
-                shares.append(mine >= factor)
-    share = np.mean(shares, axis=0)
-    return _Judged(share >= 0.5, 100 * share, 100.0)
-
-
-def _second_degree(cells: pd.DataFrame) -> _Judged:
-    printed = printed_table2().set_index(["model", "trajectory", "axis"])["printed"]
-    pairs = [(f"SDP({space})", f"FDP({space})", axis) for space in ("CI", "AI") for axis in AXES]
-    ratios = np.array([cells[s, IDENTIFICATION, a] / cells[f, IDENTIFICATION, a] for s, f, a in pairs]).max(axis=0)
-    on_paper = max(printed[s, IDENTIFICATION, a] / printed[f, IDENTIFICATION, a] for s, f, a in pairs)
-    # the swarm's last digits must not decide between two equal fits
-    return _Judged(ratios <= 1 + 1e-4, ratios, on_paper)
-
-
-def _printed_spatial() -> pd.Series:
-    """(model, trajectory) 3D length of the printed x, y, z errors."""
-    printed = printed_table2()
-    squares = printed.assign(printed=printed["printed"] ** 2).groupby(["model", "trajectory"])["printed"].sum()
-    return squares**0.5
-
-
-@dataclass(frozen=True)
-class _SpatialErrors:
-    """3D errors by robot (rows) and (model, trajectory), and the printed ones."""
+@dataclass(frozen=True, eq=False)
+class _Evidence:
+    """What verdicts rest on: RMS errors by robot (rows) and (model, trajectory, axis), fits, sub-volumes."""
 
     cells: pd.DataFrame
-    printed: pd.Series
+    fits: list[FittedModel]
+    fits_as_printed: list[FittedModel]
+    sub_volumes: pd.DataFrame
 
-    def cartesian_beats_angular(self, trajectory: str) -> _Judged:
-        pairs = [("FDP(AI)", "FDP(CI)"), ("SDP(AI)", "SDP(CI)")]
-        ratios = np.min([self.cells[a, trajectory] / self.cells[c, trajectory] for a, c in pairs], axis=0)
-        on_paper = min(self.printed[a, trajectory] / self.printed[c, trajectory] for a, c in pairs)
-        return _Judged(ratios > 1, ratios, float(on_paper))
+    @cached_property
+    def spatial(self) -> pd.DataFrame:
+        """3D errors by robot and (model, trajectory)."""
+        return pd.DataFrame(self.cells.xs(SPATIAL, axis=1, level="axis"))
+
+    @cached_property
+    def printed(self) -> pd.Series:
+        """Table 2 by (model, trajectory, axis)."""
+        return printed_table2().set_index(["model", "trajectory", "axis"])["printed"]
+
+    @cached_property
+    def printed_spatial(self) -> pd.Series:
+        """3D length of Table 2's x, y, z errors by (model, trajectory)."""
+        return (self.printed**2).groupby(["model", "trajectory"]).sum() ** 0.5
 
     def over_tests(self, model: str) -> Array:
         """3D RMS over the held-out trajectories together, each with the same weight (they have equally many points)."""
-        return np.sqrt(np.mean([self.cells[model, name].to_numpy() ** 2 for name in TEST_TRAJECTORIES], axis=0))
-
-    def reduced(self) -> _Judged:
-        pairs = [(model, trajectory) for model in PRINTED_MODELS for trajectory in TEST_TRAJECTORIES]
-        ratios = np.min([self.cells[UNCOMPENSATED, t] / self.cells[m, t] for m, t in pairs], axis=0)
-        on_paper = min(self.printed[UNCOMPENSATED, t] / self.printed[m, t] for m, t in pairs)
-        return _Judged(ratios > 1, ratios, float(on_paper))
-
-    def better(self, better: str, worse: str) -> _Judged:
-        ratios = self.over_tests(worse) / self.over_tests(better)
-        return _Judged(ratios > 1, ratios)
-
-    def remedied(self) -> _Judged:
-        best = np.minimum(self.over_tests(FOURTH), self.over_tests(FOURIER))
-        ratios = self.over_tests("FDP(CI)") / best
-        return _Judged(ratios >= 1, ratios)
-
-    def improved(self) -> _Judged:
-        worse = np.maximum(self.over_tests(FOURTH), self.over_tests(FOURIER))
-        ratios = self.over_tests("FDP(AI)") / worse
-        return _Judged(ratios > 1, ratios)
+        return np.sqrt(np.mean([self.spatial[model, name].to_numpy() ** 2 for name in TEST_TRAJECTORIES], axis=0))
 
 
-def _by_robot(fits: Sequence[FittedModel], robots: pd.Index, number: Callable[[FittedModel], float]) -> Array:
-    """The largest number over each robot's fits, of robots that have fits."""
+def _reduced(evidence: _Evidence) -> _Judged:
+    pairs = [(model, trajectory) for model in PRINTED_MODELS for trajectory in TEST_TRAJECTORIES]
+
+    def smallest(errors: pd.DataFrame | pd.Series) -> Array:
+        return np.asarray(np.min([errors[UNCOMPENSATED, t] / errors[m, t] for m, t in pairs], axis=0))
+
+    ratios = smallest(evidence.spatial)
+    return _Judged(ratios > 1, ratios, float(smallest(evidence.printed_spatial)))
+
+
+def _shrunk_as_printed(evidence: _Evidence) -> _Judged:
+    cells, printed = evidence.cells, evidence.printed
+    shrunk = [
+        cells[UNCOMPENSATED, t, a] / cells[m, t, a] >= printed[UNCOMPENSATED, t, a] / printed[m, t, a]
+        for m in PRINTED_MODELS
+        for t in TRAJECTORIES
+        for a in AXES
+    ]
+    share = np.mean(shrunk, axis=0)
+    return _Judged(share >= 0.5, 100 * share, 100.0)
+
+
+def _second_degree(evidence: _Evidence) -> _Judged:
+    pairs = [(f"SDP({space})", f"FDP({space})", axis) for space in ("CI", "AI") for axis in AXES]
+
+    def largest(errors: pd.DataFrame | pd.Series) -> Array:
+        ratios = [errors[s, IDENTIFICATION, a] / errors[f, IDENTIFICATION, a] for s, f, a in pairs]
+        return np.asarray(np.max(ratios, axis=0))
+
+    ratios = largest(evidence.cells)
+    # the swarm's last digits must not decide between two equal fits
+    return _Judged(ratios <= 1 + 1e-4, ratios, float(largest(evidence.printed)))
+
+
+def _cartesian_beats_angular(evidence: _Evidence, trajectory: str) -> _Judged:
+    pairs = [("FDP(AI)", "FDP(CI)"), ("SDP(AI)", "SDP(CI)")]
+
+    def smaller(errors: pd.DataFrame | pd.Series) -> Array:
+        return np.asarray(np.min([errors[a, trajectory] / errors[c, trajectory] for a, c in pairs], axis=0))
+
+    ratios = smaller(evidence.spatial)
+    return _Judged(ratios > 1, ratios, float(smaller(evidence.printed_spatial)))
+
+
+def _fourier_beats_ordinary(evidence: _Evidence) -> _Judged:
+    ratios = evidence.over_tests(FOURTH) / evidence.over_tests(FOURIER)
+    return _Judged(ratios > 1, ratios)
+
+
+def _remedied(evidence: _Evidence) -> _Judged:
+    best = np.minimum(evidence.over_tests(FOURTH), evidence.over_tests(FOURIER))
+    ratios = evidence.over_tests("FDP(CI)") / best
+    return _Judged(ratios >= 1, ratios)
+
+
+def _improved(evidence: _Evidence) -> _Judged:
+    worse = np.maximum(evidence.over_tests(FOURTH), evidence.over_tests(FOURIER))
+    ratios = evidence.over_tests("FDP(AI)") / worse
+    return _Judged(ratios > 1, ratios)
+
+
+def _equals_least_squares(evidence: _Evidence) -> _Judged:
+    worst = _by_robot(evidence.fits, lambda fit: float(fit.excess_percent.max()))
+    return _Judged(worst <= CLOSE_PER_CENT, worst)
+
+
+def _iterations_suffice(evidence: _Evidence) -> _Judged:
+    numbers = _by_robot(evidence.fits, _slowest)
+    return _Judged(np.isfinite(numbers), numbers)
+
+
+def _as_printed_suffices(evidence: _Evidence) -> _Judged | None:
+    if not evidence.fits_as_printed:
+        return None
+    worst = _by_robot(evidence.fits_as_printed, lambda fit: float(fit.excess_percent.max()))
+    middle = _by_robot(evidence.fits_as_printed, lambda fit: float(np.median(fit.excess_percent)))
+    return _Judged(worst <= CLOSE_PER_CENT, middle)
+
+
+def _by_robot(fits: Sequence[FittedModel], number: Callable[[FittedModel], float]) -> Array:
+    """The largest number over each robot's fits, robots in the order of the fits."""
     worst: dict[str, float] = {}
     for fit in fits:
         worst[fit.label] = max(worst.get(fit.label, -np.inf), number(fit))
-    return np.array([worst[robot] for robot in robots if robot in worst])
-
-
-def _excess(fits: Sequence[FittedModel], robots: pd.Index, of_seeds: Callable[[Array], float] = np.max) -> _Judged:
-    numbers = _by_robot(fits, robots, lambda fit: float(of_seeds(fit.excess_percent)))
-    return _Judged(_by_robot(fits, robots, lambda fit: float(fit.excess_percent.max())) <= CLOSE_PER_CENT, numbers)
-
-
-def _iterations(fits: Sequence[FittedModel], robots: pd.Index) -> _Judged:
-    numbers = _by_robot(fits, robots, _slowest)
-    return _Judged(np.isfinite(numbers), numbers)
+    return np.array(list(worst.values()))
 
 
 def _slowest(fit: FittedModel) -> float:
@@ -304,9 +231,127 @@ def _slowest(fit: FittedModel) -> float:
     return float(first.max())
 
 
-def _sub_volumes(table: pd.DataFrame, regions: int, robots: pd.Index, held_out: bool) -> _Judged:
+def _sub_volumes_help(evidence: _Evidence, regions: int, held_out: bool) -> _Judged:
+    table = evidence.sub_volumes
     chosen = table[(table["model"] == "FDP(CI)") & ((table["trajectory"] != IDENTIFICATION) == held_out)]
     squares = chosen.assign(square=chosen["rms_mm"] ** 2).groupby(["robot", "regions"])["square"].mean()
-    rms = (squares.unstack("regions") ** 0.5).reindex(robots)
+    rms = (squares.unstack("regions") ** 0.5).reindex(evidence.cells.index)
     ratios = (rms[1] / rms[regions]).to_numpy()
     return _Judged(ratios > 1, ratios)
+
+
+CLAIMS = (
+    _Claim(
+        "The models predict the errors: what is left is smaller",
+        "p. 965, section 8",
+        "each of the four models leaves a smaller 3D error on each of the three test trajectories",
+        "",
+        "smallest ratio uncompensated / residual of the 3D errors",
+        _reduced,
+    ),
+    _Claim(
+        "The models predict the errors: they shrink as printed",
+        "p. 961, Table 2; p. 965, section 8",
+        "in at least half of the printed cells the error shrinks at least by the printed factor",
+        "%",
+        "share of the 48 printed cells that shrink at least by the printed factor",
+        _shrunk_as_printed,
+    ),
+    _Claim(
+        "Second-degree polynomials fit the identification poses at least as well as first-degree ones",
+        "p. 961, Table 2",
+        "SDP <= FDP in x, y and z, for both inputs",
+        "",
+        "largest ratio SDP / FDP",
+        _second_degree,
+    ),
+    _Claim(
+        "Cartesian input beats angular input on trajectory I",
+        "p. 962, section 7.1",
+        "3D error of FDP(CI) below FDP(AI), and of SDP(CI) below SDP(AI)",
+        "",
+        "ratio AI / CI of the 3D errors, the smaller of FDP and SDP",
+        partial(_cartesian_beats_angular, trajectory=TEST_TRAJECTORIES[0]),
+    ),
+    _Claim(
+        "Cartesian input beats angular input on trajectory II",
+        "p. 964, section 7.2",
+        "3D error of FDP(CI) below FDP(AI), and of SDP(CI) below SDP(AI)",
+        "",
+        "ratio AI / CI of the 3D errors, the smaller of FDP and SDP",
+        partial(_cartesian_beats_angular, trajectory=TEST_TRAJECTORIES[1]),
+    ),
+    _Claim(
+        "PSO is an alternative to least squares",
+        "p. 961, section 6.3",
+        f"no fit ends more than {CLOSE_PER_CENT:g} % above least squares (with the configured update rule)",
+        "%",
+        "largest excess over the least-squares RMS residual",
+        _equals_least_squares,
+    ),
+    _Claim(
+        "200 iterations suffice",
+        "p. 960, section 5",
+        f"every fit is within {CLOSE_PER_CENT:g} % of least squares by its last iteration (configured update rule)",
+        "iterations",
+        f"until the slowest fit is within {CLOSE_PER_CENT:g} % of least squares (infinite: never)",
+        _iterations_suffice,
+    ),
+    _Claim(
+        "200 iterations suffice with the velocity update as printed",
+        "p. 960, section 5",
+        f"every fit is within {CLOSE_PER_CENT:g} % of least squares by its last iteration",
+        "%",
+        "median excess over the least-squares RMS residual",
+        _as_printed_suffices,
+    ),
+    _Claim(
+        "Fourier polynomials are more accurate than ordinary polynomials",
+        "p. 962, section 6.3",
+        "over I-III together, Fourier with 2 harmonics comes closer than the 4th degree (75 coefficients each)",
+        "",
+        "ratio ordinary / Fourier of the 3D errors over trajectories I-III",
+        _fourier_beats_ordinary,
+    ),
+    _Claim(
+        "75 coefficients remedy the angular models",
+        "p. 962, section 7.1",
+        "over I-III together, Fourier or 4th degree (AI) comes at least as close as FDP(CI)",
+        "",
+        "ratio FDP(CI) / best of the two, 3D errors over trajectories I-III",
+        _remedied,
+    ),
+    _Claim(
+        "75 coefficients improve on the angular first degree",
+        "p. 964, section 7.2",
+        "over I-III together, both Fourier and 4th degree (AI) come closer than FDP(AI)",
+        "",
+        "ratio FDP(AI) / worse of the two, 3D errors over trajectories I-III",
+        _improved,
+    ),
+    _Claim(
+        "Sub-volumes improve accuracy: 2 regions",
+        "p. 961, section 6.3; p. 965, section 8",
+        "3D error of FDP(CI) with 2 regions below that with one, over I-III together (held out)",
+        "",
+        "ratio one region / several, 3D errors over trajectories I-III",
+        partial(_sub_volumes_help, regions=2, held_out=True),
+    ),
+    _Claim(
+        "Sub-volumes improve accuracy: 4 regions",
+        "p. 961, section 6.3; p. 965, section 8",
+        "3D error of FDP(CI) with 4 regions below that with one, over I-III together (held out)",
+        "",
+        "ratio one region / several, 3D errors over trajectories I-III",
+        partial(_sub_volumes_help, regions=4, held_out=True),
+    ),
+    _Claim(
+        "Sub-volumes improve accuracy: 4 regions, on their own poses",
+        "p. 961, section 6.3; p. 965, section 8",
+        "3D error of FDP(CI) with 4 regions below that with one on the identification poses",
+        "",
+        "ratio one region / several, 3D errors on the identification poses",
+        partial(_sub_volumes_help, regions=4, held_out=False),
+    ),
+)
+"""Each claim that is judged, in the order of the table."""
