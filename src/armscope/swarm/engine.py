@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from armscope.swarm.neighbourhoods import NEIGHBOURHOODS
 from armscope.swarm.result import StopReason, SwarmResult, final_reason
 from armscope.swarm.settings import SwarmSettings
+from armscope.swarm.streams import draw_weights
 from armscope.swarm.update import velocity_update
 
 Array = NDArray[np.float64]
@@ -120,7 +121,7 @@ class _Chunk:
         start = np.stack([generator.random(shape[1:]) for generator in generators])
         self.positions = lower[:, None, :] + (upper - lower)[:, None, :] * start
         self.velocities = np.zeros(shape)
-        self.draws = np.empty((*shape, 2))
+        self.weights = np.empty((*shape, 2))
         self.bests = self.positions.copy()
         self.best_fitness = np.full(shape[:2], np.inf)
         self.rows = np.arange(count)  # where in the result each swarm still at work stands
@@ -145,8 +146,7 @@ class _Chunk:
         return self.result
 
     def _move(self, iteration: int) -> None:
-        for row, generator in enumerate(self.generators):
-            generator.random(out=self.draws[row])
+        draw_weights(self.generators, self.weights)
         leaders = NEIGHBOURHOODS[self.settings.neighbourhood](self.best_fitness)
         neighbourhood_bests = np.take_along_axis(self.bests, leaders[:, :, None], axis=1)
         self.velocities = velocity_update(
@@ -154,8 +154,8 @@ class _Chunk:
             self.velocities,
             self.bests,
             neighbourhood_bests,
-            self.draws[..., 0],
-            self.draws[..., 1],
+            self.weights[..., 0],
+            self.weights[..., 1],
             self.settings.rule.coefficients(iteration - 1, self.settings.iterations),
             self.speed_limit,
         )
@@ -189,7 +189,7 @@ class _Chunk:
             self._record(int(row), iteration, StopReason.THRESHOLD if reached[row] else StopReason.DIVERGED)
         at_work = ~stopped
         self.generators = [g for g, stays in zip(self.generators, at_work, strict=True) if stays]
-        for name in ("swarms", "positions", "velocities", "draws", "bests", "best_fitness", "rows"):
+        for name in ("swarms", "positions", "velocities", "weights", "bests", "best_fitness", "rows"):
             setattr(self, name, getattr(self, name)[at_work])
         if self.speed_limit is not None:
             self.speed_limit = self.speed_limit[at_work]

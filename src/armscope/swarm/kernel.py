@@ -25,13 +25,14 @@ Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Words = NDArray[np.uint64]
 
-LANES = 32
+LANES = 16
 ROW_BLOCK = 4  # rows of the triangular product that are computed in one loop
 
 # Unsigned, since indices that might be negative would keep numba's loops scalar.
-_ONE, _TWO, _THREE = np.uint64(LANES), np.uint64(2 * LANES), np.uint64(3 * LANES)
-_NONE = np.uint64(0)
-_UNIT = 2.0**-53  # SFC64 gives whole numbers; numpy makes doubles of their upper 53 bits
+_NONE, _ONE, _TWO, _THREE, _FOUR, _FIVE = (np.uint64(k * LANES) for k in range(6))
+_UNIT = 2.0**-53  # numpy makes uniform doubles of a word's upper 53 bits
+_HALF_UNIT = 2.0**-32
+_LOWER_HALF, _HALF = np.uint64(2**32 - 1), np.uint64(32)
 _THRESHOLD, _DIVERGED, _OTHER = 0, 1, 2
 
 _compiled = numba.njit(cache=True, nogil=True, error_model="numpy")
@@ -75,10 +76,9 @@ class _Pack(NamedTuple):
     aims: Array  # (particles or 1) x dimensions x (neighbourhood's best, target, speed limit)
     factor: Array  # columns x rows (padded with zeros to whole blocks)
     image: Array  # rows (padded): factor times position
-    tally: Array  # sum of squares (zero between particles), rest, whether better, how many finite
+    tally: Array  # sum of squares (zero between particles), rest, whether better; how many finite, best fitness, whose
     best_fitness: Array  # particles
-    leader_fitness: Array  # the best of the swarm
-    leader: Integers  # which particle that was
+    progress: Array  # iterations + 1
     at_work: NDArray[np.bool_]
 
 
@@ -89,7 +89,7 @@ def run_kernel(
     generators: Sequence[np.random.Generator],
     settings: SwarmSettings,
 ) -> SwarmResult:
-    """What `minimise` does for ``problems``, compiled. Bounds are S x D; the generators must be SFC64."""
+    """What `minimise` does for ``problems.mean_squares``. Bounds are S x D; the generators must be SFC64."""
     swarms, dimensions = problems.targets.shape
     count, clamp = settings.iterations, settings.velocity_clamp
     given = _Problems(
@@ -143,10 +143,9 @@ def _run(given: _Problems, outcome: _Outcome, lanes: np.uint64) -> None:
         np.empty((given.particles if given.ring else 1) * dimensions * 3 * LANES),
         np.zeros(dimensions * padded * LANES),
         np.zeros(padded * LANES),
-        np.zeros(4 * LANES),
+        np.zeros(6 * LANES),
         np.empty(given.particles * LANES),
-        np.empty(LANES),
-        np.empty(LANES, dtype=np.int64),
+        np.empty((len(given.coefficients) + 1) * LANES),
         np.empty(LANES, dtype=np.bool_),
     )
     for first in range(0, swarms, LANES):
@@ -206,7 +205,9 @@ def _run_pack(given: _Problems, outcome: _Outcome, pack: _Pack, lanes: np.uint64
     dimensions, count = given.targets.shape[1], len(given.coefficients)
     pack.best_fitness[:] = np.inf
     for iteration in range(count + 1):
-        pack.tally[3 * LANES :] = 0.0
+        pack.tally[3 * LANES : 4 * LANES] = 0.0
+        pack.tally[4 * LANES : 5 * LANES] = np.inf
+        pack.tally[5 * LANES :] = 0.0
         for particle in range(given.particles):
             cell = np.uint64(particle * dimensions * 3 * LANES)
             if iteration > 0:
@@ -220,9 +221,9 @@ def _run_pack(given: _Problems, outcome: _Outcome, pack: _Pack, lanes: np.uint64
                 _sum_gaps(pack.cells, cell, pack.aims, pack.tally, dimensions, lanes)
             if not given.orthonormal:
                 _sum_images(pack.cells, cell, pack.aims, pack.factor, pack.image, pack.tally, dimensions, lanes)
-            _judge(pack.tally, pack.best_fitness, np.uint64(particle * LANES), lanes)
+            _judge(pack.tally, pack.best_fitness, particle, lanes)
             _remember(pack.cells, cell, pack.tally, dimensions, lanes)
-        _lead(pack, given.ring, given.particles, dimensions, lanes)
+        _lead(pack, given.ring, given.particles, dimensions)
         if not _note(given, outcome, pack, iteration):
             break
 
@@ -234,27 +235,25 @@ def _move(
 ) -> None:  # fmt: skip
     """`velocity_update` and step of one particle, and with an orthonormal factor the sum of its squares, in one pass.
 
-    SFC64 (C. Doty-Humphrey, PractRand; as in numpy) is drawn twice per dimension, for r1 and r2.
+    SFC64 (C. Doty-Humphrey, PractRand; as in numpy) is drawn once per dimension, for both r1 and r2.
     """
+    # a power of two: the same bits as if r1 and r2 were divided by it (until positions come near the largest number)
+    cognitive *= _HALF_UNIT
+    social *= _HALF_UNIT
     for _ in range(dimensions):
         for lane in range(lanes):
             a = stream[lane]
             b = stream[_ONE + lane]
             c = stream[_TWO + lane]
             counter = stream[_THREE + lane]
-            drawn = a + b + counter
-            counter += np.uint64(1)
-            a = b ^ (b >> np.uint64(11))
-            b = c + (c << np.uint64(3))
-            c = ((c << np.uint64(24)) | (c >> np.uint64(40))) + drawn
-            # below 2^53, so the signed conversion is exact; it is one instruction, the unsigned one is many
-            r1 = np.float64(np.int64(drawn >> np.uint64(11))) * _UNIT
-            drawn = a + b + counter
+            word = a + b + counter
             stream[lane] = b ^ (b >> np.uint64(11))
             stream[_ONE + lane] = c + (c << np.uint64(3))
-            stream[_TWO + lane] = ((c << np.uint64(24)) | (c >> np.uint64(40))) + drawn
+            stream[_TWO + lane] = ((c << np.uint64(24)) | (c >> np.uint64(40))) + word
             stream[_THREE + lane] = counter + np.uint64(1)
-            r2 = np.float64(np.int64(drawn >> np.uint64(11))) * _UNIT
+            # signed conversions, exact for halves: one instruction each, where the unsigned ones are many
+            r1 = np.float64(np.int64(word & _LOWER_HALF))
+            r2 = np.float64(np.int64(word >> _HALF))
             position = cells[cell + lane]
             own_pull = (cells[cell + _TWO + lane] - position) * r1 * cognitive
             social_pull = (aims[aim + lane] - position) * r2 * social
@@ -317,16 +316,21 @@ def _sum_images(
 
 
 @_compiled
-def _judge(tally: Array, best_fitness: Array, particle: np.uint64, lanes: np.uint64) -> None:
-    """From one particle's sum of squares its RMS residual, and whether it is its best; NaN and infinity never are."""
+def _judge(tally: Array, best_fitness: Array, particle: int, lanes: np.uint64) -> None:
+    """Whether one particle's mean square is its best so far (NaN and infinity never are), and that the swarm's."""
+    first, number = np.uint64(particle * LANES), float(particle)
     for lane in range(lanes):
-        fitness = np.sqrt(tally[lane] + tally[_ONE + lane])
-        best = best_fitness[particle + lane]
+        fitness = tally[lane] + tally[_ONE + lane]
+        best = best_fitness[first + lane]
         better = fitness < best
+        best = fitness if better else best
+        leads = best < tally[_FOUR + lane]
         tally[lane] = 0.0
         tally[_TWO + lane] = 1.0 if better else 0.0
         tally[_THREE + lane] += 1.0 if fitness < np.inf else 0.0
-        best_fitness[particle + lane] = fitness if better else best
+        tally[_FOUR + lane] = best if leads else tally[_FOUR + lane]
+        tally[_FIVE + lane] = number if leads else tally[_FIVE + lane]
+        best_fitness[first + lane] = best
 
 
 @_compiled
@@ -340,24 +344,16 @@ def _remember(cells: Array, cell: np.uint64, tally: Array, dimensions: int, lane
 
 
 @_compiled
-def _lead(pack: _Pack, ring: bool, particles: int, dimensions: int, lanes: np.uint64) -> None:
-    """Find the best of each swarm, and let the particles follow it, or the best of three on their ring."""
-    best_fitness, leader_fitness, leader = pack.best_fitness, pack.leader_fitness, pack.leader
-    leader_fitness[:] = np.inf
-    leader[:] = 0
-    for particle in range(particles):
-        first = np.uint64(particle * LANES)
-        for lane in range(lanes):
-            candidate, best = best_fitness[first + lane], leader_fitness[lane]
-            leader[lane] = particle if candidate < best else leader[lane]
-            leader_fitness[lane] = candidate if candidate < best else best
+def _lead(pack: _Pack, ring: bool, particles: int, dimensions: int) -> None:
+    """Let the particles follow the best of their swarm, or the best of three on their ring."""
+    fitness = pack.best_fitness
     for particle in range(particles if ring else 1):
         for lane in range(LANES):
-            followed = leader[lane]
+            followed = int(pack.tally[5 * LANES + lane])
             if ring:
                 followed = particle
                 for neighbour in ((particle - 1) % particles, (particle + 1) % particles):
-                    if best_fitness[neighbour * LANES + lane] < best_fitness[followed * LANES + lane]:
+                    if fitness[neighbour * LANES + lane] < fitness[followed * LANES + lane]:
                         followed = neighbour
             for d in range(dimensions):
                 best = pack.cells[((followed * dimensions + d) * 3 + 2) * LANES + lane]
@@ -367,39 +363,48 @@ def _lead(pack: _Pack, ring: bool, particles: int, dimensions: int, lanes: np.ui
 @_compiled
 def _note(given: _Problems, outcome: _Outcome, pack: _Pack, iteration: int) -> bool:
     """Write down the swarms' progress and those that stop; whether any goes on."""
-    dimensions, last = given.targets.shape[1], len(given.coefficients)
+    last = len(given.coefficients)
+    pack.progress[iteration * LANES : (iteration + 1) * LANES] = pack.tally[4 * LANES : 5 * LANES]
     any_at_work = False
     for lane in range(LANES):
         if not pack.at_work[lane]:
             continue
-        swarm, fitness = pack.swarms[lane], pack.leader_fitness[lane]
-        outcome.history[swarm, iteration] = fitness
-        reached = fitness < given.threshold
-        gone = pack.tally[3 * LANES + lane] == 0.0 and not _any_finite(pack.cells, lane, given.particles, dimensions)
-        if not (reached or gone or iteration == last):
+        reached = pack.tally[4 * LANES + lane] < given.threshold
+        gone = pack.tally[3 * LANES + lane] == 0.0 and not _any_finite(given, pack, lane)
+        if reached or gone or iteration == last:
+            pack.at_work[lane] = False
+            outcome.codes[pack.swarms[lane]] = _THRESHOLD if reached else (_DIVERGED if gone else _OTHER)
+            _hand_over(outcome, pack, lane, iteration)
+        else:
             any_at_work = True
-            continue
-        pack.at_work[lane] = False
-        outcome.codes[swarm] = _THRESHOLD if reached else (_DIVERGED if gone else _OTHER)
-        outcome.iterations[swarm] = iteration
-        outcome.history[swarm, iteration:] = fitness
-        for k in range(4):
-            outcome.states[swarm, k] = pack.stream[k * LANES + lane]
-        if fitness < np.inf:
-            outcome.fitness[swarm] = fitness
-            for d in range(dimensions):
-                best = pack.cells[((pack.leader[lane] * dimensions + d) * 3 + 2) * LANES + lane]
-                outcome.positions[swarm, d] = best
     return any_at_work
 
 
 @_compiled
-def _any_finite(cells: Array, lane: int, particles: int, dimensions: int) -> bool:
+def _hand_over(outcome: _Outcome, pack: _Pack, lane: int, iteration: int) -> None:
+    """The result of a swarm that has stopped."""
+    swarm, dimensions = pack.swarms[lane], outcome.positions.shape[1]
+    fitness, leader = pack.tally[4 * LANES + lane], int(pack.tally[5 * LANES + lane])
+    outcome.iterations[swarm] = iteration
+    for k in range(4):
+        outcome.states[swarm, k] = pack.stream[k * LANES + lane]
+    for before in range(iteration):
+        outcome.history[swarm, before] = pack.progress[before * LANES + lane]
+    outcome.history[swarm, iteration:] = fitness
+    if fitness < np.inf:
+        outcome.fitness[swarm] = fitness
+        for d in range(dimensions):
+            outcome.positions[swarm, d] = pack.cells[((leader * dimensions + d) * 3 + 2) * LANES + lane]
+
+
+@_compiled
+def _any_finite(given: _Problems, pack: _Pack, lane: int) -> bool:
     """Whether any particle of a lane still has a finite position."""
-    for particle in range(particles):
+    dimensions = given.targets.shape[1]
+    for particle in range(given.particles):
         finite = True
         for d in range(dimensions):
-            finite = finite and np.isfinite(cells[(particle * dimensions + d) * 3 * LANES + lane])
+            finite = finite and np.isfinite(pack.cells[(particle * dimensions + d) * 3 * LANES + lane])
         if finite:
             return True
     return False

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import importlib.util
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -62,6 +62,10 @@ class LeastSquares:
 
     def __call__(self, positions: Array, swarms: NDArray[np.intp], /) -> Array:
         """The fitness of ``positions`` (n x particles x D) for the swarms numbered ``swarms``."""
+        return np.sqrt(self.mean_squares(positions, swarms))
+
+    def mean_squares(self, positions: Array, swarms: NDArray[np.intp], /) -> Array:
+        """The squares of the fitness; for a swarm, which only compares, as good as the fitness and cheaper."""
         if self.is_orthonormal:
             gaps = positions - self.targets[swarms, None, :]
         else:
@@ -70,7 +74,7 @@ class LeastSquares:
             gaps -= self.targets[swarms, None, :]
         squares = np.einsum("spd,spd->sp", gaps, gaps)
         squares += self.rests[swarms, None]
-        return np.sqrt(squares, out=squares)
+        return squares
 
 
 def minimise_least_squares(
@@ -99,14 +103,22 @@ def minimise_least_squares(
         raise ValueError(f"engine = {engine!r}: must be one of {', '.join(ENGINES)}")
     if len(generators) != len(problems.targets):
         raise ValueError(f"{len(generators)} generators for {len(problems.targets)} problems: one is needed for each")
-    if engine == "numpy" or (engine == "auto" and not _kernel_can_run(generators)):
-        return minimise(problems, lower, upper, generators, settings)
-    if not _kernel_can_run(generators):
+    if engine == "numba" and not _kernel_can_run(generators):
         raise ValueError("engine = 'numba': needs numba installed and SFC64 generators (see spawn_generators)")
-    from armscope.swarm.kernel import run_kernel  # numba takes a third of a second to import
+    squared = replace(settings, threshold=_square_of(settings.threshold))
+    if engine == "numpy" or not _kernel_can_run(generators):
+        result = minimise(problems.mean_squares, lower, upper, generators, squared)
+    else:
+        from armscope.swarm.kernel import run_kernel  # numba takes a third of a second to import
 
-    low, high = checked_box(lower, upper, len(generators))
-    return run_kernel(problems, low, high, generators, settings)
+        low, high = checked_box(lower, upper, len(generators))
+        result = run_kernel(problems, low, high, generators, squared)
+    return replace(result, fitness=np.sqrt(result.fitness), history=np.sqrt(result.history))
+
+
+def _square_of(threshold: float | None) -> float | None:
+    """A threshold for the mean square; an RMS is never below a threshold of zero or less."""
+    return None if threshold is None else max(threshold, 0.0) ** 2
 
 
 def _kernel_can_run(generators: Sequence[np.random.Generator]) -> bool:

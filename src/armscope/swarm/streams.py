@@ -1,7 +1,8 @@
 """One stream of random numbers for each swarm, so that no result depends on what else is computed beside it.
 
-Each swarm reads its stream in this order: the start positions, particles x dimensions; then in each iteration
-(r1, r2) for each dimension of each particle, particles x dimensions x 2.
+Each swarm reads its stream in this order: the start positions, particles x dimensions; then in each iteration one word
+of 64 bits for each dimension of each particle. The lower half of the word gives r1 and the upper half r2, in steps of
+2^-32: fine enough for a weight, and half the cost of two whole words.
 """
 
 from __future__ import annotations
@@ -16,6 +17,20 @@ def spawn_generators(seed: int | Sequence[int] | np.random.SeedSequence, count: 
     """``count`` independent generators (SFC64, numpy's fastest), spawned from one seed; equal for equal seeds."""
     sequence = seed if isinstance(seed, np.random.SeedSequence) else np.random.SeedSequence(seed)
     return [np.random.Generator(np.random.SFC64(child)) for child in sequence.spawn(count)]
+
+
+def draw_weights(generators: Sequence[np.random.Generator], weights: NDArray[np.float64]) -> None:
+    """Fill ``weights`` (swarms x particles x dimensions x 2) with (r1, r2) in [0, 1) for one iteration of each swarm."""
+    words = np.empty((len(weights), weights[0].size // 2), dtype="<u8")
+    for row, generator in enumerate(generators):
+        words[row] = _words(generator, words.shape[1])
+    np.multiply(words.view("<u4").reshape(weights.shape), 2.0**-32, out=weights)
+
+
+def _words(generator: np.random.Generator, count: int) -> NDArray[np.uint64]:
+    if isinstance(generator.bit_generator, np.random.SFC64):
+        return generator.bit_generator.random_raw(count)  # the same words as below, in half the time
+    return generator.integers(0, 2**64, size=count, dtype=np.uint64)
 
 
 def are_sfc64(generators: Sequence[np.random.Generator]) -> bool:
