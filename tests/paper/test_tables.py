@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from armscope.errormodels import FDP_AI, FDP_CI, fit_swarms
-from armscope.paper import claims, residual_table, sub_volumes, table2
+from armscope.paper import claims, cross_check, residual_table, sub_volumes, table2
 from armscope.paper.sub_volumes import _region, _split
 from armscope.swarm import SwarmSettings
 from tests.paper.conftest import ENSEMBLE, rss
@@ -165,3 +165,18 @@ def test_residuals_of_robots_without_fits_are_uncompensated_only(study, fits):
     lonely = table[table["robot"] == "ensemble 1"]
     assert set(lonely["method"]) == {"none"}
     assert isinstance(table, pd.DataFrame)
+
+
+def test_the_cross_check_compares_what_anchoring_was_not_told(fits, residuals):
+    table = cross_check(residuals, fits)
+    assert table["kind"].value_counts().to_dict() == {"slope": 12 + 18 + 24, "error": 60}
+    assert not table["number"].str.contains("Eq. (15)", regex=False).any()
+    row = cell(table, number="Eq. (9), x, theta3")
+    fit = next(f for f in fits if f.label == "anchored" and f.name == "FDP(AI)")
+    assert row["printed"] == 2.64
+    assert row["anchored"] == pytest.approx(fit.least_squares[0, list(fit.features.term_names).index("theta3")])
+    assert row["same_sign"] == 1  # told only Eqs. (15)-(17), every robot has the printed sign here
+    assert row["inside"] == (row["low"] <= 2.64 <= row["high"])
+    error = cell(table, number="FDP(CI), test 1, y")
+    keys = {"model": "FDP(CI)", "trajectory": "test 1", "axis": "y", "method": "least squares", "robot": "anchored"}
+    assert error["anchored"] == pytest.approx(cell(residuals, **keys)["rss_mm"], rel=1e-3)

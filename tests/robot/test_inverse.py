@@ -93,7 +93,7 @@ def test_the_first_point_may_be_far_from_the_start(arm):
 
 def test_an_unreachable_path_is_one_clear_error(arm):
     found = follow_path(arm, line([2.0, 0, 1.0], [4.0, 0, 1.0]), HOME, HELD)
-    with pytest.raises(InputError, match=r"trajectory II: point \d+: found 'beyond reach'.*held"):
+    with pytest.raises(InputError, match=r"trajectory II: point \d+: found '\(.*, 0, 1000\) mm: beyond reach'.*held"):
         found.require_all("trajectory II")
 
 

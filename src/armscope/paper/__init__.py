@@ -15,6 +15,7 @@ The way of a study, each step a pure function of the ones before:
     sub_volumes(study.measurements)                                           # one, two, four regions
     claims(residuals, fits, sub_volumes(...), fits_as_printed)                # verdicts
     reading(study.measurements.identification.nominal_mm)                     # Eqs. (15)-(17) as physics
+    cross_check(residuals, fits)                                              # printed numbers anchoring did not use
     audit()                                                                   # printed against printed
 
     rows = select_rows(recordings, run, first_id)                             # a real arm's
@@ -26,6 +27,7 @@ Everything here is in mm and rad, as the paper's equations.
 from armscope.paper.anchoring import ANCHORED, AnchoredRobots, anchor
 from armscope.paper.audit import AuditScope, audit
 from armscope.paper.claims import claims
+from armscope.paper.cross_check import cross_check
 from armscope.paper.measurements import Measurements, PoseSet, pose_arrays, pose_table
 from armscope.paper.printed import predict_printed, printed_coefficients, printed_matrix, printed_table2
 from armscope.paper.reading import reading
@@ -52,6 +54,7 @@ __all__ = [
     "anchor",
     "audit",
     "claims",
+    "cross_check",
     "identification_poses",
     "measure_virtual",
     "paper_paths_mm",

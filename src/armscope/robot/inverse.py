@@ -37,10 +37,12 @@ class PathSolution:
     """Motor angles along a path of N points.
 
     Attributes:
+        targets: (N, 3) where the tool should be, in the base frame, m.
         motor_angles: (N, m) rad; NaN in rows that can't be reached.
         reasons: (N,) "" where reached, else "beyond reach", "limit of joint j" or "jump of joint j".
     """
 
+    targets: Array
     motor_angles: Array
     reasons: NDArray[np.str_]
 
@@ -59,10 +61,11 @@ class PathSolution:
         missed = np.flatnonzero(~self.reached)
         if len(missed):
             row = int(missed[0])
+            place = ", ".join(f"{value:.6g}" for value in self.targets[row] * 1e3)
             raise InputError(
                 source,
                 f"point {row + 1}",
-                str(self.reasons[row]),
+                f"({place}) mm: {self.reasons[row]}",
                 f"every point of a path must be within reach, {len(missed)} of {len(self.reasons)} are not",
                 "Move the path, or free a motor that is held.",
             )
@@ -109,7 +112,7 @@ def follow_path(
         skipped, reached_any = 0, True
     unexplained = np.flatnonzero(np.isnan(solutions).any(axis=1) & (reasons == ""))
     reasons[unexplained] = _reasons(arm, targets, solutions, unexplained, held)
-    return PathSolution(solutions, reasons)
+    return PathSolution(targets, solutions, reasons)
 
 
 class _Newton:
