@@ -4,6 +4,7 @@ configfile: "config/config.yaml"
 
 include: "workflow/rules/common.smk"
 include: "workflow/rules/paper.smk"
+include: "workflow/rules/real.smk"
 
 
 localrules:
@@ -17,6 +18,8 @@ rule all:
 
 
 onsuccess:
-    print(
-        f"\nTable 2    {RESULTS}/paper/table2.html\nfigures    {RESULTS}/paper/figures/\nreport     {RESULTS}/paper/report.html"
-    )
+    for name, reason in SKIPPED.items():
+        print(f"skipped    real arm {name}: {reason}")
+    print(f"Table 2    {PAPER}/table2.html ({PAPER}/table2.csv)")
+    print(f"figures    {PAPER}/figures/")
+    print(f"report     {PAPER}/report.html")

@@ -26,7 +26,7 @@ def settings(**parts):
 
 
 def _plain(part):
-    if isinstance(part, tuple):
+    if isinstance(part, (tuple, list)):
         return [_plain(each) for each in part]
     return part.model_dump(mode="json") if hasattr(part, "model_dump") else part
 
@@ -34,3 +34,18 @@ def _plain(part):
 def code(*modules):
     """A digest of the package's sources that a rule uses, so that a changed one reruns it."""
     return digest(*modules)
+
+
+def _missing(arm):
+    files = [f"{RECORDINGS}/{arm.recordings}", f"{RECORDINGS}/{arm.robot}"]
+    return next((file for file in files if not Path(file).is_file()), None)
+
+
+# real arms whose recordings are there; the others are skipped with a reason
+SKIPPED = {name: f"{_missing(arm)} is not there" for name, arm in CONFIG.real.items() if _missing(arm)}
+REAL = [name for name in CONFIG.real if name not in SKIPPED]
+
+
+wildcard_constraints:
+    study=r"paper|real/\w+/paper",
+    set=r"\w+",

@@ -29,11 +29,12 @@ rule measure:
 
 
 rule fit:
+    # of any study: the virtual SK120's, or a real arm's
     input:
-        poses=rules.measure.output.poses,
-        errors=rules.measure.output.errors,
+        poses=f"{RESULTS}/{{study}}/poses.csv",
+        errors=f"{RESULTS}/{{study}}/errors.csv.gz",
     output:
-        f"{PAPER}/fits.json.gz",
+        f"{RESULTS}/{{study}}/fits.json.gz",
     params:
         settings=settings(
             seed=CONFIG.seed,
@@ -43,7 +44,7 @@ rule fit:
         ),
         code=code("armscope.cli.paper:fit"),
     log:
-        f"{RESULTS}/logs/fit.log",
+        f"{RESULTS}/logs/{{study}}/fit.log",
     shell:
         "armscope paper fit {input.poses} {input.errors} --settings {params.settings:q} -o {output} > {log} 2>&1"
 
@@ -71,29 +72,30 @@ rule fit_as_printed:
 
 rule residuals:
     input:
-        poses=rules.measure.output.poses,
-        errors=rules.measure.output.errors,
-        fits=rules.fit.output,
+        poses=f"{RESULTS}/{{study}}/poses.csv",
+        errors=f"{RESULTS}/{{study}}/errors.csv.gz",
+        fits=f"{RESULTS}/{{study}}/fits.json.gz",
     output:
-        residuals=f"{PAPER}/residuals.csv.gz",
-        table2=f"{PAPER}/table2.csv",
-        coefficients=f"{PAPER}/coefficients.csv",
+        residuals=f"{RESULTS}/{{study}}/residuals.csv.gz",
+        table2=f"{RESULTS}/{{study}}/table2.csv",
+        coefficients=f"{RESULTS}/{{study}}/coefficients.csv",
     params:
-        folder=PAPER,
+        folder=lambda wildcards: f"{RESULTS}/{wildcards.study}",
+        beside=lambda wildcards: "--beside-printed" if wildcards.study == "paper" else "--no-beside-printed",
         code=code("armscope.cli.paper:residuals"),
     log:
-        f"{RESULTS}/logs/residuals.log",
+        f"{RESULTS}/logs/{{study}}/residuals.log",
     shell:
-        "armscope paper residuals {input.poses} {input.errors} {input.fits} -o {params.folder} > {log} 2>&1"
+        "armscope paper residuals {input.poses} {input.errors} {input.fits} {params.beside} -o {params.folder} > {log} 2>&1"
 
 
 rule claims:
     input:
         poses=rules.measure.output.poses,
         errors=rules.measure.output.errors,
-        fits=rules.fit.output,
+        fits=f"{PAPER}/fits.json.gz",
         as_printed=rules.fit_as_printed.output,
-        residuals=rules.residuals.output.residuals,
+        residuals=f"{PAPER}/residuals.csv.gz",
     output:
         claims=f"{PAPER}/claims.csv",
         sub_volumes=f"{PAPER}/sub_volumes.csv",
@@ -103,7 +105,7 @@ rule claims:
     log:
         f"{RESULTS}/logs/claims.log",
     shell:
-        "armscope paper claims {input} -o {params.folder} > {log} 2>&1"
+        "armscope paper claims {input.poses} {input.errors} {input.fits} {input.as_printed} {input.residuals} -o {params.folder} > {log} 2>&1"
 
 
 rule audit:
@@ -148,17 +150,17 @@ rule convergence:
 
 rule figure:
     input:
-        poses=rules.measure.output.poses,
-        errors=rules.measure.output.errors,
-        fits=rules.fit.output,
+        poses=f"{RESULTS}/{{study}}/poses.csv",
+        errors=f"{RESULTS}/{{study}}/errors.csv.gz",
+        fits=f"{RESULTS}/{{study}}/fits.json.gz",
     output:
-        multiext(f"{PAPER}/figures/{{figure}}", ".png", ".svg", ".pdf"),
+        multiext(f"{RESULTS}/{{study}}/figures/{{figure}}", ".png", ".svg", ".pdf"),
     wildcard_constraints:
         figure=r"fig\d\d",
     params:
         code=code("armscope.cli.paper:figure"),
     log:
-        f"{RESULTS}/logs/{{figure}}.log",
+        f"{RESULTS}/logs/{{study}}/{{figure}}.log",
     shell:
         "armscope paper figure {wildcards.figure} {input.poses} {input.errors} {input.fits} -o {output[0]} > {log} 2>&1"
 
@@ -181,10 +183,35 @@ rule figures:
         expand(f"{PAPER}/figures/{{figure}}.png", figure=[*FIGURES, "convergence"]),
 
 
+rule paper_report:
+    input:
+        figures=rules.figures.input,
+        tables=expand(
+            f"{PAPER}/{{table}}.csv",
+            table="table2 claims coefficients convergence audit reading observability robots".split(),
+        ),
+        real_tables=expand(f"{RESULTS}/real/{{set}}/paper/table2.csv", set=REAL),
+        real_figures=expand(f"{RESULTS}/real/{{set}}/paper/figures/fig04.svg", set=REAL),
+    output:
+        page=f"{PAPER}/report.html",
+        table2=f"{PAPER}/table2.html",
+    params:
+        folder=PAPER,
+        settings=settings(
+            seed=CONFIG.seed,
+            paper=CONFIG.paper,
+            real=tuple(
+                {"title": arm.title, "folder": f"{RESULTS}/real/{name}/paper" if name in REAL else None, "reason": SKIPPED.get(name)}
+                for name, arm in CONFIG.real.items()
+            ),
+        ),
+        code=code("armscope.cli.paper:report"),
+    log:
+        f"{RESULTS}/logs/paper_report.log",
+    shell:
+        "armscope paper report {params.folder} --settings {params.settings:q} -o {output.page} > {log} 2>&1"
+
+
 rule paper:
     input:
-        rules.figures.input,
-        rules.residuals.output,
-        rules.claims.output,
-        rules.audit.output,
-        rules.reading.output,
+        rules.paper_report.output,

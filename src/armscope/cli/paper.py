@@ -83,6 +83,30 @@ def measure(
     write_table(output / "observability.csv", _observability(choice))
 
 
+@app.command("measure-real")
+def measure_real(
+    recordings: Annotated[Path, typer.Argument(help="recordings of a real arm")],
+    robot: Annotated[Path, typer.Argument(help="its robot.yaml")],
+    settings: Settings,
+    output: Annotated[Path, typer.Option("--output", "-o", help="folder for poses, errors and observability")],
+) -> None:
+    """Take identification and held-out rows from real recordings, in the form of the paper's measurements."""
+    from armscope.cli.paper_settings import RealSettings
+    from armscope.files import write_table
+    from armscope.paper.real import real_measurements, select_rows
+    from armscope.recordings import read_recordings
+    from armscope.robot import load_arm
+
+    chosen = _settings(RealSettings, settings)
+    arm = load_arm(robot)
+    rows = select_rows(read_recordings(recordings, arm.n_motors), chosen.run, chosen.first_id)
+    study = real_measurements(arm, rows, chosen.seed, chosen.poses)
+    pose_rows, error_rows = study.measurements.to_tables()
+    write_table(output / "poses.csv", pose_rows)
+    write_table(output / "errors.csv.gz", error_rows)
+    write_table(output / "observability.csv", _observability(study.choice))
+
+
 @app.command()
 def fit(poses: Poses, errors: Errors, settings: Settings, output: Output) -> None:
     """Fit the error models by particle swarm: many seeds on the first robot, fewer on the ensemble."""
@@ -109,6 +133,7 @@ def residuals(
     errors: Errors,
     fits: Annotated[Path, typer.Argument(help="fits.json.gz of a study")],
     output: Annotated[Path, typer.Option("--output", "-o", help="folder for the tables")],
+    beside_printed: Annotated[bool, typer.Option(help="beside what the paper prints of its own arm")] = True,
 ) -> None:
     """Table 2 and the coefficients: what every fit leaves of the errors, beside what the paper prints."""
     from armscope.files import write_table
@@ -118,9 +143,11 @@ def residuals(
     measurements, fitted = _measurements(poses, errors), _read_fits(fits)
     rows = residual_table(measurements, fitted)
     write_table(output / "residuals.csv.gz", rows)
-    write_table(output / "table2.csv", table2(rows), digits=6)
     of_first = [fit for fit in fitted if fit.label == measurements.robots[0]]
-    write_table(output / "coefficients.csv", coefficient_table(of_first), digits=6)
+    tables = {"table2": table2(rows), "coefficients": coefficient_table(of_first)}
+    for name, table in tables.items():
+        about_the_paper = [] if beside_printed else ["printed", "rss_ratio", "rms_ratio", "equation"]
+        write_table(output / f"{name}.csv", table.drop(columns=about_the_paper, errors="ignore"), digits=6)
 
 
 @app.command("claims")
@@ -215,6 +242,24 @@ def convergence_figure(
     from armscope.report.style import save_figure
 
     save_figure(convergence(pd.read_csv(history)), output)
+
+
+@app.command()
+def report(
+    results: Annotated[Path, typer.Argument(help="folder with the study's tables and figures")],
+    settings: Settings,
+    output: Annotated[Path, typer.Option("--output", "-o", help="report.html; table2.html is written beside it")],
+) -> None:
+    """One page that shows what the paper claimed, what holds, and what is assumed."""
+    import pandas as pd
+
+    from armscope.cli.paper_settings import ReportSettings
+    from armscope.report.paper_page import RealArm, write_paper_page, write_table2
+
+    chosen = _settings(ReportSettings, settings)
+    arms = [RealArm(arm.title, Path(arm.folder) if arm.folder else None, arm.reason) for arm in chosen.real]
+    write_table2(output.with_name("table2.html"), pd.read_csv(results / "table2.csv"))
+    write_paper_page(output, chosen.paper, chosen.seed, results, results / "figures", arms)
 
 
 def _settings(model: type[Model], text: str) -> Model:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from armscope.config import Audit, Count, Identification, Model, Swarm, Tolerances, Tracker, Trajectories
+from armscope.config import Audit, Count, Identification, Model, Paper, Swarm, Tolerances, Tracker, Trajectories
 from armscope.errormodels import ModelSpec
 from armscope.inputs import Strict
 from armscope.paper import AuditScope
@@ -36,6 +36,31 @@ class SwarmStudySettings(Strict):
     seed: int
     models: tuple[Model, ...]
     swarm: Swarm
+
+
+class RealSettings(Strict):
+    """`armscope paper measure-real`."""
+
+    seed: int
+    poses: Count
+    run: str | None
+    first_id: int | None
+
+
+class ReportedArm(Strict):
+    """A real arm in the report: where its results are, or why there are none."""
+
+    title: str
+    folder: str | None = None
+    reason: str | None = None
+
+
+class ReportSettings(Strict):
+    """`armscope paper report`."""
+
+    seed: int
+    paper: Paper
+    real: tuple[ReportedArm, ...]
 
 
 class AuditSettings(Strict):

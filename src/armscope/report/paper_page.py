@@ -1,0 +1,134 @@
+"""The page of the reproduction: what the paper claims, what holds, and what is assumed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from armscope.config import Paper, stated_numbers
+from armscope.paper.convergence import iterations_needed
+from armscope.paper.printed import AXES, TRAJECTORIES, UNCOMPENSATED
+from armscope.report.page import significant, write_page
+
+TAGS = {"holds": "holds", "does not hold": "fails", "depends": "depends"}
+
+
+@dataclass(frozen=True)
+class Row:
+    """One line of the rendered Table 2."""
+
+    label: str
+    cells: tuple[str, ...]
+    kind: str
+
+
+@dataclass(frozen=True)
+class RealArm:
+    """A real arm in the report: the folder of its study, or why it was skipped."""
+
+    title: str
+    folder: Path | None
+    reason: str | None
+
+    @property
+    def figure(self) -> Path:
+        """The plot like Fig. 4."""
+        assert self.folder is not None
+        return self.folder / "figures" / "fig04.svg"
+
+    @property
+    def table(self) -> pd.DataFrame:
+        """In the form of Table 2: one row per model, RMS (mean) per axis and 3D in mm, identification and held out."""
+        assert self.folder is not None
+        table = pd.read_csv(self.folder / "table2.csv")
+        wide = table.pivot_table(index="model", columns=["trajectory", "axis"], values="rms_median", sort=False)
+        rows = table.groupby("trajectory", sort=False)["points"].first()
+        columns: list[tuple[str, str]] = wide.columns.to_list()
+        names = [f"{trajectory} ({rows[trajectory]} rows), {axis}" for trajectory, axis in columns]
+        return wide.set_axis(names, axis=1).reset_index().rename(columns={"model": "RMS error in mm"})
+
+
+def table2_blocks(table: pd.DataFrame, reading: str = "rss") -> list[tuple[str, list[Row]]]:
+    """The rendered Table 2: by model, one line per quantity, one cell per trajectory and axis.
+
+    Args:
+        table: as `armscope.paper.table2` returns it.
+        reading: of "RMS": "rss" (root of the sum of squares) or "rms" (of their mean), mm.
+    """
+    cells = table[table["axis"].isin(AXES)].set_index(["model", "trajectory", "axis"])
+    columns = pd.MultiIndex.from_product([TRAJECTORIES, AXES])
+    blocks = []
+    for model in dict.fromkeys(table["model"]):
+        of_model = cells.loc[model].reindex(columns).to_dict("records")
+        rows = [
+            Row("printed", _numbers(of_model, "printed"), "printed"),
+            Row("ours, median over seeds", _numbers(of_model, f"{reading}_median"), "ours"),
+        ]
+        if model != UNCOMPENSATED:
+            rows.append(Row("range over seeds", _ranges(of_model, f"{reading}_low", f"{reading}_high"), "quiet"))
+            rows.append(Row("least squares", _numbers(of_model, f"{reading}_least_squares"), "quiet"))
+        rows.append(
+            Row("ensemble, 5-95 %", _ranges(of_model, f"{reading}_ensemble_low", f"{reading}_ensemble_high"), "quiet")
+        )
+        rows.append(Row("ours / printed", _numbers(of_model, f"{reading}_ratio", "×"), "ratio"))
+        blocks.append((model, [row for row in rows if set(row.cells) != {"–"}]))
+    return blocks
+
+
+def _numbers(cells: list[Any], column: str, sign: str = "") -> tuple[str, ...]:
+    return tuple("–" if pd.isna(cell[column]) else f"{sign}{significant(cell[column], 2)}" for cell in cells)
+
+
+def _ranges(cells: list[Any], low: str, high: str) -> tuple[str, ...]:
+    pairs = [
+        ("–", "–") if pd.isna(cell[low]) else (significant(cell[low], 2), significant(cell[high], 2)) for cell in cells
+    ]
+    return tuple(first if first == second else f"{first}–{second}" for first, second in pairs)
+
+
+def write_table2(path: Path, table: pd.DataFrame) -> None:
+    """Table 2 as a page of its own."""
+    write_page(path, "table2.html.j2", blocks=table2_blocks(table), trajectories=TRAJECTORIES)
+
+
+def write_paper_page(path: Path, paper: Paper, seed: int, results: Path, figures: Path, real: list[RealArm]) -> None:
+    """The report of the reproduction.
+
+    Args:
+        path: report.html.
+        paper: the configuration of the study.
+        seed: of the study.
+        results: the folder with its tables.
+        figures: the folder with its figures (SVG).
+        real: real arms.
+    """
+    table = pd.read_csv(results / "table2.csv")
+    claims = pd.read_csv(results / "claims.csv")
+    audit = pd.read_csv(results / "audit.csv")
+    write_page(
+        path,
+        "paper.html.j2",
+        seed=seed,
+        swarm=paper.swarm,
+        robots=paper.ensemble.robots,
+        poses=paper.identification.poses.value,
+        claims=claims.to_dict("records"),
+        tags=TAGS,
+        verdicts=claims["verdict"].value_counts().to_dict(),
+        significant=significant,
+        blocks=table2_blocks(table),
+        trajectories=TRAJECTORIES,
+        coefficients=pd.read_csv(results / "coefficients.csv"),
+        needed=iterations_needed(pd.read_csv(results / "convergence.csv")),
+        audit=audit,
+        audited=audit[audit["check"] == "all together"],
+        reading=pd.read_csv(results / "reading.csv"),
+        observability=pd.read_csv(results / "observability.csv"),
+        anchored=pd.read_csv(results / "robots.csv"),
+        assumptions=pd.DataFrame(stated_numbers(paper)),
+        figures=figures,
+        real=real,
+    )

@@ -1,0 +1,24 @@
+# The paper's models on real arms: identification rows chosen in the same way, the rest held out.
+
+
+rule measure_real:
+    input:
+        recordings=lambda wildcards: f"{RECORDINGS}/{CONFIG.real[wildcards.set].recordings}",
+        robot=lambda wildcards: f"{RECORDINGS}/{CONFIG.real[wildcards.set].robot}",
+    output:
+        poses=f"{RESULTS}/real/{{set}}/paper/poses.csv",
+        errors=f"{RESULTS}/real/{{set}}/paper/errors.csv.gz",
+        observability=f"{RESULTS}/real/{{set}}/paper/observability.csv",
+    params:
+        folder=lambda wildcards: f"{RESULTS}/real/{wildcards.set}/paper",
+        settings=lambda wildcards: settings(
+            seed=CONFIG.seed,
+            poses=CONFIG.paper.identification.poses.value,
+            run=CONFIG.real[wildcards.set].run,
+            first_id=CONFIG.real[wildcards.set].first_id,
+        ),
+        code=code("armscope.cli.paper:measure_real"),
+    log:
+        f"{RESULTS}/logs/real/{{set}}/measure.log",
+    shell:
+        "armscope paper measure-real {input.recordings} {input.robot} --settings {params.settings:q} -o {params.folder} > {log} 2>&1"
