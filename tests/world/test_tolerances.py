@@ -7,6 +7,7 @@ from armscope.robot import chain, forward_kinematics
 from armscope.robot.arm import build_arm
 from armscope.robot.description import RobotDescription
 from armscope.world.tolerances import geometric_errors
+from tests.robot.arms import STANDARD, as_urdf
 
 KEYS = {"a": "a_mm", "alpha": "alpha_deg", "d": "d_mm", "theta": "theta_offset_deg"}
 ROWS = [
@@ -74,3 +75,15 @@ def test_the_base_is_registered_with_its_own_tolerance():
     moved = errors.positions(Q, turn)[0] - nominal
     assert np.allclose(moved[:, 2], 0, atol=1e-15)
     assert np.allclose(np.linalg.norm(moved, axis=1), 2e-3 * np.hypot(nominal[:, 0], nominal[:, 1]), rtol=1e-5)
+
+
+def test_a_urdf_has_frames_that_are_shifted_and_turned(tmp_path):
+    file = tmp_path / "arm.urdf"
+    file.write_text(as_urdf(STANDARD))
+    errors = geometric_errors(build_arm(RobotDescription(name="u", urdf=str(file), tip="flange")))
+    assert len(errors.names) == 6 + 6 * 6
+    angles = np.random.default_rng(2).uniform(-1, 1, (5, 6))
+    jacobian = errors.jacobian(chain(errors.arm, angles))
+    unit = np.eye(len(errors.names))[errors.names.index("ry3")] * 1e-3
+    slope = (errors.positions(angles, unit)[0] - errors.positions(angles, -unit)[0]) / 2e-3
+    assert np.abs(jacobian[:, :, errors.names.index("ry3")] - slope).max() < 1e-9

@@ -64,31 +64,42 @@ class GeometricErrors:
 def geometric_errors(
     arm: Arm, link_m: float = 1e-3, link_rad: float = 1e-3, base_m: float = 3e-3, base_rad: float = 3e-3
 ) -> GeometricErrors:
-    """The errors of an arm that is described by D-H rows, with one-sigma sizes per link and for the base.
+    """The geometric errors of an arm, with one-sigma sizes per link and for the base.
 
-    Raises:
-        ValueError: the arm is described by a URDF.
+    D-H rows give their values' errors; a URDF has no such rows, so each joint's frame may be shifted and turned.
     """
+    rows = [(name, "base", twist, base_rad if angular else base_m, angular) for name, twist, angular in _frame("base ")]
+    for number in range(1, arm.n_joints + 1):
+        location, errors = _of_joint(arm, number)
+        rows += [(name, location, twist, link_rad if angular else link_m, angular) for name, twist, angular in errors]
+    names, locations, directions, sigmas, angulars = zip(*rows, strict=True)
+    return GeometricErrors(arm, names, locations, np.array(directions), np.array(sigmas), np.array(angulars))
+
+
+UnitError = tuple[str, Array, bool]
+"""Name, twist of a unit error, whether it is an angle."""
+
+
+def _frame(prefix: str = "", suffix: str = "") -> list[UnitError]:
+    """Shifts and turns of a whole frame."""
+    names = ("x", "y", "z", "rx", "ry", "rz")
+    return [
+        (f"{prefix}{name}{suffix}", twist, k >= 3) for k, (name, twist) in enumerate(zip(names, np.eye(6), strict=True))
+    ]
+
+
+def _of_joint(arm: Arm, number: int) -> tuple[str, list[UnitError]]:
+    """Where the errors of row ``number`` act, and what they are."""
     if arm.description.dh is None:
-        raise ValueError(f"{arm.name} is described by a URDF: geometric errors are those of D-H rows")
-    rows: list[tuple[str, str, Array, float, bool]] = []
-    for axis, unit in enumerate(np.eye(6)):
-        rotation = axis >= 3
-        name = ("base x", "base y", "base z", "base rx", "base ry", "base rz")[axis]
-        rows.append((name, "base", unit, base_rad if rotation else base_m, rotation))
-    twists = _modified_row if arm.is_modified_dh else _standard_row
-    for number, row in enumerate(arm.description.dh.joints, start=1):
-        alpha, a, d = np.radians(row.alpha_deg), row.a_mm * 1e-3, row.d_mm * 1e-3
-        location, directions = twists(a, alpha, d)
-        parallel = abs(np.sin(alpha)) < PARALLEL and 0 < number - arm.is_modified_dh < arm.n_joints
-        for name, direction in directions.items():
-            if name == "beta" and not parallel:
-                continue
-            angular = name not in ("a", "d")
-            sigma = link_rad if angular else link_m
-            rows.append((f"{name}{number}", f"{location} {number}", direction, sigma, angular))
-    names, locations, columns, sigmas, angular_flags = zip(*rows, strict=True)
-    return GeometricErrors(arm, names, locations, np.array(columns), np.array(sigmas), np.array(angular_flags))
+        return f"joint {number}", _frame(suffix=str(number))
+    row = arm.description.dh.joints[number - 1]
+    alpha, a, d = np.radians(row.alpha_deg), row.a_mm * 1e-3, row.d_mm * 1e-3
+    location, directions = (_modified_row if arm.is_modified_dh else _standard_row)(a, alpha, d)
+    between_axes = 0 < number - arm.is_modified_dh < arm.n_joints
+    if abs(np.sin(alpha)) >= PARALLEL or not between_axes:
+        del directions["beta"]
+    errors = [(f"{name}{number}", twist, name not in ("a", "d")) for name, twist in directions.items()]
+    return f"{location} {number}", errors
 
 
 def _standard_row(a: float, alpha: float, d: float) -> tuple[str, dict[str, Array]]:
