@@ -81,7 +81,8 @@ def inclusion(
     for _ in range(draws):
         times = np.bincount(rng.integers(0, len(blocks), len(blocks)), minlength=len(blocks))
         gram = _weighted(blocks, times)
-        again = Search.on(problem.with_gram(gram), beam=1, branches=2).best(starts=(best.background,))
+        search = Search.on(problem.with_gram(gram), beam=1, branches=2)
+        again = search.best(starts=(best.background,), also=best)
         found = {_place(problem.pool.candidates[c]) for c in again.candidates}
         for candidate, place in places.items():
             hits[candidate] += place in found

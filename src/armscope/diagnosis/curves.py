@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from armscope.diagnosis.verdict import Curve
 from armscope.physics.drivers import cubic_spline
-from armscope.physics.effect import Driver, Placed
+from armscope.physics.effect import ONE, Driver, Placed
 from armscope.physics.scene import Scene
 
 Array = NDArray[np.float64]
@@ -20,7 +20,8 @@ UNITS = {"angle": "rad", "torque": "N m", "hours": "h", "warmth": "K above 20 C"
 
 def source_of(placed: Placed) -> Driver | None:
     """The one driver that all of an effect's terms are functions of; None where there are several or none."""
-    sources = {_root(product.driver) for term in placed.terms for product in term.products}
+    drivers = {product.driver for term in placed.terms for product in term.products}
+    sources = {_root(driver) for driver in drivers if driver != ONE}
     return sources.pop() if len(sources) == 1 else None
 
 
@@ -67,7 +68,7 @@ def _value(driver: Driver, at: Array) -> Array:
         return np.cos(float(driver.arguments[1]) * at)  # type: ignore[arg-type]
     if driver.kind == "spline":
         return cubic_spline(at, float(driver.arguments[1]), float(driver.arguments[2]))  # type: ignore[arg-type]
-    return at
+    return np.ones_like(at) if driver == ONE else at
 
 
 def _periods(placed: Placed, values: Array) -> tuple[tuple[int, float], ...]:

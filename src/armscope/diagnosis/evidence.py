@@ -24,12 +24,20 @@ TOLERANCE = 1.0e-3
 """Geometric tolerance of an industrial arm: 1 mm and 1 mrad per D-H value."""
 BACKGROUND_SIZES = (0.003, 0.03, 0.1, 0.3, 1.0)
 """Shares of the tolerance among which the background's size is averaged: from a perfect arm to an ordinary one."""
+FAMILY_SIZES = 4
+"""Sizes of an elastic or transmission background: none, then the smallest of the effects' sizes."""
+BACKGROUND_CAUTION_NATS = 2.0
+"""What an elastic or transmission background costs."""
+PERFECT = (0, 0, 0)
 SIZES = 5
 """How many effect sizes are averaged, evenly in the logarithm between the noise and the mismatch."""
 CAUTION_NATS = 1.5
 """What any name costs on top of its share of the library."""
 NOISE_STEPS = 3
 NOISE_SETTLED = 3e-3
+
+
+Background = tuple[int, ...]
 
 
 @dataclass(frozen=True)
@@ -113,7 +121,8 @@ class Hypothesis:
 
     Attributes:
         chosen: its effects.
-        background: index into `BACKGROUND_SIZES`.
+        background: size of each family's background: an index into `BACKGROUND_SIZES` for the geometric one; 0 for
+            none or 1 + an index into the problem's sizes for the others.
         noise: mm per axis.
         value: log evidence with prior, nats.
         columns: columns of the pool that take part, ascending.
@@ -124,7 +133,7 @@ class Hypothesis:
     """
 
     chosen: tuple[Chosen, ...]
-    background: int
+    background: Background
     noise: float
     value: float
     columns: Indices = field(repr=False)
@@ -146,7 +155,7 @@ class Hypothesis:
         return full
 
 
-def weigh(problem: Problem, chosen: tuple[Chosen, ...], background: int, noise: float) -> Hypothesis:
+def weigh(problem: Problem, chosen: tuple[Chosen, ...], background: Background, noise: float) -> Hypothesis:
     """Evidence of a hypothesis; the noise starts from ``noise`` and is re-estimated (MacKay 1992)."""
     prior = prior_variances(problem, chosen, background)
     columns = np.flatnonzero(prior > 0)
@@ -170,6 +179,7 @@ def weigh(problem: Problem, chosen: tuple[Chosen, ...], background: int, noise: 
     logdet = 2 * np.sum(np.log(np.diag(factor))) + np.sum(np.log(variance)) - 2 * len(columns) * np.log(noise)
     evidence = -problem.n * np.log(noise) - 0.5 * logdet - 0.5 * rss / noise**2
     paid = sum(problem.costs[c.candidate] + np.log(len(problem.sizes)) for c in chosen)
+    paid += BACKGROUND_CAUTION_NATS * np.count_nonzero(background[1:])
     return Hypothesis(chosen, background, noise, float(evidence - paid), columns, variance, factor, inverse, mean, rss)
 
 
@@ -208,17 +218,27 @@ def losses(problem: Problem, hypothesis: Hypothesis) -> Array:
     return np.array(lost)
 
 
-def prior_variances(problem: Problem, chosen: tuple[Chosen, ...], background: int) -> Array:
+def prior_variances(problem: Problem, chosen: tuple[Chosen, ...], background: Background) -> Array:
     """(p,) prior variances of the scaled columns, mm^2; zero where a column takes no part."""
     prior = np.zeros(len(problem.scale))
     pool = problem.pool
-    tolerance = BACKGROUND_SIZES[background] * TOLERANCE
-    prior[pool.background] = (tolerance * problem.scale[pool.background]) ** 2
+    geometric, *others = pool.background
+    tolerance = BACKGROUND_SIZES[background[0]] * TOLERANCE
+    prior[geometric] = (tolerance * problem.scale[geometric]) ** 2
+    for size, columns in zip(background[1:], others, strict=True):
+        if size:
+            prior[columns] += problem.sizes[size - 1] ** 2
     prior[pool.frames] = FRAME_PRIOR_MM**2
     for c in chosen:
         shape = np.array(pool.candidates[c.candidate].shape)
         prior[pool.columns[c.candidate]] += (problem.sizes[c.size] * shape) ** 2
     return prior
+
+
+def background_sizes(problem: Problem, hypothesis: Hypothesis) -> tuple[float, ...]:
+    """Size of each family's background: share of the tolerance for the geometric one, mm at the tool for the others."""
+    first, *others = hypothesis.background
+    return BACKGROUND_SIZES[first], *(float(problem.sizes[size - 1]) if size else 0.0 for size in others)
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from armscope.diagnosis import certainty
 from armscope.diagnosis.atlas import atlas
 from armscope.diagnosis.curves import curve_of
-from armscope.diagnosis.evidence import BACKGROUND_SIZES, Hypothesis, Problem
+from armscope.diagnosis.evidence import Hypothesis, Problem, background_sizes
 from armscope.diagnosis.nextposes import next_poses
 from armscope.diagnosis.noise import Noise
 from armscope.diagnosis.parameters import parameters
@@ -31,6 +31,7 @@ from armscope.diagnosis.verdict import (
     Verdict,
     WaterfallStep,
 )
+from armscope.physics.backgrounds import FAMILIES
 from armscope.physics.effect import Placed
 from armscope.physics.model import FittedModel
 from armscope.physics.scene import Part, Scene
@@ -39,8 +40,9 @@ from armscope.recordings import Recordings
 Array = NDArray[np.float64]
 Progress = Callable[[str, float], None]
 
-MINOR_SHARE = 0.01
-"""Effects worth less of the residual variance are apart from the story."""
+MINOR_SHARE, MINOR_SHARE_OF_PERFECT_ARM = 0.025, 0.001
+"""Effects worth less of the residual variance are apart from the story: in an arm with small errors everywhere, and in
+one that is perfect but for what is named."""
 NOISE_EXCESS = 1.15
 """A residual this many times the stated noise is more than the noise."""
 BACKGROUND_SEEN_NATS = 5.0
@@ -86,8 +88,8 @@ def judge(
         tell("validating on held-out rows", 0.75)
         held_out, waterfall = cross_validate(problem, evidence.blocks, evidence.layout, best, order)
     tell("drawing the atlas", 0.9)
-    background = _background(evidence, search, variance)
-    effects = tuple(found[c] for c in order)
+    background = _backgrounds(evidence, search, variance)
+    effects = tuple(_with_weight(found[c], background) for c in order)
     unexplained = _unexplained(effects, evidence)
     answer, mismatch = _answer(effects, background, unexplained, evidence)
     separating = next_poses(search, best, rivals, fit, evidence.recordings, rng)
@@ -104,7 +106,8 @@ def judge(
         residual_before_mm=float(np.sqrt(variance)),
         residual_after_mm=_weighted_rms(fit),
         effects=effects,
-        background=background,
+        background=_together(background),
+        background_families=background,
         unexplained=unexplained,
         held_out=held_out,
         waterfall=waterfall,
@@ -145,7 +148,7 @@ def _found(
         driver=placed.driver,
         named_as=named_as,
         title=title,
-        minor=share < MINOR_SHARE,
+        minor=False,
         parameters=parameters(placed, part.values, covariance),
         rms_at_tool_mm=rms,
         share=share,
@@ -157,6 +160,12 @@ def _found(
         confirm=placed.effect.confirm,
         cure=placed.effect.cure,
     )
+
+
+def _with_weight(found: FoundEffect, background: Sequence[Background]) -> FoundEffect:
+    """Minor or not: in an arm with small errors everywhere, a small effect is one of them."""
+    ordinary = any(family.present for family in background)
+    return replace(found, minor=found.share < (MINOR_SHARE if ordinary else MINOR_SHARE_OF_PERFECT_ARM))
 
 
 def _variance_after_frames(fit: Refit) -> float:
@@ -173,16 +182,27 @@ def _weighted_rms(fit: Refit) -> float:
     return float(np.sqrt(np.mean(fit.residuals[trusted] ** 2)))
 
 
-def _background(evidence: Evidence, search: Search, variance: float) -> Background:
-    """What the geometric background amounts to, and whether the evidence asks for it."""
+def _backgrounds(evidence: Evidence, search: Search, variance: float) -> tuple[Background, ...]:
+    """What each family's background amounts to, and whether the evidence asks for it."""
     fit, best = evidence.fit, evidence.best
-    coefficients = np.zeros(len(fit.pool.terms))
-    for part in fit.model.background:
-        coefficients[fit.pool.of(part.placed)] = part.values
-    rms = contribution(fit.gram, fit.pool.frames, coefficients)
-    least = search.resized(best, 0)
-    present = best.background > 0 and best.value - least.value > BACKGROUND_SEEN_NATS
-    return Background(present, BACKGROUND_SIZES[best.background], rms, rms**2 / variance if variance > 0 else 0.0)
+    sizes = background_sizes(evidence.problem, best)
+    values = {t: v for part in fit.model.background for t, v in zip(part.placed.terms, part.values, strict=True)}
+    told = []
+    for number, (family, columns) in enumerate(zip(FAMILIES, fit.pool.background, strict=True)):
+        coefficients = np.zeros(len(fit.pool.terms))
+        coefficients[columns] = [values[fit.pool.terms[column]] for column in columns]
+        rms = contribution(fit.gram, fit.pool.frames, coefficients)
+        without = search.resized(best, (*best.background[:number], 0, *best.background[number + 1 :]))
+        present = best.background[number] > 0 and best.value - without.value > BACKGROUND_SEEN_NATS
+        told.append(Background(family, present, sizes[number], rms, rms**2 / variance if variance > 0 else 0.0))
+    return tuple(told)
+
+
+def _together(families: Sequence[Background]) -> Background:
+    """All families' backgrounds as one."""
+    present = [family for family in families if family.present]
+    rms = float(np.sqrt(sum(family.rms_at_tool_mm**2 for family in present)))
+    return Background("all", bool(present), float("nan"), rms, sum(family.share for family in present))
 
 
 def _unexplained(effects: Sequence[FoundEffect], evidence: Evidence) -> Unexplained:
@@ -206,9 +226,9 @@ def _significant(evidence: Evidence) -> bool:
 
 
 def _answer(
-    effects: Sequence[FoundEffect], background: Background, unexplained: Unexplained, evidence: Evidence
+    effects: Sequence[FoundEffect], background: Sequence[Background], unexplained: Unexplained, evidence: Evidence
 ) -> tuple[Answer, bool | None]:
-    if effects or background.present:
+    if effects or any(family.present for family in background):
         return ("partly explained" if unexplained.present else "explained"), True
     if unexplained.present:
         return "cannot tell", True
@@ -254,9 +274,11 @@ def headline(verdict: Verdict) -> str:
         return "There is more than noise, but nothing in the table explains it: it cannot be told what is missing."
     story = [effect for effect in verdict.effects if not effect.minor][:3]
     parts = [f"{e.title} ({e.rms_at_tool_mm:.2g} mm, {100 * e.share:.0f} %)" for e in story]
-    if verdict.background.present:
-        share = 100 * verdict.background.share
-        parts.append(f"geometric tolerances of all links ({verdict.background.rms_at_tool_mm:.2g} mm, {share:.0f} %)")
+    for family in verdict.background_families:
+        if family.present:
+            parts.append(
+                f"small {family.family} errors everywhere ({family.rms_at_tool_mm:.2g} mm, {100 * family.share:.0f} %)"
+            )
     rest = f"; {verdict.residual_before_mm:.3g} mm become {verdict.residual_after_mm:.3g} mm"
     return ("; ".join(parts) or "Minor effects only") + rest + "."
 
@@ -286,7 +308,8 @@ def undecided(
         residual_before_mm=rms,
         residual_after_mm=rms,
         effects=(),
-        background=Background(False, 0.0, 0.0, 0.0),
+        background=_together(()),
+        background_families=(),
         unexplained=Unexplained(False),
         held_out=HeldOut(float("nan"), float("nan")),
         waterfall=(),

@@ -18,6 +18,8 @@ def parameters(placed: Placed, values: Array, covariance: Array) -> tuple[Parame
     """The parameters of an effect from its terms' values and covariance, SI units."""
     names, units, reading = _reading(placed)
     read = reading(values)
+    if not names:
+        return ()
     slope = _slope(reading, values, np.sqrt(np.maximum(np.diag(covariance), 1e-300)))
     stderr = np.sqrt(np.maximum(np.einsum("ki,ij,kj->k", slope, covariance, slope), 0.0))
     told = [
@@ -34,7 +36,7 @@ def _reading(placed: Placed) -> tuple[list[str], list[str], Reading]:
     if placed.reading == "sine":
         return ["amplitude", "phase", "direction"], ["rad"] * 3, _turning_wave
     if placed.reading == "curve":
-        return ["rms"], [placed.terms[0].unit], lambda v: np.array([np.sqrt(np.mean(v**2))])
+        return [], [], lambda v: np.empty(0)  # a curve is told as a curve
     si = np.array([term.si for term in placed.terms])
     return [t.name for t in placed.terms], [t.unit for t in placed.terms], lambda v: v / si
 

@@ -7,13 +7,14 @@ Lengths are mm here: y and the columns are displacements of the tool in base axe
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.physics.effect import Placed, Term
+from armscope.physics.effect import Placed, Term, clash
 from armscope.physics.model import FittedModel
 from armscope.physics.scene import Posture
 from armscope.recordings import Recordings
@@ -33,16 +34,29 @@ class Pool:
     Attributes:
         terms: the columns, in order.
         frames: columns of the free frames.
-        background: columns of the geometric background.
+        background: columns of each family's background, in the order of `armscope.physics.backgrounds.FAMILIES`.
         candidates: effects that compete.
         columns: columns of each candidate.
     """
 
     terms: tuple[Term, ...]
     frames: Indices
-    background: Indices
+    background: tuple[Indices, ...]
     candidates: tuple[Placed, ...]
     columns: tuple[Indices, ...]
+
+    @functools.cached_property
+    def clashes(self) -> tuple[frozenset[int], ...]:
+        """For each candidate, those that can't stand beside it: other forms of it, and curves that contain it."""
+        places: dict[str, list[int]] = {}
+        for number, placed in enumerate(self.candidates):
+            places.setdefault(placed.location, []).append(number)
+        return tuple(
+            frozenset(
+                other for other in places[placed.location] if other != number and clash(placed, self.candidates[other])
+            )
+            for number, placed in enumerate(self.candidates)
+        )
 
     def of(self, placed: Placed) -> Indices:
         """Columns of an effect whose terms are all in the pool."""
@@ -53,7 +67,7 @@ class Pool:
         return {term: number for number, term in enumerate(self.terms)}
 
 
-def pool(frames: Sequence[Placed], background: Sequence[Placed], candidates: Sequence[Placed]) -> Pool:
+def pool(frames: Sequence[Placed], backgrounds: Sequence[Sequence[Placed]], candidates: Sequence[Placed]) -> Pool:
     """Gather the terms of all effects, each once."""
     index: dict[Term, int] = {}
 
@@ -61,7 +75,8 @@ def pool(frames: Sequence[Placed], background: Sequence[Placed], candidates: Seq
         return np.array([index.setdefault(term, len(index)) for term in placed.terms], dtype=np.intp)
 
     frame_columns = np.concatenate([add(p) for p in frames])
-    background_columns = np.concatenate([add(p) for p in background]) if background else np.empty(0, dtype=np.intp)
+    empty = [np.empty(0, dtype=np.intp)]
+    background_columns = tuple(np.unique(np.concatenate(empty + [add(p) for p in family])) for family in backgrounds)
     columns = tuple(add(p) for p in candidates)
     return Pool(tuple(index), frame_columns, background_columns, tuple(candidates), columns)
 

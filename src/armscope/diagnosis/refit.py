@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.diagnosis import robust
-from armscope.diagnosis.evidence import BACKGROUND_SIZES, FRAME_PRIOR_MM, TOLERANCE
+from armscope.diagnosis.evidence import FRAME_PRIOR_MM, TOLERANCE
 from armscope.diagnosis.frames import moved_base
 from armscope.diagnosis.problem import Gram, Pool, accumulate, pool, residuals, scales
 from armscope.physics.effect import AXES, Placed, Term
@@ -59,8 +59,7 @@ def refit(
     model: FittedModel,
     recordings: Recordings,
     frames: Sequence[Placed],
-    background: Sequence[Placed],
-    background_size: int,
+    backgrounds: Sequence[tuple[Sequence[Placed], float]],
     effects: Sequence[tuple[Placed, float]],
     uncertainty: Array,
     least_noise: float,
@@ -70,13 +69,16 @@ def refit(
 
     Args:
         model: where to start from; its effects are replaced.
+        backgrounds: per family (effects, size): a share of the tolerance for the first, mm at the tool for the others;
+            families of size 0 are left out.
         effects: (effect, size at the tool, mm).
         uncertainty: (N,) relative uncertainty of the rows.
         row_weights: fixed weights; None lets the residuals decide.
     """
     named = {term for placed, _ in effects for term in placed.terms}
-    background = [kept for placed in background if (kept := _without(placed, named)) is not None]
-    parts = pool(frames, background, [placed for placed, _ in effects])
+    kept = [[b for placed in family if size and (b := _without(placed, named))] for family, size in backgrounds]
+    background = [placed for family in kept for placed in family]
+    parts = pool(frames, kept, [placed for placed, _ in effects])
     model = _start(model, background, effects)
     blocks = np.zeros(len(recordings), dtype=np.intp)
     noise = least_noise
@@ -85,7 +87,7 @@ def refit(
         w = robust.weights(left, uncertainty, least_noise) if row_weights is None else row_weights
         gram = accumulate(parts, model, recordings, w, blocks)[0]
         noise = noise or robust.scale_of(left)
-        precision = _precision(parts, gram, background_size, effects)
+        precision = _precision(parts, gram, [size for _, size in backgrounds], effects)
         A = gram.G + np.diag(noise**2 * precision)
         values, covariance = _solve(A, gram.b)
         spent = float(len(values) - noise**2 * np.sum(np.diag(covariance) * precision))
@@ -124,11 +126,12 @@ def _start(model: FittedModel, background: Sequence[Placed], effects: Sequence[t
     )
 
 
-def _precision(parts: Pool, gram: Gram, background_size: int, effects: Sequence[tuple[Placed, float]]) -> Array:
+def _precision(parts: Pool, gram: Gram, sizes: Sequence[float], effects: Sequence[tuple[Placed, float]]) -> Array:
     """(p,) prior precisions in SI units."""
     scale = scales(gram, parts.frames)
     variance = np.full(len(parts.terms), np.inf)
-    variance[parts.background] = (BACKGROUND_SIZES[background_size] * TOLERANCE) ** 2
+    for number, (columns, size) in enumerate(zip(parts.background, sizes, strict=True)):
+        variance[columns] = (size * TOLERANCE) ** 2 if number == 0 else (size / scale[columns]) ** 2
     for (placed, size), at in zip(effects, parts.columns, strict=True):
         wide = 1.0 if placed.reading == "curve" or placed.variant == "unknown masses" else FREE
         variance[at] = (wide * size * np.array(placed.shape) / scale[at]) ** 2

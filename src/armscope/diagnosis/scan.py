@@ -33,7 +33,7 @@ WORTH_A_LOOK = 3.0
 def mesh_lines(
     problem: Problem, given: Sequence[Hypothesis], model: FittedModel, recordings: Recordings, weights: Array
 ) -> Iterator[Placed]:
-    """The most promising mesh counts of each joint, given each of some hypotheses; the first has all columns."""
+    """The most promising mesh counts of each joint, given each of some hypotheses."""
     rows = _spread(len(recordings))
     table = recordings.rows(rows)
     joints = moving_joints(recordings)
@@ -41,7 +41,7 @@ def mesh_lines(
         return
     placed = [mesh(j, count) for j in joints for count in MESH_COUNTS]
     share = len(rows) / len(recordings)
-    columns = given[0].columns
+    columns = _all_columns(given)
     sums = weigh_blocks([p.terms for p in placed], problem.pool, columns, model, table, weights[rows] / share)
     before = np.einsum("mcc->mc", sums.own)
     for hypothesis in given:
@@ -52,6 +52,10 @@ def mesh_lines(
             for at in np.argsort(-row)[:LINES_KEPT]:
                 if row[at] > WORTH_A_LOOK:
                     yield placed[number * len(MESH_COUNTS) + at]
+
+
+def _all_columns(given: Sequence[Hypothesis]) -> NDArray[np.intp]:
+    return np.unique(np.concatenate([hypothesis.columns for hypothesis in given]))
 
 
 def _spread(count: int) -> NDArray[np.intp]:
@@ -87,10 +91,10 @@ def jumps(
     for build in (base_shift, tool_shift):
         best: list[tuple[float, Placed] | None] = [None] * len(given)
         for rows, cuts in pieces:
-            sums = _step_sums(problem, given[0], model, recordings, weights, rows, cuts, build)
+            sums = _step_sums(problem, _all_columns(given), model, recordings, weights, rows, cuts, build)
             before = np.einsum("mcc->mc", sums.own)
             for number, hypothesis in enumerate(given):
-                inside = np.isin(given[0].columns, hypothesis.columns)
+                inside = np.isin(_all_columns(given), hypothesis.columns)
                 narrowed = Blocks(sums.own, sums.cross[:, inside], sums.b)
                 gain = _gain(problem, hypothesis, *conditioned(narrowed, *_in_si(problem, hypothesis)), before)
                 at = int(np.argmax(gain))
@@ -116,7 +120,7 @@ def _pieces(recordings: Recordings) -> Iterator[tuple[NDArray[np.intp], NDArray[
 
 def _step_sums(
     problem: Problem,
-    hypothesis: Hypothesis,
+    inside: NDArray[np.intp],
     model: FittedModel,
     recordings: Recordings,
     weights: Array,
@@ -125,7 +129,7 @@ def _step_sums(
     build: Callable[[Recordings, int, int], Placed],
 ) -> Blocks:
     """Sums over the rows behind each cut."""
-    pool, inside = problem.pool, hypothesis.columns
+    pool = problem.pool
     table = recordings.rows(rows)
     terms = build(recordings, int(rows[0]), 1).terms
     c, k = len(terms), len(inside)

@@ -6,6 +6,7 @@ and from a small one an ordinary arm needs a name for every link; the evidence t
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -13,6 +14,9 @@ import numpy as np
 
 from armscope.diagnosis.evidence import (
     BACKGROUND_SIZES,
+    FAMILY_SIZES,
+    PERFECT,
+    Background,
     Chosen,
     Groups,
     Hypothesis,
@@ -27,10 +31,12 @@ from armscope.physics.effect import Placed, region
 BEAM = 3
 BRANCHES = 3
 MOST_EFFECTS = 16
-STARTS = (0, 2, 4)
-"""Background sizes to start from."""
+STARTS: tuple[Background, ...] = (PERFECT, (2, 0, 0), (4, 0, 0), (3, 2, 2))
+"""Backgrounds to start from: a perfect arm, two with geometric tolerances, one with a little of everything."""
 WORTH_TRYING_NATS = 2.0
 """A removal that loses more than this at the present noise can't pay when the noise is re-estimated."""
+SPECIAL_CASES = 7
+"""How many of a curve's special cases are tried in its place."""
 GAIN = 1e-3
 """Nats by which a move must better a hypothesis."""
 
@@ -49,16 +55,19 @@ class Search:
         """A search on a problem."""
         return cls(problem, group(problem.pool), beam, branches)
 
-    def best(self, starts: Sequence[int] = STARTS) -> Hypothesis:
-        """The most probable hypothesis found from all starts."""
+    def best(self, starts: Sequence[Background] = STARTS, also: Hypothesis | None = None) -> Hypothesis:
+        """The most probable hypothesis found from all starts, and from one found on other rows."""
         ends = [self._climb(self._empty(start)) for start in starts]
-        return self._polish(max(ends, key=_value))
+        if also is not None:
+            ends.append(self._pruned(weigh(self.problem, also.chosen, also.background, also.noise)))
+        ends = _distinct(ends)
+        return max((self._polish(end) for end in ends), key=_value)
 
     def empty(self) -> Hypothesis:
         """The best hypothesis without any named effect."""
-        return max((self._empty(size) for size in range(len(BACKGROUND_SIZES))), key=_value)
+        return self._resized(self._empty(PERFECT))
 
-    def _empty(self, background: int) -> Hypothesis:
+    def _empty(self, background: Background) -> Hypothesis:
         start = max(self.problem.least_noise, float(np.sqrt(self.problem.gram.yy / self.problem.n)) * 1e-2)
         return weigh(self.problem, (), background, max(start, 1e-4))
 
@@ -80,34 +89,27 @@ class Search:
         return best
 
     def additions(self, parent: Hypothesis, count: int, without: Iterable[int] = ()) -> list[Hypothesis]:
-        """The ``count`` most promising hypotheses with one effect more."""
+        """The ``count`` most promising hypotheses with one effect more; a curve takes its special cases' place."""
         gain, size = gains(self.problem, self.groups, parent)
-        gain[self._taken(parent)] = -np.inf
+        clashes = self.problem.pool.clashes
+        for member in parent.candidates:
+            gain[member] = -np.inf
+            gain[[c for c in clashes[member] if not self._generalises(c, member)]] = -np.inf
         gain[list(without)] = -np.inf
         order = np.argsort(-gain)[:count]
-        return [
-            weigh(
-                self.problem,
-                (*parent.chosen, Chosen(int(c), int(size[c]))),
-                parent.background,
-                parent.noise,
-            )
-            for c in order
-            if np.isfinite(gain[c])
-        ]
+        return [self._with(parent, Chosen(int(c), int(size[c]))) for c in order if np.isfinite(gain[c])]
 
-    def _taken(self, parent: Hypothesis) -> list[int]:
-        """Candidates that are in already, and other variants of the same effect there (but further mesh lines)."""
-        candidates = self.problem.pool.candidates
-        keys = {(candidates[c].key, candidates[c].driver) for c in parent.candidates if candidates[c].tried < 3}
-        return [
-            number
-            for number, placed in enumerate(candidates)
-            if number in parent.candidates or (placed.key, placed.driver) in keys
-        ]
+    def _generalises(self, candidate: int, member: int) -> bool:
+        """Whether a candidate is a free curve that contains a member."""
+        return self.placed(candidate).reading == "curve" and self.placed(member).reading != "curve"
 
-    def resized(self, hypothesis: Hypothesis, background: int) -> Hypothesis:
-        """The hypothesis with another size of the geometric background."""
+    def _with(self, parent: Hypothesis, added: Chosen) -> Hypothesis:
+        clashing = self.problem.pool.clashes[added.candidate]
+        kept = tuple(c for c in parent.chosen if c.candidate not in clashing)
+        return weigh(self.problem, (*kept, added), parent.background, parent.noise)
+
+    def resized(self, hypothesis: Hypothesis, background: Background) -> Hypothesis:
+        """The hypothesis with another background."""
         return weigh(self.problem, hypothesis.chosen, background, hypothesis.noise)
 
     def without(self, hypothesis: Hypothesis, removed: Iterable[int]) -> Hypothesis:
@@ -141,10 +143,13 @@ class Search:
         return hypothesis
 
     def _resized(self, hypothesis: Hypothesis) -> Hypothesis:
-        """Each effect's and the background's size set to the best one, in turn."""
+        """Each effect's and each background's size set to the best one, in turn."""
         best = hypothesis
-        for background in range(len(BACKGROUND_SIZES)):
-            best = max(best, weigh(self.problem, best.chosen, background, best.noise), key=_value)
+        for family, columns in enumerate(self.problem.pool.background):
+            for size in range(len(BACKGROUND_SIZES) if family == 0 else FAMILY_SIZES):
+                background = (*best.background[:family], size, *best.background[family + 1 :])
+                if len(columns) and background != best.background:
+                    best = max(best, weigh(self.problem, best.chosen, background, best.noise), key=_value)
         for number, chosen in enumerate(best.chosen):
             for size in range(len(self.problem.sizes)):
                 if abs(size - chosen.size) == 1:
@@ -153,12 +158,31 @@ class Search:
         return best
 
     def _moves(self, hypothesis: Hypothesis) -> list[Hypothesis]:
-        """Swaps of one effect, merges of all effects in one region into one, and additions."""
+        """Additions; swaps of one effect for another; merges of all effects in one region; splits of curves."""
         moves = self.additions(hypothesis, self.branches)
+        for c in hypothesis.chosen:
+            if self.placed(c.candidate).reading == "curve":
+                moves += self._split(hypothesis, c)
         groups = [(c.candidate,) for c in hypothesis.chosen] + self._regions(hypothesis)
         for removed in groups:
             moves += self.additions(self.without(hypothesis, removed), self.branches, without=removed)
         return moves
+
+    def _split(self, hypothesis: Hypothesis, curve: Chosen) -> list[Hypothesis]:
+        """A curve taken apart into two or three of the special cases that it contains, each as large as the curve."""
+        rest = self.without(hypothesis, [curve.candidate])
+        special = [c for c in self.problem.pool.clashes[curve.candidate] if self.placed(c).reading != "curve"]
+        if len(special) < 2:
+            return []
+        gain, _ = gains(self.problem, self.groups, rest)
+        likely = sorted(special, key=lambda c: -gain[c])[:SPECIAL_CASES]
+        split = []
+        for count in (2, 3):
+            for members in itertools.combinations(likely, count):
+                if not any(b in self.problem.pool.clashes[a] for a, b in itertools.combinations(members, 2)):
+                    added = tuple(Chosen(c, curve.size) for c in members)
+                    split.append(weigh(self.problem, (*rest.chosen, *added), rest.background, rest.noise))
+        return [self._pruned(best) for best in sorted(split, key=_value, reverse=True)[:1]]
 
     def _regions(self, hypothesis: Hypothesis) -> list[tuple[int, ...]]:
         by_region: dict[str, list[int]] = {}

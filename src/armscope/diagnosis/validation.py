@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.diagnosis.evidence import Chosen, Hypothesis, Problem, weigh
+from armscope.diagnosis.evidence import PERFECT, Chosen, Hypothesis, Problem, weigh
 from armscope.diagnosis.problem import Gram, total
 from armscope.diagnosis.search import Search
 from armscope.diagnosis.verdict import HeldOut, WaterfallStep
@@ -73,20 +73,20 @@ def cross_validate(
         trained = problem.with_gram(whole - held)
         scaled = held.scaled(problem.scale)
         free = split.grouped_by == "run"
-        chosen = Search.on(trained, beam=1).best(starts=tuple(sorted({best.background, 0})))
+        chosen = Search.on(trained, beam=2, branches=2).best(starts=tuple(sorted({best.background, PERFECT})))
         rows += held.n
-        before += _held_out(trained, weigh(trained, (), 0, empty.noise), scaled, free)
+        before += _held_out(trained, weigh(trained, (), PERFECT, empty.noise), scaled, free)
         after += _held_out(trained, chosen, scaled, free)
         for number, subset in enumerate(sets):
-            background = best.background if number == len(sets) - 1 else 0
+            background = best.background if number == len(sets) - 1 else PERFECT
             steps[number] += _held_out(trained, weigh(trained, subset, background, best.noise), scaled, free)
     if rows == 0:
         return HeldOut(float("nan"), float("nan")), ()
     fitted = [
-        _rms(problem.gram, weigh(problem, subset, best.background if n == len(sets) - 1 else 0, best.noise))
+        _rms(problem.gram, weigh(problem, subset, best.background if n == len(sets) - 1 else PERFECT, best.noise))
         for n, subset in enumerate(sets)
     ]
-    labels = ["free frames", *[str(problem.pool.candidates[c]) for c in order], "tolerances of all links"]
+    labels = ["free frames", *[str(problem.pool.candidates[c]) for c in order], "tolerances everywhere"]
     waterfall = tuple(
         WaterfallStep(label, float(f), float(np.sqrt(s / rows)))
         for label, f, s in zip(labels, fitted, steps, strict=True)

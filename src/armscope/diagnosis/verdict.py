@@ -118,10 +118,15 @@ class Unexplained:
 
 @dataclass(frozen=True)
 class Background:
-    """Geometric errors of tolerance size that were allowed for in every link."""
+    """Small errors of one family that were allowed for everywhere in the arm and are not named one by one.
 
+    ``size``: share of the tolerance (1 mm, 1 mrad) for the geometric family, mm at the tool for the others. A verdict
+    has one for all families together (family "all", size NaN) and one per family.
+    """
+
+    family: str
     present: bool
-    share_of_tolerance: float
+    size: float
     rms_at_tool_mm: float
     share: float
 
@@ -219,6 +224,7 @@ class Verdict:
     residual_after_mm: float
     effects: tuple[FoundEffect, ...]
     background: Background
+    background_families: tuple[Background, ...]
     unexplained: Unexplained
     held_out: HeldOut
     waterfall: tuple[WaterfallStep, ...]
@@ -252,6 +258,7 @@ class Verdict:
                 "description": self.unexplained.description,
             },
             "background": vars(self.background),
+            "background_families": [vars(family) for family in self.background_families],
             "held_out_rms_mm": {
                 "before": self.held_out.before,
                 "after": self.held_out.after,

@@ -77,6 +77,11 @@ def _torque(scene: Scene, j: int) -> Array:
     return scene.torques[:, j - 1]
 
 
+def _gravity_torque(scene: Scene, j: int) -> Array:
+    """Torque of gravity by the stated masses and payload, whatever was recorded."""
+    return scene.gravity_torques[:, j - 1]
+
+
 def _payload_torque(scene: Scene, j: int) -> Array:
     """Torque on motor j of the payload alone."""
     if scene.recordings.payload is None:
@@ -92,6 +97,20 @@ def _unit_mass_torques(scene: Scene) -> Array:
         return gravity_torques(scene.arm, scene.nominal, ones) - gravity_torques(scene.arm, scene.nominal)
 
     return scene.remember("unit mass torques", compute)
+
+
+def _heavier(scene: Scene, load: Driver) -> Array:
+    """Change of a load driver per kilogram more at the tool point."""
+    heavier = scene.remember("heavier", lambda: scene.with_payload(mass=1.0))
+    change: Array = heavier.driver(load) - scene.driver(load)
+    return change
+
+
+def _off_centre(scene: Scene, load: Driver, axis: int) -> Array:
+    """Change of a load driver per metre that the payload's centre lies off the tool point along a tool axis."""
+    shifted = scene.remember(("off centre", axis), lambda: scene.with_payload(offset=np.eye(3)[axis]))
+    change: Array = shifted.driver(load) - scene.driver(load)
+    return change
 
 
 def _regressor(scene: Scene, j: int, *weights: float) -> Array:
@@ -218,7 +237,10 @@ _KINDS: dict[str, Callable[..., Any]] = {
     "payload": _payload,
     "force": _force,
     "torque": _torque,
+    "gravity torque": _gravity_torque,
     "payload torque": _payload_torque,
+    "heavier": _heavier,
+    "off centre": _off_centre,
     "regressor": _regressor,
     "load side": _load_side,
     "moment": _moment,

@@ -156,6 +156,27 @@ class Effect:
     needs: tuple[str, ...] = ()
 
 
+CONTAINED = {
+    "angle": {"joint_offset", "gear_ratio", "gear_eccentricity", "gear_mesh"},
+    "load": {"joint_compliance"},
+    "time": {"base_drift"},
+}
+"""What a free curve of a driver contains as special cases at the same location."""
+
+
+def clash(one: Placed, other: Placed) -> bool:
+    """Whether two effects at one location can't stand side by side: two forms of one, or a curve and what it contains.
+
+    Several mesh lines or jumps can (their scanned numbers differ), and curves of different drivers.
+    """
+    if one.name == other.name:
+        return one.variant == other.variant if one.tried > 2 or one.reading == "curve" else True
+    for curve, special in ((one, other), (other, one)):
+        if curve.reading == "curve" and special.name in CONTAINED.get(curve.variant, set()):
+            return True
+    return False
+
+
 def region(placed: Placed) -> str:
     """Where an effect stands, coarsely: base, or the number of the joint whose neighbourhood moves.
 

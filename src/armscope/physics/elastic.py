@@ -34,6 +34,10 @@ def _place_joints(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     for j in range(1, arm.n_motors + 1):
         compliance = term("compliance", "rad/(N m)", (motor(j), Driver("torque", (j,))))
         yield Placed(JOINT_COMPLIANCE, f"joint {j}", (compliance,), (1.0,), f"load of joint {j}")
+        if recordings.torque is not None and arm.has_masses:
+            by_masses = term("compliance", "rad/(N m)", (motor(j), Driver("gravity torque", (j,))))
+            driver = f"load of joint {j} by the stated masses"
+            yield Placed(JOINT_COMPLIANCE, f"joint {j}", (by_masses,), (1.0,), driver, variant="stated masses")
     if recordings.torque is None:
         yield from _unknown_masses(arm, recordings)
 

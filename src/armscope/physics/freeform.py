@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import Direction, Driver, Effect, Placed, Term, motor, term
 from armscope.physics.elastic import has_load
+from armscope.physics.geometric import JOINT_OFFSET
 from armscope.physics.placing import moving_joints, varies
 from armscope.physics.scene import Scene
-from armscope.physics.transmission import wave_terms
+from armscope.physics.transmission import GEAR_RATIO, wave_terms
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -34,21 +35,22 @@ def waves(recordings: Recordings) -> int:
 
 
 def _place(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    yield from _own_angle(recordings)
+    yield from _own_angle(arm, recordings)
     yield from _load(arm, recordings)
     yield from _context(recordings)
 
 
-def _own_angle(recordings: Recordings) -> Iterator[Placed]:
+def _own_angle(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     count = waves(recordings)
     flat = 24.0 if count > MOST_WAVES else SMOOTH_PERIODS
     for j in moving_joints(recordings):
-        terms: list[Term] = []
+        trend = [*JOINT_OFFSET.place(arm, recordings), *GEAR_RATIO.place(arm, recordings)]
+        terms: list[Term] = [t for placed in trend if placed.location == f"joint {j}" for t in placed.terms]
         shape: list[float] = []
         for per_turn in range(1, count + 1):
             terms += wave_terms(j, per_turn)
             shape += [1 / (1 + (per_turn / flat) ** 2)] * 2
-        yield _curve(f"joint {j}", tuple(terms), shape, f"angle of joint {j}", "angle")
+        yield _curve(f"joint {j}", tuple(terms), shape, f"angle of joint {j}", "angle", trends=2)
 
 
 def _load(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
@@ -59,8 +61,9 @@ def _load(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
         source = Driver("torque", (j,))
         values = scene.driver(source)
         if np.ptp(values) > 1e-6:
-            terms = spline_terms(source, values, motor(j), "rad")
-            yield _curve(f"joint {j}", terms, [1.0] * len(terms), f"load of joint {j}", "load")
+            bumps = spline_terms(source, values, motor(j), "rad")
+            linear = term("compliance", "rad/(N m)", (motor(j), source))
+            yield _curve(f"joint {j}", (linear, *bumps), [1.0] * len(bumps), f"load of joint {j}", "load", trends=1)
 
 
 def _context(recordings: Recordings) -> Iterator[Placed]:
@@ -86,9 +89,20 @@ def _context(recordings: Recordings) -> Iterator[Placed]:
             yield _curve(f"joint {j}", terms, [1.0] * len(terms), name, name)
 
 
-def _curve(location: str, terms: tuple[Term, ...], shape: list[float], driver: str, variant: str) -> Placed:
+def _curve(
+    location: str, terms: tuple[Term, ...], shape: list[float], driver: str, variant: str, trends: int = 0
+) -> Placed:
+    """A free curve; its first ``trends`` terms are a constant or a trend, as large as all the rest together."""
     total = float(np.sqrt(np.sum(np.square(shape))))
-    return Placed(UNKNOWN, location, terms, tuple(s / total for s in shape), driver, variant=variant, reading="curve")
+    return Placed(
+        UNKNOWN,
+        location,
+        terms,
+        (*[1.0] * trends, *(s / total for s in shape)),
+        driver,
+        variant=variant,
+        reading="curve",
+    )
 
 
 def spline_terms(

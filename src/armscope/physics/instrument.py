@@ -1,4 +1,4 @@
-"""What the instrument or the statement of the load gets wrong: its length scale; the payload's mass or centre."""
+"""What the instrument gets wrong: its length scale."""
 
 from __future__ import annotations
 

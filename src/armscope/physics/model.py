@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -44,7 +44,6 @@ class FittedModel:
         tools: tool offsets as parts.
         parts: the effects, SI units.
         background: geometric errors of tolerance size, as parts.
-        payload_mass: kg on top of the stated payload; payload_offset: (3,) m off the tool point, last frame's axes.
     """
 
     arm: Arm
@@ -52,13 +51,10 @@ class FittedModel:
     tools: tuple[Part, ...] = ()
     parts: tuple[Part, ...] = ()
     background: tuple[Part, ...] = ()
-    payload_mass: float = 0.0
-    payload_offset: Array = field(default_factory=lambda: np.zeros(3))
 
     def scene(self, recordings: Recordings) -> Scene:
         """The arm at the rows of a table."""
-        offset = self.payload_offset if np.any(self.payload_offset) else None
-        return Scene(self.arm, recordings, self.payload_mass, offset)
+        return Scene(self.arm, recordings)
 
     def posture(self, scene: Scene) -> Posture:
         """The arm at a scene's rows with all effects in place."""
@@ -112,7 +108,6 @@ def save_model(path: Path | str, model: FittedModel, extra: Mapping[str, Any] | 
                 run: {"rotation": base.rotation.tolist(), "translation_m": base.translation.tolist()}
                 for run, base in model.bases.items()
             },
-            "payload": {"mass_kg": model.payload_mass, "offset_m": model.payload_offset.tolist()},
             "tools": [_part_out(part) for part in model.tools],
             "effects": [_part_out(part) for part in model.parts],
             "background": [_part_out(part) for part in model.background],
@@ -143,8 +138,6 @@ def load_model(path: Path | str) -> FittedModel:
             tools=tuple(_part_in(part) for part in content["tools"]),
             parts=tuple(_part_in(part) for part in content["effects"]),
             background=tuple(_part_in(part) for part in content["background"]),
-            payload_mass=float(content["payload"]["mass_kg"]),
-            payload_offset=np.array(content["payload"]["offset_m"], dtype=float),
         )
     except KeyError as error:
         raise InputError(path, str(error.args[0]), "nothing", "this key is missing", "Was the file edited?") from error

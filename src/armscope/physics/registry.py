@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from armscope.physics import drift, elastic, freeform, geometric, instrument, thermal, transmission
+from armscope.physics import drift, elastic, freeform, geometric, instrument, payload, thermal, transmission
 from armscope.physics.effect import Effect, Placed
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -14,6 +14,7 @@ EFFECTS: tuple[Effect, ...] = (
     *thermal.EFFECTS,
     *drift.EFFECTS,
     *instrument.EFFECTS,
+    *payload.EFFECTS,
     *freeform.EFFECTS,
 )
 

@@ -18,7 +18,7 @@ from armscope.physics import drivers
 from armscope.physics.effect import AXES, Direction, Driver, Placed, Term
 from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain, twist_jacobian
-from armscope.robot.gravity import gravity_torques, gravity_wrenches
+from armscope.robot.gravity import gravity_wrenches
 from armscope.robot.kinematics import joint_jacobian
 from armscope.robot.parallelogram import Linkage, forearm_deviation
 
@@ -43,7 +43,7 @@ class Scene:
         arm: the arm.
         recordings: the rows; only angles and context are used, not the measured positions.
         payload_mass: kg added to the payload at the tool point, in all rows.
-        payload_offset: (3,) m, the load's centre off the tool point, in the last frame's axes.
+        payload_offset: (3,) m, the payload's centre off the tool point, in the last frame's axes.
     """
 
     def __init__(
@@ -69,6 +69,10 @@ class Scene:
         values: Array = self.remember(driver, lambda: drivers.evaluate(self, driver))
         return values
 
+    def with_payload(self, mass: float = 0.0, offset: Array | None = None) -> Scene:
+        """The same rows with the payload heavier by ``mass`` kg, or its centre off the tool point by ``offset`` m."""
+        return Scene(self.arm, self.recordings, self.payload_mass + mass, offset)
+
     @property
     def payload(self) -> Array:
         """(N,) kg at the tool point: stated, plus the error under study."""
@@ -90,21 +94,24 @@ class Scene:
         return wrenches
 
     @property
-    def torques(self) -> Array:
-        """(N, m) load torque on the motors, N m: recorded where recorded, else of gravity."""
+    def gravity_torques(self) -> Array:
+        """(N, m) torque of gravity on the motors by the stated masses and payload, N m."""
 
         def compute() -> Array:
-            if self.payload_offset is None:
-                gravity = gravity_torques(self.arm, self.nominal, self.payload)
-            else:
-                _, moment = self.wrenches
-                axes = self.nominal.joint_rotation[..., 2]
-                gravity = np.einsum("nji,nji->nj", axes, moment) @ self.arm.actuation
-            recorded = self.recordings.torque
-            return gravity if recorded is None else np.where(np.isnan(recorded), gravity, recorded)
+            _, moment = self.wrenches
+            axes = self.nominal.joint_rotation[..., 2]
+            return np.einsum("nji,nji->nj", axes, moment) @ self.arm.actuation
 
-        torques: Array = self.remember("torques", compute)
+        torques: Array = self.remember("gravity torques", compute)
         return torques
+
+    @property
+    def torques(self) -> Array:
+        """(N, m) load torque on the motors, N m: recorded where recorded, else of gravity."""
+        recorded = self.recordings.torque
+        if recorded is None:
+            return self.gravity_torques
+        return np.where(np.isnan(recorded), self.gravity_torques, recorded)
 
     def moment(self, location: str) -> Array:
         """(N, 3) gravity's moment about a frame's origin in the frame's axes, N m."""

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from armscope.diagnosis import robust
 from armscope.diagnosis.checks import FEWEST_ROWS, check_table, too_far
-from armscope.diagnosis.evidence import Hypothesis, Problem, problem
+from armscope.diagnosis.evidence import Hypothesis, Problem, background_sizes, problem
 from armscope.diagnosis.frames import fit_frames
 from armscope.diagnosis.judge import Evidence, judge, undecided
 from armscope.diagnosis.noise import Noise, known_noise, relative_uncertainty
@@ -21,18 +21,20 @@ from armscope.diagnosis.scan import jumps, mesh_lines
 from armscope.diagnosis.search import Search
 from armscope.diagnosis.validation import Blocks, split
 from armscope.diagnosis.verdict import Notice, Verdict
-from armscope.physics import geometric
+from armscope.physics.backgrounds import backgrounds
 from armscope.physics.effect import Placed
 from armscope.physics.frames import free_frames
 from armscope.physics.model import FittedModel
+from armscope.physics.payload import PAYLOAD_ERROR, payload_errors
 from armscope.physics.registry import library
+from armscope.physics.scene import Part
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
 Array = NDArray[np.float64]
 Progress = Callable[[str, float], None]
 
-ROUNDS = 5
+ROUNDS = 6
 SAMPLE_ROWS = 5000
 """The first rounds look at this many rows at most; the last one at all of them."""
 
@@ -129,29 +131,46 @@ def select(
     """Rounds of selection and exact refit, until neither effects, suspect rows nor scanned numbers change."""
     arm = start.arm
     candidates = library(arm, recordings)
-    background = geometric.background(arm)
+    families = list(backgrounds(arm, recordings).values())
     model, left = start, first
     uncertainty = relative_uncertainty(recordings, robust.scale_of(left))
     weights = robust.first_weights(left, uncertainty, noise.least_mm)
     previous: tuple[frozenset[str], bytes] | None = None
+    settled = False
     for number in range(ROUNDS):
         tell("looking for effects", 0.05 + 0.1 * number)
-        columns = pool(frames, background, candidates)
+        model, payload = _payload(model, recordings)
+        columns = pool(frames, families, [*candidates, *payload])
         blocks = accumulate(columns, model, recordings, weights, layout.of_row)
         weighed = problem(columns, total(blocks), noise.least_mm)
         best = Search.on(weighed).best()
         effects = [(columns.candidates[c.candidate], float(weighed.sizes[c.size])) for c in best.chosen]
-        fit = refit(model, recordings, frames, background, best.background, effects, uncertainty, noise.least_mm)
+        small = list(zip(families, background_sizes(weighed, best), strict=True))
+        fit = refit(model, recordings, frames, small, effects, uncertainty, noise.least_mm)
         new = [*_scanned(weighed, best, model, recordings, weights, columns)]
         model, left = fit.model, fit.residuals
         uncertainty = relative_uncertainty(recordings, fit.noise)
         weights = robust.weights(left, uncertainty, max(noise.least_mm, fit.noise))
         state = frozenset(str(placed) + placed.variant for placed, _ in effects), (weights < 0.5).tobytes()
-        if not new and state == previous:
+        if not new and state == previous and (settled or not payload):
             break
+        settled = state == previous
         previous = state
         candidates = [*candidates, *new]
     return Selected(weighed, blocks, best, fit)
+
+
+def _payload(model: FittedModel, recordings: Recordings) -> tuple[FittedModel, list[Placed]]:
+    """Payload errors on top of what gives way in the model, and the model with its own ones written anew."""
+    stiff = [part for part in model.parts if part.placed.effect is not PAYLOAD_ERROR]
+    placed = list(payload_errors(recordings, [part for part in stiff if part.placed.reading == "plain"]))
+    by_variant = {p.variant: p for p in placed}
+    errors = [
+        Part(by_variant[part.placed.variant], part.values)
+        for part in model.parts
+        if part.placed.effect is PAYLOAD_ERROR and part.placed.variant in by_variant
+    ]
+    return replace(model, parts=(*stiff, *errors)), placed
 
 
 def _scanned(
