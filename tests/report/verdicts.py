@@ -77,7 +77,11 @@ def case(
         residual_before_mm=rms_before,
         residual_after_mm=rms_after,
         effects=effects,
-        background=Background(True, 0.8, 0.04, 0.02),
+        background=Background("all", bool(effects), float("nan"), 0.04, 0.02),
+        background_families=(
+            Background("geometric", bool(effects), 0.8, 0.04, 0.015),
+            Background("elastic", False, 0.01, 0.0, 0.0),
+        ),
         unexplained=Unexplained(False),
         held_out=HeldOut(rms_before, 1.03 * rms_after, 5, "configuration"),
         waterfall=_waterfall(effects, rms_before, rms_after),

@@ -71,8 +71,8 @@ def draw_arm(arm: Arm, motor_angles: Array, shares: Mapping[str, float]) -> Figu
         picture.tool(colour("tool"), colour("payload") if by_place.get("payload", 0) > 0 else None)
         if by_place.get("instrument", 0) > 0:
             picture.instrument(colour("instrument"))
-        picture.labels(by_place)
         picture.compass()
+        picture.labels(by_place)
         if top > 0:
             bar = figure.colorbar(ScalarMappable(norm, colours), ax=axes, shrink=0.7, pad=0.01, aspect=28)
             bar.set_label("share of the mismatch (%)")
@@ -163,7 +163,7 @@ class _Picture:
         hull = body[ConvexHull(body, qhull_options="QJ").vertices]
         tip, tail = (self.view.flat(centre + side * 2.3 * radius * axis) for side in (1, -1))
         self.axes.annotate(
-            "", tip, tail, zorder=order - 0.3,
+            "", tuple(tip), tuple(tail), zorder=order - 0.3,
             arrowprops={"arrowstyle": "-|>", "color": OUTLINE, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 0,
                         "linestyle": (0, (5, 2, 1, 2))},
         )  # fmt: skip
@@ -230,7 +230,7 @@ class _Picture:
             self.axes.plot(*np.vstack([anchor, spot]).T, color=GREY, linewidth=0.6, zorder=45)
         quiet = place.startswith("link") or place in ("base", "tool", "parallelogram")
         self.axes.text(
-            *spot, text, ha="center", va="center", zorder=50, fontsize=10.5 if matters else 8.5,
+            spot[0], spot[1], text, ha="center", va="center", zorder=50, fontsize=10.5 if matters else 8.5,
             fontweight="bold" if matters else "normal", color=BLACK if matters or not quiet else "#5C6670",
             bbox={"boxstyle": "round,pad=0.18", "facecolor": "white", "linewidth": 0.6 if matters else 0,
                   "edgecolor": OUTLINE if matters else "none", "alpha": 0.95 if matters else 0.75},
@@ -263,12 +263,13 @@ class _Picture:
         nice = [0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0]
         length = max((step for step in nice if step < 0.25 * self.size), default=nice[0])
         x, y = left + 0.02 * (right - left), bottom + 0.025 * self.size
+        self.obstacles.extend((np.array([x + along * length, y]), 0.05 * self.size) for along in np.linspace(0, 1, 6))
         self.axes.plot([x, x + length], [y, y], color=OUTLINE, linewidth=2.0, solid_capstyle="butt", zorder=5)
         self.axes.text(x + length / 2, y + 0.012 * self.size, f"{1e3 * length:.0f} mm", ha="center", va="bottom",
                        fontsize=8, color=OUTLINE)  # fmt: skip
         top = self.axes.get_ylim()[1]
         start = np.array([left + 0.03 * (right - left), top - 0.02 * self.size])
-        self.axes.annotate("", start - [0, 0.1 * self.size], start,
+        self.axes.annotate("", (start[0], start[1] - 0.1 * self.size), tuple(start),
                            arrowprops={"arrowstyle": "-|>", "color": OUTLINE, "linewidth": 1.2})  # fmt: skip
         self.axes.text(start[0] + 0.015 * self.size, start[1] - 0.05 * self.size, "gravity", fontsize=8, color=OUTLINE,
                        va="center")  # fmt: skip

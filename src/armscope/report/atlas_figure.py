@@ -54,7 +54,7 @@ def draw_atlas(
             _write_numbers(panel, table, top)
         for location, driver in marked:
             if location in shares.index and driver in shares.columns:
-                _frame(panels[0][0], shares.columns.get_loc(driver), shares.index.get_loc(location))
+                _frame(panels[0][0], list(shares.columns).index(driver), list(shares.index).index(location))
         bar = figure.colorbar(image, ax=panels[0].tolist(), shrink=min(1.0, 2.6 / height), pad=0.015, aspect=22)
         bar.set_label("share explained (%)")
         bar.ax.yaxis.set_major_formatter(lambda value, _: f"{100 * value:.0f}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +12,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from armscope.diagnosis.verdict import Atlas, FoundEffect, Verdict
+from armscope.diagnosis.verdict import Atlas, FoundEffect, Verdict, WaterfallStep
 from armscope.diagnosis.verdict import Curve as FoundCurve
 from armscope.recordings import Recordings
 from armscope.report.arm_picture import draw_arm
@@ -22,7 +22,7 @@ from armscope.report.pose_figure import draw_poses
 from armscope.report.residual_vectors import draw_along_joints, draw_vectors, evenly
 from armscope.report.style import save_figure
 from armscope.report.waterfall import draw_waterfall
-from armscope.report.wording import shown_unit
+from armscope.report.wording import plain, shown_unit
 from armscope.robot import Arm, chain, position_jacobian
 
 Array = NDArray[np.float64]
@@ -65,7 +65,7 @@ def save_all(
     if verdict.atlas is not None and np.isfinite(verdict.atlas.share).any():
         shares, left, marked = atlas_tables(verdict.atlas, verdict.effects)
         keep("atlas", draw_atlas(shares, marked, left), "Map of the share of the mismatch by location and driver")
-    steps = [(step.label, step.held_out_mm) for step in verdict.waterfall if np.isfinite(step.held_out_mm)]
+    steps = [(step.label, step.held_out_mm) for step in waterfall_steps(verdict) if np.isfinite(step.held_out_mm)]
     if steps:
         noise = verdict.noise_mm if np.isfinite(verdict.noise_mm) else None
         keep("waterfall", draw_waterfall(steps, noise, references), "Held-out error as effects enter the model")
@@ -85,7 +85,7 @@ def save_all(
             "Residual along each joint's motion against its angle, before and after",
         )
     for number, effect in enumerate(verdict.effects, start=1):
-        if effect.curve is not None and len(effect.curve.at) > 1:
+        if effect.curve is not None and worth_drawing(effect):
             keep(
                 f"curve_{number}",
                 draw_curves([curve_of(effect, effect.curve)]),
@@ -108,6 +108,22 @@ def location_shares(verdict: Verdict) -> dict[str, float]:
     return shares
 
 
+def waterfall_steps(verdict: Verdict) -> list[WaterfallStep]:
+    """The verdict's steps in plain words, without a last one for tolerances that nobody asked for."""
+    steps = list(verdict.waterfall)
+    if len(steps) > 1 and not verdict.background.present and steps[-1].label.startswith("tolerances"):
+        steps.pop()
+    return [
+        replace(step, label=f"+ {plain(step.label)}" if number else "base and tool placed, no effect")
+        for number, step in enumerate(steps)
+    ]
+
+
+def worth_drawing(effect: FoundEffect) -> bool:
+    """Whether an effect's curve says more than its one number does."""
+    return effect.curve is not None and (effect.effect == "unknown" or len(effect.parameters) > 1)
+
+
 def atlas_tables(
     atlas: Atlas, effects: Sequence[FoundEffect]
 ) -> tuple[pd.DataFrame, pd.DataFrame, list[tuple[str, str]]]:
@@ -118,16 +134,41 @@ def atlas_tables(
             pd.DataFrame(np.nanmax(values, axis=1), index=atlas.locations, columns=atlas.drivers)
             for values in (atlas.share, atlas.left)
         ]
-    there = tables[0].notna().to_numpy()
-    rows, columns = there.any(axis=1), there.any(axis=0)
-    shares, left = (table.loc[rows, columns] for table in tables)
-    marked = [
-        (effect.location, driver)
-        for effect in effects
-        for driver in shares.columns
-        if effect.location in shares.index and effect.driver.startswith(str(driver))
-    ]
+    there = tables[0].notna()
+    rows, columns = there.index[there.any(axis=1)], there.columns[there.any(axis=0)]
+    shares, left = (table.reindex(index=rows, columns=columns) for table in tables)
+    marked = [cell for effect in effects if (cell := _cell(effect, len(atlas.locations) - 1)) is not None]
     return shares, left, marked
+
+
+ATLAS_DRIVERS = {
+    "joint_offset": "constant",
+    "link_geometry": "constant",
+    "gear_ratio": "own angle",
+    "joint_compliance": "gravity load",
+    "bearing_compliance": "gravity load",
+    "base_compliance": "gravity load",
+    "link_bending": "gravity load",
+    "backlash": "side of approach",
+    "servo_lag": "speed",
+    "thermal_expansion": "temperature",
+    "base_drift": "time",
+}
+WAVES = {1: "once per turn", 2: "twice per turn"}
+
+
+def _cell(effect: FoundEffect, n_joints: int) -> tuple[str, str] | None:
+    """Where in the atlas an effect shows: a link's error at the next joint, where its end is; None: nowhere."""
+    driver = ATLAS_DRIVERS.get(effect.effect)
+    if effect.effect in ("gear_eccentricity", "axis_wobble"):
+        count = next((p.value for p in effect.parameters if p.name == "per_turn"), 0)
+        driver = WAVES.get(round(count))
+    if driver is None:
+        return None
+    kind, _, number = effect.location.partition(" ")
+    if kind == "link":
+        return f"joint {min(int(number) + 1, n_joints)}", driver
+    return effect.location, driver
 
 
 def curve_of(effect: FoundEffect, found: FoundCurve) -> Curve:
@@ -136,9 +177,9 @@ def curve_of(effect: FoundEffect, found: FoundCurve) -> Curve:
     size = float(np.max(np.abs(found.value), initial=0.0))
     factor, unit = shown_unit(found.value_unit, size)
     value, band = factor * found.value, BAND * factor * found.stderr
-    does = "moves by" if "m" in found.value_unit.removesuffix("rad") else "turns by"
+    does = "moves by" if found.value_unit.startswith("m") else "turns by"
     return Curve(
-        title=f"{effect.location}, by the {found.driver}",
+        title=f"what {effect.location} does over the {found.driver}",
         x=x,
         value=value,
         low=value - band,

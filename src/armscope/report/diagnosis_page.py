@@ -11,11 +11,13 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from armscope.diagnosis.checks import check_table
 from armscope.diagnosis.verdict import NextPoses, SuspectRow, Verdict
 from armscope.files import write_text
 from armscope.recordings import Recordings
-from armscope.report.diagnosis_figures import SavedFigure, save_all
+from armscope.report.diagnosis_figures import SavedFigure, save_all, waterfall_steps
 from armscope.report.effect_cards import Card, card
+from armscope.report.headline import headline
 from armscope.report.page import render_page
 from armscope.report.reference_models import held_out_rms
 from armscope.report.wording import main_and_minor, millimetres, percent
@@ -57,10 +59,12 @@ def write_report(verdict: Verdict, arm: Arm, recordings: Recordings, folder: Pat
     Args:
         verdict: the diagnosis.
         arm: the nominal arm that was diagnosed.
-        recordings: the rows it was made from, in the verdict's order.
+        recordings: the table it was made from.
         folder: where the page goes.
     """
     folder = Path(folder)
+    if len(recordings) != verdict.rows:
+        recordings = check_table(arm, recordings).recordings  # the diagnosis left the same rows out
     references = held_out_rms(arm, recordings, verdict.residuals.before)
     figures = save_all(verdict, arm, recordings, folder / "figures", references)
     page = render_page("diagnosis.html.j2", **_content(verdict, arm, recordings, figures, references))
@@ -87,8 +91,9 @@ def _content(
     return {
         "version": importlib.metadata.version("armscope"),
         "verdict": verdict,
+        "source": Path(verdict.source).name,
         "arm": arm,
-        "headline": verdict.headline,
+        "headline": headline(verdict),
         "tag": tag,
         "answer": answer,
         "tiles": _tiles(verdict),
@@ -96,8 +101,12 @@ def _content(
         "figures": figures,
         "cards": [as_card(effect) for effect in main],
         "minor": [as_card(effect) for effect in minor],
+        "background": [
+            (family.family, percent(family.share), f"{100 * min(max(family.share, 0.0), 1.0):.1f}")
+            for family in verdict.background_families
+            if family.present
+        ],
         "background_share": percent(verdict.background.share),
-        "background_rms": millimetres(verdict.background.rms_at_tool_mm),
         "steps": _steps(verdict, references),
         "unexplained_rms": millimetres(verdict.unexplained.rms_mm),
         "suspects": _suspects(verdict.suspects),
@@ -123,7 +132,7 @@ def _tiles(verdict: Verdict) -> list[tuple[str, str, str]]:
         (millimetres(before), "mismatch before", where),
         (millimetres(after), "mismatch with the fitted model", where),
         (millimetres(verdict.noise_mm), "noise", f"per axis, {verdict.noise_source}"),
-        (f"{verdict.rows:,}".replace(",", " "), "recorded rows", f"{verdict.source}{runs}"),
+        (f"{verdict.rows:,}".replace(",", " "), "recorded rows", f"{Path(verdict.source).name}{runs}"),
     ]
 
 
@@ -132,8 +141,8 @@ def improvement(verdict: Verdict) -> str:
     before, after = verdict.held_out.before, verdict.held_out.after
     if not (math.isfinite(before) and math.isfinite(after)):
         return (
-            "There are too few rows to keep some aside, so it was not tested whether the model holds on rows that "
-            "took no part in the fit."
+            "Whether the model also holds on rows that took no part in the fit was not tested: there are too few rows "
+            "to keep some aside, or the test was switched off."
         )
     folds = f"{verdict.held_out.folds} parts" if verdict.held_out.folds else "parts"
     by = f", split by {verdict.held_out.grouped_by}" if verdict.held_out.grouped_by else ""
@@ -145,7 +154,7 @@ def improvement(verdict: Verdict) -> str:
 
 
 def _steps(verdict: Verdict, references: Sequence[tuple[str, float]]) -> pd.DataFrame:
-    rows = [(step.label, step.held_out_mm, step.fitted_mm) for step in verdict.waterfall]
+    rows = [(step.label, step.held_out_mm, step.fitted_mm) for step in waterfall_steps(verdict)]
     rows += [(f"for comparison: {name}", rms, np.nan) for name, rms in references]
     return pd.DataFrame(rows, columns=["model", "held-out RMS (mm)", "RMS on the fitted rows (mm)"])
 
@@ -160,12 +169,12 @@ def _suspects(suspects: Sequence[SuspectRow]) -> pd.DataFrame:
 
 
 def _next_poses(poses: NextPoses) -> pd.DataFrame:
-    table = pd.DataFrame(
-        np.degrees(poses.motor_angles), columns=[f"q{j} (deg)" for j in range(1, poses.motor_angles.shape[1] + 1)]
-    ).round(1)
-    table.insert(0, "pose", np.arange(1, len(table) + 1))
+    degrees = np.degrees(poses.motor_angles)
+    table = pd.DataFrame({"pose": np.arange(1, len(degrees) + 1)})
+    for motor in range(degrees.shape[1]):
+        table[f"q{motor + 1} (deg)"] = [f"{angle:.1f}" for angle in degrees[:, motor]]
     if np.any(np.nan_to_num(poses.payload_kg) != 0):
-        table["payload (kg)"] = poses.payload_kg
+        table["payload (kg)"] = [f"{mass:g}" for mass in poses.payload_kg]
     table["the two differ by (mm)"] = poses.separation_mm
     return table
 
@@ -192,8 +201,8 @@ def assumptions(verdict: Verdict, arm: Arm, recordings: Recordings) -> list[str]
     sentences = [
         "The base's place in the measurement frame is free for each run, the tool point for each target; what they "
         "can absorb is not part of the mismatch.",
-        "Every link may have geometric errors of tolerance size (assumed: about 1 mm and 1 mrad); such an error is "
-        "named only when the recordings ask for it by themselves.",
+        "Every link, drive and bearing may have small errors, as in any real arm (assumed: of tolerance size, about 1 mm "
+        "and 1 mrad, for the geometry); one of them is named only when the recordings ask for it by itself.",
         loads,
         f"The noise per axis, {millimetres(verdict.noise_mm)}, is {verdict.noise_source}.",
         "Joint angles are the commanded ones, lengths hold at 20 °C, the arm stands still or moves slowly, and each "

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from armscope.diagnosis.verdict import FoundEffect
+import numpy as np
+
+from armscope.diagnosis.verdict import FoundEffect, Parameter
 from armscope.report.wording import (
     Reading,
+    capitalised,
     effect_in_words,
     evidence_in_words,
     millimetres,
@@ -16,7 +20,6 @@ from armscope.report.wording import (
 )
 
 MOST_PARAMETERS = 8
-"""A free curve has dozens of coefficients, which its picture tells better."""
 TOO_CLOSE_NATS = 3.0
 """Alternatives nearer than this can't be told apart (odds below 20 to 1)."""
 
@@ -59,8 +62,8 @@ class Card:
 
 def card(effect: FoundEffect, number: int, figure: str = "") -> Card:
     """The card of the ``number``-th effect."""
-    readings = tuple(read_parameter(p) for p in effect.parameters)
-    shown = () if effect.curve is not None and len(readings) > MOST_PARAMETERS else readings[:MOST_PARAMETERS]
+    readings = [read_parameter(p) for p in told_parameters(effect)]
+    shown = tuple(readings[:MOST_PARAMETERS])
     return Card(
         anchor=f"effect-{number}-{re.sub('[^a-z0-9]+', '-', f'{effect.effect} {effect.location}'.lower())}",
         title=capitalised(effect.title or effect_in_words(effect.effect, effect.location)),
@@ -94,6 +97,15 @@ def card(effect: FoundEffect, number: int, figure: str = "") -> Card:
     )  # fmt: skip
 
 
+def told_parameters(effect: FoundEffect) -> Sequence[Parameter]:
+    """The effect's parameters; of a free curve, whose coefficients say nothing, how far it reaches."""
+    if effect.effect != "unknown" or effect.curve is None:
+        return effect.parameters
+    curve = effect.curve
+    largest = int(np.argmax(np.abs(curve.value)))
+    return [Parameter("reaches", curve.value_unit, float(curve.value[largest]), float(curve.stderr[largest]))]
+
+
 def chosen_how_often(inclusion: float | None) -> str:
     """How stable the choice is when rows are drawn anew."""
     if inclusion is None:
@@ -114,11 +126,6 @@ def how_specific(effect: FoundEffect) -> str:
         "These recordings show the kind of physics, not where it sits. "
         f"The single best reading is {effect_in_words(effect.effect, effect.location)}; its rivals stand below."
     )
-
-
-def capitalised(text: str) -> str:
-    """With a capital first letter, the rest untouched."""
-    return text[:1].upper() + text[1:]
 
 
 def _followed(effect: str, driver: str) -> str:

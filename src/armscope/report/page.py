@@ -12,6 +12,7 @@ import pandas as pd
 from markupsafe import Markup
 
 from armscope.files import write_text
+from armscope.report.wording import plain
 
 _TEMPLATES = jinja2.Environment(
     loader=jinja2.PackageLoader("armscope.report", "templates"),
@@ -23,11 +24,12 @@ _TEMPLATES = jinja2.Environment(
 
 
 def unbroken(text: str) -> str:
-    """Numbers keep their units beside them: no line break between "55" and "%"."""
-    return re.sub(r"(?<=\d) (?=[%°µa-zA-Z])", "\u00a0", text)
+    """Numbers keep their units beside them: no line break between "55" and "%", nor before a dash."""
+    return re.sub(r"(?<=\d) (?=[%°µa-zA-Z])| (?=–)", "\u00a0", text)
 
 
 _TEMPLATES.filters["unbroken"] = unbroken
+_TEMPLATES.filters["plain"] = plain
 
 
 def render_page(template: str, **content: Any) -> str:

@@ -66,7 +66,7 @@ def draw_vectors(points: Array, before: Array, after: Array) -> Figure:
         )
         bar.set_label("length of the residual (mm)")
         bar.outline.set_linewidth(0)
-        _key(figure, drawn, factor, nice(typical))
+        _key(panels[0, 0], drawn, factor, nice(typical))
     return figure
 
 
@@ -146,14 +146,16 @@ def _limits(at: Array, arrows: list[Array]) -> Array:
     return np.vstack([reach.min(axis=0) - margin, reach.max(axis=0) + margin])
 
 
-def _key(figure: Figure, arrows: Quiver, factor: float, length: float) -> None:
+def _key(panel: Axes, arrows: Quiver, factor: float, length: float) -> None:
     """The arrows' scale in words, and one arrow of known length behind them."""
+    figure = panel.get_figure(root=True)
+    assert figure is not None
     words = figure.suptitle(
         f"Arrows are drawn {factor:g} times as long as the residual. {length:g} mm:", x=0.02, ha="left", fontsize=9
     )
     figure.canvas.draw()
     box = words.get_window_extent().transformed(figure.transFigure.inverted())
-    key = arrows.axes.quiverkey(arrows, box.x1 + 0.08, (box.y0 + box.y1) / 2, factor * length, "", color=GREY,
+    key = panel.quiverkey(arrows, box.x1 + 0.055, (box.y0 + box.y1) / 2, factor * length, "", color=GREY,
                                 coordinates="figure")  # fmt: skip
     key.set_in_layout(False)
 

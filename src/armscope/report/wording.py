@@ -24,6 +24,7 @@ UNITS: dict[str, tuple[tuple[float, float, str], ...]] = {
     "1/turn": ((0.0, 1.0, "per turn"),),
     "kg": ((0.0, 1.0, "kg"),),
     "deg": ((0.0, 1.0, "°"),),
+    "m": ((1e-4, 1e3, "mm"), (0.0, 1e6, "µm")),
 }
 """Units of the files, and what they become in a text."""
 
@@ -31,11 +32,12 @@ LABELS = {
     "amplitude": "swing (± about the mean)",
     "coefficient": "expansion coefficient",
     "delay": "runs behind by",
+    "direction": "about a direction in the joint's x-y plane at",
     "flexibility": "flexibility 1/(E·I)",
     "gap": "play",
     "offset": "zero is off by",
     "per_turn": "waves",
-    "phase": "position of the wave",
+    "phase": "largest at",
     "ratio": "turns further by",
     "scale": "lengths too long by",
     "a": "length a",
@@ -61,8 +63,8 @@ class Reading:
 def read_parameter(parameter: Parameter) -> Reading:
     """A parameter in the field's units, with as many digits as its uncertainty leaves meaning."""
     label = LABELS.get(parameter.name, parameter.name.replace("_", " "))
-    if parameter.name == "phase":
-        parameter = Parameter("phase", "deg", math.degrees(parameter.value), math.degrees(parameter.stderr))
+    if parameter.name in ("phase", "direction"):
+        parameter = Parameter(parameter.name, "deg", math.degrees(parameter.value), math.degrees(parameter.stderr))
     factor, unit = shown_unit(parameter.unit, abs(parameter.value))
     known = math.isfinite(parameter.stderr) and parameter.stderr > 0
     low, high = (factor * edge for edge in parameter.interval)
@@ -70,6 +72,32 @@ def read_parameter(parameter: Parameter) -> Reading:
     value = f"{_number(factor * parameter.value, decimals)} {unit}".strip().replace(" °", "°")
     interval = f"{_number(low, decimals)} … {_number(high, decimals)} {unit}" if known else "found by trying values"
     return Reading(label, value, interval.replace(" °", "°"), _said_otherwise(parameter))
+
+
+def number_of(parameter: Parameter, sign: bool = False) -> str:
+    """A parameter's size in the field's unit with two digits, for a sentence; its sign only where asked."""
+    factor, unit = shown_unit(parameter.unit, abs(parameter.value))
+    plus = ("+" if parameter.value > 0 else "−") if sign else ""
+    return f"{plus}{rounded(factor * abs(parameter.value))} {unit}"
+
+
+def rounded(value: float) -> str:
+    """Two significant digits without an exponent; whole numbers from 10 on."""
+    if not math.isfinite(value) or value == 0:
+        return "0" if value == 0 else "–"
+    decimals = max(0, 1 - math.floor(math.log10(abs(value))))
+    return f"{value:.{min(decimals, 6)}f}"
+
+
+def spelled(count: int) -> str:
+    """Small numbers as words."""
+    words = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
+    return words[count] if count < len(words) else str(count)
+
+
+def capitalised(text: str) -> str:
+    """With a capital first letter, the rest untouched."""
+    return text[:1].upper() + text[1:]
 
 
 def shown_unit(unit: str, size: float) -> tuple[float, str]:
@@ -149,9 +177,14 @@ def millimetres(value: float | None) -> str:
     return f"{value:.3g} mm"
 
 
+def plain(text: str) -> str:
+    """The files' names in a text as words: "gear_mesh (per_turn 9)" becomes "gear mesh (waves per turn 9)"."""
+    return text.replace("per_turn", "waves per turn").replace("_", " ")
+
+
 def effect_in_words(effect: str, location: str) -> str:
     """ "joint_compliance" at "joint 2" as "joint compliance, joint 2"."""
-    return f"{effect.replace('_', ' ')}, {location}"
+    return f"{plain(effect)}, {location}"
 
 
 def main_and_minor(effects: Sequence[FoundEffect]) -> tuple[list[FoundEffect], list[FoundEffect]]:

@@ -1,0 +1,212 @@
+"""The first sentence of a report, in plain words: what gives, by how much, and what share of the mismatch that is."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from armscope.diagnosis.verdict import FoundEffect, Parameter, Verdict
+from armscope.report.wording import (
+    capitalised,
+    main_and_minor,
+    millimetres,
+    number_of,
+    percent,
+    rounded,
+    spelled,
+)
+
+MOST_TOLD = 3
+"""More effects than this are counted, not told."""
+
+
+def headline(verdict: Verdict) -> str:
+    """The answer in one sentence."""
+    main, minor = main_and_minor(verdict.effects)
+    if verdict.answer == "nothing missing":
+        return (
+            f"Nothing is missing: once base and tool are placed, the model meets the recordings to "
+            f"{millimetres(verdict.residual_after_mm)} per axis, which is noise."
+        )
+    if verdict.answer == "cannot tell" and not main:
+        return _cannot_tell(verdict)
+    parts = [f"{phrase(effect)} – {percent(effect.share)}{_of_what(n)}" for n, effect in enumerate(main[:MOST_TOLD])]
+    if verdict.background.present:
+        share = f"{percent(verdict.background.share)}{_of_what(len(parts))}"
+        parts.append(f"{'' if parts else 'only '}{background_in_words(verdict)} – {share}")
+    if len(main) > MOST_TOLD:
+        rest = main[MOST_TOLD:]
+        parts.append(f"and {spelled(len(rest))} more effect{'s' if len(rest) > 1 else ''}")
+    if not parts:
+        parts = [f"only minor effects were found ({spelled(len(minor))})"]
+    return capitalised("; ".join(parts)) + "."
+
+
+def background_in_words(verdict: Verdict) -> str:
+    """ "small geometric and elastic errors everywhere in the arm"."""
+    families = [family.family for family in verdict.background_families if family.present] or ["geometric"]
+    *first, last = families
+    listed = f"{', '.join(first)} and {last}" if first else last
+    return f"small {listed} errors everywhere in the arm"
+
+
+def phrase(effect: FoundEffect) -> str:
+    """One effect as a clause: who does what, by how much."""
+    if effect.named_as != "effect":
+        return _vague(effect)
+    return exact_phrase(effect)
+
+
+def exact_phrase(effect: FoundEffect) -> str:
+    """The clause at the level of the single effect, however sure that is."""
+    clause = _CLAUSES.get(effect.effect)
+    if clause is None:
+        return f"{effect.effect.replace('_', ' ')} at {effect.location}"
+    return clause(effect, {p.name: p for p in effect.parameters})
+
+
+def _of_what(position: int) -> str:
+    return " of the mismatch" if position == 0 else ""
+
+
+def _cannot_tell(verdict: Verdict) -> str:
+    if verdict.mismatch:
+        remains = millimetres(verdict.residual_after_mm)
+        return (
+            f"Cannot tell what is missing: {remains} per axis remain, more than the noise, "
+            "but they follow nothing that was recorded."
+        )
+    why = verdict.notices[-1].text.rstrip(".") if verdict.notices else "the recordings do not say"
+    settle = "; the measurements named below would settle it" if verdict.next_poses is not None else ""
+    return f"Cannot tell: {why[:1].lower() if why[1:2].islower() else why[:1]}{why[1:]}{settle}."
+
+
+def _vague(effect: FoundEffect) -> str:
+    """A region or a family, with the best single reading in brackets."""
+    if " or " in effect.title:
+        return f"either {effect.title}"
+    kinds = {
+        "elastic": "something gives way under load",
+        "geometric": "something has another shape than stated",
+        "transmission": "a drive turns otherwise than commanded",
+        "thermal": "something grows with temperature",
+        "drift": "something moves during the recording",
+        "unknown": "something follows no known physics",
+    }
+    _, _, where = effect.title.partition(", ")
+    what = kinds.get(effect.family, f"something {effect.family}")
+    return f"{what} {where or 'in the arm'} (best single reading: {exact_phrase(effect)})"
+
+
+Parameters = Mapping[str, Parameter]
+Clause = Callable[[FoundEffect, Parameters], str]
+
+
+def _with(before: str, name: str, after: str = "", sign: bool = False) -> Clause:
+    """``before`` + the parameter's size in the field's units + ``after``; {location} is filled in."""
+
+    def clause(effect: FoundEffect, parameters: Parameters) -> str:
+        if name not in parameters:
+            return f"{before.removesuffix(' by ')}{after}".format(location=_possessive(effect.location))
+        size = number_of(parameters[name], sign)
+        return f"{before}{size}{after}".format(location=_possessive(effect.location))
+
+    return clause
+
+
+def _possessive(location: str) -> str:
+    """The joint itself, without where it takes it from."""
+    return location.split(" from ")[0]
+
+
+def _ratio(effect: FoundEffect, parameters: Parameters) -> str:
+    ratio = parameters["ratio"].value
+    return f"{effect.location} turns {rounded(100 * abs(ratio))} % too {'far' if ratio > 0 else 'little'}"
+
+
+def _waves(effect: FoundEffect, parameters: Parameters) -> str:
+    count = parameters["per_turn"].value if "per_turn" in parameters else 1
+    often = {1: "once per turn", 2: "twice per turn"}.get(round(count), f"{count:.0f} times per turn")
+    what = "the axis of {location} tilts" if effect.effect == "axis_wobble" else "the angle of {location} swings"
+    size = number_of(parameters["amplitude"]) if "amplitude" in parameters else "a little"
+    return f"{what} by ±{size} {often}".format(location=effect.location)
+
+
+def _coupling(effect: FoundEffect, parameters: Parameters) -> str:
+    joint, _, other = effect.location.partition(" from ")
+    return f"{joint} turns by {number_of(parameters['coupling'])} of {other or 'another joint'}"
+
+
+def _geometry(effect: FoundEffect, parameters: Parameters) -> str:
+    """The parameter that stands out most from its uncertainty, and the next."""
+    lengths = {"a": "length a", "d": "length d", "alpha": "twist α", "theta": "turn θ", "beta": "twist β"}
+    told = sorted(parameters.values(), key=lambda p: -abs(p.value) / (p.stderr or math.inf))[:2]
+    clear = [p for p in told if p.stderr and abs(p.value) > 3 * p.stderr] or told[:1]
+    errors = " and ".join(f"{lengths.get(p.name, p.name)} by {number_of(p, sign=True)}" for p in clear)
+    return f"{effect.location} differs from its drawing: {errors}"
+
+
+def _expansion(effect: FoundEffect, parameters: Parameters) -> str:
+    return f"{effect.location} grows by {number_of(parameters['coefficient'])} with temperature"
+
+
+def _rod(effect: FoundEffect, parameters: Parameters) -> str:
+    bars = " and ".join(f"{p.name} by {number_of(p, sign=True)}" for p in parameters.values())
+    return f"the parallelogram's bars differ: {bars}"
+
+
+def _scale(effect: FoundEffect, parameters: Parameters) -> str:
+    scale = parameters["scale"]
+    return f"the instrument measures {number_of(scale)} too {'long' if scale.value > 0 else 'short'}"
+
+
+def _jump(effect: FoundEffect, parameters: Parameters) -> str:
+    size = math.sqrt(sum(parameters[axis].value ** 2 for axis in "xyz" if axis in parameters))
+    when = f" at {parameters['time'].value:.0f} s" if "time" in parameters else ""
+    when = f" at row {parameters['row'].value:.0f}" if "row" in parameters else when
+    return f"the {effect.location} jumped by {rounded(size)} mm{when}"
+
+
+def _drift(effect: FoundEffect, parameters: Parameters) -> str:
+    size = math.sqrt(sum(parameters[axis].value ** 2 for axis in "xyz" if axis in parameters))
+    return f"the base drifts by {rounded(size)} mm per hour"
+
+
+def _payload(effect: FoundEffect, parameters: Parameters) -> str:
+    told = " and ".join(f"{p.name.replace('_', ' ')} by {number_of(p, sign=True)}" for p in parameters.values())
+    return f"the payload is not as stated: {told}"
+
+
+def _unknown(effect: FoundEffect, parameters: Parameters) -> str:
+    size = ""
+    if effect.curve is not None and len(effect.curve.value):
+        largest = float(np.max(np.abs(effect.curve.value)))
+        size = f", by up to {number_of(Parameter('', effect.curve.value_unit, largest, math.nan))}"
+    return f"something unexplained at {effect.location} follows the {effect.driver}{size}"
+
+
+_CLAUSES: dict[str, Clause] = {
+    "joint_compliance": _with("{location} gives way by ", "compliance", " under gravity"),
+    "bearing_compliance": _with("the bearing of {location} tilts by ", "compliance", " under gravity"),
+    "base_compliance": _with("the base tilts by ", "compliance", " under the arm's moment"),
+    "link_bending": lambda effect, _: f"{effect.location} bends under its load",
+    "joint_offset": _with("the zero of {location} is off by ", "offset", sign=True),
+    "gear_ratio": _ratio,
+    "gear_eccentricity": _waves,
+    "gear_mesh": _waves,
+    "axis_wobble": _waves,
+    "backlash": _with("{location} has ", "gap", " of play"),
+    "servo_lag": _with("{location} runs behind by ", "delay"),
+    "joint_coupling": _coupling,
+    "link_geometry": _geometry,
+    "thermal_expansion": _expansion,
+    "parallelogram_geometry": _rod,
+    "instrument_scale": _scale,
+    "base_shift": _jump,
+    "tool_shift": _jump,
+    "base_drift": _drift,
+    "payload_error": _payload,
+    "unknown": _unknown,
+}
