@@ -130,4 +130,4 @@ def test_ten_thousand_points_take_no_more_than_a_few_seconds(arm):
     begin = time.process_time()
     found = follow_path(arm, line([1.2, -0.6, 0.6], [1.4, 0.5, 1.2], 10_000), HOME, HELD)
     assert found.reached.all()
-    assert time.process_time() - begin < 4
+    assert time.process_time() - begin < 6

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
+from scipy.spatial import cKDTree
 from scipy.stats import qmc
 
 from armscope.inputs import InputError
@@ -28,7 +29,10 @@ ITERATIONS = 25
 LARGEST_STEP_RAD = 0.35
 """A joint that turns further than this (20 degrees) between neighbouring points of a path has jumped."""
 
-STARTS = 32
+CLOUD, STARTS_PER_CLOUD = 4000, 3
+PATIENCE = 6
+"""A search that has not halved its gap within so many steps is given up."""
+
 BEYOND_REACH = "beyond reach"
 
 
@@ -146,16 +150,17 @@ class _Newton:
     def _solve(self, target: Array, previous: Array, free: NDArray[np.bool_]) -> Array | None:
         if not free.any():
             return None
-        q, last = previous.copy(), np.inf
-        for _ in range(ITERATIONS):
+        q, checkpoint = previous.copy(), np.inf
+        for iteration in range(ITERATIONS):
             point, jacobian = self._point_and_jacobian(q)
             gap = target - point
             size = float(np.sqrt(gap @ gap))
             if size < TOLERANCE_M:
                 return q
-            if size > 2 * last:
-                return None
-            last = size
+            if iteration % PATIENCE == 0:
+                if size > checkpoint / 2:
+                    return None
+                checkpoint = size
             jacobian = jacobian * free
             # a millionth of a square metre per radian keeps the step finite where the arm is stretched out
             gram = jacobian @ jacobian.T
@@ -205,39 +210,53 @@ def _last_reached(solutions: Array, rows: NDArray[np.intp], start: Array) -> Arr
 
 
 def _from_many_starts(arm: Arm, targets: Array, held: Mapping[int, float], near: Array) -> Array:
-    """(N, m) a solution for each target, from several starts at once, that breaks the limits least; NaN where none is.
+    """(N, m) a solution for each target that breaks the limits least; NaN where none is found.
 
-    Among solutions within the limits, the one that is nearest to ``near``.
+    Newton's method starts from the poses nearest to the target in a cloud of poses within the limits and in one without
+    limits, and from ``near`` (m,) or (N, m). Among solutions within the limits, the one nearest to ``near`` counts.
     """
-    starts = np.vstack([np.zeros((1, arm.n_motors)), _spread(arm)])
-    n_starts = len(starts) + 1
     near = np.broadcast_to(near, (len(targets), arm.n_motors))
-    q = np.concatenate([near[:, None], np.broadcast_to(starts, (len(targets), *starts.shape))], axis=1)
-    q = _with_held(q.reshape(-1, arm.n_motors), held)
-    goals = np.repeat(targets, n_starts, axis=0)
-    free = np.array([motor + 1 not in held for motor in range(arm.n_motors)])
-    open_rows = np.arange(len(q))
-    for _ in range(4 * ITERATIONS):
-        frames = chain(arm, q[open_rows])
-        gap = goals[open_rows] - frames.tool
-        still = np.linalg.norm(gap, axis=1) > TOLERANCE_M
-        open_rows, gap = open_rows[still], gap[still]
-        if not len(open_rows):
-            break
-        jacobian = position_jacobian(arm, frames)[still] * free
-        damping = 1e-6 * np.minimum(np.einsum("ni,ni->n", gap, gap), 1.0) + 1e-14
-        gram = jacobian @ np.swapaxes(jacobian, 1, 2) + damping[:, None, None] * np.eye(3)
-        step = np.einsum("nji,nj->ni", jacobian, np.linalg.solve(gram, gap[..., None])[..., 0])
-        step *= np.minimum(1.0, 0.5 / np.maximum(1e-12, np.abs(step).max(axis=1)))[:, None]
-        q[open_rows] += step
-    q[open_rows] = np.nan
+    clouds = [_with_held(_spread(arm, limits), held) for limits in (arm.limits, np.full_like(arm.limits, np.inf))]
+    starts = [near[:, None]]
+    for cloud in clouds:
+        _, nearest = cKDTree(chain(arm, cloud).tool).query(targets, k=STARTS_PER_CLOUD)
+        starts.append(cloud[nearest])
+    q = _with_held(np.concatenate(starts, axis=1), held)
+    n_starts = q.shape[1]
+    q = _solved(arm, np.repeat(targets, n_starts, axis=0), q.reshape(-1, arm.n_motors), held)
     q = _unwound(arm, q).reshape(len(targets), n_starts, arm.n_motors)
     excess = np.maximum(0, np.maximum(arm.limits[:, 0] - q, q - arm.limits[:, 1])).max(axis=2)
     distance = np.abs(q - near[:, None]).max(axis=2)
     cost = np.nan_to_num(np.where(excess > 1e-9, 1e3 + excess, 0) + distance * 1e-3, nan=np.inf)
-    best = np.argmin(cost, axis=1)
-    chosen: Array = q[np.arange(len(targets)), best]
+    chosen: Array = q[np.arange(len(targets)), np.argmin(cost, axis=1)]
     return chosen
+
+
+def _solved(arm: Arm, goals: Array, q: Array, held: Mapping[int, float]) -> Array:
+    """(N, m) solutions by damped Newton steps from ``q``, limits ignored; NaN for rows that stop coming closer."""
+    q, free = q.copy(), np.array([motor + 1 not in held for motor in range(arm.n_motors)])
+    at_work, checkpoint = np.arange(len(q)), np.full(len(q), np.inf)
+    for iteration in range(1, 4 * ITERATIONS + 1):
+        frames = chain(arm, q[at_work])
+        gap = goals[at_work] - frames.tool
+        size = np.linalg.norm(gap, axis=1)
+        stays = size > TOLERANCE_M
+        if iteration % PATIENCE == 0:
+            stuck = stays & (size > checkpoint[at_work] / 2)
+            q[at_work[stuck]] = np.nan
+            stays &= ~stuck
+            checkpoint[at_work] = size
+        jacobian = position_jacobian(arm, frames)[stays] * free
+        at_work, gap, size = at_work[stays], gap[stays], size[stays]
+        if not len(at_work):
+            return q
+        damping = 1e-6 * np.minimum(size**2, 1.0) + 1e-14
+        gram = jacobian @ np.swapaxes(jacobian, 1, 2) + damping[:, None, None] * np.eye(3)
+        step = np.einsum("nji,nj->ni", jacobian, np.linalg.solve(gram, gap[..., None])[..., 0])
+        step *= np.minimum(1.0, 0.5 / np.maximum(1e-12, np.abs(step).max(axis=1)))[:, None]
+        q[at_work] += step
+    q[at_work] = np.nan
+    return q
 
 
 def _unwound(arm: Arm, q: Array) -> Array:
@@ -247,10 +266,10 @@ def _unwound(arm: Arm, q: Array) -> Array:
     return np.where(alone, q - 2 * np.pi * np.round((q - middle) / (2 * np.pi)), q)
 
 
-def _spread(arm: Arm) -> Array:
-    """Starts spread evenly between the limits (half a turn either way where there are none)."""
-    low, high = np.where(np.isfinite(arm.limits), arm.limits, [-np.pi, np.pi]).T
-    return qmc.scale(qmc.Halton(arm.n_motors, scramble=False).random(STARTS), low, high)
+def _spread(arm: Arm, limits: Array) -> Array:
+    """Poses spread evenly between limits (half a turn either way where there are none)."""
+    low, high = np.where(np.isfinite(limits), limits, [-np.pi, np.pi]).T
+    return qmc.scale(qmc.Halton(arm.n_motors, scramble=False).random(CLOUD), low, high)
 
 
 def _middle(arm: Arm) -> Array:
