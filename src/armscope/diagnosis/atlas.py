@@ -9,6 +9,7 @@ from scipy.linalg import cholesky, solve_triangular
 from armscope.diagnosis.extra import conditioned, explained, weigh_blocks
 from armscope.diagnosis.problem import Gram, Pool
 from armscope.diagnosis.verdict import Atlas
+from armscope.diagnosis.weights import RowWeights
 from armscope.physics.effect import AXES, ONE, Direction, Driver, Term, term
 from armscope.physics.elastic import has_load
 from armscope.physics.model import FittedModel
@@ -21,7 +22,7 @@ ATLAS_ROWS = 4000
 Cell = tuple[int, int, int]
 
 
-def atlas(pool: Pool, model: FittedModel, recordings: Recordings, weights: Array, fitted: Gram) -> Atlas:
+def atlas(pool: Pool, model: FittedModel, recordings: Recordings, weights: RowWeights, fitted: Gram) -> Atlas:
     """The atlas on top of the free frames and on top of the fitted model.
 
     Args:
@@ -30,7 +31,7 @@ def atlas(pool: Pool, model: FittedModel, recordings: Recordings, weights: Array
     """
     rows = np.unique(np.linspace(0, len(recordings) - 1, min(len(recordings), ATLAS_ROWS)).astype(np.intp))
     share = len(rows) / len(recordings)
-    table, w = recordings.rows(rows), weights[rows] / share
+    table, w = recordings.rows(rows), weights.take(rows, share)
     locations = ("base", *(f"joint {j}" for j in range(1, model.arm.n_joints + 1)))
     drivers = _drivers(model, recordings)
     names = tuple(name for name, _ in drivers)

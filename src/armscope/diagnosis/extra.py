@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from armscope.diagnosis.evidence import forward
 from armscope.diagnosis.problem import Pool, chunks, columns, pool_values
+from armscope.diagnosis.weights import RowWeights
 from armscope.physics.effect import Term
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
@@ -38,7 +39,7 @@ def weigh_blocks(
     inside: NDArray[np.intp],
     model: FittedModel,
     recordings: Recordings,
-    weights: Array,
+    weights: RowWeights,
 ) -> Blocks:
     """Sums over rows for blocks of equally many terms against the pool's columns ``inside``."""
     m, c = len(blocks), len(blocks[0])
@@ -49,13 +50,12 @@ def weigh_blocks(
     present = [pool.terms[i] for i in active]
     own, cross, b = np.zeros((m, c, c)), np.zeros((len(inside), m * c)), np.zeros((m, c))
     for rows, posture in chunks(model, recordings):
-        root = np.sqrt(np.repeat(weights[rows], 3))
         X = columns(posture, model_terms)
         y = (model.to_base(recordings.positions[rows], recordings.run[rows]) - posture.tool).reshape(-1) * 1e3
         # the response before any effect, also of those that are not among the columns inside
-        y = (y + columns(posture, present) @ values[active] if present else y) * root
-        X *= root[:, None]
-        E = columns(posture, flat) * root[:, None]
+        y = weights.times(rows, y + columns(posture, present) @ values[active] if present else y)
+        X = weights.times(rows, X)
+        E = weights.times(rows, columns(posture, flat))
         cross += X.T @ E
         b += (y @ E).reshape(m, c)
         blockwise = np.ascontiguousarray(E.T).reshape(m, c, -1)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,6 +17,7 @@ from armscope.diagnosis.noise import Noise
 from armscope.diagnosis.parameters import parameters
 from armscope.diagnosis.problem import Gram, contribution
 from armscope.diagnosis.refit import Refit
+from armscope.diagnosis.scatter import Scattered, levers
 from armscope.diagnosis.search import Search
 from armscope.diagnosis.validation import Blocks, cross_validate
 from armscope.diagnosis.verdict import (
@@ -25,6 +26,7 @@ from armscope.diagnosis.verdict import (
     FoundEffect,
     HeldOut,
     Notice,
+    Parameter,
     Residuals,
     SuspectRow,
     Unexplained,
@@ -47,6 +49,8 @@ NOISE_EXCESS = 1.15
 """A residual this many times the stated noise is more than the noise."""
 BACKGROUND_SEEN_NATS = 5.0
 SUSPECT_WEIGHT = 0.5
+NOTHING = "nothing in the table"
+"""What scatter follows."""
 LISTED_SUSPECTS = 200
 
 
@@ -64,6 +68,7 @@ class Evidence:
     blocks: list[Gram]
     best: Hypothesis
     fit: Refit
+    scatter: tuple[Scattered, ...]
 
 
 def judge(
@@ -89,7 +94,8 @@ def judge(
         held_out, waterfall = cross_validate(problem, evidence.blocks, evidence.layout, best, order)
     tell("drawing the atlas", 0.9)
     background = _backgrounds(evidence, search, variance)
-    effects = tuple(_with_weight(found[c], background) for c in order)
+    named = [_with_weight(found[c], background) for c in order]
+    effects = tuple(sorted([*named, *_scattered(evidence, variance)], key=lambda effect: -effect.rms_at_tool_mm))
     unexplained = _unexplained(effects, evidence)
     answer, mismatch = _answer(effects, background, unexplained, evidence)
     separating = next_poses(search, best, rivals, fit, evidence.recordings, rng)
@@ -162,6 +168,33 @@ def _found(
     )
 
 
+def _scattered(evidence: Evidence, variance: float) -> Iterator[FoundEffect]:
+    """Scatter that has a place but follows nothing in the table."""
+    moved = levers(evidence.fit.model, evidence.recordings)
+    for scattered in evidence.scatter:
+        rms = scattered.size * float(np.sqrt(np.mean(moved[scattered.motor - 1] ** 2)))
+        location = f"joint {scattered.motor}"
+        yield FoundEffect(
+            effect="unknown",
+            location=location,
+            family="unknown",
+            driver=NOTHING,
+            named_as="effect",
+            title=f"scatter at {location} that follows nothing in the table",
+            minor=False,
+            parameters=(Parameter("scatter", "rad", scattered.size, scattered.size / np.sqrt(2 * len(moved[0]))),),
+            rms_at_tool_mm=rms,
+            share=min(rms**2 / variance, 1.0) if variance > 0 else 0.0,
+            evidence_nats=scattered.evidence,
+            alternatives=(),
+            inclusion=None,
+            curve=None,
+            physics="The joint stands a little elsewhere each time, for a reason that the table does not record.",
+            confirm="Record the side of approach, speed, load and temperature, and repeat one pose many times.",
+            cure="Find what the scatter follows (play, a loose coupling or encoder) before compensating anything.",
+        )
+
+
 def _with_weight(found: FoundEffect, background: Sequence[Background]) -> FoundEffect:
     """Minor or not: in an arm with small errors everywhere, a small effect is one of them."""
     ordinary = any(family.present for family in background)
@@ -178,7 +211,7 @@ def _variance_after_frames(fit: Refit) -> float:
 
 
 def _weighted_rms(fit: Refit) -> float:
-    trusted = fit.weights > SUSPECT_WEIGHT * np.median(fit.weights)
+    trusted = fit.weights.row > SUSPECT_WEIGHT * np.median(fit.weights.row)
     return float(np.sqrt(np.mean(fit.residuals[trusted] ** 2)))
 
 
@@ -210,7 +243,7 @@ def _unexplained(effects: Sequence[FoundEffect], evidence: Evidence) -> Unexplai
     curves = [effect for effect in effects if effect.effect == "unknown"]
     if curves:
         largest = curves[0]
-        words = largest.curve.description if largest.curve else ""
+        words = largest.curve.description if largest.curve else largest.title
         return Unexplained(True, largest.location, largest.driver, largest.rms_at_tool_mm, words)
     stated = evidence.noise.stated_mm
     if stated and evidence.fit.noise > NOISE_EXCESS * stated and _significant(evidence):
@@ -241,7 +274,7 @@ def _residuals(evidence: Evidence) -> Residuals:
         points=fit.model.to_base(table.positions, table.run) * 1e3,
         before=evidence.first,
         after=fit.residuals,
-        weight=fit.weights,
+        weight=fit.weights.row,
         id=table.id,
         run=table.run,
     )
@@ -249,7 +282,7 @@ def _residuals(evidence: Evidence) -> Residuals:
 
 def _suspects(evidence: Evidence) -> tuple[SuspectRow, ...]:
     fit, table = evidence.fit, evidence.recordings
-    relative = fit.weights / np.median(fit.weights)
+    relative = fit.weights.row / np.median(fit.weights.row)
     rows = np.flatnonzero(relative < SUSPECT_WEIGHT)
     size = np.linalg.norm(fit.residuals, axis=1)
     worst = rows[np.argsort(-size[rows])][:LISTED_SUSPECTS]

@@ -15,12 +15,14 @@ from armscope.diagnosis.evidence import Hypothesis, Problem, background_sizes, p
 from armscope.diagnosis.frames import fit_frames
 from armscope.diagnosis.judge import Evidence, judge, undecided
 from armscope.diagnosis.noise import Noise, known_noise, relative_uncertainty
-from armscope.diagnosis.problem import Gram, Pool, accumulate, pool, residuals, total
+from armscope.diagnosis.problem import COUNTS, Gram, Pool, accumulate, pool, residuals, total
 from armscope.diagnosis.refit import Refit, refit
 from armscope.diagnosis.scan import jumps, mesh_lines
+from armscope.diagnosis.scatter import Scattered, find_scatter, levers, noise_between, whitening
 from armscope.diagnosis.search import Search
 from armscope.diagnosis.validation import Blocks, split
 from armscope.diagnosis.verdict import Notice, Verdict
+from armscope.diagnosis.weights import RowWeights
 from armscope.physics.backgrounds import backgrounds
 from armscope.physics.effect import Placed
 from armscope.physics.frames import free_frames
@@ -34,7 +36,7 @@ from armscope.robot import Arm
 Array = NDArray[np.float64]
 Progress = Callable[[str, float], None]
 
-ROUNDS = 6
+ROUNDS = 8
 SAMPLE_ROWS = 5000
 """The first rounds look at this many rows at most; the last one at all of them."""
 
@@ -64,6 +66,7 @@ class Selected:
     blocks: list[Gram]
     best: Hypothesis
     fit: Refit
+    scatter: tuple[Scattered, ...]
 
 
 def diagnose(
@@ -100,7 +103,17 @@ def diagnose(
     found = select(start, table, first, noise, frames, layout, tell)
     verdict = judge(
         Evidence(
-            start, table, first, noise, checked.notices, layout, found.problem, found.blocks, found.best, found.fit
+            start,
+            table,
+            first,
+            noise,
+            checked.notices,
+            layout,
+            found.problem,
+            found.blocks,
+            found.best,
+            found.fit,
+            found.scatter,
         ),
         settings.resamples,
         settings.cross_validation,
@@ -132,13 +145,15 @@ def select(
     arm = start.arm
     candidates = library(arm, recordings)
     families = list(backgrounds(arm, recordings).values())
+    moved = levers(start, recordings)
     model, left = start, first
+    scatter: list[Scattered] = []
     uncertainty = relative_uncertainty(recordings, robust.scale_of(left))
-    weights = robust.first_weights(left, uncertainty, noise.least_mm)
+    weights = RowWeights(robust.first_weights(left, uncertainty, noise.least_mm))
     previous: tuple[frozenset[str], bytes] | None = None
     settled = False
     for number in range(ROUNDS):
-        tell("looking for effects", 0.05 + 0.1 * number)
+        tell("looking for effects", 0.05 + 0.05 * number)
         model, payload = _payload(model, recordings)
         columns = pool(frames, families, [*candidates, *payload])
         blocks = accumulate(columns, model, recordings, weights, layout.of_row)
@@ -146,18 +161,23 @@ def select(
         best = Search.on(weighed).best()
         effects = [(columns.candidates[c.candidate], float(weighed.sizes[c.size])) for c in best.chosen]
         small = list(zip(families, background_sizes(weighed, best), strict=True))
-        fit = refit(model, recordings, frames, small, effects, uncertainty, noise.least_mm)
+        fit = refit(model, recordings, frames, small, effects, uncertainty, noise.least_mm, weights.turn)
         new = [*_scanned(weighed, best, model, recordings, weights, columns)]
-        model, left = fit.model, fit.residuals
+        model, left, weights = fit.model, fit.residuals, fit.weights
         uncertainty = relative_uncertainty(recordings, fit.noise)
-        weights = robust.weights(left, uncertainty, max(noise.least_mm, fit.noise))
-        state = frozenset(str(placed) + placed.variant for placed, _ in effects), (weights < 0.5).tobytes()
+        state = frozenset(str(placed) + placed.variant for placed, _ in effects), (weights.row < COUNTS).tobytes()
         if not new and state == previous and (settled or not payload):
-            break
+            again = find_scatter(left, moved, noise.least_mm)
+            if {s.motor for s in again} == {s.motor for s in scatter}:
+                break
+            scatter = again
+            turn = whitening(scatter, moved, noise_between(left, moved, scatter, noise.least_mm))
+            white = RowWeights(weights.row, turn).whitened(left)
+            weights = RowWeights(robust.weights(white, uncertainty, noise.least_mm), turn)
         settled = state == previous
         previous = state
         candidates = [*candidates, *new]
-    return Selected(weighed, blocks, best, fit)
+    return Selected(weighed, blocks, best, fit, tuple(scatter))
 
 
 def _payload(model: FittedModel, recordings: Recordings) -> tuple[FittedModel, list[Placed]]:
@@ -174,7 +194,7 @@ def _payload(model: FittedModel, recordings: Recordings) -> tuple[FittedModel, l
 
 
 def _scanned(
-    weighed: Problem, best: Hypothesis, model: FittedModel, recordings: Recordings, weights: Array, columns: Pool
+    weighed: Problem, best: Hypothesis, model: FittedModel, recordings: Recordings, weights: RowWeights, columns: Pool
 ) -> list[Placed]:
     """New candidates whose scanned numbers promise something, given the best hypothesis and given none."""
     known = {(placed.key, placed.variant) for placed in columns.candidates}

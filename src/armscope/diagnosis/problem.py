@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.diagnosis.weights import RowWeights
 from armscope.physics.effect import Placed, Term, clash
 from armscope.physics.model import FittedModel
 from armscope.physics.scene import Posture
@@ -23,6 +24,8 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 CHUNK_ROWS = 1500
+COUNTS = 0.5
+"""Rows with a smaller weight do not count as measurements."""
 LEAST_SEEN = 0.02
 """A column of which frames absorb more than all but this share is scaled as if this share were left."""
 
@@ -130,14 +133,16 @@ def residuals(model: FittedModel, recordings: Recordings) -> Array:
     return left
 
 
-def accumulate(pool: Pool, model: FittedModel, recordings: Recordings, weights: Array, blocks: Indices) -> list[Gram]:
+def accumulate(
+    pool: Pool, model: FittedModel, recordings: Recordings, weights: RowWeights, blocks: Indices
+) -> list[Gram]:
     """Gram matrices per block of rows.
 
     The response is the residual of the model plus what its own effects contribute linearly, so that every hypothesis
     starts from no effects while the linearisation stands where the model stands.
 
     Args:
-        weights: (N,) of the rows.
+        weights: of the rows.
         blocks: (N,) number of each row's block, from 0.
     """
     current = pool_values(pool, model)
@@ -147,16 +152,16 @@ def accumulate(pool: Pool, model: FittedModel, recordings: Recordings, weights: 
         X = columns(posture, pool.terms)
         y = (model.to_base(recordings.positions[rows], recordings.run[rows]) - posture.tool).reshape(-1) * 1e3
         y = y + X @ current
-        w = np.repeat(weights[rows], 3)
+        X, y = weights.times(rows, X), weights.times(rows, y)
+        counts = np.repeat(weights.row[rows] > COUNTS, 3)
         block_of = np.repeat(blocks[rows], 3)
         for block in np.unique(block_of):
             inside = block_of == block
-            root = np.sqrt(w[inside])
-            Xb, yb = X[inside] * root[:, None], y[inside] * root
+            Xb, yb = X[inside], y[inside]
             G[block] += Xb.T @ Xb
             b[block] += Xb.T @ yb
             yy[block] += yb @ yb
-            n[block] += np.count_nonzero(w[inside] > 0.5)
+            n[block] += np.count_nonzero(counts[inside])
     return [Gram(G[k], b[k], float(yy[k]), float(n[k])) for k in range(count)]
 
 

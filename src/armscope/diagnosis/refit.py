@@ -12,6 +12,7 @@ from armscope.diagnosis import robust
 from armscope.diagnosis.evidence import FRAME_PRIOR_MM, TOLERANCE
 from armscope.diagnosis.frames import moved_base
 from armscope.diagnosis.problem import Gram, Pool, accumulate, pool, residuals, scales
+from armscope.diagnosis.weights import RowWeights
 from armscope.physics.effect import AXES, Placed, Term
 from armscope.physics.model import FittedModel
 from armscope.physics.scene import Part
@@ -36,7 +37,6 @@ class Refit:
         covariance: (p, p) of all values, SI units.
         noise: mm per axis.
         spent: effective number of fitted values.
-        weights: (N,).
         residuals: (N, 3) mm, base axes.
     """
 
@@ -46,7 +46,7 @@ class Refit:
     covariance: Array
     noise: float
     spent: float
-    weights: Array
+    weights: RowWeights
     residuals: Array
 
     def covariance_of(self, placed: Placed) -> Array:
@@ -63,7 +63,7 @@ def refit(
     effects: Sequence[tuple[Placed, float]],
     uncertainty: Array,
     least_noise: float,
-    row_weights: Array | None = None,
+    turn: Array | None = None,
 ) -> Refit:
     """Gauss-Newton on the exact model, weights and noise re-estimated at each step.
 
@@ -73,7 +73,7 @@ def refit(
             families of size 0 are left out.
         effects: (effect, size at the tool, mm).
         uncertainty: (N,) relative uncertainty of the rows.
-        row_weights: fixed weights; None lets the residuals decide.
+        turn: (N, 3, 3) whitening of rows that scatter along known directions.
     """
     named = {term for placed, _ in effects for term in placed.terms}
     kept = [[b for placed in family if size and (b := _without(placed, named))] for family, size in backgrounds]
@@ -84,8 +84,8 @@ def refit(
     noise = least_noise
     for _ in range(STEPS):
         left = residuals(model, recordings)
-        w = robust.weights(left, uncertainty, least_noise) if row_weights is None else row_weights
-        gram = accumulate(parts, model, recordings, w, blocks)[0]
+        w = robust.weights(RowWeights(uncertainty, turn).whitened(left), uncertainty, least_noise)
+        gram = accumulate(parts, model, recordings, RowWeights(w, turn), blocks)[0]
         noise = noise or robust.scale_of(left)
         precision = _precision(parts, gram, [size for _, size in backgrounds], effects)
         A = gram.G + np.diag(noise**2 * precision)
@@ -99,7 +99,7 @@ def refit(
         if moved < CONVERGED_MM:
             break
     left = residuals(model, recordings)
-    return Refit(model, parts, gram, noise**2 * covariance, noise, spent, w, left)
+    return Refit(model, parts, gram, noise**2 * covariance, noise, spent, RowWeights(w, turn), left)
 
 
 def _without(placed: Placed, named: set[Term]) -> Placed | None:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from armscope.diagnosis.evidence import Hypothesis, Problem
 from armscope.diagnosis.extra import Blocks, conditioned, weigh_blocks
 from armscope.diagnosis.problem import chunks, columns, pool_values
+from armscope.diagnosis.weights import RowWeights
 from armscope.physics.drift import base_shift, tool_shift
 from armscope.physics.effect import Placed
 from armscope.physics.model import FittedModel
@@ -31,7 +32,7 @@ WORTH_A_LOOK = 3.0
 
 
 def mesh_lines(
-    problem: Problem, given: Sequence[Hypothesis], model: FittedModel, recordings: Recordings, weights: Array
+    problem: Problem, given: Sequence[Hypothesis], model: FittedModel, recordings: Recordings, weights: RowWeights
 ) -> Iterator[Placed]:
     """The most promising mesh counts of each joint, given each of some hypotheses."""
     rows = _spread(len(recordings))
@@ -42,7 +43,7 @@ def mesh_lines(
     placed = [mesh(j, count) for j in joints for count in MESH_COUNTS]
     share = len(rows) / len(recordings)
     columns = _all_columns(given)
-    sums = weigh_blocks([p.terms for p in placed], problem.pool, columns, model, table, weights[rows] / share)
+    sums = weigh_blocks([p.terms for p in placed], problem.pool, columns, model, table, weights.take(rows, share))
     before = np.einsum("mcc->mc", sums.own)
     for hypothesis in given:
         inside = np.isin(columns, hypothesis.columns)
@@ -83,7 +84,7 @@ def _gain(problem: Problem, hypothesis: Hypothesis, own: Array, b: Array, before
 
 
 def jumps(
-    problem: Problem, given: Sequence[Hypothesis], model: FittedModel, recordings: Recordings, weights: Array
+    problem: Problem, given: Sequence[Hypothesis], model: FittedModel, recordings: Recordings, weights: RowWeights
 ) -> Iterator[Placed]:
     """The most promising moment at which the base, or the tool, jumped, given each of some hypotheses."""
     pieces = list(_pieces(recordings))
@@ -123,7 +124,7 @@ def _step_sums(
     inside: NDArray[np.intp],
     model: FittedModel,
     recordings: Recordings,
-    weights: Array,
+    weights: RowWeights,
     rows: NDArray[np.intp],
     cuts: NDArray[np.intp],
     build: Callable[[Recordings, int, int], Placed],
@@ -134,18 +135,20 @@ def _step_sums(
     terms = build(recordings, int(rows[0]), 1).terms
     c, k = len(terms), len(inside)
     model_terms = [pool.terms[i] for i in inside]
-    current = pool_values(pool, model)[inside]
+    values = pool_values(pool, model)
+    active = np.flatnonzero(values)
+    present = [pool.terms[i] for i in active]
     segment = np.searchsorted(cuts, np.arange(len(rows)), side="right")
     own, cross, b = np.zeros((len(cuts) + 1, c, c)), np.zeros((len(cuts) + 1, k, c)), np.zeros((len(cuts) + 1, c))
     for part, posture in chunks(model, table):
-        n = len(part)
-        w = np.repeat(weights[rows[part]], 3)
-        X = columns(posture, model_terms)
-        y = (model.to_base(table.positions[part], table.run[part]) - posture.tool).reshape(-1) * 1e3 + X @ current
-        E = columns(posture, terms)
-        wE = (E * w[:, None]).reshape(n, 3, c)
-        np.add.at(own, segment[part], np.einsum("nic,nid->ncd", wE, E.reshape(n, 3, c)))
-        np.add.at(cross, segment[part], np.einsum("nik,nic->nkc", X.reshape(n, 3, k), wE, optimize=True))
-        np.add.at(b, segment[part], np.einsum("ni,nic->nc", y.reshape(n, 3), wE))
+        n, here = len(part), rows[part]
+        y = (model.to_base(table.positions[part], table.run[part]) - posture.tool).reshape(-1) * 1e3
+        # the response before any effect
+        y = weights.times(here, y + columns(posture, present) @ values[active] if present else y)
+        X = weights.times(here, columns(posture, model_terms))
+        E = weights.times(here, columns(posture, terms)).reshape(n, 3, c)
+        np.add.at(own, segment[part], np.einsum("nic,nid->ncd", E, E))
+        np.add.at(cross, segment[part], np.einsum("nik,nic->nkc", X.reshape(n, 3, k), E, optimize=True))
+        np.add.at(b, segment[part], np.einsum("ni,nic->nc", y.reshape(n, 3), E))
     own, cross, b = (np.cumsum(x[::-1], axis=0)[::-1][1:] for x in (own, cross, b))
     return Blocks(own, cross, b)
