@@ -5,7 +5,12 @@ Each command imports what it needs when it runs, so that `armscope --help` and s
 
 from __future__ import annotations
 
+import os
 import sys
+
+# many small matrices: threads of BLAS would only wait for each other, and for those of other jobs; read at numpy's import
+for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(_variable, "1")
 
 import typer
 

@@ -1,13 +1,85 @@
-"""Commands of the diagnosis: predict."""
+"""Commands of the diagnosis: diagnose, predict."""
 
 from __future__ import annotations
 
+import contextlib
+import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from armscope.recordings import Recordings
+
 app = typer.Typer()
+
+
+@app.command()
+def diagnose(
+    recordings: Annotated[Path, typer.Argument(help="recordings.csv: commanded angles and measured positions")],
+    robot: Annotated[Path, typer.Option("--robot", "-r", help="robot.yaml: the nominal arm")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="folder for report, verdict, model and figures")],
+    run: Annotated[list[str] | None, typer.Option(help="only these runs (may be given several times)")] = None,
+    seed: Annotated[int, typer.Option(help="of folds and resampling")] = 0,
+    resamples: Annotated[int, typer.Option(min=0, help="how often rows are resampled; 0 saves time")] = 10,
+    cross_validation: Annotated[bool, typer.Option(help="repeat the whole diagnosis on held-out folds")] = True,
+    tool_per_run: Annotated[bool, typer.Option(help="the tool was taken off between runs")] = False,
+    report: Annotated[bool, typer.Option(help="write report.html and its figures")] = True,
+) -> None:
+    """Find where simulation and recordings differ, and which physics was left out."""
+    from armscope.diagnosis import Settings, write_verdict
+    from armscope.diagnosis import diagnose as diagnose_arm
+    from armscope.recordings import read_recordings
+    from armscope.report.headline import headline
+    from armscope.robot import load_arm
+
+    arm = load_arm(robot)
+    table = read_recordings(recordings, arm.n_motors)
+    for note in table.notes:
+        print(f"note: {note}", file=sys.stderr)
+    if run:
+        table = table.rows(_rows_of_runs(table, run))
+    settings = Settings(seed, tool_per_run, resamples, cross_validation)
+    with _progress("diagnosing") as tell:
+        verdict = diagnose_arm(arm, table, settings, tell)
+        write_verdict(verdict, output)
+        if report:
+            from armscope.report.diagnosis_page import write_report
+
+            tell("drawing the report", 0.95)
+            write_report(verdict, arm, table, output)
+    print(headline(verdict))
+    print(f"{output}/{'report.html' if report else 'verdict.json'}")
+
+
+def _rows_of_runs(table: Recordings, runs: list[str]) -> NDArray[np.bool_]:
+    import numpy as np
+
+    from armscope.inputs import InputError, nearest
+
+    known = set(table.run.tolist())
+    for name in runs:
+        if name not in known:
+            raise InputError("--run", "", name, f"{table.source} has no such run", nearest(name, known))
+    return np.isin(table.run, runs)
+
+
+@contextlib.contextmanager
+def _progress(title: str) -> Iterator[Callable[[str, float], None]]:
+    """A bar on a terminal's standard error; nothing where there is none."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (BarColumn(), TextColumn("{task.description}"), TimeElapsedColumn())
+    console = Console(stderr=True)
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
+        task = bar.add_task(title, total=1.0)
+        yield lambda text, share: bar.update(task, description=text, completed=share)
 
 
 @app.command()

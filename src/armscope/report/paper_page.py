@@ -46,8 +46,8 @@ class RealArm:
         table = pd.read_csv(self.folder / "table2.csv")
         wide = table.pivot_table(index="model", columns=["trajectory", "axis"], values="rms_median", sort=False)
         rows = table.groupby("trajectory", sort=False)["points"].first()
-        columns: list[tuple[str, str]] = wide.columns.to_list()
-        names = [f"{trajectory} ({rows[trajectory]} rows), {axis}" for trajectory, axis in columns]
+        trajectories, axes = (wide.columns.get_level_values(level) for level in (0, 1))
+        names = [f"{name} ({rows[name]} rows), {axis}" for name, axis in zip(trajectories, axes, strict=True)]
         return wide.set_axis(names, axis=1).reset_index().rename(columns={"model": "RMS error in mm"})
 
 
