@@ -54,10 +54,10 @@ def least_squares(
     weights = np.ones(len(set_up)) if weights is None else weights
     stiffness = np.zeros(len(free)) if stiffness is None else stiffness
     per_component = np.repeat(weights, 3)
-    damping, cost = 0.0, np.inf
     change = _changes(state)
+    residual, jacobian = set_up.linearised(state, free)
+    damping = 0.0
     for steps in range(1, most_steps + 1):
-        residual, jacobian = set_up.linearised(state, free)
         cost = _cost(residual, per_component, stiffness, change)
         weighted = jacobian * per_component[:, None]
         normal = weighted.T @ jacobian + np.diag(stiffness[free])
@@ -66,15 +66,16 @@ def least_squares(
             step = np.zeros(len(free))
             step[free] = _solve(normal, gradient, damping)
             candidate = state.moved(step)
-            lower = _cost(set_up.residuals(candidate).ravel(), per_component, stiffness, change + step)
-            if lower <= cost * (1 + 1e-12):
+            if np.sqrt(np.mean((jacobian @ step[free]) ** 2)) < NEGLIGIBLE:
+                return Fitted(candidate, weights, steps, "the step became negligible")
+            residual, ahead = set_up.linearised(candidate, free)
+            if _cost(residual, per_component, stiffness, change + step) <= cost:
                 break
             damping = max(damping * 10, 1e-4)
             if damping > 1e8:
                 return Fitted(state, weights, steps, "no step lowers the misfit")
-        state, change, damping = candidate, change + step, damping / 100 if damping > 1e-6 else 0.0
-        if np.sqrt(np.mean((jacobian @ step[free]) ** 2)) < NEGLIGIBLE:
-            return Fitted(state, weights, steps, "the step became negligible")
+        state, jacobian, change = candidate, ahead, change + step
+        damping = damping / 100 if damping > 1e-6 else 0.0
     return Fitted(state, weights, most_steps, "the largest number of steps was made")
 
 

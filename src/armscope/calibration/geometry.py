@@ -94,12 +94,13 @@ def columns(arm: Arm, frames: Chain, constants: tuple[Constant, ...]) -> Array:
     Exact for D-H rows at any values; for a URDF's placements exact at zero turns, and to their size beyond.
     """
     result = np.empty((len(frames.tool), 3, len(constants)))
-    jacobians: dict[str, Array] = {}
+    by_location: dict[str, list[tuple[int, Array]]] = {}
     for column, constant in enumerate(constants):
         location, twist = _twist(arm, constant)
-        if location not in jacobians:
-            jacobians[location] = twist_jacobian(frames, location)
-        result[:, :, column] = jacobians[location] @ twist
+        by_location.setdefault(location, []).append((column, twist))
+    for location, members in by_location.items():
+        twists = np.stack([twist for _, twist in members], axis=1)
+        result[:, :, [column for column, _ in members]] = twist_jacobian(frames, location) @ twists
     return result
 
 
@@ -122,5 +123,5 @@ def _twist(arm: Arm, constant: Constant) -> tuple[str, Array]:
     if not arm.is_modified_dh:
         return f"link {constant.joint}", twist
     # in Craig's rows these stand before d, so they turn about a point d behind the joint frame's origin
-    twist[:3] += np.cross(twist[3:], [0.0, 0.0, d])
+    twist[:2] += d * np.array([twist[4], -twist[3]])
     return joint, twist

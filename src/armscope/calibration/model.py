@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -127,13 +128,18 @@ class SetUp:
 
     def frames(self, state: State) -> tuple[Arm, Chain]:
         """The corrected arm and its frames, the tool points those of each row's tool."""
-        arm = corrected(self.arm, self.constants, state.constants) if state.constants.any() else self.arm
-        angles = self.angles
-        if self.loads is not None and state.compliances.any():
-            angles = angles + self.loads * state.compliances
-        frames = chain(arm, angles)
+        arm, frames = self.arm, self._nominal_frames
+        if state.constants.any() or state.compliances.any():
+            arm = corrected(self.arm, self.constants, state.constants)
+            loads = 0.0 if self.loads is None else self.loads
+            frames = chain(arm, self.angles + loads * state.compliances)
         offset = state.tools[self.tool] - arm.tool
         return arm, replace(frames, tool=frames.tool + np.einsum("nij,nj->ni", frames.tool_rotation, offset))
+
+    @functools.cached_property
+    def _nominal_frames(self) -> Chain:
+        """Finding base and tool moves no joint: the nominal arm's frames serve every step."""
+        return chain(self.arm, self.angles)
 
     def residuals(self, state: State) -> Array:
         """(N, 3) measured minus predicted, in the measurement frame, m."""
@@ -156,13 +162,15 @@ class SetUp:
         n_rows, n_frames = len(self), 6 * len(self.base_names) + 3 * len(self.tool_names)
         jacobian = np.zeros((n_rows, 3, len(free)))
         rows = np.arange(n_rows)
+        x, y, z = frames.tool.T
+        turns = {(1, 3): -z, (2, 3): y, (0, 4): z, (2, 4): -x, (0, 5): -y, (1, 5): x}  # axis x tool
+        for (axis, turn), moved in turns.items():
+            jacobian[rows, axis, 6 * self.base + turn] = moved
         for axis in range(3):
             jacobian[rows, axis, 6 * self.base + axis] = 1.0
-            turned = np.cross(np.eye(3)[axis], frames.tool)
-            offset = 6 * len(self.base_names) + 3 * self.tool + axis
-            for row_axis in range(3):
-                jacobian[rows, row_axis, 6 * self.base + 3 + axis] = turned[:, row_axis]
-                jacobian[rows, row_axis, offset] = frames.tool_rotation[:, row_axis, axis]
+            for tool_axis in range(3):
+                column = 6 * len(self.base_names) + 3 * self.tool + tool_axis
+                jacobian[rows, axis, column] = frames.tool_rotation[:, axis, tool_axis]
         chosen = np.flatnonzero(free[n_frames : n_frames + len(self.constants)])
         jacobian[:, :, n_frames + chosen] = columns(arm, frames, tuple(self.constants[each] for each in chosen))
         if self.loads is not None and free[n_frames + len(self.constants) :].any():
