@@ -8,13 +8,9 @@ from __future__ import annotations
 import os
 import sys
 
-# many small matrices: threads of BLAS would only wait for each other, and for those of other jobs; read at numpy's import
-for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
-    os.environ.setdefault(_variable, "1")
-
 import typer
 
-from armscope.cli import diagnosis, paper, recordings
+from armscope.cli import diagnosis, paper, recordings, sweep
 from armscope.inputs import InputError
 
 app = typer.Typer(
@@ -27,6 +23,7 @@ app = typer.Typer(
 app.add_typer(diagnosis.app)
 app.add_typer(recordings.app)
 app.add_typer(paper.app, name="paper", help="The 2006 paper, step by step; the workflow calls these.")
+app.add_typer(sweep.app, name="sweep", help="Variants of swarm and model; the workflow calls these.")
 
 
 @app.command("schema")
@@ -41,6 +38,9 @@ def print_schema() -> None:
 
 def main() -> None:
     """Run the command line; bad input ends it with one clear sentence and exit code 2."""
+    # many small matrices: threads of BLAS would wait for each other and for other jobs; read when numpy is imported
+    for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+        os.environ.setdefault(variable, "1")
     try:
         app()
     except InputError as error:

@@ -2,25 +2,18 @@
 
 from __future__ import annotations
 
-import gzip
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from armscope.inputs import InputError, Model, validate
+from armscope.cli.studies import Errors, Output, Poses, Settings, parsed, read_fits, read_measurements, write_fits
+from armscope.inputs import InputError
 
 if TYPE_CHECKING:
     from armscope.errormodels import FittedModel
-    from armscope.paper import Measurements
 
 app = typer.Typer(no_args_is_help=True)
-
-Settings = Annotated[str, typer.Option(help="JSON: the parts of the configuration that this step follows")]
-Output = Annotated[Path, typer.Option("--output", "-o", help="where to write")]
-Poses = Annotated[Path, typer.Argument(help="poses.csv of a study")]
-Errors = Annotated[Path, typer.Argument(help="errors.csv.gz of a study")]
 
 
 @app.command()
@@ -38,7 +31,7 @@ def measure(
     from armscope.robot import load_arm
     from armscope.world.tolerances import geometric_errors
 
-    chosen = _settings(MeasureSettings, settings)
+    chosen = parsed(MeasureSettings, settings)
     arm = load_arm(robot)
     sizes, paths, poses = chosen.tolerances, chosen.trajectories, chosen.identification
     errors = geometric_errors(
@@ -97,7 +90,7 @@ def measure_real(
     from armscope.recordings import read_recordings
     from armscope.robot import load_arm
 
-    chosen = _settings(RealSettings, settings)
+    chosen = parsed(RealSettings, settings)
     arm = load_arm(robot)
     rows = select_rows(read_recordings(recordings, arm.n_motors), chosen.run, chosen.first_id)
     study = real_measurements(arm, rows, chosen.seed, chosen.poses)
@@ -113,8 +106,8 @@ def fit(poses: Poses, errors: Errors, settings: Settings, output: Output) -> Non
     from armscope.cli.paper_settings import FitSettings, specs_of, swarm_settings_of
     from armscope.errormodels import fit_swarms
 
-    chosen = _settings(FitSettings, settings)
-    measurements = _measurements(poses, errors)
+    chosen = parsed(FitSettings, settings)
+    measurements = read_measurements(poses, errors)
     swarm, specs = chosen.swarm, specs_of(chosen.models)
     fits: list[FittedModel] = []
     first, *ensemble = measurements.robots
@@ -124,7 +117,7 @@ def fit(poses: Poses, errors: Errors, settings: Settings, output: Output) -> Non
         fits += fit_swarms(
             problems, range(first_seed, first_seed + seeds), swarm_settings_of(swarm), swarm.basis, swarm.engine
         )
-    _write_fits(output, fits)
+    write_fits(output, fits)
 
 
 @app.command()
@@ -140,7 +133,7 @@ def residuals(
     from armscope.paper import residual_table, table2
     from armscope.paper.coefficients import coefficient_table
 
-    measurements, fitted = _measurements(poses, errors), _read_fits(fits)
+    measurements, fitted = read_measurements(poses, errors), read_fits(fits)
     rows = residual_table(measurements, fitted)
     write_table(output / "residuals.csv.gz", rows)
     of_first = [fit for fit in fitted if fit.label == measurements.robots[0]]
@@ -165,9 +158,9 @@ def claims_(
     from armscope.files import write_table
     from armscope.paper import claims, sub_volumes
 
-    regions = sub_volumes(_measurements(poses, errors))
+    regions = sub_volumes(read_measurements(poses, errors))
     write_table(output / "sub_volumes.csv", regions, digits=6)
-    judged = claims(pd.read_csv(residuals), _read_fits(fits), regions, _read_fits(fits_as_printed))
+    judged = claims(pd.read_csv(residuals), read_fits(fits), regions, read_fits(fits_as_printed))
     write_table(output / "claims.csv", judged, digits=4)
 
 
@@ -181,7 +174,7 @@ def audit_(
     from armscope.files import write_table
     from armscope.paper import audit
 
-    write_table(output, audit(audit_scope_of(_settings(AuditSettings, settings))), digits=4)
+    write_table(output, audit(audit_scope_of(parsed(AuditSettings, settings))), digits=4)
 
 
 @app.command("reading")
@@ -204,8 +197,8 @@ def convergence(poses: Poses, errors: Errors, settings: Settings, output: Output
     from armscope.files import write_table
     from armscope.paper.convergence import convergence as histories
 
-    chosen = _settings(SwarmStudySettings, settings)
-    measurements = _measurements(poses, errors)
+    chosen = parsed(SwarmStudySettings, settings)
+    measurements = read_measurements(poses, errors)
     problems = measurements.fit_problems(specs_of(chosen.models), [measurements.robots[0]])
     swarm = chosen.swarm
     seeds = range(chosen.seed, chosen.seed + swarm.seeds)
@@ -227,7 +220,7 @@ def figure(
 
     if name not in FIGURES:
         raise InputError("the figure's name", "", name, "the paper's plots are Figs. 3-11", nearest(name, FIGURES))
-    save_figure(draw(name, _measurements(poses, errors), _read_fits(fits)), output)
+    save_figure(draw(name, read_measurements(poses, errors), read_fits(fits)), output)
 
 
 @app.command("convergence-figure")
@@ -256,18 +249,10 @@ def report(
     from armscope.cli.paper_settings import ReportSettings
     from armscope.report.paper_page import RealArm, write_paper_page, write_table2
 
-    chosen = _settings(ReportSettings, settings)
+    chosen = parsed(ReportSettings, settings)
     arms = [RealArm(arm.title, Path(arm.folder) if arm.folder else None, arm.reason) for arm in chosen.real]
     write_table2(output.with_name("table2.html"), pd.read_csv(results / "table2.csv"))
     write_paper_page(output, chosen.paper, chosen.seed, results, results / "figures", arms)
-
-
-def _settings(model: type[Model], text: str) -> Model:
-    try:
-        content = json.loads(text)
-    except json.JSONDecodeError as error:
-        raise InputError("--settings", f"character {error.pos}", text, "this must be JSON", error.msg) from error
-    return validate(model, content, "--settings")
 
 
 def _observability(choice: Any) -> Any:
@@ -281,24 +266,3 @@ def _observability(choice: Any) -> Any:
             "observability_index_O1": [choice.index, choice.random_index],
         }
     )
-
-
-def _measurements(poses: Path, errors: Path) -> Measurements:
-    import pandas as pd
-
-    from armscope.paper import Measurements
-
-    return Measurements.from_tables(pd.read_csv(poses), pd.read_csv(errors))
-
-
-def _write_fits(path: Path, fits: list[FittedModel]) -> None:
-    from armscope.files import replacing
-
-    with replacing(path) as beside:
-        beside.write_bytes(gzip.compress(json.dumps([fit.to_dict(history=True) for fit in fits]).encode(), mtime=0))
-
-
-def _read_fits(path: Path) -> list[FittedModel]:
-    from armscope.errormodels import FittedModel
-
-    return [FittedModel.from_dict(content) for content in json.loads(gzip.decompress(path.read_bytes()))]

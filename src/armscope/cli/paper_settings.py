@@ -6,6 +6,7 @@ from armscope.config import Audit, Count, Identification, Model, Paper, Swarm, T
 from armscope.errormodels import ModelSpec
 from armscope.inputs import Strict
 from armscope.paper import AuditScope
+from armscope.paper.sweep import Variant
 from armscope.swarm import SwarmSettings
 from armscope.world.tracker import Tracker as VirtualTracker
 
@@ -36,6 +37,15 @@ class SwarmStudySettings(Strict):
     seed: int
     models: tuple[Model, ...]
     swarm: Swarm
+
+
+class SweepSettings(Strict):
+    """`armscope sweep run`."""
+
+    seed: int
+    basis: str
+    engine: str
+    variant: Variant
 
 
 class RealSettings(Strict):

@@ -1,0 +1,41 @@
+"""Commands of the sweeps: run one variant, draw all."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from armscope.cli.studies import Errors, Output, Poses, Settings, parsed, read_measurements
+
+app = typer.Typer(no_args_is_help=True)
+
+
+@app.command()
+def run(poses: Poses, errors: Errors, settings: Settings, output: Output) -> None:
+    """Fit and judge one variant of a sweep with all its seeds."""
+    from armscope.cli.paper_settings import SweepSettings
+    from armscope.files import write_table
+    from armscope.paper.sweep import run_variant
+
+    chosen = parsed(SweepSettings, settings)
+    table = run_variant(read_measurements(poses, errors), chosen.variant, chosen.seed, chosen.basis, chosen.engine)
+    write_table(output, table, digits=6)
+
+
+@app.command()
+def draw(
+    tables: Annotated[list[Path], typer.Argument(help="tables of the variants")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="sweep.csv; figures are written beside it")],
+) -> None:
+    """Join the variants' tables and draw them as curves with spread."""
+    import pandas as pd
+
+    from armscope.files import write_table
+    from armscope.report.style import save_figure
+    from armscope.report.sweep_figure import sweeps
+
+    table = pd.concat([pd.read_csv(path) for path in tables], ignore_index=True)
+    write_table(output, table, digits=6)
+    save_figure(sweeps(table), output.with_suffix(".png"))

@@ -1,0 +1,51 @@
+"""Sweeps as curves with their spread over seeds."""
+
+from __future__ import annotations
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from armscope.report.style import BLUE, GREEN, GREY, ORANGE, VERMILION, legend_above, styled
+
+COLOURS = (BLUE, VERMILION, GREEN, ORANGE)
+MARKERS = "osD^"
+
+
+def sweeps(table: pd.DataFrame) -> Figure:
+    """One panel per sweep: 3D RMS error left over on each set, median and range over seeds, and least squares.
+
+    Args:
+        table: rows of `armscope.paper.sweep.run_variant` for all variants.
+    """
+    names = list(dict.fromkeys(table["sweep"]))
+    columns = min(3, len(names))
+    rows = -(-len(names) // columns)
+    with styled():
+        figure, panels = plt.subplots(rows, columns, figsize=(3.4 * columns, 2.7 * rows + 0.6), squeeze=False)
+        for panel in panels.flat[len(names) :]:
+            panel.set_visible(False)
+        for panel, name in zip(panels.flat, names, strict=False):
+            _draw(panel, table[table["sweep"] == name])
+            model = table.loc[table["sweep"] == name, "model"]
+            panel.set(title=model.iloc[0] if model.nunique() == 1 else "", xlabel=name, yscale="log")
+        figure.supylabel("3D RMS error left (mm)")
+        legend_above(figure, columns=5)
+    return figure
+
+
+def _draw(panel: Axes, table: pd.DataFrame) -> None:
+    values = list(dict.fromkeys(table["varied"]))
+    places = np.arange(len(values))
+    for (trajectory, rows), colour, marker in zip(
+        table.groupby("trajectory", sort=False), COLOURS, MARKERS, strict=False
+    ):
+        spread = rows.groupby("varied", sort=False)["rms_mm"].agg(["median", "min", "max"]).reindex(values)
+        optimum = rows.groupby("varied", sort=False)["least_squares_mm"].first().reindex(values)
+        panel.fill_between(places, spread["min"], spread["max"], color=colour, alpha=0.2, linewidth=0)
+        panel.plot(places, spread["median"], marker=marker, markersize=4, color=colour, label=str(trajectory))
+        panel.plot(places, optimum, color=colour, linestyle=":", linewidth=0.9)
+    panel.plot([], [], color=GREY, linestyle=":", label="least squares")
+    panel.set_xticks(places, [str(value) for value in values])
