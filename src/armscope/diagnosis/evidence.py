@@ -8,7 +8,8 @@ noise. Everything is linear, so coefficients are integrated out: log p(y) = -n l
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,6 +60,7 @@ class Problem:
         least_noise: mm; the noise is never taken to be below (stated, or seen in repeats).
         sizes: (SIZES,) effect sizes that compete, mm at the tool.
         costs: (candidates,) log prior odds against each candidate, nats.
+        mismatch: RMS per axis after the free frames, mm.
     """
 
     pool: Pool
@@ -67,6 +69,7 @@ class Problem:
     least_noise: float
     sizes: Array
     costs: Array
+    mismatch: float
 
     @property
     def n(self) -> float:
@@ -75,7 +78,7 @@ class Problem:
 
     def with_gram(self, gram: Gram) -> Problem:
         """The same problem on other rows; ``gram`` is unscaled."""
-        return Problem(self.pool, gram.scaled(self.scale), self.scale, self.least_noise, self.sizes, self.costs)
+        return replace(self, gram=gram.scaled(self.scale))
 
 
 def problem(pool: Pool, gram: Gram, least_noise: float) -> Problem:
@@ -85,7 +88,7 @@ def problem(pool: Pool, gram: Gram, least_noise: float) -> Problem:
     mismatch = _rms_after_frames(scaled, pool.frames)
     low = max(least_noise, 0.02 * mismatch) / 2
     sizes = np.geomspace(low, max(2 * mismatch, 4 * low), SIZES)
-    return Problem(pool, scaled, scale, least_noise, sizes, _costs(pool))
+    return Problem(pool, scaled, scale, least_noise, sizes, _costs(pool), mismatch)
 
 
 def _rms_after_frames(gram: Gram, frames: Indices) -> float:
@@ -196,6 +199,20 @@ def lower_factor(G: Array, ridge: Array) -> Array:
 def forward(factor: Array, right: Array) -> Array:
     """factor^-1 right."""
     return np.asarray(dtrtrs(factor, right, lower=1)[0])
+
+
+def pinned_losses(problem: Problem, hypothesis: Hypothesis, groups: Sequence[Indices]) -> Array:
+    """Nats lost when columns are pinned to zero, group by group, at the noise as it is (Savage-Dickey ratio)."""
+    at = {int(column): n for n, column in enumerate(hypothesis.columns)}
+    lost = []
+    for columns in groups:
+        own = np.array([at[int(column)] for column in columns])
+        inverse = hypothesis.inverse[:, own]
+        sigma = hypothesis.noise**2 * (inverse.T @ inverse)
+        mean = hypothesis.mean[own]
+        scaled = sigma / np.sqrt(np.outer(hypothesis.variance[own], hypothesis.variance[own]))
+        lost.append(0.5 * float(mean @ np.linalg.solve(sigma, mean)) + 0.5 * float(np.linalg.slogdet(scaled)[1]))
+    return np.array(lost)
 
 
 def losses(problem: Problem, hypothesis: Hypothesis) -> Array:

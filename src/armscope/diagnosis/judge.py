@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from armscope.diagnosis import certainty
 from armscope.diagnosis.atlas import atlas
 from armscope.diagnosis.curves import curve_of
-from armscope.diagnosis.evidence import Hypothesis, Problem, background_sizes
+from armscope.diagnosis.evidence import Hypothesis, Problem, background_sizes, pinned_losses
 from armscope.diagnosis.nextposes import next_poses
 from armscope.diagnosis.noise import Noise
 from armscope.diagnosis.parameters import parameters
@@ -146,7 +146,7 @@ def _found(
     share = rms**2 / variance if variance > 0 else 0.0
     close = [rival for gap, rival, _ in rivals if gap < certainty.TELLS_APART_NATS]
     named_as, title = certainty.name(placed, close)
-    worth = evidence.best.value - search.without(evidence.best, [candidate]).value
+    worth = _worth(evidence, search, candidate)
     return FoundEffect(
         effect=placed.name,
         location=placed.location,
@@ -166,6 +166,18 @@ def _found(
         confirm=placed.effect.confirm,
         cure=placed.effect.cure,
     )
+
+
+def _worth(evidence: Evidence, search: Search, candidate: int) -> float:
+    """Evidence that is lost without an effect, nats; where a background holds it, too, without both."""
+    problem, best = evidence.problem, evidence.best
+    columns = problem.pool.columns[candidate]
+    active = [family for family, size in zip(problem.pool.background, best.background, strict=True) if size]
+    if not any(set(columns) <= set(family) for family in active[1:]):
+        return best.value - search.without(best, [candidate]).value
+    lost = float(pinned_losses(problem, best, [columns])[0])
+    # the noise would grow to take it up
+    return problem.n / 2 * float(np.log1p(2 * max(lost, 0.0) / problem.n)) - float(problem.costs[candidate])
 
 
 def _scattered(evidence: Evidence, variance: float) -> Iterator[FoundEffect]:

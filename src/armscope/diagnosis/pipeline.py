@@ -158,7 +158,8 @@ def select(
         columns = pool(frames, families, [*candidates, *payload])
         blocks = accumulate(columns, model, recordings, weights, layout.of_row)
         weighed = problem(columns, total(blocks), noise.least_mm)
-        best = Search.on(weighed).best()
+        search = Search.on(weighed)
+        best = search.promoted(search.best())
         effects = [(columns.candidates[c.candidate], float(weighed.sizes[c.size])) for c in best.chosen]
         small = list(zip(families, background_sizes(weighed, best), strict=True))
         fit = refit(model, recordings, frames, small, effects, uncertainty, noise.least_mm, weights.turn)

@@ -22,9 +22,11 @@ Array = NDArray[np.float64]
 
 RATIOS = (0.5, 1.0, 2.0, 4.0, 8.0, 16.0)
 """Scatter at the tool in multiples of the noise that compete."""
-PRICE_NATS = 12.0
+PRICE_NATS = 15.0
 """What a place of scatter costs: its share of a library of joints and sizes, and caution."""
 MOST_PLACES = 3
+LARGEST_RAD = 0.02
+"""A joint that would have to be this loose is not where the scatter is: the tool hardly sees it turn."""
 TRIMMED = 0.03
 """The evidence must hold without this share of the farthest rows, too: bad shots have no place."""
 
@@ -83,7 +85,7 @@ def _trials(residuals: Array, moved: Array, found: Mapping[int, float], noise: f
     for j, lever in enumerate(moved):
         reach = float(np.sqrt(np.mean(lever**2)))
         if j not in found and reach > 0:
-            yield from ((j, ratio / reach) for ratio in RATIOS)
+            yield from ((j, ratio / reach) for ratio in RATIOS if ratio * noise / reach < LARGEST_RAD)
 
 
 def _likelihood(residuals: Array, moved: Array, rho: Mapping[int, float], least: float) -> tuple[float, float]:

@@ -24,6 +24,7 @@ from armscope.diagnosis.evidence import (
     gains,
     group,
     losses,
+    pinned_losses,
     weigh,
 )
 from armscope.physics.effect import Placed, region
@@ -37,6 +38,8 @@ WORTH_TRYING_NATS = 2.0
 """A removal that loses more than this at the present noise can't pay when the noise is re-estimated."""
 SPECIAL_CASES = 7
 """How many of a curve's special cases are tried in its place."""
+STANDS_OUT_NATS, STANDS_OUT = 20.0, 0.25
+"""A background's member is named when holding it rigid loses this much and it is worth this share of the RMS."""
 GAIN = 1e-3
 """Nats by which a move must better a hypothesis."""
 
@@ -189,6 +192,31 @@ class Search:
         for c in hypothesis.chosen:
             by_region.setdefault(region(self.placed(c.candidate)), []).append(c.candidate)
         return [tuple(members) for members in by_region.values() if len(members) > 1]
+
+    def promoted(self, hypothesis: Hypothesis) -> Hypothesis:
+        """With the members of an elastic or transmission background named that stand out by themselves.
+
+        In an arm that gives way everywhere, the joint that does so most deserves its name, although the background
+        explains it, too: its evidence is what is lost when it alone is held rigid.
+        """
+        named = {column for c in hypothesis.chosen for column in self.problem.pool.columns[c.candidate]}
+        within = [
+            (number, columns)
+            for family, size in zip(self.problem.pool.background[1:], hypothesis.background[1:], strict=True)
+            if size
+            for number, columns in enumerate(self.problem.pool.columns)
+            if set(columns) <= set(family) and not named & set(columns)
+        ]
+        if not within:
+            return hypothesis
+        lost = pinned_losses(self.problem, hypothesis, [columns for _, columns in within])
+        at = {int(column): n for n, column in enumerate(hypothesis.columns)}
+        added = []
+        for (number, columns), nats in zip(within, lost, strict=True):
+            rms = float(np.sqrt(np.sum(hypothesis.mean[[at[int(c)] for c in columns]] ** 2)))
+            if nats > STANDS_OUT_NATS and rms > STANDS_OUT * self.problem.mismatch:
+                added.append(Chosen(number, int(np.argmin(np.abs(np.log(self.problem.sizes / rms))))))
+        return weigh(self.problem, (*hypothesis.chosen, *added), hypothesis.background, hypothesis.noise)
 
     def placed(self, candidate: int) -> Placed:
         """The effect behind a candidate's number."""

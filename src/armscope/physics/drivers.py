@@ -140,6 +140,11 @@ def _approach(scene: Scene, j: int) -> Array:
     return np.nan_to_num(scene.recordings.approach[:, j - 1])
 
 
+def _lost_motion(scene: Scene, j: int, centre: float, width: float) -> Array:
+    """Side of approach where the joint stands near ``centre`` (a cubic spline of its angle)."""
+    return _approach(scene, j) * cubic_spline(_angle(scene, j), centre, width)
+
+
 def _speed(scene: Scene, j: int) -> Array:
     if scene.recordings.speed is None:
         raise _missing(scene, f"dq{j}_rad_s")
@@ -246,6 +251,7 @@ _KINDS: dict[str, Callable[..., Any]] = {
     "moment": _moment,
     "bend": _bend,
     "approach": _approach,
+    "lost motion": _lost_motion,
     "speed": _speed,
     "warmth": _warmth,
     "hours": _hours,

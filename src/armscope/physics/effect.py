@@ -158,7 +158,8 @@ class Effect:
 
 CONTAINED = {
     "angle": {"joint_offset", "gear_ratio", "gear_eccentricity", "gear_mesh"},
-    "load": {"joint_compliance"},
+    "load": {"joint_compliance", "joint_offset"},
+    "approach": {"backlash"},
     "time": {"base_drift"},
 }
 """What a free curve of a driver contains as special cases at the same location."""

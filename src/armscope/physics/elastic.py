@@ -16,6 +16,8 @@ from armscope.robot.gravity import mass_moment_regressor
 
 Array = NDArray[np.float64]
 
+UNKNOWN_MASSES = "unknown masses"
+"""The variant of a joint's compliance that trusts no stated mass."""
 SHORTEST_BEAM_M = 0.05
 """Rows shorter than this have no beam worth bending."""
 MASS_DIRECTIONS_SHARE = 1e-3
@@ -59,7 +61,7 @@ def _unknown_masses(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
             tuple(terms),
             tuple(shape),
             f"load of joint {j}, masses unknown",
-            variant="unknown masses",
+            variant=UNKNOWN_MASSES,
         )
 
 

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.physics.drift import six_terms
-from armscope.physics.effect import Direction, Driver, Effect, Placed, Term, motor, term
+from armscope.physics.effect import Direction, Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.elastic import has_load
 from armscope.physics.geometric import JOINT_OFFSET
-from armscope.physics.placing import moving_joints, varies
+from armscope.physics.placing import moving_joints, varies, varying_columns
 from armscope.physics.scene import Scene
 from armscope.physics.transmission import GEAR_RATIO, wave_terms
 from armscope.recordings import Recordings
@@ -37,6 +37,7 @@ def waves(recordings: Recordings) -> int:
 def _place(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     yield from _own_angle(arm, recordings)
     yield from _load(arm, recordings)
+    yield from _lost_motion(recordings)
     yield from _context(recordings)
 
 
@@ -57,13 +58,30 @@ def _load(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     if not has_load(arm, recordings) and recordings.torque is None:
         return
     scene = Scene(arm, recordings)
+    offsets = {placed.location: placed.terms for placed in JOINT_OFFSET.place(arm, recordings)}
     for j in range(1, arm.n_motors + 1):
         source = Driver("torque", (j,))
         values = scene.driver(source)
         if np.ptp(values) > 1e-6:
             bumps = spline_terms(source, values, motor(j), "rad")
             linear = term("compliance", "rad/(N m)", (motor(j), source))
-            yield _curve(f"joint {j}", (linear, *bumps), [1.0] * len(bumps), f"load of joint {j}", "load", trends=1)
+            terms = (*offsets.get(f"joint {j}", ()), linear, *bumps)
+            trends = len(terms) - len(bumps)
+            yield _curve(f"joint {j}", terms, [1.0] * len(bumps), f"load of joint {j}", "load", trends)
+
+
+def _lost_motion(recordings: Recordings) -> Iterator[Placed]:
+    """Play that is not the same at all angles."""
+    moving = set(moving_joints(recordings))
+    for j in varying_columns(recordings.approach, 0.5):
+        if j in moving:
+            gap = term("gap", "rad", Product(motor(j), Driver("approach", (j,)), -0.5))
+            bumps = tuple(
+                term(f"at_{n}", "rad", (motor(j), Driver("lost motion", (j, centre, width))))
+                for n, (centre, width) in enumerate(_knots(recordings.motor_angles[:, j - 1], KNOTS))
+            )
+            driver = f"side of approach and angle of joint {j}"
+            yield _curve(f"joint {j}", (gap, *bumps), [1.0] * len(bumps), driver, "approach", trends=1)
 
 
 def _context(recordings: Recordings) -> Iterator[Placed]:

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from armscope.physics.effect import Driver, Effect, Placed, Product, Term
+from armscope.physics.elastic import UNKNOWN_MASSES
 from armscope.physics.scene import Part
 from armscope.recordings import Recordings
 
@@ -21,32 +22,43 @@ def payload_errors(recordings: Recordings, elastic: Sequence[Part]) -> Iterator[
     if recordings.payload is None:
         return
     measured = recordings.torque is not None
-    elastic = [part for part in elastic if not (measured and _driver(part) == "torque")]
-    mass = _term("mass", "kg", 1.0, elastic, lambda load: Driver("heavier", (load,)))
-    if not mass.products:
-        return
-    yield Placed(PAYLOAD_ERROR, "payload", (mass,), (1.0,), "payload", variant="mass")
+    known = [part for part in elastic if part.placed.variant != UNKNOWN_MASSES]
+    givings = [g for part in known for g in _givings(part) if not (measured and g.driver.kind == "torque")]
+    # with unknown masses a constant extra mass is one of them, but a load off its place is not
+    absolute = [g for part in elastic if part.placed.variant == UNKNOWN_MASSES for g in _absolute_giving(part)]
+    mass = _term("mass", "kg", 1.0, givings, lambda load: Driver("heavier", (load,)))
+    if mass.products:
+        yield Placed(PAYLOAD_ERROR, "payload", (mass,), (1.0,), "payload", variant="mass")
     centre = tuple(
-        _term(f"com_{name}", "mm", 1e-3, elastic, lambda load, axis=axis: Driver("off centre", (load, axis)))
+        _term(
+            f"com_{name}", "mm", 1e-3, [*givings, *absolute], lambda load, axis=axis: Driver("off centre", (load, axis))
+        )
         for axis, name in enumerate("xyz")
     )
+    if not centre[0].products:
+        return
     yield Placed(PAYLOAD_ERROR, "payload", centre, (1.0,) * 3, "payload", variant="centre")
 
 
-def _driver(part: Part) -> str:
-    return part.placed.terms[0].products[0].driver.kind
+def _givings(part: Part) -> Iterator[Product]:
+    """What gives way in a part, times how much."""
+    for value, term in zip(part.values, part.placed.terms, strict=True):
+        for product in term.products:
+            if product.driver.kind in LOADS and value != 0:
+                yield Product(product.direction, product.driver, product.factor * float(value))
 
 
-def _term(name: str, unit: str, si: float, elastic: Sequence[Part], change: Any) -> Term:
+def _absolute_giving(part: Part) -> Iterator[Product]:
+    """The absolute compliance that payload differences gave a joint of unknown masses."""
+    for value, term in zip(part.values, part.placed.terms, strict=True):
+        driver = term.products[0].driver
+        if driver.kind == "payload torque" and value != 0:
+            yield Product(term.products[0].direction, Driver("gravity torque", driver.arguments), float(value))
+
+
+def _term(name: str, unit: str, si: float, givings: Sequence[Product], change: Any) -> Term:
     """What one unit of the payload's error does through all that gives way."""
-    products = tuple(
-        Product(product.direction, change(product.driver), product.factor * float(value))
-        for part in elastic
-        for value, term in zip(part.values, part.placed.terms, strict=True)
-        for product in term.products
-        if product.driver.kind in LOADS and value != 0
-    )
-    return Term(name, unit, si, products)
+    return Term(name, unit, si, tuple(Product(g.direction, change(g.driver), g.factor) for g in givings))
 
 
 PAYLOAD_ERROR = Effect(
