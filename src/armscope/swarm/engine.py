@@ -16,7 +16,7 @@ from armscope.swarm.update import velocity_update
 
 Array = NDArray[np.float64]
 
-CACHED_VALUES = 32768  # coordinates of a chunk's particles: its dozen arrays then fit a megabyte or two
+CACHED_VALUES = 16384  # coordinates of a chunk's particles: its ten arrays then fit a megabyte or so
 
 
 class Objective(Protocol):
@@ -148,7 +148,7 @@ class _Chunk:
     def _move(self, iteration: int) -> None:
         draw_weights(self.generators, self.weights)
         leaders = NEIGHBOURHOODS[self.settings.neighbourhood](self.best_fitness)
-        neighbourhood_bests = np.take_along_axis(self.bests, leaders[:, :, None], axis=1)
+        neighbourhood_bests = self.bests[np.arange(len(leaders))[:, None], leaders]
         self.velocities = velocity_update(
             self.positions,
             self.velocities,
@@ -168,14 +168,17 @@ class _Chunk:
             raise ValueError(f"the objective returned the shape {fitness.shape}: must be {self.best_fitness.shape}")
         better = (fitness < self.best_fitness) & np.isfinite(fitness)
         gone: NDArray[np.bool_] = np.zeros(len(self.rows), dtype=bool)
-        if not np.isfinite(self.positions.sum()):  # one cheap look; the thorough one only where it is needed
-            finite = np.isfinite(self.positions).all(axis=2)
-            better &= finite
-            gone = np.logical_not(np.any(finite, axis=1))
-        np.copyto(self.best_fitness, fitness, where=better)
         improved = np.flatnonzero(better)  # few in most iterations, so that going to each beats a mask over all
         dimensions = self.positions.shape[2]
-        self.bests.reshape(-1, dimensions)[improved] = self.positions.reshape(-1, dimensions)[improved]
+        improvements = self.positions.reshape(-1, dimensions)[improved]
+        if not (np.isfinite(fitness).all() and np.isfinite(improvements).all()):  # somebody may have left the numbers
+            finite = np.isfinite(self.positions).all(axis=2)
+            gone = np.logical_not(np.any(finite, axis=1))
+            better &= finite
+            improved = np.flatnonzero(better)
+            improvements = self.positions.reshape(-1, dimensions)[improved]
+        np.copyto(self.best_fitness, fitness, where=better)
+        self.bests.reshape(-1, dimensions)[improved] = improvements
         swarm_best = self.best_fitness.min(axis=1)
         self.result.history[self.rows, iteration] = swarm_best
         threshold = -np.inf if self.settings.threshold is None else self.settings.threshold

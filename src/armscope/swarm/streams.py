@@ -20,7 +20,7 @@ def spawn_generators(seed: int | Sequence[int] | np.random.SeedSequence, count: 
 
 
 def draw_weights(generators: Sequence[np.random.Generator], weights: NDArray[np.float64]) -> None:
-    """Fill ``weights`` (swarms x particles x dimensions x 2) with (r1, r2) in [0, 1) for one iteration of each swarm."""
+    """Fill ``weights`` (swarms x particles x dimensions x 2) with (r1, r2) in [0, 1) for one iteration of each."""
     words = np.empty((len(weights), weights[0].size // 2), dtype="<u8")
     for row, generator in enumerate(generators):
         words[row] = _words(generator, words.shape[1])
