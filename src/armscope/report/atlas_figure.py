@@ -28,13 +28,13 @@ def draw_atlas(
         marked: (location, driver) cells of the effects that were named: they get a frame.
         left: the same on top of the named effects, as a share of the original mismatch; None leaves it out.
     """
-    maps = [("before: nothing but the free frames in the model", shares)]
+    maps = [("before any effect", shares)]
     if left is not None:
-        maps.append(("after: on top of the named effects", left.reindex(index=shares.index, columns=shares.columns)))
+        maps.append(("after the fitted model", left.reindex(index=shares.index, columns=shares.columns)))
     top = max(0.05, float(np.nanmax(shares.to_numpy(), initial=0.0)))
     n_rows, n_columns = shares.shape
     height = 0.27 * n_rows + 1.9
-    width = 0.52 * n_columns * len(maps) + 2.6
+    width = max(0.52 * n_columns, 2.2) * len(maps) + 2.6
     with styled(), plt.rc_context({"axes.grid": False}):
         figure, panels = plt.subplots(1, len(maps), figsize=(width, height), sharey=True, squeeze=False)
         for panel, (title, table) in zip(panels[0], maps, strict=True):

@@ -102,7 +102,8 @@ def location_shares(verdict: Verdict) -> dict[str, float]:
     for effect in verdict.effects:
         shares[effect.location] = shares.get(effect.location, 0.0) + max(effect.share, 0.0)
     left = verdict.unexplained
-    if left.present and left.location and verdict.residual_before_mm > 0:
+    told = any(effect.effect == "unknown" and effect.location == left.location for effect in verdict.effects)
+    if left.present and left.location and not told and verdict.residual_before_mm > 0:
         share = (left.rms_mm / verdict.residual_before_mm) ** 2
         shares[left.location] = shares.get(left.location, 0.0) + min(share, 1.0)
     return shares

@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 
 from armscope.diagnosis.checks import check_table
-from armscope.diagnosis.verdict import NextPoses, SuspectRow, Verdict
+from armscope.diagnosis.verdict import FoundEffect, NextPoses, SuspectRow, Verdict
 from armscope.files import write_text
 from armscope.recordings import Recordings
 from armscope.report.diagnosis_figures import SavedFigure, save_all, waterfall_steps
@@ -101,6 +101,8 @@ def _content(
         "figures": figures,
         "cards": [as_card(effect) for effect in main],
         "minor": [as_card(effect) for effect in minor],
+        "minor_share": percent(sum(effect.share for effect in minor)),
+        "open_question": _concerns(verdict.next_poses, main),
         "background": [
             (family.family, percent(family.share), f"{100 * min(max(family.share, 0.0), 1.0):.1f}")
             for family in verdict.background_families
@@ -159,6 +161,13 @@ def _steps(verdict: Verdict, references: Sequence[tuple[str, float]]) -> pd.Data
     return pd.DataFrame(rows, columns=["model", "held-out RMS (mm)", "RMS on the fitted rows (mm)"])
 
 
+def _concerns(poses: NextPoses | None, effects: Sequence[FoundEffect]) -> bool:
+    """Whether the two readings that could not be told apart are about one of these effects."""
+    return poses is not None and any(
+        poses.first.startswith(f"{effect.effect} at {effect.location}") for effect in effects
+    )
+
+
 def _suspects(suspects: Sequence[SuspectRow]) -> pd.DataFrame:
     worst = sorted(suspects, key=lambda row: row.weight)[:MOST_SUSPECTS]
     table = pd.DataFrame(
@@ -201,8 +210,8 @@ def assumptions(verdict: Verdict, arm: Arm, recordings: Recordings) -> list[str]
     sentences = [
         "The base's place in the measurement frame is free for each run, the tool point for each target; what they "
         "can absorb is not part of the mismatch.",
-        "Every link, drive and bearing may have small errors, as in any real arm (assumed: of tolerance size, about 1 mm "
-        "and 1 mrad, for the geometry); one of them is named only when the recordings ask for it by itself.",
+        "Every link, drive and bearing may have small errors, as in any real arm (assumed: of tolerance size, about 1 "
+        "mm and 1 mrad, for the geometry); one of them is named only when the recordings ask for it by itself.",
         loads,
         f"The noise per axis, {millimetres(verdict.noise_mm)}, is {verdict.noise_source}.",
         "Joint angles are the commanded ones, lengths hold at 20 °C, the arm stands still or moves slowly, and each "

@@ -20,6 +20,7 @@ from armscope.report.wording import (
 )
 
 MOST_PARAMETERS = 8
+UNKNOWN_MASSES = "compliance_times_moment"
 TOO_CLOSE_NATS = 3.0
 """Alternatives nearer than this can't be told apart (odds below 20 to 1)."""
 
@@ -46,7 +47,7 @@ class Card:
     share_width: float
     size: str
     readings: tuple[Reading, ...]
-    parameters_left_out: int
+    remark: str
     shape: str
     evidence: str
     evidence_words: str
@@ -66,7 +67,7 @@ def card(effect: FoundEffect, number: int, figure: str = "") -> Card:
     shown = tuple(readings[:MOST_PARAMETERS])
     return Card(
         anchor=f"effect-{number}-{re.sub('[^a-z0-9]+', '-', f'{effect.effect} {effect.location}'.lower())}",
-        title=capitalised(effect.title or effect_in_words(effect.effect, effect.location)),
+        title=capitalised(title_of(effect)),
         what=effect_in_words(effect.effect, effect.location),
         location=effect.location,
         family=effect.family,
@@ -74,7 +75,7 @@ def card(effect: FoundEffect, number: int, figure: str = "") -> Card:
         share_width=min(100.0, max(0.0, 100 * effect.share)),
         size=millimetres(effect.rms_at_tool_mm),
         readings=shown,
-        parameters_left_out=len(readings) - len(shown),
+        remark=remark_on(effect, len(shown)),
         shape=effect.curve.description if effect.curve else "",
         evidence=f"{effect.evidence_nats:.{0 if effect.evidence_nats >= 10 else 1}f} nats",
         evidence_words=evidence_in_words(effect.evidence_nats),
@@ -97,13 +98,37 @@ def card(effect: FoundEffect, number: int, figure: str = "") -> Card:
     )  # fmt: skip
 
 
+def title_of(effect: FoundEffect) -> str:
+    """The name at the level that the evidence allows; a free curve is told by what it follows."""
+    if effect.effect == "unknown" and effect.named_as == "effect" and effect.curve is not None:
+        return f"{effect.location}: unexplained curve that follows the {effect.driver}"
+    return effect.title or effect_in_words(effect.effect, effect.location)
+
+
 def told_parameters(effect: FoundEffect) -> Sequence[Parameter]:
-    """The effect's parameters; of a free curve, whose coefficients say nothing, how far it reaches."""
+    """The parameters that say something by themselves.
+
+    A free curve's coefficients don't, but how far it reaches does; nor do products with unknown mass moments.
+    """
     if effect.effect != "unknown" or effect.curve is None:
-        return effect.parameters
+        return [p for p in effect.parameters if not p.name.startswith(UNKNOWN_MASSES)]
     curve = effect.curve
     largest = int(np.argmax(np.abs(curve.value)))
     return [Parameter("reaches", curve.value_unit, float(curve.value[largest]), float(curve.stderr[largest]))]
+
+
+def remark_on(effect: FoundEffect, shown: int) -> str:
+    """What the listed numbers leave open."""
+    names = [p.name for p in effect.parameters]
+    if any(name.startswith(UNKNOWN_MASSES) for name in names):
+        if "compliance" in names:
+            return "The links' masses are not known; the payloads, which are, fix the scale of the compliance."
+        return (
+            "The links' masses are not known, so only products of the compliance with mass moments are (model.yaml has "
+            "them). Recordings with a known weight at the tool would give the compliance itself."
+        )
+    left_out = len(told_parameters(effect)) - shown
+    return f"{left_out} further numbers stand in model.yaml." if left_out > 0 else ""
 
 
 def chosen_how_often(inclusion: float | None) -> str:

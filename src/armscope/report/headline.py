@@ -180,6 +180,9 @@ def _payload(effect: FoundEffect, parameters: Parameters) -> str:
 
 
 def _unknown(effect: FoundEffect, parameters: Parameters) -> str:
+    if "scatter" in parameters:
+        size = number_of(parameters["scatter"])
+        return f"{effect.location} scatters by {size} for a reason that the table does not record"
     size = ""
     if effect.curve is not None and len(effect.curve.value):
         largest = float(np.max(np.abs(effect.curve.value)))

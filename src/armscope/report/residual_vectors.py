@@ -18,6 +18,7 @@ Array = NDArray[np.float64]
 
 MOST_ARROWS = 350
 MOST_DOTS = 1500
+MOST_INCHES = 7.0
 WINDOWS = 12
 """The running mean along an angle has so many windows over its range."""
 
@@ -43,16 +44,16 @@ def draw_vectors(points: Array, before: Array, after: Array) -> Figure:
     heights = [float(np.ptp(low_high[:, 1]) / np.ptp(low_high[:, 0])) for low_high in limits]
     norm, colours = Normalize(0, typical), share_colours()
     with styled():
-        figure, panels = plt.subplots(
-            2, 2, figsize=(8.8, 1.3 + 3.1 * sum(heights)), height_ratios=heights, sharex="row", sharey="row"
-        )
+        side_length = min(3.1, MOST_INCHES / sum(heights))
+        size = (2 * side_length + 2.6, side_length * sum(heights) + 1.3)
+        figure, panels = plt.subplots(2, 2, figsize=size, height_ratios=heights, sharex="row", sharey="row")
         for column, (title, left) in enumerate(both.items()):
             rms = float(np.sqrt(np.mean((before, after)[column] ** 2)))
             panels[0, column].set_title(f"{title}: {rms:.3g} mm RMS per axis")
-            size = np.linalg.norm(left, axis=1)
+            length = np.linalg.norm(left, axis=1)
             for row, (where, arrows) in enumerate(((above, left[:, :2]), (side, _folded(at, left)))):
                 panel = panels[row, column]
-                drawn = _arrows(panel, where, factor * arrows, size, norm, colours)
+                drawn = _arrows(panel, where, factor * arrows, length, norm, colours)
                 panel.set(xlim=limits[row][:, 0], ylim=limits[row][:, 1], aspect="equal")
             _mark_base(panels[0, column])
         panels[0, 0].set(ylabel="from above: y (mm)")

@@ -39,7 +39,9 @@ LABELS = {
     "per_turn": "waves",
     "phase": "largest at",
     "ratio": "turns further by",
+    "reaches": "reaches (at most)",
     "scale": "lengths too long by",
+    "scatter": "scatter (1 sigma)",
     "a": "length a",
     "d": "length d",
     "alpha": "twist α",
@@ -155,7 +157,7 @@ def evidence_in_words(nats: float) -> str:
     """What a difference in log evidence means, after Kass & Raftery (1995), whose scale is twice the nats."""
     if nats < 1:
         return "hardly worth a mention"
-    odds = f"odds of about {math.exp(nats):.0f} to 1" if nats < 9 else "odds far beyond a thousand to 1"
+    odds = f"odds of about {float(f'{math.exp(nats):.2g}'):.0f} to 1" if nats < 9 else "odds far beyond a thousand to 1"
     strength = "some" if nats < 3 else "strong" if nats < 5 else "very strong" if nats < 15 else "overwhelming"
     return f"{strength} evidence: {odds}"
 
