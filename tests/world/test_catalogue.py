@@ -13,12 +13,13 @@ from armscope.world.outside import OUTSIDE
 from tests.world.by_hand import ARMS
 
 CATEGORIES = {"clean", "single", "multiple", "outside", "misleading", "inseparable", "real", "bad_shots"}
+FULL = CATEGORIES | {"faint"}
 
 
 def test_the_full_proof_has_over_300_worlds_of_every_category_on_every_arm():
     worlds = catalogue(1, "full")
     assert len(worlds) >= 300
-    assert {world.category for world in worlds} == CATEGORIES
+    assert {world.category for world in worlds} == FULL
     assert min(Counter(world.arm for world in worlds).values()) > 60
     assert {world.arm for world in worlds} == set(ARMS)
     assert all(60 <= world.rows <= 300 for world in worlds)
@@ -54,6 +55,16 @@ def test_half_of_the_worlds_depend_on_the_proofs_seed_and_half_do_not(size):
     for a, b in zip(one, two, strict=True):
         assert (a.seed != b.seed) == a.fresh == b.fresh
         assert a.fresh or a == b
+
+
+def test_fixed_and_fresh_worlds_hold_the_same_mixture():
+    worlds = catalogue(1, "full")
+    for category in FULL:
+        fresh = [world.fresh for world in worlds if world.category == category]
+        assert abs(sum(fresh) - len(fresh) / 2) <= 0.07 * len(fresh)
+    for strength in STRENGTHS:
+        fresh = [w.fresh for w in worlds if w.category == "single" and w.wishes[0].strength == strength]
+        assert 0.15 * len(fresh) < sum(fresh) < 0.85 * len(fresh)
 
 
 def test_a_worlds_name_says_nothing_about_what_is_inside():

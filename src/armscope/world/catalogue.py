@@ -24,6 +24,8 @@ ARMS = ("parallelogram-120kg", "six-axis", "seven-axis")
 LARGEST_PAYLOAD_KG = {"parallelogram-120kg": 120.0, "six-axis": 20.0, "seven-axis": 12.0}
 NOISE_MM = {"parallelogram-120kg": (0.02, 0.06), "six-axis": (0.012, 0.04), "seven-axis": (0.008, 0.025)}
 STRENGTHS = (0.5, 1.0, 2.0, 3.0, 5.0, 10.0)
+FAINT = (2.0, 3.0, 4.0, 5.0, 6.5, 9.0)
+"""Sizes of faint effects: in noise of a single reading, summed over all readings (square root of the noncentrality)."""
 FIXED_SEED = 20061103
 COMMON_KINDS = (
     "joint_compliance", "joint_compliance", "joint_offset", "joint_offset", "link_geometry", "link_geometry",
@@ -32,7 +34,9 @@ COMMON_KINDS = (
 )  # fmt: skip
 """What real arms have together, the usual suspects twice."""
 
-Category = Literal["clean", "single", "multiple", "outside", "misleading", "inseparable", "real", "bad_shots"]
+Category = Literal[
+    "clean", "single", "multiple", "outside", "misleading", "inseparable", "real", "bad_shots", "faint"
+]
 
 
 class Wish(Strict):
@@ -102,7 +106,8 @@ def catalogue(proof_seed: int, size: Literal["small", "full"] = "small") -> list
 
 
 def _spec(number: int, category: Category, recipe: Recipe, proof_seed: int) -> WorldSpec:
-    fresh = number % 2 == 1
+    # the Thue-Morse sequence: half of the worlds, and in step with no period in the list of recipes
+    fresh = number.bit_count() % 2 == 1
     sequence = np.random.SeedSequence([proof_seed if fresh else FIXED_SEED, int(fresh), number])
     rng = np.random.default_rng(sequence)
     arm = ARMS[int(rng.integers(len(ARMS)))]
@@ -142,6 +147,10 @@ def _full() -> Iterator[tuple[Category, Recipe]]:
         yield "real", _real_arm
     for number in range(16):
         yield "bad_shots", _bad_shots("outliers" if number < 8 else "heavy_tails", 1 + number % 3)
+    for kind in LIBRARY:
+        if kind.effect != "payload_error":  # it never stands alone
+            for size in FAINT:
+                yield "faint", _faint(kind.name, size)
 
 
 def _small() -> Iterator[tuple[Category, Recipe]]:
@@ -171,6 +180,17 @@ def _nothing(rng: np.random.Generator) -> Details:
 def _single(kind: str, strength: float) -> Recipe:
     def recipe(rng: np.random.Generator) -> Details:
         return {"wishes": [{"kind": kind, "strength": strength}], **_arm_for(kind)}
+
+    return recipe
+
+
+def _faint(kind: str, size: float) -> Recipe:
+    """About as small as one who knows what to test for would still see: far below the noise of one reading."""
+
+    def recipe(rng: np.random.Generator) -> Details:
+        rows = int(rng.choice([60, 100, 150, 200, 250, 300]))
+        strength = float(f"{size / np.sqrt(3 * rows):.4g}")
+        return {"wishes": [{"kind": kind, "strength": strength}], "rows": rows, **_arm_for(kind)}
 
     return recipe
 

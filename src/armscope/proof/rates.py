@@ -1,0 +1,230 @@
+"""Rates with exact binomial intervals, and the tables that are made of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pandas as pd
+from scipy.stats import binomtest
+
+from armscope.proof.definitions import (
+    AIMS,
+    CLEAR_STRENGTH,
+    HELD_OUT_TOLERANCE,
+    RELIABLE,
+    RIGHT_INPUTS,
+    SEEDS,
+    THRESHOLD_AIM,
+    judged,
+)
+from armscope.proof.oracle import Threshold, threshold
+from armscope.proof.scoring import Cases
+
+Row = dict[str, object]
+THRESHOLD_TEXT = "detection threshold (90 %) in multiples of the oracle's"
+POWER_BINS = (0.0, 0.6, 0.9, 1.15, 1.45, 1.9, 2.6, 5.0, 12.0, 40.0, np.inf)
+POWER_CATEGORIES = ("single", "faint")
+OUTCOMES = ("exact", "exact_story", "silent", "held_out_close")
+
+
+def rate(right: pd.Series) -> Row:
+    """cases, right, estimate, low, high of a column of right and wrong; NaN without cases."""
+    cases, hits = len(right), int(right.astype(bool).sum())
+    if cases == 0:
+        return {"cases": 0, "right": 0, "estimate": np.nan, "low": np.nan, "high": np.nan}
+    interval = binomtest(hits, cases).proportion_ci(0.95)
+    return {"cases": cases, "right": hits, "estimate": hits / cases, "low": interval.low, "high": interval.high}
+
+
+def of_seeds(rows: pd.DataFrame, seeds: str) -> pd.DataFrame:
+    """The rows of fixed, fresh or all worlds."""
+    return rows if seeds == "all" or rows.empty else rows[rows["fresh"] == (seeds == "fresh")]
+
+
+def aims_table(cases: Cases, rng: np.random.Generator) -> pd.DataFrame:
+    """Every aim for fixed, fresh and all worlds: aim, seeds, cases, right, estimate, low, high, least, most, verdict."""
+    tables = cases.tables()
+    rows: list[Row] = []
+    for aim in AIMS:
+        among = tables[aim.table]
+        among = among[aim.among(among)] if len(among) else among
+        for seeds in SEEDS:
+            chosen = of_seeds(among, seeds)
+            counted = rate(chosen[aim.column] if len(chosen) else pd.Series(dtype=bool))
+            verdict = judged(*(float(str(counted[k])) for k in ("estimate", "low", "high")), aim.least, aim.most)
+            rows.append({"aim": aim.text, "seeds": seeds, **counted, "least": aim.least, "most": aim.most, "verdict": verdict})
+    for seeds in SEEDS:
+        found = detection_threshold(of_seeds(cases.effects, seeds), "seen", RELIABLE, rng)
+        verdict = judged(found.value, found.low, found.high, 0.0, THRESHOLD_AIM)
+        rows.append(
+            {"aim": THRESHOLD_TEXT, "seeds": seeds, "cases": found.cases, "estimate": found.value, "low": found.low}
+            | {"high": found.high, "least": 0.0, "most": THRESHOLD_AIM, "verdict": verdict}
+        )
+    return pd.DataFrame(rows)
+
+
+def _powered(effects: pd.DataFrame) -> pd.DataFrame:
+    """Effects that stood alone in a world with right inputs, sized against the oracle."""
+    if effects.empty:
+        return effects
+    alone = effects["category"].isin(POWER_CATEGORIES) & ~effects["minor"].astype(bool)
+    single = effects[alone & (effects["size_in_thresholds"] > 0)]
+    return single[~single["world"].duplicated(keep=False)]
+
+
+def detection_threshold(effects: pd.DataFrame, column: str, share: float, rng: np.random.Generator) -> Threshold:
+    """Where on the scale of the oracle's thresholds that share is found."""
+    chosen = _powered(effects)
+    if chosen.empty:
+        return Threshold(np.nan, np.nan, np.nan, 0)
+    return threshold(chosen["size_in_thresholds"].to_numpy(), chosen[column].to_numpy(dtype=bool), share, rng)
+
+
+def thresholds_table(effects: pd.DataFrame, rng: np.random.Generator) -> pd.DataFrame:
+    """Sizes, in multiples of the oracle's 90 % threshold, at which half and nine of ten are seen and named."""
+    rows: list[Row] = []
+    for seeds in SEEDS:
+        for column in ("seen", "right"):
+            for share in (0.5, RELIABLE):
+                found = detection_threshold(of_seeds(effects, seeds), column, share, rng)
+                rows.append({"seeds": seeds, "found": column, "share": share, **vars(found)})
+    return pd.DataFrame(rows)
+
+
+def power_table(effects: pd.DataFrame) -> pd.DataFrame:
+    """Share seen and named over bins of size: seeds, middle, found, cases, right, estimate, low, high, oracle."""
+    rows: list[Row] = []
+    for seeds in SEEDS:
+        chosen = _powered(of_seeds(effects, seeds))
+        if chosen.empty:
+            continue
+        for _, group in chosen.groupby(pd.cut(chosen["size_in_thresholds"], POWER_BINS), observed=True):
+            middle = float(np.exp(np.log(group["size_in_thresholds"]).mean()))
+            for column in ("seen", "right"):
+                oracle = group["oracle_power"].mean()
+                rows.append({"seeds": seeds, "size": middle, "found": column, **rate(group[column]), "oracle": oracle})
+    return pd.DataFrame(rows)
+
+
+def strength_table(effects: pd.DataFrame) -> pd.DataFrame:
+    """Share seen and named over strength (RMS at the tool / noise) of effects that stand alone."""
+    single = effects[effects["category"] == "single"] if len(effects) else effects
+    rows: list[Row] = []
+    for seeds in SEEDS:
+        chosen = _powered(of_seeds(single, seeds))
+        if chosen.empty:
+            continue
+        for strength, group in chosen.groupby(chosen["strength"].round(1)):
+            for column in ("seen", "right"):
+                oracle = group["oracle_power"].mean()
+                rows.append(
+                    {"seeds": seeds, "strength": strength, "found": column, **rate(group[column]), "oracle": oracle}
+                )
+    return pd.DataFrame(rows)
+
+
+def per_effect_table(cases: Cases) -> pd.DataFrame:
+    """Recall, precision, right location and coverage of every effect: effect, seeds, score, cases, right, ..."""
+    rows: list[Row] = []
+    for seeds in SEEDS:
+        for score, effect, right in _per_effect(cases, seeds):
+            rows.append({"effect": effect, "seeds": seeds, "score": score, **rate(right)})
+    return pd.DataFrame(rows)
+
+
+def _per_effect(cases: Cases, seeds: str) -> Iterator[tuple[str, str, pd.Series]]:
+    effects, names, intervals = (of_seeds(t, seeds) for t in (cases.effects, cases.names, cases.intervals))
+    if len(effects):
+        story = ~effects["minor"].astype(bool) & (effects["strength"] >= CLEAR_STRENGTH)
+        told = effects["category"].isin((*RIGHT_INPUTS, "outside"))
+        for effect, group in effects[story & told].groupby("effect"):
+            yield "recall", str(effect), group["right"]
+    if len(names):
+        for effect, group in names.groupby("effect"):
+            yield "precision", str(effect), group["right"]
+        for effect, group in names[names["effect_right"].astype(bool)].groupby("effect"):
+            yield "location", str(effect), group["right"]
+    if len(intervals):
+        held = intervals[intervals["category"].isin(RIGHT_INPUTS) & intervals["covered"].notna()]
+        for effect, group in held.groupby("effect"):
+            yield "coverage", str(effect), group["covered"]
+        for effect, group in intervals[intervals["right"].notna()].groupby("effect"):
+            yield "scanned number", str(effect), group["right"]
+
+
+def outcomes_table(cases: Cases) -> pd.DataFrame:
+    """What became of each category: category, seeds, score, cases, right, estimate, low, high."""
+    rows: list[Row] = []
+    for seeds in SEEDS:
+        for category, group in of_seeds(cases.worlds, seeds).groupby("category", sort=False):
+            scores = {name: group[name] for name in OUTCOMES} | {
+                "no wrong name": group["wrong_names"] == 0,
+                "cannot tell": group["answer"] == "cannot tell",
+                "nothing missing": group["answer"] == "nothing missing",
+                "failed": group["failed"] != "",
+            }
+            rows += [{"category": category, "seeds": seeds, "score": s, **rate(v)} for s, v in scores.items()]
+    return pd.DataFrame(rows)
+
+
+def effect_outcomes_table(cases: Cases) -> pd.DataFrame:
+    """How the concealed effects of each category ended: category, seeds, outcome, effects, share."""
+    story = cases.effects[~cases.effects["minor"].astype(bool)]
+    rows: list[Row] = []
+    for seeds in SEEDS:
+        for category, group in of_seeds(story, seeds).groupby("category", sort=False):
+            for outcome, count in group["outcome"].value_counts().items():
+                rows.append({"category": category, "seeds": seeds, "outcome": outcome, "effects": count, "share": count / len(group)})
+    return pd.DataFrame(rows)
+
+
+def outside_table(cases: Cases) -> pd.DataFrame:
+    """Worlds outside the library by shape: shape, seeds, outcome, worlds."""
+    outside = cases.worlds[cases.worlds["outside"] != ""]
+    tables = [
+        of_seeds(outside, seeds).groupby(["shape", "outside"]).size().reset_index(name="worlds").assign(seeds=seeds)
+        for seeds in SEEDS
+        if len(of_seeds(outside, seeds))
+    ]
+    columns = ["shape", "seeds", "outside", "worlds"]
+    return pd.concat(tables, ignore_index=True)[columns] if tables else pd.DataFrame(columns=columns)
+
+
+def held_out_table(worlds: pd.DataFrame) -> pd.DataFrame:
+    """Held-out RMS over the true model's by category: median, nine in ten, share within 5 %."""
+    rows: list[Row] = []
+    for seeds in SEEDS:
+        for category, group in of_seeds(worlds, seeds).groupby("category", sort=False):
+            ratio = group["held_out_ratio"]
+            rows.append(
+                {"category": category, "seeds": seeds, "worlds": len(ratio), "median": ratio.median()}
+                | {"nine_in_ten_below": ratio.quantile(0.9), "largest": ratio.max()}
+                | {"within_5_percent": float((ratio <= HELD_OUT_TOLERANCE).mean())}
+            )
+    return pd.DataFrame(rows)
+
+
+def confusion_table(cases: Cases) -> pd.DataFrame:
+    """Counts of (true effect, effect said) at 3x the noise and above where the inputs are right; acceptable names count as true."""
+    pairs = cases.pairs
+    told = pairs["category"].isin((*RIGHT_INPUTS, "outside", "clean")) & ~pairs["category"].isin(("real", "faint"))
+    clear = pairs["weakest"].isna() | (pairs["weakest"] >= CLEAR_STRENGTH)
+    return pairs[told & clear].groupby(["true", "said"]).size().reset_index(name="effects")
+
+
+def false_alarms(cases: Cases) -> pd.DataFrame:
+    """Names on clean arms, one row each."""
+    clean = cases.names[cases.names["category"] == "clean"] if len(cases.names) else cases.names
+    columns = ["world", "fresh", "effect", "location", "minor", "evidence_nats", "rms_mm"]
+    return clean[columns] if len(clean) else pd.DataFrame(columns=columns)
+
+
+def wrong_worlds(cases: Cases) -> pd.DataFrame:
+    """Worlds that are not as they should be: what was concealed and what was said."""
+    worlds = cases.worlds
+    wrong = worlds[~worlds["exact"].astype(bool) | (worlds["failed"] != "")]
+    columns = ["world", "category", "fresh", "arm", "rows", "weakest", "left_out", "concealed", "said", "answer", "held_out_ratio", "failed"]
+    return wrong[columns]
+
+

@@ -1,0 +1,210 @@
+"""Answers against truths: one table of cases each for worlds, concealed effects, names given and numbers fitted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from armscope.proof.answers import Answer, Claim
+from armscope.proof.definitions import HELD_OUT_TOLERANCE, Name, place
+from armscope.proof.intervals import compare
+from armscope.proof.matching import UNKNOWN, Match, among_all, distinct, match
+from armscope.proof.oracle import power, size_in_thresholds
+from armscope.proof.truth import Concealed, Truth
+
+AXES_MM = ["x_mm", "y_mm", "z_mm"]
+CANNOT_TELL, NOTHING = "cannot tell", "nothing"
+REAL = "real"
+
+
+@dataclass(frozen=True, eq=False)
+class World:
+    """A world unsealed beside the answer it got; ``times`` are the recorded `time_s`, where there are any."""
+
+    truth: Truth
+    answer: Answer
+    times: pd.Series | None = None
+    seconds: float = float("nan")
+
+
+@dataclass(frozen=True, eq=False)
+class Cases:
+    """What all rates are counted from; columns as in the functions below."""
+
+    worlds: pd.DataFrame
+    effects: pd.DataFrame
+    names: pd.DataFrame
+    intervals: pd.DataFrame
+    pairs: pd.DataFrame
+
+    def tables(self) -> dict[str, pd.DataFrame]:
+        """By name."""
+        return vars(self)
+
+
+def score(worlds: Iterable[World]) -> Cases:
+    """Score every world."""
+    rows: dict[str, list[dict[str, object]]] = {name: [] for name in ("worlds", "effects", "names", "intervals", "pairs")}
+    for world in worlds:
+        claims = distinct(world.answer.claims)
+        matches, left = match(world.truth.effects, claims)
+        common = {
+            "world": world.truth.world,
+            "category": world.truth.category,
+            "fresh": world.truth.fresh,
+            "weakest": min((effect.strength for effect in world.truth.story), default=float("nan")),
+        }
+        rows["worlds"].append(common | _world(world, claims, matches, left))
+        rows["effects"] += [common | _effect(world, m, claims) for m in matches]
+        rows["names"] += [common | _name(world.truth, claim, claim not in left) for claim in claims]
+        rows["intervals"] += [common | number for m in matches for number in _numbers(world, m)]
+        rows["pairs"] += [common | {"true": true, "said": said} for true, said in _pairs(matches, left)]
+    return Cases(**{name: pd.DataFrame(found) for name, found in rows.items()})
+
+
+def _world(world: World, claims: Sequence[Claim], matches: Sequence[Match], left: Sequence[Claim]) -> dict[str, object]:
+    truth, answer = world.truth, world.answer
+    story = [m for m in matches if not m.truth.minor]
+    wrong = [claim for claim in left if truth.category != REAL or claim.effect != UNKNOWN]
+    all_right = not answer.failed and all(m.right for m in story)
+    ratio = held_out_ratio(truth, answer)
+    outside = outside_outcome(truth, answer, claims) if truth.outside else ""
+    return {
+        "arm": truth.arm,
+        "rows": truth.rows,
+        "sigma_mm": truth.sigma_mm,
+        "masses": truth.masses,
+        "noise": truth.noise,
+        "left_out": " ".join(truth.left_out),
+        "shape": " ".join(effect.shape for effect in truth.story if effect.shape),
+        "concealed": _listed([(e.effect, e.location) for e in truth.story]),
+        "said": _listed([claim.name for claim in claims]),
+        "answer": answer.answer,
+        "mismatch": answer.mismatch,
+        "silent": not answer.failed and not claims,
+        "exact": all_right and not wrong,
+        "exact_story": all_right and not [claim for claim in wrong if not claim.minor],
+        "missed": sum(not m.right for m in story),
+        "wrong_names": sum(claim.effect != UNKNOWN for claim in left),
+        "outside": outside,
+        "outside_right": outside in ("located", "acceptable") if truth.outside else None,
+        "held_out_ratio": ratio,
+        "held_out_close": bool(ratio <= HELD_OUT_TOLERANCE),
+        "noise_ratio": answer.noise_mm / truth.noise_rms_mm,
+        "seconds": world.seconds,
+        "failed": answer.failed,
+    }
+
+
+def _listed(names: Sequence[Name]) -> str:
+    return "; ".join(f"{effect} {location}" for effect, location in names)
+
+
+def held_out_ratio(truth: Truth, answer: Answer) -> float:
+    """RMS per axis of predicted minus measured on the test rows, in multiples of the true model's; infinite if failed."""
+    if answer.predicted is None:
+        return float("inf")
+    off = answer.predicted[AXES_MM].to_numpy() - truth.test[AXES_MM].to_numpy()
+    return float(np.sqrt(np.mean(off**2)) / truth.true_rms_mm)
+
+
+def outside_outcome(truth: Truth, answer: Answer, claims: Sequence[Claim]) -> str:
+    """How a world outside the library was answered; see `definitions`."""
+    matches, left = match(truth.effects, claims)
+    where = {place(effect.location) for effect in truth.story}
+    names = [claim for claim in left if claim.effect != UNKNOWN]
+    if answer.failed:
+        return "failed"
+    if all(m.right for m in matches):
+        if not names:
+            return "located" if all(m.outcome == "named" for m in matches) else "acceptable"
+        return "partly named" if {place(claim.location) for claim in names} <= where else "misnamed"
+    if names:
+        return "misnamed"
+    if claims:
+        return "elsewhere"
+    return "cannot tell" if answer.answer == CANNOT_TELL else "missed"
+
+
+def _effect(world: World, found: Match, claims: Sequence[Claim]) -> dict[str, object]:
+    truth, rows = found.truth, world.truth.rows
+    tested = np.isfinite(truth.noncentrality) and truth.columns > 0
+    claim = found.claim
+    return {
+        "effect": truth.effect,
+        "location": truth.location,
+        "shape": truth.shape,
+        "driver": truth.driver,
+        "minor": truth.minor,
+        "strength": truth.strength,
+        "noncentrality": truth.noncentrality,
+        "columns": truth.columns,
+        "rows": rows,
+        "oracle_power": power(truth.noncentrality, truth.columns, rows) if tested else float("nan"),
+        "size_in_thresholds": size_in_thresholds(truth.noncentrality, truth.columns, rows) if tested else float("nan"),
+        "seen": bool(claims),
+        "outcome": found.outcome,
+        "right": found.right,
+        "ambiguous": bool(truth.alternatives) or (world.truth.category == "inseparable" and not truth.minor),
+        "among_all": among_all(truth, claims),
+        "said_effect": claim.effect if claim else "",
+        "said_location": claim.location if claim else "",
+        "said_driver": claim.driver if claim else "",
+        "driver_right": claim is not None and same_driver(truth, claim),
+    }
+
+
+def same_driver(truth: Concealed, claim: Claim) -> bool:
+    """Whether a claim follows what the concealed effect follows."""
+    words = {
+        "joint angle": ("angle",), "gravity load": ("load", "gravity"), "side of approach": ("approach",),
+        "time": ("time", "row"), "temperature": ("temperature", "warm"), "speed": ("speed",), "payload": ("payload",),
+        "constant": ("constant",),
+    }  # fmt: skip
+    return any(word in claim.driver for word in words[truth.driver])
+
+
+def _name(truth: Truth, claim: Claim, right: bool) -> dict[str, object]:
+    acceptable = {name for effect in truth.effects for name in (effect.name, *effect.alternatives)}
+    return {
+        "effect": claim.effect,
+        "location": claim.location,
+        "minor": claim.minor,
+        "named_as": claim.named_as,
+        "evidence_nats": claim.evidence_nats,
+        "rms_mm": claim.rms_mm,
+        "right": right,
+        "effect_right": claim.effect in {effect for effect, _ in acceptable},
+    }
+
+
+def _numbers(world: World, found: Match) -> list[dict[str, object]]:
+    if found.outcome != "named" or not found.truth.comparable or found.truth.effect == UNKNOWN:
+        return []
+    claims = [claim for claim in world.answer.claims if claim.name == found.truth.name]
+    return [
+        {"effect": found.truth.effect, "location": found.truth.location, "minor": found.truth.minor}
+        | {"strength": found.truth.strength}
+        | vars(number)
+        for number in compare(found.truth, claims, world.times)
+    ]
+
+
+def _pairs(matches: Sequence[Match], left: Sequence[Claim]) -> list[tuple[str, str]]:
+    """(true effect, effect said) for the confusion matrix; what is left over on either side pairs with `nothing`."""
+    waiting = list(left)
+    pairs = []
+    for found in matches:
+        if found.truth.minor:
+            continue
+        if found.right:
+            pairs.append((found.truth.effect, found.truth.effect))
+            continue
+        near = [claim for claim in waiting if place(claim.location) == place(found.truth.location)] or waiting
+        pairs.append((found.truth.effect, near[0].effect if near else NOTHING))
+        waiting = [claim for claim in waiting if not near or claim is not near[0]]
+    pairs += [(NOTHING, claim.effect) for claim in waiting]
+    return pairs or [(NOTHING, NOTHING)]

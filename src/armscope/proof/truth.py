@@ -1,0 +1,143 @@
+"""The sealed truth of worlds, as scoring reads it: archives with a truth.yaml and a test.csv per world."""
+
+from __future__ import annotations
+
+import io
+import tarfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+import yaml
+
+from armscope.files import replacing
+from armscope.inputs import InputError
+from armscope.proof.definitions import Name
+
+
+@dataclass(frozen=True)
+class Concealed:
+    """One concealed effect.
+
+    Attributes:
+        effect, location: its name; `unknown` if no library has it.
+        driver: what it follows.
+        minor: part of a real arm's background.
+        strength: RMS at the tool in multiples of the noise.
+        parameters: (value, unit) by name, file units.
+        comparable: whether the fitted numbers can be compared with them.
+        noncentrality, columns: of the oracle's test; NaN and 0 for the background.
+        alternatives: names that are as good in these poses.
+        shape: kind of an effect outside the library.
+    """
+
+    effect: str
+    location: str
+    driver: str
+    minor: bool
+    strength: float
+    parameters: dict[str, tuple[float, str]]
+    comparable: bool
+    noncentrality: float
+    columns: int
+    alternatives: tuple[Name, ...]
+    shape: str = ""
+
+    @property
+    def name(self) -> Name:
+        """(effect, location)."""
+        return self.effect, self.location
+
+
+@dataclass(frozen=True, eq=False)
+class Truth:
+    """What a world conceals and how it came about; ``test`` holds the readings that nobody has seen."""
+
+    world: str
+    category: str
+    arm: str
+    fresh: bool
+    rows: int
+    sigma_mm: float
+    noise_rms_mm: float
+    noise: str
+    masses: str
+    left_out: tuple[str, ...]
+    outside: bool
+    true_rms_mm: float
+    effects: tuple[Concealed, ...]
+    test: pd.DataFrame
+
+    @property
+    def story(self) -> list[Concealed]:
+        """The concealed effects without a real arm's background."""
+        return [effect for effect in self.effects if not effect.minor]
+
+
+def seal(folder: Path, archive: Path) -> None:
+    """Put every world's sealed files of ``folder`` (world/sealed/...) into one archive; same files, same bytes."""
+    with replacing(archive) as beside, tarfile.open(beside, "w:gz") as tar:
+        for file in sorted(folder.glob("*/sealed/*")):
+            entry = tarfile.TarInfo(f"{file.parent.parent.name}/{file.name}")
+            content = file.read_bytes()
+            entry.size = len(content)
+            tar.addfile(entry, io.BytesIO(content))
+
+
+def unseal(archive: Path) -> dict[str, Truth]:
+    """The truths of an archive, by world.
+
+    Raises:
+        InputError: it holds something else.
+    """
+    found: dict[str, dict[str, bytes]] = {}
+    with tarfile.open(archive) as tar:
+        for entry in tar.getmembers():
+            world, _, name = entry.name.partition("/")
+            stream = tar.extractfile(entry)
+            if stream is not None:
+                found.setdefault(world, {})[name] = stream.read()
+    truths = {}
+    for world, files in found.items():
+        if set(files) != {"truth.yaml", "test.csv"}:
+            raise InputError(archive, world, sorted(files), "a sealed world is a truth.yaml and a test.csv")
+        truths[world] = _truth(world, yaml.safe_load(files["truth.yaml"]), pd.read_csv(io.BytesIO(files["test.csv"])))
+    return truths
+
+
+def _truth(world: str, content: dict[str, Any], test: pd.DataFrame) -> Truth:
+    about = content["scoring"]
+    return Truth(
+        world=world,
+        category=about["category"],
+        arm=about["arm"],
+        fresh=about["fresh"],
+        rows=about["rows"],
+        sigma_mm=content["sigma_mm"],
+        noise_rms_mm=about["noise_rms_mm"],
+        noise=about["noise"],
+        masses=about["masses"],
+        left_out=tuple(about["columns_left_out"]),
+        outside=about["outside_library"],
+        true_rms_mm=content["rms_on_test_mm"]["true_model"],
+        effects=tuple(_effect(effect) for effect in content["effects"]),
+        test=test,
+    )
+
+
+def _effect(content: dict[str, Any]) -> Concealed:
+    oracle = content.get("oracle", {"noncentrality": float("nan"), "columns": 0})
+    return Concealed(
+        effect=content["effect"],
+        location=content["location"],
+        driver=content["driver"],
+        minor=content["minor"],
+        strength=content["strength"],
+        parameters={p["name"]: (p["value"], p["unit"]) for p in content["parameters"]},
+        comparable=content["values_comparable"],
+        noncentrality=oracle["noncentrality"],
+        columns=oracle["columns"],
+        alternatives=tuple((a["effect"], a["location"]) for a in content.get("alternatives", ())),
+        shape=content.get("shape", ""),
+    )
