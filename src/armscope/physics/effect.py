@@ -158,9 +158,10 @@ class Effect:
 
 CONTAINED = {
     "angle": {"joint_offset", "gear_ratio", "gear_eccentricity", "gear_mesh"},
-    "load": {"joint_compliance", "joint_offset"},
+    "load": {"joint_compliance", "joint_offset", "backlash"},
     "approach": {"backlash"},
-    "time": {"base_drift"},
+    "time": {"base_drift", "joint_offset"},
+    "temperature": {"joint_offset"},
 }
 """What a free curve of a driver contains as special cases at the same location."""
 
@@ -174,7 +175,7 @@ def clash(one: Placed, other: Placed) -> bool:
         return one.variant == other.variant if one.tried > 2 or one.reading == "curve" else True
     for curve, special in ((one, other), (other, one)):
         if curve.reading == "curve" and special.name in CONTAINED.get(curve.variant, set()):
-            return True
+            return special.name != "backlash" or special.variant == curve.variant
     return False
 
 

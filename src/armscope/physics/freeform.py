@@ -13,7 +13,7 @@ from armscope.physics.elastic import has_load
 from armscope.physics.geometric import JOINT_OFFSET
 from armscope.physics.placing import moving_joints, varies, varying_columns
 from armscope.physics.scene import Scene
-from armscope.physics.transmission import GEAR_RATIO, wave_terms
+from armscope.physics.transmission import BACKLASH, GEAR_RATIO, wave_terms
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -38,7 +38,7 @@ def _place(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     yield from _own_angle(arm, recordings)
     yield from _load(arm, recordings)
     yield from _lost_motion(recordings)
-    yield from _context(recordings)
+    yield from _context(arm, recordings)
 
 
 def _own_angle(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
@@ -59,13 +59,14 @@ def _load(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
         return
     scene = Scene(arm, recordings)
     offsets = {placed.location: placed.terms for placed in JOINT_OFFSET.place(arm, recordings)}
+    flanks = {p.location: p.terms for p in BACKLASH.place(arm, recordings) if p.variant == "load"}
     for j in range(1, arm.n_motors + 1):
         source = Driver("torque", (j,))
         values = scene.driver(source)
         if np.ptp(values) > 1e-6:
             bumps = spline_terms(source, values, motor(j), "rad")
             linear = term("compliance", "rad/(N m)", (motor(j), source))
-            terms = (*offsets.get(f"joint {j}", ()), linear, *bumps)
+            terms = (*offsets.get(f"joint {j}", ()), *flanks.get(f"joint {j}", ()), linear, *bumps)
             trends = len(terms) - len(bumps)
             yield _curve(f"joint {j}", terms, [1.0] * len(bumps), f"load of joint {j}", "load", trends)
 
@@ -84,8 +85,9 @@ def _lost_motion(recordings: Recordings) -> Iterator[Placed]:
             yield _curve(f"joint {j}", (gap, *bumps), [1.0] * len(bumps), driver, "approach", trends=1)
 
 
-def _context(recordings: Recordings) -> Iterator[Placed]:
+def _context(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     """Base and joints that move with time or temperature, not steadily."""
+    offsets = {placed.location: placed.terms for placed in JOINT_OFFSET.place(arm, recordings)}
     for values, least, name, source in (
         (recordings.time, 1.0, "time", "hours"),
         (recordings.temperature, 0.2, "temperature", "warmth"),
@@ -104,7 +106,8 @@ def _context(recordings: Recordings) -> Iterator[Placed]:
                 term(f"at_{n}", "rad", (motor(j), Driver("spline", (driver, centre, width))))
                 for n, (centre, width) in enumerate(knots)
             )
-            yield _curve(f"joint {j}", terms, [1.0] * len(terms), name, name)
+            offset = offsets.get(f"joint {j}", ())
+            yield _curve(f"joint {j}", (*offset, *terms), [1.0] * len(terms), name, name, trends=len(offset))
 
 
 def _curve(

@@ -1,0 +1,72 @@
+"""Every effect is written once; its columns must be the slope of its own exact model."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from armscope.physics.backgrounds import backgrounds
+from armscope.physics.drift import base_shift, tool_shift
+from armscope.physics.effect import Placed
+from armscope.physics.elastic import JOINT_COMPLIANCE
+from armscope.physics.frames import free_frames
+from armscope.physics.payload import payload_errors
+from armscope.physics.registry import EFFECTS, library
+from armscope.physics.scene import Part, Scene
+from armscope.physics.transmission import mesh
+
+from .scenes import ARMS, arm_named, full_table
+
+
+def every_placed(scene: Scene) -> list[Placed]:
+    arm, table = scene.arm, scene.recordings
+    give = [Part(p, np.full(len(p.terms), 1e-6)) for p in JOINT_COMPLIANCE.place(arm, table) if p.variant == ""]
+    return [
+        *library(arm, table),
+        *[placed for family in backgrounds(arm, table).values() for placed in family],
+        *[mesh(j, 17) for j in range(1, arm.n_motors + 1)],
+        base_shift(table, 5, 1),
+        tool_shift(table, 5, 1),
+        *payload_errors(table, give),
+        *free_frames(table, tool_per_run=True),
+    ]
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_columns_are_the_slope_of_the_exact_model(name: str) -> None:
+    arm = arm_named(name)
+    scene = Scene(arm, full_table(arm, 24, seed=5))
+    posture = scene.posture()
+    seen = set()
+    for placed in every_placed(scene):
+        seen.add(placed.name)
+        for n, term in enumerate(placed.terms):
+            column = posture.column(term)
+            size = np.abs(column).max()
+            if size == 0:
+                continue
+            step = np.zeros(len(placed.terms))
+            step[n] = 1e-6 / size
+            ahead, behind = (scene.posture([Part(placed, sign * step)]).tool for sign in (1, -1))
+            slope = (ahead - behind) / (2 * step[n])
+            # metres near 1 with 1e-16 rounding over a displacement of 2e-6
+            assert np.abs(slope - column).max() < 3e-6 * size, (str(placed), term.name)
+    expected = {effect.name for effect in EFFECTS} | {"base_frame", "tool_frame"}
+    expected -= {"parallelogram_geometry"} if arm.description.parallelogram is None else set()
+    assert seen == expected
+
+
+def test_every_effect_says_what_happens_how_to_confirm_and_how_to_cure() -> None:
+    for effect in EFFECTS:
+        for sentence in (effect.physics, effect.confirm, effect.cure):
+            assert sentence.endswith("."), effect.name
+            assert len(sentence) > 30, effect.name
+
+
+def test_a_joint_that_never_moves_has_no_effect_that_follows_its_angle() -> None:
+    arm = arm_named("six-axis")
+    table = full_table(arm, 24, seed=6)
+    table.motor_angles[:, 3] = 0.2
+    follows = [p for p in library(arm, table) if p.driver == "angle of joint 4" and p.name != "axis_wobble"]
+    assert follows == []
+    assert any(p.driver == "angle of joint 5" for p in library(arm, table))

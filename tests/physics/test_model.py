@@ -1,0 +1,66 @@
+"""A fitted model is a file of its own: written, read back, it predicts the same."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from armscope.inputs import InputError
+from armscope.physics.backgrounds import backgrounds
+from armscope.physics.drift import base_shift
+from armscope.physics.model import Base, FittedModel, load_model, predict, save_model
+from armscope.physics.registry import library
+from armscope.physics.scene import Part
+
+from .scenes import ARMS, arm_named, full_table
+
+
+def model_with_everything(name: str, seed: int) -> FittedModel:
+    arm = arm_named(name)
+    table = full_table(arm, 40, seed)
+    rng = np.random.default_rng(seed)
+    turns = Rotation.random(2, rng).as_matrix()
+    parts = [
+        Part(p, 1e-5 * rng.normal(size=len(p.terms)))
+        for p in [*library(arm, table), base_shift(table, 10, 1)]
+        if p.family not in ("elastic", "unknown") or p.variant == ""
+    ]
+    elastic = {"joint_compliance", "bearing_compliance", "base_compliance", "link_bending"}
+    parts = [Part(p.placed, p.values * (1e-3 if p.placed.name in elastic else 1.0)) for p in parts]
+    background = tuple(Part(p, 1e-6 * rng.normal(size=len(p.terms))) for p in backgrounds(arm, table)["geometric"])
+    bases = {run: Base(turn, rng.normal(size=3)) for run, turn in zip(("1", "2"), turns, strict=True)}
+    return FittedModel(arm, bases, (), tuple(parts), background)
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_a_model_read_back_predicts_the_same(name: str, tmp_path: Path) -> None:
+    model = model_with_everything(name, seed=4)
+    save_model(tmp_path / "model.yaml", model)
+    table = full_table(model.arm, 25, seed=9)
+    np.testing.assert_allclose(
+        predict(load_model(tmp_path / "model.yaml"), table), predict(model, table), rtol=0, atol=1e-12
+    )
+
+
+def test_effects_move_the_prediction_at_all(tmp_path: Path) -> None:
+    model = model_with_everything("six-axis", seed=4)
+    table = full_table(model.arm, 25, seed=9)
+    moved = predict(model, table) - predict(replace(model, parts=()), table)
+    assert np.linalg.norm(moved, axis=1).min() > 1e-6
+
+
+def test_a_context_column_that_the_model_follows_is_asked_for() -> None:
+    model = model_with_everything("six-axis", seed=4)
+    table = replace(full_table(model.arm, 5, seed=9), temperature=None)
+    with pytest.raises(InputError, match="temperature_c"):
+        predict(model, table)
+
+
+def test_a_file_that_is_no_model_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "model.yaml").write_text("name: x\n", encoding="utf-8")
+    with pytest.raises(InputError, match="armscope model 1"):
+        load_model(tmp_path / "model.yaml")
