@@ -1,6 +1,6 @@
 # What all rules share: the checked configuration, where results go, and which sources a rule depends on.
 import json
-import os
+import shlex
 import sys
 from pathlib import Path
 
@@ -9,7 +9,7 @@ from armscope.inputs import InputError, validate
 from armscope.provenance import digest
 
 # `snakemake` may be called by its path, without the environment being activated
-os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+shell.prefix(f"set -euo pipefail; export PATH={shlex.quote(str(Path(sys.executable).parent))}:$PATH; ")
 
 try:
     CONFIG = validate(Config, config, "configuration (config/config.yaml and what overrides it)")

@@ -12,7 +12,7 @@ rule measure:
         robots=f"{PAPER}/robots.csv",
         observability=f"{PAPER}/observability.csv",
     params:
-        folder=PAPER,
+        folder=subpath(output.poses, parent=True),
         settings=settings(
             seed=CONFIG.seed,
             tolerances=CONFIG.paper.tolerances,
@@ -24,6 +24,8 @@ rule measure:
         code=code("armscope.cli.paper:measure"),
     log:
         f"{RESULTS}/logs/measure.log",
+    conda:
+        "../envs/armscope.yaml"
     shell:
         "armscope paper measure {input.robot} --settings {params.settings:q} -o {params.folder} > {log} 2>&1"
 
@@ -45,6 +47,8 @@ rule fit:
         code=code("armscope.cli.paper:fit"),
     log:
         f"{RESULTS}/logs/{{study}}/fit.log",
+    conda:
+        "../envs/armscope.yaml"
     shell:
         "armscope paper fit {input.poses} {input.errors} --settings {params.settings:q} -o {output} > {log} 2>&1"
 
@@ -66,6 +70,8 @@ rule fit_as_printed:
         code=code("armscope.cli.paper:fit"),
     log:
         f"{RESULTS}/logs/fit_as_printed.log",
+    conda:
+        "../envs/armscope.yaml"
     shell:
         "armscope paper fit {input.poses} {input.errors} --settings {params.settings:q} -o {output} > {log} 2>&1"
 
@@ -80,11 +86,13 @@ rule residuals:
         table2=f"{RESULTS}/{{study}}/table2.csv",
         coefficients=f"{RESULTS}/{{study}}/coefficients.csv",
     params:
-        folder=lambda wildcards: f"{RESULTS}/{wildcards.study}",
+        folder=subpath(output.table2, parent=True),
         beside=lambda wildcards: "--beside-printed" if wildcards.study == "paper" else "--no-beside-printed",
         code=code("armscope.cli.paper:residuals"),
     log:
         f"{RESULTS}/logs/{{study}}/residuals.log",
+    conda:
+        "../envs/armscope.yaml"
     shell:
         "armscope paper residuals {input.poses} {input.errors} {input.fits} {params.beside} -o {params.folder} > {log} 2>&1"
 
@@ -100,12 +108,30 @@ rule claims:
         claims=f"{PAPER}/claims.csv",
         sub_volumes=f"{PAPER}/sub_volumes.csv",
     params:
-        folder=PAPER,
+        folder=subpath(output.claims, parent=True),
         code=code("armscope.cli.paper:claims_"),
     log:
         f"{RESULTS}/logs/claims.log",
+    conda:
+        "../envs/armscope.yaml"
     shell:
         "armscope paper claims {input.poses} {input.errors} {input.fits} {input.as_printed} {input.residuals} -o {params.folder} > {log} 2>&1"
+
+
+rule cross_check:
+    input:
+        residuals=f"{PAPER}/residuals.csv.gz",
+        fits=f"{PAPER}/fits.json.gz",
+    output:
+        f"{PAPER}/cross_check.csv",
+    params:
+        code=code("armscope.cli.paper:cross_check_"),
+    log:
+        f"{RESULTS}/logs/cross_check.log",
+    conda:
+        "../envs/armscope.yaml"
+    shell:
+        "armscope paper cross-check {input.residuals} {input.fits} -o {output} > {log} 2>&1"
 
 
 rule audit:
@@ -116,6 +142,8 @@ rule audit:
         code=code("armscope.cli.paper:audit_"),
     log:
         f"{RESULTS}/logs/audit.log",
+    conda:
+        "../envs/armscope.yaml"
     shell:
         "armscope paper audit --settings {params.settings:q} -o {output} > {log} 2>&1"
 
@@ -129,6 +157,8 @@ rule reading:
         code=code("armscope.cli.paper:reading_"),
     log:
         f"{RESULTS}/logs/reading.log",
+    conda:
+        "../envs/armscope.yaml"
     shell:
         "armscope paper reading {input} -o {output} > {log} 2>&1"
 
@@ -144,6 +174,8 @@ rule convergence:
         code=code("armscope.cli.paper:convergence"),
     log:
         f"{RESULTS}/logs/convergence.log",
+    conda:
+        "../envs/armscope.yaml"
     shell:
         "armscope paper convergence {input.poses} {input.errors} --settings {params.settings:q} -o {output} > {log} 2>&1"
 
@@ -154,28 +186,32 @@ rule figure:
         errors=f"{RESULTS}/{{study}}/errors.csv.gz",
         fits=f"{RESULTS}/{{study}}/fits.json.gz",
     output:
-        multiext(f"{RESULTS}/{{study}}/figures/{{figure}}", ".png", ".svg", ".pdf"),
+        multiext(f"{RESULTS}/{{study}}/figures/{{figure}}", png=".png", svg=".svg", pdf=".pdf"),
     wildcard_constraints:
         figure=r"fig\d\d",
     params:
         code=code("armscope.cli.paper:figure"),
     log:
         f"{RESULTS}/logs/{{study}}/{{figure}}.log",
+    conda:
+        "../envs/armscope.yaml"
     shell:
-        "armscope paper figure {wildcards.figure} {input.poses} {input.errors} {input.fits} -o {output[0]} > {log} 2>&1"
+        "armscope paper figure {wildcards.figure} {input.poses} {input.errors} {input.fits} -o {output.png} > {log} 2>&1"
 
 
 rule convergence_figure:
     input:
         rules.convergence.output,
     output:
-        multiext(f"{PAPER}/figures/convergence", ".png", ".svg", ".pdf"),
+        multiext(f"{PAPER}/figures/convergence", png=".png", svg=".svg", pdf=".pdf"),
     params:
         code=code("armscope.cli.paper:convergence_figure"),
     log:
         f"{RESULTS}/logs/convergence_figure.log",
+    conda:
+        "../envs/armscope.yaml"
     shell:
-        "armscope paper convergence-figure {input} -o {output[0]} > {log} 2>&1"
+        "armscope paper convergence-figure {input} -o {output.png} > {log} 2>&1"
 
 
 rule figures:
@@ -188,7 +224,7 @@ rule paper_report:
         figures=rules.figures.input,
         tables=expand(
             f"{PAPER}/{{table}}.csv",
-            table="table2 claims coefficients convergence audit reading observability robots".split(),
+            table="table2 claims coefficients convergence cross_check audit reading observability robots".split(),
         ),
         real_tables=expand(f"{RESULTS}/real/{{set}}/paper/table2.csv", set=REAL),
         real_figures=expand(f"{RESULTS}/real/{{set}}/paper/figures/fig04.svg", set=REAL),
@@ -196,7 +232,7 @@ rule paper_report:
         page=f"{PAPER}/report.html",
         table2=f"{PAPER}/table2.html",
     params:
-        folder=PAPER,
+        folder=subpath(output.page, parent=True),
         settings=settings(
             seed=CONFIG.seed,
             paper=CONFIG.paper,
@@ -208,6 +244,8 @@ rule paper_report:
         code=code("armscope.cli.paper:report"),
     log:
         f"{RESULTS}/logs/paper_report.log",
+    conda:
+        "../envs/armscope.yaml"
     shell:
         "armscope paper report {params.folder} --settings {params.settings:q} -o {output.page} > {log} 2>&1"
 

@@ -10,7 +10,7 @@ rule measure_real:
         errors=f"{RESULTS}/real/{{set}}/paper/errors.csv.gz",
         observability=f"{RESULTS}/real/{{set}}/paper/observability.csv",
     params:
-        folder=lambda wildcards: f"{RESULTS}/real/{wildcards.set}/paper",
+        folder=subpath(output.poses, parent=True),
         settings=lambda wildcards: settings(
             seed=CONFIG.seed,
             poses=CONFIG.paper.identification.poses.value,
@@ -20,5 +20,7 @@ rule measure_real:
         code=code("armscope.cli.paper:measure_real"),
     log:
         f"{RESULTS}/logs/real/{{set}}/measure.log",
+    conda:
+        "../envs/armscope.yaml"
     shell:
         "armscope paper measure-real {input.recordings} {input.robot} --settings {params.settings:q} -o {params.folder} > {log} 2>&1"

@@ -25,6 +25,8 @@ rule sweep_variant:
         code=code("armscope.cli.sweep:run"),
     log:
         f"{RESULTS}/logs/sweep/{{variant}}.log",
+    conda:
+        "../envs/armscope.yaml"
     shell:
         "armscope sweep run {input.poses} {input.errors} --settings {params.settings:q} -o {output} > {log} 2>&1"
 
@@ -33,11 +35,13 @@ rule sweep:
     input:
         expand(f"{SWEEP}/variants/{{variant}}.csv", variant=VARIANTS),
     output:
-        f"{SWEEP}/sweep.csv",
-        multiext(f"{SWEEP}/sweep", ".png", ".svg", ".pdf"),
+        table=f"{SWEEP}/sweep.csv",
+        figures=multiext(f"{SWEEP}/sweep", ".png", ".svg", ".pdf"),
     params:
         code=code("armscope.cli.sweep:draw"),
     log:
         f"{RESULTS}/logs/sweep.log",
+    conda:
+        "../envs/armscope.yaml"
     shell:
-        "armscope sweep draw {input} -o {output[0]} > {log} 2>&1"
+        "armscope sweep draw {input} -o {output.table} > {log} 2>&1"

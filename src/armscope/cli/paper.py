@@ -143,6 +143,21 @@ def residuals(
         write_table(output / f"{name}.csv", table.drop(columns=about_the_paper, errors="ignore"), digits=6)
 
 
+@app.command("cross-check")
+def cross_check_(
+    residuals: Annotated[Path, typer.Argument(help="residuals.csv.gz of the study")],
+    fits: Annotated[Path, typer.Argument(help="fits.json.gz of the study")],
+    output: Output,
+) -> None:
+    """Hold the robots against printed numbers that anchoring did not use."""
+    import pandas as pd
+
+    from armscope.files import write_table
+    from armscope.paper import cross_check
+
+    write_table(output, cross_check(pd.read_csv(residuals), read_fits(fits)), digits=5)
+
+
 @app.command("claims")
 def claims_(
     poses: Poses,

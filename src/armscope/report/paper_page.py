@@ -125,6 +125,7 @@ def write_paper_page(path: Path, paper: Paper, seed: int, results: Path, figures
         needed=iterations_needed(pd.read_csv(results / "convergence.csv")),
         audit=audit,
         audited=audit[audit["check"] == "all together"],
+        untold=pd.read_csv(results / "cross_check.csv"),
         reading=pd.read_csv(results / "reading.csv"),
         observability=pd.read_csv(results / "observability.csv"),
         anchored=pd.read_csv(results / "robots.csv"),
