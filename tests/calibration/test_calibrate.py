@@ -15,13 +15,13 @@ from armscope.recordings import read_recordings
 from armscope.robot import chain, forward_kinematics, load_arm
 from armscope.robot.arm import build_arm
 from armscope.robot.description import RobotDescription
-from tests.calibration.worlds import far_away, measured, planted, poses, ur_like
+from tests.calibration.worlds import far_away, measured, planted, poses, ur_like, urdf_of_any_axes
 from tests.robot.arms import STANDARD, as_modified, as_urdf, dh_arm
 
 ROOT = Path(__file__).parents[2]
 SHARED = ROOT.parent / "shared" / "recordings"
 TOOL = {"": [0.05, 0.1, 0.2]}
-ARMS = ["standard", "modified", "parallel axes", "urdf", "parallelogram"]
+ARMS = ["standard", "modified", "parallel axes", "urdf", "urdf of any axes", "parallelogram"]
 
 
 @pytest.fixture(params=ARMS)
@@ -29,6 +29,10 @@ def arm(request, tmp_path):
     if request.param == "urdf":
         (tmp_path / "arm.urdf").write_text(as_urdf(STANDARD))
         return build_arm(RobotDescription(name="urdf arm", urdf=str(tmp_path / "arm.urdf"), tip="flange"))
+    if request.param == "urdf of any axes":
+        (tmp_path / "arm.urdf").write_text(urdf_of_any_axes())
+        hold = {"held": 0.3}
+        return build_arm(RobotDescription(name="any", urdf=str(tmp_path / "arm.urdf"), tip="flange", hold_joints=hold))
     return {
         "standard": lambda: dh_arm(STANDARD),
         "modified": lambda: dh_arm(as_modified(STANDARD), "modified"),

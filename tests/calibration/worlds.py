@@ -64,3 +64,29 @@ def table(angles, rows, run) -> Recordings:
 
 def ur_like(**more):
     return dh_arm(UR_LIKE, **more)
+
+
+def urdf_of_any_axes() -> str:
+    """Six joints about axes that are not z, fixed links and a held joint between them, as URDFs from the field have."""
+    rng = np.random.default_rng(0)
+    parts, parent = ['<robot name="any"><link name="base"/>'], "base"
+
+    def add(name, kind, axis=""):
+        nonlocal parent
+        xyz, rpy = (" ".join(map(repr, rng.uniform(-size, size, 3).tolist())) for size in (0.3, 3))
+        limit = '<limit lower="-3" upper="3" effort="1" velocity="1"/>' if kind == "revolute" else ""
+        parts.append(
+            f'<link name="l_{name}"/><joint name="{name}" type="{kind}"><parent link="{parent}"/>'
+            f'<child link="l_{name}"/><origin xyz="{xyz}" rpy="{rpy}"/>{axis}{limit}</joint>'
+        )
+        parent = f"l_{name}"
+
+    for joint, axis in enumerate(("0 1 0", "1 0 0", "0 -1 0", "0.6 0 0.8", "0 0 -1", ""), start=1):
+        add(f"j{joint}", "revolute", f'<axis xyz="{axis}"/>' if axis else "")
+        if joint in (2, 4):
+            add(f"fixed{joint}", "fixed")
+        if joint == 3:
+            add("held", "revolute", '<axis xyz="0 1 0"/>')
+    parts.append(f'<link name="flange"/><joint name="last" type="fixed"><parent link="{parent}"/>')
+    parts.append('<child link="flange"/><origin xyz="0 0 0.1" rpy="0.1 0.2 0.3"/></joint></robot>')
+    return "".join(parts)

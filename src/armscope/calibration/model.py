@@ -100,9 +100,12 @@ class SetUp:
 
     @property
     def tiers(self) -> NDArray[np.intp]:
-        """Order of preference where parameters imitate each other: frames, compliances, the arm, turns about y."""
+        """Order of preference where parameters imitate each other.
+
+        Frames, compliances, joint zeros, the rest of the arm, turns about y: what a user can act upon comes first.
+        """
         n_frames = 6 * len(self.base_names) + 3 * len(self.tool_names)
-        arm = [3 if constant.kind == "beta" else 2 for constant in self.constants]
+        arm = [2 if constant.is_zero_offset else 4 if constant.kind == "beta" else 3 for constant in self.constants]
         return np.array([0] * n_frames + arm + [1] * self.arm.n_motors)
 
     def free(self, level: Level) -> NDArray[np.bool_]:
