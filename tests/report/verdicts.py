@@ -66,7 +66,7 @@ def case(
     rms_before, rms_after = (float(np.sqrt(np.mean(values**2))) for values in (before, after))
     verdict = Verdict(
         arm=arm.name,
-        source="recordings.csv",
+        source="/home/somebody/recordings.csv",
         rows=rows,
         runs=("",),
         answer=answer,  # type: ignore[arg-type]
@@ -222,7 +222,7 @@ def _recordings(angles: np.ndarray, points: np.ndarray) -> Recordings:
 
 def _waterfall(effects: tuple[FoundEffect, ...], before: float, after: float) -> tuple[WaterfallStep, ...]:
     heights = np.geomspace(before, after, len(effects) + 1)
-    labels = ["frames only", *(f"+ {effect.title}" for effect in effects)]
+    labels = ["free frames", *(f"{effect.effect} at {effect.location}" for effect in effects)]
     return tuple(WaterfallStep(label, h, 1.03 * h) for label, h in zip(labels, heights, strict=True))
 
 

@@ -14,6 +14,7 @@ from armscope.report.wording import (
     millimetres,
     number_of,
     percent,
+    plain,
     rounded,
     spelled,
 )
@@ -61,10 +62,11 @@ def phrase(effect: FoundEffect) -> str:
 
 def exact_phrase(effect: FoundEffect) -> str:
     """The clause at the level of the single effect, however sure that is."""
-    clause = _CLAUSES.get(effect.effect)
-    if clause is None:
-        return f"{effect.effect.replace('_', ' ')} at {effect.location}"
-    return clause(effect, {p.name: p for p in effect.parameters})
+    needed, clause, without = _CLAUSES.get(effect.effect, ("", None, GENERAL))
+    parameters = {p.name: p for p in effect.parameters}
+    if clause is None or needed not in {"", *parameters}:
+        return without.format(effect=plain(effect.effect), location=_joint(effect.location))
+    return clause(effect, parameters)
 
 
 def _of_what(position: int) -> str:
@@ -108,15 +110,13 @@ def _with(before: str, name: str, after: str = "", sign: bool = False) -> Clause
     """``before`` + the parameter's size in the field's units + ``after``; {location} is filled in."""
 
     def clause(effect: FoundEffect, parameters: Parameters) -> str:
-        if name not in parameters:
-            return f"{before.removesuffix(' by ')}{after}".format(location=_possessive(effect.location))
-        size = number_of(parameters[name], sign)
-        return f"{before}{size}{after}".format(location=_possessive(effect.location))
+        text = f"{before}{number_of(parameters[name], sign)}{after}"
+        return text.format(location=effect.location)
 
     return clause
 
 
-def _possessive(location: str) -> str:
+def _joint(location: str) -> str:
     """The joint itself, without where it takes it from."""
     return location.split(" from ")[0]
 
@@ -130,7 +130,7 @@ def _waves(effect: FoundEffect, parameters: Parameters) -> str:
     count = parameters["per_turn"].value if "per_turn" in parameters else 1
     often = {1: "once per turn", 2: "twice per turn"}.get(round(count), f"{count:.0f} times per turn")
     what = "the axis of {location} tilts" if effect.effect == "axis_wobble" else "the angle of {location} swings"
-    size = number_of(parameters["amplitude"]) if "amplitude" in parameters else "a little"
+    size = number_of(parameters["amplitude"])
     return f"{what} by ±{size} {often}".format(location=effect.location)
 
 
@@ -142,6 +142,8 @@ def _coupling(effect: FoundEffect, parameters: Parameters) -> str:
 def _geometry(effect: FoundEffect, parameters: Parameters) -> str:
     """The parameter that stands out most from its uncertainty, and the next."""
     lengths = {"a": "length a", "d": "length d", "alpha": "twist α", "theta": "turn θ", "beta": "twist β"}
+    if not parameters:
+        return f"{effect.location} differs from its drawing"
     told = sorted(parameters.values(), key=lambda p: -abs(p.value) / (p.stderr or math.inf))[:2]
     clear = [p for p in told if p.stderr and abs(p.value) > 3 * p.stderr] or told[:1]
     errors = " and ".join(f"{lengths.get(p.name, p.name)} by {number_of(p, sign=True)}" for p in clear)
@@ -175,7 +177,9 @@ def _drift(effect: FoundEffect, parameters: Parameters) -> str:
 
 
 def _payload(effect: FoundEffect, parameters: Parameters) -> str:
-    told = " and ".join(f"{p.name.replace('_', ' ')} by {number_of(p, sign=True)}" for p in parameters.values())
+    if not parameters:
+        return "the payload is not as stated"
+    told = " and ".join(f"{plain(p.name)} by {number_of(p, sign=True)}" for p in parameters.values())
     return f"the payload is not as stated: {told}"
 
 
@@ -190,26 +194,40 @@ def _unknown(effect: FoundEffect, parameters: Parameters) -> str:
     return f"something unexplained at {effect.location} follows the {effect.driver}{size}"
 
 
-_CLAUSES: dict[str, Clause] = {
-    "joint_compliance": _with("{location} gives way by ", "compliance", " under gravity"),
-    "bearing_compliance": _with("the bearing of {location} tilts by ", "compliance", " under gravity"),
-    "base_compliance": _with("the base tilts by ", "compliance", " under the arm's moment"),
-    "link_bending": lambda effect, _: f"{effect.location} bends under its load",
-    "joint_offset": _with("the zero of {location} is off by ", "offset", sign=True),
-    "gear_ratio": _ratio,
-    "gear_eccentricity": _waves,
-    "gear_mesh": _waves,
-    "axis_wobble": _waves,
-    "backlash": _with("{location} has ", "gap", " of play"),
-    "servo_lag": _with("{location} runs behind by ", "delay"),
-    "joint_coupling": _coupling,
-    "link_geometry": _geometry,
-    "thermal_expansion": _expansion,
-    "parallelogram_geometry": _rod,
-    "instrument_scale": _scale,
-    "base_shift": _jump,
-    "tool_shift": _jump,
-    "base_drift": _drift,
-    "payload_error": _payload,
-    "unknown": _unknown,
+GENERAL = "{effect} at {location}"
+_CLAUSES: dict[str, tuple[str, Clause | None, str]] = {
+    # effect: (the parameter that the clause needs, the clause, what is said without it)
+    "joint_compliance": (
+        "compliance",
+        _with("{location} gives way by ", "compliance", " under gravity"),
+        "{location} gives way under gravity",
+    ),
+    "bearing_compliance": (
+        "compliance",
+        _with("the bearing of {location} tilts by ", "compliance", " under gravity"),
+        "the bearing of {location} tilts under gravity",
+    ),
+    "base_compliance": (
+        "compliance",
+        _with("the base tilts by ", "compliance", " under the arm's moment"),
+        "the base tilts under the arm's moment",
+    ),
+    "link_bending": ("", None, "{location} bends under its load"),
+    "joint_offset": ("offset", _with("the zero of {location} is off by ", "offset", sign=True), GENERAL),
+    "gear_ratio": ("ratio", _ratio, GENERAL),
+    "gear_eccentricity": ("amplitude", _waves, GENERAL),
+    "gear_mesh": ("amplitude", _waves, GENERAL),
+    "axis_wobble": ("amplitude", _waves, GENERAL),
+    "backlash": ("gap", _with("{location} has ", "gap", " of play"), "{location} has play"),
+    "servo_lag": ("delay", _with("{location} runs behind by ", "delay"), GENERAL),
+    "joint_coupling": ("coupling", _coupling, GENERAL),
+    "link_geometry": ("", _geometry, GENERAL),
+    "thermal_expansion": ("coefficient", _expansion, GENERAL),
+    "parallelogram_geometry": ("rod", _rod, GENERAL),
+    "instrument_scale": ("scale", _scale, GENERAL),
+    "base_shift": ("x", _jump, "the {location} jumped"),
+    "tool_shift": ("x", _jump, "the {location} jumped"),
+    "base_drift": ("x", _drift, "the base drifts"),
+    "payload_error": ("", _payload, GENERAL),
+    "unknown": ("", _unknown, GENERAL),
 }

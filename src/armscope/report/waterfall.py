@@ -10,6 +10,9 @@ from matplotlib.figure import Figure
 
 from armscope.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, SKY, VERMILION, styled
 
+CLEAR = {"facecolor": "white", "edgecolor": "none", "pad": 0.8, "alpha": 0.85}
+"""Behind numbers, so that the noise's line does not strike them out."""
+
 
 def draw_waterfall(
     steps: Sequence[tuple[str, float]],
@@ -44,7 +47,7 @@ def draw_waterfall(
             if error:
                 axes.errorbar(rms, place, xerr=error, color=BLACK, linewidth=0.9, capsize=2, zorder=4)
             edge = max(rms, heights[place - 1] if place else rms) + (error or 0)
-            axes.text(edge + 0.012 * limit, place, _millimetres(rms), va="center", fontsize=8.5, zorder=5)
+            axes.text(edge + 0.012 * limit, place, _millimetres(rms), va="center", fontsize=8.5, zorder=7, bbox=CLEAR)
             if place + 1 < len(steps):
                 axes.plot([rms, rms], [place - 0.31, place + 1.31], color=GREY, linewidth=0.7, zorder=2)
         start = len(steps) + 0.75
@@ -56,7 +59,7 @@ def draw_waterfall(
             axes.text(
                 (0.985 if beyond else 0.012) * limit + (0 if beyond else rms), start + place,
                 _millimetres(rms) + (" →" if beyond else ""), va="center", ha="right" if beyond else "left",
-                fontsize=8.5, zorder=5,
+                fontsize=8.5, zorder=7, bbox=None if beyond else CLEAR,
             )  # fmt: skip
         if noise_mm is not None:
             axes.axvline(noise_mm, color=GREEN, linewidth=1.6, linestyle="--", zorder=6)

@@ -1,0 +1,175 @@
+import html.parser
+import re
+import shutil
+import subprocess
+
+import pytest
+
+from armscope.report.diagnosis_page import assumptions, write_report
+from armscope.report.headline import headline
+from tests.report import verdicts
+from tests.report.verdicts import CASES
+
+PAGES = ["five", "clean", "unknowns", "cannot_tell"]
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+
+
+class Page(html.parser.HTMLParser):
+    """What a test asks of a page: its text, its ids, and everything it refers to."""
+
+    def __init__(self, source):
+        super().__init__()
+        self.text, self.ids, self.references, self.tags, self.open = "", [], [], [], []
+        self.feed(source)
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append(tag)
+        if tag not in ("meta", "link", "img", "br", "hr", "input"):
+            self.open.append(tag)
+        for name, value in attrs:
+            if name == "id":
+                self.ids.append(value)
+            if name in ("src", "href", "data", "action", "srcset"):
+                self.references.append(value)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag, f"</{tag}> closes something else"
+
+    def handle_data(self, data):
+        if self.open and self.open[-1] not in ("style", "script"):
+            self.text += data
+
+    @property
+    def words(self):
+        return re.sub(r"\s+", " ", self.text)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("reports")
+
+
+@pytest.fixture(scope="module", params=PAGES)
+def written(request, folder):
+    case = CASES[request.param]()
+    path = write_report(case.verdict, case.arm, case.recordings, folder / request.param)
+    source = path.read_text()
+    return case, path, source, Page(source)
+
+
+def test_the_page_needs_nothing_but_itself(written):
+    _, _, source, page = written
+    assert all(ref.startswith(("data:image/", "#")) for ref in page.references)
+    assert not {"script", "link", "iframe", "object"} & set(page.tags)
+    style = source.split("<style>", 1)[1].split("</style>")[0]
+    assert "url(" not in style
+    assert "@import" not in style
+
+
+def test_every_link_inside_the_page_leads_somewhere(written):
+    page = written[3]
+    assert {ref[1:] for ref in page.references if ref.startswith("#")} <= set(page.ids)
+    assert len(page.ids) == len(set(page.ids))
+    assert page.open == []
+
+
+def test_the_answer_stands_first(written):
+    case, _, _, page = written
+    sentence = headline(case.verdict)
+    assert page.words.find(sentence) < 400
+    assert sentence in page.words
+
+
+def test_every_effect_has_its_card_with_how_to_confirm_and_cure(written):
+    case, _, _, page = written
+    anchors = [anchor for anchor in page.ids if anchor.startswith("effect-")]
+    assert len(anchors) == len(case.verdict.effects)
+    for effect in case.verdict.effects:
+        if not effect.minor:
+            assert effect.confirm in page.words
+            assert effect.cure in page.words
+            assert effect.physics in page.words
+
+
+def test_the_figures_are_files_too(written):
+    case, path, _, page = written
+    figures = path.parent / "figures"
+    names = {file.stem for file in figures.iterdir()}
+    assert {"arm", "atlas", "vectors", "along_joints"} <= names
+    assert ("waterfall" in names) == bool(case.verdict.waterfall)
+    assert all((figures / f"{name}{suffix}").stat().st_size > 3000 for name in names for suffix in (".png", ".svg"))
+    assert page.tags.count("img") == len(names)
+
+
+def test_suspect_rows_and_next_poses_are_listed(folder):
+    page = Page((folder / "five" / "report.html").read_text())
+    assert "These rows fit so badly" in page.words
+    assert re.search(r"\b17\s+0\.430\s+0\.06", page.words)
+    undecided = Page((folder / "cannot_tell" / "report.html").read_text())
+    assert undecided.words.count("pose") > 5
+    assert "Measuring each about 3 times would settle it." in undecided.words
+
+
+def test_text_from_outside_is_shown_not_run(folder):
+    """A notice (or a name in a table) may hold anything."""
+    source = (folder / "cannot_tell" / "report.html").read_text()
+    assert "<no name>" not in source
+    assert "&lt;no name&gt;" in source
+
+
+def test_a_limit_of_the_verdict_stands_before_its_details(folder):
+    page = Page((folder / "cannot_tell" / "report.html").read_text())
+    assert page.words.index("40 rows are fewer") < page.words.index("Where the trouble is")
+
+
+def test_the_path_of_the_table_stays_private(written):
+    case, _, source, _ = written
+    assert "somebody" in case.verdict.source
+    assert "somebody" not in source
+
+
+def test_what_was_not_recorded_is_said():
+    case = verdicts.single()
+    told = " ".join(assumptions(case.verdict, case.arm, case.recordings))
+    assert "temperature (thermal expansion)" in told
+    assert "masses that robot.yaml states" in told
+
+
+def test_the_same_verdict_gives_the_same_page(folder, tmp_path):
+    case = CASES["cannot_tell"]()
+    again = write_report(case.verdict, case.arm, case.recordings, tmp_path)
+    assert again.read_bytes() == (folder / "cannot_tell" / "report.html").read_bytes()
+
+
+MEASURE = """<script>addEventListener("load", () => {
+  const wide = [...document.querySelectorAll("main *")].filter(e => !e.closest(".scroll, .wide")
+    && e.getBoundingClientRect().right > innerWidth + 1).length;
+  const broken = [...document.images].filter(i => !i.complete || i.naturalWidth < 100).length;
+  document.body.innerHTML = `MEASURED ${wide} too wide, ${broken} broken of ${document.images.length}, `
+    + `${document.documentElement.scrollWidth <= innerWidth} at ${innerWidth}`;
+});</script>"""
+
+
+@pytest.mark.browser
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
+@pytest.mark.parametrize("width", [1280, 500])
+def test_a_browser_shows_it_whole_at_desktop_and_narrow_width(folder, tmp_path, width):
+    source = (folder / "five" / "report.html").read_text()
+    measured = tmp_path / "page.html"
+    measured.write_text(source.replace("</body>", f"{MEASURE}</body>"))
+    flags = [
+        "--headless",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--virtual-time-budget=4000",
+        f"--user-data-dir={tmp_path}/b",
+    ]
+    # every name resolves to nothing: what the page shows, it shows without a network
+    offline = ["--host-resolver-rules=MAP * ~NOTFOUND", f"--window-size={width},3000"]
+    shot = tmp_path / "page.png"
+    done = subprocess.run(
+        [CHROMIUM, *flags, *offline, f"--screenshot={shot}", "--dump-dom", measured.as_uri()],
+        capture_output=True, text=True, timeout=90, check=False,
+    )  # fmt: skip
+    images = len(list((folder / "five" / "figures").glob("*.svg")))
+    assert f"MEASURED 0 too wide, 0 broken of {images}, true at {width}" in done.stdout, done.stderr[-500:]

@@ -1,0 +1,243 @@
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from armscope.diagnosis.verdict import Parameter
+from armscope.physics.registry import EFFECTS
+from armscope.report.effect_cards import card, told_parameters
+from armscope.report.headline import exact_phrase, headline
+from armscope.report.page import unbroken
+from armscope.report.reference_models import held_out_rms
+from armscope.report.wording import (
+    UNITS,
+    evidence_in_words,
+    number_of,
+    percent,
+    read_parameter,
+    rounded,
+    shown_unit,
+    spelled,
+)
+from armscope.robot import forward_kinematics
+from tests.report import verdicts
+from tests.report.verdicts import compliance, found
+
+LOCATIONS = {
+    "link_geometry": "link 2", "link_bending": "link 2", "thermal_expansion": "link 2", "base_drift": "base",
+    "base_shift": "base", "base_compliance": "base", "tool_shift": "tool", "instrument_scale": "instrument",
+    "payload_error": "payload", "parallelogram_geometry": "parallelogram", "joint_coupling": "joint 6 from joint 5",
+}  # fmt: skip
+PARAMETERS = {
+    "joint_offset": [("offset", "rad", 8.6e-4)],
+    "gear_ratio": [("ratio", "rad/rad", -2e-4)],
+    "gear_eccentricity": [("amplitude", "rad", 2.4e-4), ("phase", "rad", 1.0), ("per_turn", "1/turn", 2.0)],
+    "gear_mesh": [("amplitude", "rad", 2.4e-5), ("phase", "rad", 1.0), ("per_turn", "1/turn", 37.0)],
+    "axis_wobble": [("amplitude", "rad", 2.4e-4), ("phase", "rad", 1.0), ("direction", "rad", 1.0)],
+    "backlash": [("gap", "rad", 3e-4)],
+    "servo_lag": [("delay", "s", 0.004)],
+    "joint_coupling": [("coupling", "rad/rad", 2e-4)],
+    "joint_compliance": [("compliance", "rad/(N m)", 2.1e-7)],
+    "bearing_compliance": [("compliance", "rad/(N m)", 2.1e-7)],
+    "base_compliance": [("compliance", "rad/(N m)", 2.1e-7)],
+    "link_bending": [("flexibility", "1/(N m^2)", 3e-7)],
+    "thermal_expansion": [("coefficient", "1/K", 1.2e-5)],
+    "link_geometry": [("a", "mm", 0.76), ("alpha", "rad", 7e-4), ("d", "mm", 0.001)],
+    "base_drift": [(axis, "mm/h", 0.1) for axis in "xyz"],
+    "base_shift": [("x", "mm", 0.3), ("y", "mm", 0.4), ("z", "mm", 0.0), ("time", "s", 4711.0)],
+    "tool_shift": [("x", "mm", 0.3), ("y", "mm", 0.4), ("z", "mm", 0.0), ("row", "", 85.0)],
+    "instrument_scale": [("scale", "m/m", -1.5e-5)],
+    "payload_error": [("mass", "kg", 2.0)],
+    "parallelogram_geometry": [("rod", "mm", 0.4), ("rocker", "mm", -0.2)],
+}  # fmt: skip
+SAID = {
+    "joint_offset": "the zero of joint 2 is off by +0.86 mrad",
+    "gear_ratio": "joint 2 turns 0.020 % too little",
+    "gear_eccentricity": "the angle of joint 2 swings by ±240 µrad twice per turn",
+    "gear_mesh": "the angle of joint 2 swings by ±24 µrad 37 times per turn",
+    "axis_wobble": "the axis of joint 2 tilts by ±240 µrad once per turn",
+    "backlash": "joint 2 has 300 µrad of play",
+    "servo_lag": "joint 2 runs behind by 4.0 ms",
+    "joint_coupling": "joint 6 turns by 200 µrad per rad of joint 5",
+    "joint_compliance": "joint 2 gives way by 0.21 µrad per N m under gravity",
+    "bearing_compliance": "the bearing of joint 2 tilts by 0.21 µrad per N m under gravity",
+    "base_compliance": "the base tilts by 0.21 µrad per N m under the arm's moment",
+    "link_bending": "link 2 bends under its load",
+    "thermal_expansion": "link 2 grows by 12 millionths per K with temperature",
+    "base_drift": "the base drifts by 0.17 mm per hour",
+    "base_shift": "the base jumped by 0.50 mm at 4711 s",
+    "tool_shift": "the tool jumped by 0.50 mm at row 85",
+    "instrument_scale": "the instrument measures 15 millionths (ppm) too short",
+}
+
+
+def example(name, **changes):
+    parameters = [Parameter(n, unit, value, abs(value) / 50) for n, unit, value in PARAMETERS.get(name, [])]
+    return found(name, LOCATIONS.get(name, "joint 2"), *parameters, **changes)
+
+
+@pytest.mark.parametrize("name", [effect.name for effect in EFFECTS])
+def test_every_effect_of_the_library_is_said_in_plain_words(name):
+    clause = exact_phrase(example(name))
+    assert LOCATIONS.get(name, "joint 2").split(" from ")[0] in clause
+    assert "_" not in clause
+    assert "{" not in clause
+    assert clause == SAID.get(name, clause)
+
+
+@pytest.mark.parametrize("name", [effect.name for effect in EFFECTS])
+def test_an_effect_whose_parameters_are_unknown_still_has_a_sentence_and_a_card(name):
+    bare = found(name, LOCATIONS.get(name, "joint 2"))
+    assert exact_phrase(bare)
+    assert card(bare, 1).readings == ()
+
+
+def test_the_first_sentence_names_cause_size_and_share():
+    case = verdicts.single()
+    assert headline(case.verdict) == (
+        "Joint 2 gives way by 0.21 µrad per N m under gravity – 55 % of the mismatch; "
+        "small geometric errors everywhere in the arm – 2.0 %."
+    )
+
+
+def test_many_effects_are_counted_not_recited():
+    sentence = headline(verdicts.five().verdict)
+    assert sentence.startswith("Joint 2 gives way")
+    assert "and one more effect" in sentence
+    assert "joint 6" not in sentence, "minor effects are no part of the story"
+
+
+def test_a_vague_name_stays_vague_and_says_its_best_reading():
+    vague = compliance(named_as="region", title="elastic, around joint 1, joint 2")
+    sentence = headline(verdicts.case(effects=(vague,)).verdict)
+    assert sentence.startswith("Something gives way under load around joint 1, joint 2 (best single reading: joint 2")
+    mixed = compliance(named_as="region", title="joint compliance at joint 2 or gear ratio at joint 2")
+    assert headline(verdicts.case(effects=(mixed,)).verdict).startswith("Either joint compliance at joint 2 or gear")
+
+
+def test_nothing_missing_and_cannot_tell_are_whole_answers():
+    assert headline(verdicts.clean().verdict).startswith("Nothing is missing: once base and tool are placed")
+    undecided = headline(verdicts.cannot_tell().verdict)
+    assert undecided.startswith("Cannot tell: 40 rows are fewer")
+    assert "would settle it" in undecided
+    excess = verdicts.case(answer="cannot tell", mismatch=True).verdict
+    assert "follow nothing that was recorded" in headline(excess)
+
+
+def test_a_compliance_is_also_told_as_a_stiffness_with_its_interval_turned_round():
+    reading = read_parameter(Parameter("compliance", "rad/(N m)", 2e-7, 1e-8))
+    assert reading.value == "0.200 µrad per N m"
+    assert reading.interval == "0.180 … 0.220 µrad per N m"
+    assert reading.also == "stiffness 5 MN m/rad (95 %: 4.55 MN m/rad … 5.54 MN m/rad)"
+
+
+def test_a_compliance_that_may_be_zero_has_no_interval_as_a_stiffness():
+    assert read_parameter(Parameter("compliance", "rad/(N m)", 2e-9, 1e-8)).also == "stiffness 500 MN m/rad"
+
+
+def test_a_scanned_number_has_no_interval():
+    assert read_parameter(Parameter("per_turn", "1/turn", 37.0, 0.0)).interval == "found by trying values"
+
+
+def test_a_phase_is_told_in_degrees():
+    reading = read_parameter(Parameter("phase", "rad", math.pi / 2, math.radians(1)))
+    assert reading.value == "90.0°"
+    assert reading.interval == "88.0 … 92.0°"
+
+
+@given(
+    unit=st.sampled_from(sorted(UNITS)),
+    value=st.floats(1e-9, 1e3),
+    relative=st.floats(1e-3, 0.3),
+    sign=st.sampled_from([-1, 1]),
+)
+def test_the_printed_value_and_interval_are_the_parameters(unit, value, relative, sign):
+    parameter = Parameter("x", unit, sign * value, value * relative)
+    reading = read_parameter(parameter)
+    factor, shown = shown_unit(unit, value)
+    half = 1.96 * factor * parameter.stderr
+
+    def number(text):
+        return float(text.replace("−", "-").replace("°", ""))
+
+    printed = number(reading.value.removesuffix(shown))
+    low, high = (number(part) for part in reading.interval.removesuffix(shown).split("…"))
+    assert printed == pytest.approx(factor * sign * value, abs=0.1 * half + 1e-6)
+    assert low == pytest.approx(factor * sign * value - half, abs=0.1 * half + 1e-6)
+    assert high == pytest.approx(factor * sign * value + half, abs=0.1 * half + 1e-6)
+
+
+@given(st.floats(1e-5, 1e6))
+def test_two_digits_are_kept_when_rounding_for_a_sentence(value):
+    assert float(rounded(value)) == pytest.approx(value, rel=0.051)
+
+
+def test_a_sign_stands_only_where_it_means_something():
+    offset = Parameter("offset", "rad", -2e-3, 1e-5)
+    assert number_of(offset, sign=True) == "−2.0 mrad"
+    assert number_of(offset) == "2.0 mrad"
+
+
+@pytest.mark.parametrize(
+    ("nats", "words"),
+    [(0.3, "hardly"), (2.0, "some evidence: odds of about 7 to 1"), (4.0, "strong evidence: odds of about 55 to 1"),
+     (8.0, "very strong evidence: odds of about 3000 to 1"), (300.0, "overwhelming evidence: odds far beyond")],
+)  # fmt: skip
+def test_evidence_is_told_as_odds(nats, words):
+    assert evidence_in_words(nats).startswith(words)
+
+
+@pytest.mark.parametrize(
+    ("share", "text"), [(0.553, "55 %"), (0.0949, "9.5 %"), (0.0123, "1.2 %"), (1e-5, "< 0.1 %"), (math.nan, "–")]
+)
+def test_shares_carry_no_false_digits(share, text):
+    assert percent(share) == text
+
+
+def test_counts_are_words_while_words_exist():
+    assert [spelled(n) for n in (0, 2, 12, 13)] == ["no", "two", "twelve", "13"]
+
+
+def test_a_number_stays_with_its_unit_and_nothing_else_is_glued():
+    assert unbroken("falls from 0.2 mm to 3 % of 4") == "falls from 0.2\u00a0mm to 3\u00a0% of 4"
+
+
+def test_products_with_unknown_masses_are_not_told_as_numbers():
+    parameters = [Parameter(f"compliance_times_moment_{n}", "rad/(m/s^2)", 1e-5, 1e-6) for n in (1, 2)]
+    unknown_masses = card(found("joint_compliance", "joint 5", *parameters), 1)
+    assert unknown_masses.readings == ()
+    assert "known weight" in unknown_masses.remark
+
+
+def test_a_free_curve_is_told_by_how_far_it_reaches():
+    (reach,) = told_parameters(verdicts.unknown_curve())
+    assert reach.value == pytest.approx(1.5e-4, rel=0.01)
+    assert reach.stderr == pytest.approx(1.2e-5)
+
+
+def test_rivals_too_close_to_tell_apart_are_marked():
+    near, far = card(compliance(), 1).alternatives
+    assert near.too_close
+    assert not far.too_close
+
+
+def test_the_papers_linear_model_finds_a_linear_error_and_nothing_in_noise():
+    case = verdicts.case(rows=300)
+    random = np.random.default_rng(0)
+    noise = random.normal(0, 0.03, (300, 3))
+    points = 1e3 * forward_kinematics(case.arm, case.recordings.motor_angles)
+    linear = 1e-3 * points @ random.normal(size=(3, 3)) + noise
+    found_rms = dict(held_out_rms(case.arm, case.recordings, linear))
+    assert found_rms["FDP(CI)"] == pytest.approx(0.03, rel=0.1)
+    assert found_rms["FDP(AI)"] > 3 * found_rms["FDP(CI)"]
+    on_noise = dict(held_out_rms(case.arm, case.recordings, noise))
+    assert on_noise["Fourier 2 (AI)"] > np.sqrt(np.mean(noise**2)), "held-out rows punish what only memorises"
+
+
+def test_a_model_with_more_terms_than_rows_is_not_compared():
+    case = verdicts.case(rows=20)
+    names = [name for name, _ in held_out_rms(case.arm, case.recordings, np.zeros((20, 3)))]
+    assert "FDP(CI)" in names
+    assert "Fourier 2 (AI)" not in names
