@@ -44,6 +44,8 @@ def _missing(arm):
 # real arms whose recordings are there; the others are skipped with a reason
 SKIPPED = {name: f"{_missing(arm)} is not there" for name, arm in CONFIG.real.items() if _missing(arm)}
 REAL = [name for name in CONFIG.real if name not in SKIPPED]
+for name, reason in SKIPPED.items():
+    logger.warning(f"skipped: real arm {name}, because {reason}")
 
 
 wildcard_constraints:

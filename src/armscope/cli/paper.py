@@ -270,6 +270,17 @@ def report(
     write_paper_page(output, chosen.paper, chosen.seed, results, results / "figures", arms)
 
 
+@app.command("readme")
+def readme_(
+    readme: Annotated[Path, typer.Argument(help="README.md; its numbers are replaced")],
+    results: Annotated[Path, typer.Argument(help="folder with the study's tables")],
+) -> None:
+    """Fill the README's numbers from results."""
+    from armscope.report.readme import fill_readme
+
+    fill_readme(readme, results)
+
+
 def _observability(choice: Any) -> Any:
     import pandas as pd
 

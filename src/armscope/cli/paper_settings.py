@@ -6,8 +6,8 @@ from armscope.config import Audit, Count, Identification, Model, Paper, Swarm, T
 from armscope.errormodels import ModelSpec
 from armscope.inputs import Strict
 from armscope.paper import AuditScope
-from armscope.paper.sweep import Variant
 from armscope.swarm import SwarmSettings
+from armscope.variants import Variant
 from armscope.world.tracker import Tracker as VirtualTracker
 
 

@@ -2,71 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Literal
-
 import pandas as pd
-import pydantic
-from pydantic import Field
 
 from armscope.errormodels import FitProblem, ModelSpec, fit_swarms
-from armscope.inputs import InputError, Strict, nearest
 from armscope.paper.measurements import Measurements
 from armscope.paper.residuals import SPATIAL, residual_table
 from armscope.swarm import SwarmSettings
-
-VARIED = {"particles": "particles", "iterations": "iterations", "update": "update", "harmonics": "order"}
-"""What is on the horizontal axis of a sweep, by the first word of its name; all others vary the model's order."""
-
-
-class Variant(Strict):
-    """One row of a sweep's table."""
-
-    id: str = Field(pattern=r"^\w+$")
-    sweep: str
-    family: Literal["polynomial", "fourier"]
-    order: int = Field(ge=1)
-    space: Literal["cartesian", "angular"]
-    particles: int = Field(ge=2)
-    iterations: int = Field(ge=0)
-    update: Literal["constriction", "inertia", "original"]
-    neighbourhood: Literal["gbest", "ring"]
-    seeds: int = Field(ge=1)
-
-    @property
-    def spec(self) -> ModelSpec:
-        """The error model."""
-        return ModelSpec(self.family, self.order, self.space)
-
-    @property
-    def varied(self) -> str | int:
-        """Where the variant stands on the sweep's horizontal axis."""
-        value: str | int = getattr(self, VARIED.get(self.sweep.split()[0], "order"))
-        return value
-
-
-def read_variants(path: Path | str) -> list[Variant]:
-    """The variants of a sweep's table (CSV).
-
-    Raises:
-        InputError: a column, value or id that can't be; it names row, column, rule.
-    """
-    table = pd.read_csv(path)
-    for column in table.columns:
-        if column not in Variant.model_fields:
-            raise InputError(path, "line 1", column, "no such column", nearest(column, Variant.model_fields))
-    variants = []
-    for number, row in enumerate(table.to_dict("records"), start=2):
-        try:
-            variants.append(Variant.model_validate(row))
-        except pydantic.ValidationError as error:
-            problem = error.errors()[0]
-            place = f"row {number}, column {problem['loc'][0]}"
-            raise InputError(path, place, problem["input"], problem["msg"].lower()) from error
-    twice = table["id"][table["id"].duplicated()]
-    if len(twice):
-        raise InputError(path, f"row {twice.index[0] + 2}, column id", twice.iloc[0], "ids must differ")
-    return variants
+from armscope.variants import Variant
 
 
 def run_variant(measurements: Measurements, variant: Variant, first_seed: int, basis: str, engine: str) -> pd.DataFrame:
@@ -78,7 +20,8 @@ def run_variant(measurements: Measurements, variant: Variant, first_seed: int, b
     """
     robot = measurements.robots[0]
     rows = measurements.identification
-    problem = FitProblem(variant.spec, rows.inputs(variant.spec), rows.errors_mm[0], robot)
+    spec = ModelSpec(variant.family, variant.order, variant.space)
+    problem = FitProblem(spec, rows.inputs(spec), rows.errors_mm[0], robot)
     settings = SwarmSettings(variant.particles, variant.iterations, variant.update, variant.neighbourhood)
     (fit,) = fit_swarms([problem], range(first_seed, first_seed + variant.seeds), settings, basis, engine)
     table = residual_table(measurements, [fit])

@@ -1,0 +1,82 @@
+"""The workflow as its users use it: overrides, clear errors, and reruns of what a change touches, nothing else."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+TARGETS = ("paper/table2.csv", "paper/figures/fig06.png")
+
+
+def snakemake(folder, *arguments, succeeds=True):
+    """Run snakemake on a checkout's copy, as a user would; returns what it printed."""
+    command = [sys.executable, "-m", "snakemake", *arguments, "-j2", "--nocolor", "--configfile", "config/small.yaml"]
+    run = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, env={**os.environ})
+    assert (run.returncode == 0) == succeeds, run.stdout + run.stderr
+    return run.stdout + run.stderr
+
+
+def jobs(printed):
+    """Names of the rules that a dry run would execute."""
+    lines = printed.partition("Job stats:")[2].partition("total")[0].splitlines()
+    return {line.split()[0] for line in lines if line.split() and line.split()[-1].isdigit()}
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """A copy of the workflow in which a part of the small run has been done."""
+    folder = tmp_path_factory.mktemp("checkout")
+    for name in ("config", "workflow", "profiles", "src"):
+        shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(ROOT / "Snakefile", folder)
+    snakemake(folder, *(f"results/small/{target}" for target in TARGETS))
+    return folder
+
+
+def planned(folder, *arguments):
+    return jobs(snakemake(folder, "-n", *(f"results/small/{target}" for target in TARGETS), *arguments))
+
+
+def test_a_finished_run_has_nothing_to_do(finished):
+    assert planned(finished) == set()
+
+
+def test_a_swarm_setting_refits_but_does_not_measure_again(finished):
+    assert planned(finished, "--config", "paper={swarm: {iterations: 50}}") == {"fit", "residuals", "figure"}
+
+
+def test_a_tolerance_measures_again(finished):
+    change = "paper={tolerances: {link_mm: {value: 2.0, source: assumed}}}"
+    assert "measure" in planned(finished, "--config", change)
+
+
+def test_a_deleted_figure_is_redrawn_without_refitting(finished):
+    figure = finished / "results/small/paper/figures/fig06.png"
+    before = figure.read_bytes()
+    figure.unlink()
+    assert planned(finished) == {"figure"}
+    snakemake(finished, "results/small/paper/figures/fig06.png")
+    assert figure.read_bytes() == before
+
+
+@pytest.mark.parametrize(
+    ("override", "expected"),
+    [
+        ("paper={swarm: {partcles: 5}}", "Did you mean 'particles'?"),
+        ("paper={swarm: {particles: many}}", "paper.swarm.particles"),
+        ("seed=-3", "seed"),
+    ],
+)
+def test_a_wrong_override_is_one_clear_error(finished, override, expected):
+    printed = snakemake(finished, "-n", "--config", override, succeeds=False)
+    assert expected in printed
+    assert "Traceback" not in printed
+
+
+def test_a_real_arm_that_is_not_there_is_skipped_with_a_reason(finished):
+    printed = snakemake(finished, "results/small/paper/table2.csv", "--config", "recordings_dir=nowhere")
+    assert "is not there" in printed
