@@ -116,7 +116,9 @@ def test_row_errors_are_those_of_an_arm_built_with_other_rows(name: str) -> None
                 "d_mm": row.d_mm - 1.0,
             }
         )
-        other = build_arm(description.model_copy(update={"dh": description.dh.model_copy(update={"joints": tuple(rows)})}))
+        other = build_arm(
+            description.model_copy(update={"dh": description.dh.model_copy(update={"joints": tuple(rows)})})
+        )
         expected = forward_kinematics(other, table.motor_angles)
         # a and alpha along one axis, d along another: exact but for the order within one row
         np.testing.assert_allclose(scene.posture([part]).tool, expected, atol=5e-9, err_msg=f"link {j}")

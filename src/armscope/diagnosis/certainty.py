@@ -35,6 +35,18 @@ def alternatives(search: Search, best: Hypothesis, candidate: int) -> list[tuple
     return sorted(nearest.values(), key=lambda entry: entry[0])
 
 
+def apart(best: Hypothesis, other: Hypothesis, effect: Placed, rival: Placed) -> float:
+    """Nats by which the data tell an effect and its rival apart.
+
+    The evidence also holds what a rival of one parameter more (a wave of free phase) pays for it; where the two fit
+    alike, that is no measurement: such a rival counts by its fit alone. Larger ones fit anything and count in full.
+    """
+    gap = best.value - other.value
+    if len(rival.terms) > len(effect.terms) + 1:
+        return gap
+    return min(gap, max((other.rss - best.rss) / (2 * best.noise**2), 0.0))
+
+
 def listed(found: Sequence[tuple[float, Placed, Hypothesis]]) -> tuple[Alternative, ...]:
     """Alternatives as a verdict lists them."""
     return tuple(

@@ -71,19 +71,19 @@ def _value(driver: Driver, at: Array) -> Array:
     return np.ones_like(at) if driver == ONE else at
 
 
-def _periods(placed: Placed, values: Array) -> tuple[tuple[int, float], ...]:
+def _periods(placed: Placed, values: Array) -> tuple[tuple[float, float], ...]:
     """The strongest waves per turn and their amplitudes, rad."""
-    lines: dict[int, float] = {}
+    lines: dict[float, float] = {}
     for term, value in zip(placed.terms, values, strict=True):
         driver = term.products[0].driver
         if driver.kind in ("sine", "cosine"):
-            count = int(driver.arguments[1])  # type: ignore[call-overload]
+            count = float(driver.arguments[1])  # type: ignore[arg-type]
             lines[count] = lines.get(count, 0.0) + float(value) ** 2
     strongest = sorted(lines.items(), key=lambda line: -line[1])[:5]
     return tuple((count, float(np.sqrt(power))) for count, power in strongest)
 
 
-def describe(at: Array, value: Array, recorded: Array, periods: tuple[tuple[int, float], ...] = ()) -> str:
+def describe(at: Array, value: Array, recorded: Array, periods: tuple[tuple[float, float], ...] = ()) -> str:
     """The simple shape that comes closest to a curve, weighted by where rows were recorded."""
     density, _ = np.histogram(recorded, bins=np.append(at, at[-1] + 1e-9))
     weight = np.convolve(density, np.ones(9) / 9, mode="same") + 1e-6 * max(density.max(), 1)
@@ -98,7 +98,7 @@ def describe(at: Array, value: Array, recorded: Array, periods: tuple[tuple[int,
             shapes.append((_explained(value, [bump], weight), f"a local bump at {cut:.3g}"))
     for count, _ in periods[:3]:
         waves = [np.cos(count * at), np.sin(count * at)]
-        shapes.append((_explained(value, waves, weight), f"a wave, {count} per turn"))
+        shapes.append((_explained(value, waves, weight), f"a wave, {count:.3g} per turn"))
     share, words = max(shapes)
     trend = shapes[0]
     if trend[0] > share - 0.02:
@@ -106,10 +106,10 @@ def describe(at: Array, value: Array, recorded: Array, periods: tuple[tuple[int,
     return words if share > TELLING else "a free curve" + _strongest(periods)
 
 
-def _strongest(periods: tuple[tuple[int, float], ...]) -> str:
+def _strongest(periods: tuple[tuple[float, float], ...]) -> str:
     if not periods:
         return ""
-    return ", strongest waves per turn: " + ", ".join(str(count) for count, _ in periods[:3])
+    return ", strongest waves per turn: " + ", ".join(f"{count:.3g}" for count, _ in periods[:3])
 
 
 def _explained(value: Array, shapes: list[Array], weight: Array) -> float:

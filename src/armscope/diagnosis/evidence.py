@@ -88,7 +88,7 @@ def problem(pool: Pool, gram: Gram, least_noise: float) -> Problem:
     mismatch = _rms_after_frames(scaled, pool.frames)
     low = max(least_noise, 0.02 * mismatch) / 2
     sizes = np.geomspace(low, max(2 * mismatch, 4 * low), SIZES)
-    return Problem(pool, scaled, scale, least_noise, sizes, _costs(pool), mismatch)
+    return Problem(pool, scaled, scale, least_noise, sizes, costs(pool), mismatch)
 
 
 def _rms_after_frames(gram: Gram, frames: Indices) -> float:
@@ -98,7 +98,7 @@ def _rms_after_frames(gram: Gram, frames: Indices) -> float:
     return float(np.sqrt(max(left, 0.0) / max(gram.n - len(frames), 1.0)))
 
 
-def _costs(pool: Pool) -> Array:
+def costs(pool: Pool) -> Array:
     """Each effect type is as likely as any other, each of its locations as any other, each scanned number, too."""
     locations: dict[str, set[str]] = {}
     variants: dict[tuple[str, str], int] = {}
@@ -183,6 +183,8 @@ def weigh(problem: Problem, chosen: tuple[Chosen, ...], background: Background, 
     evidence = -problem.n * np.log(noise) - 0.5 * logdet - 0.5 * rss / noise**2
     paid = sum(problem.costs[c.candidate] + np.log(len(problem.sizes)) for c in chosen)
     paid += BACKGROUND_CAUTION_NATS * np.count_nonzero(background[1:])
+    if not problem.pool.stands(frozenset(c.candidate for c in chosen)):
+        paid = np.inf
     return Hypothesis(chosen, background, noise, float(evidence - paid), columns, variance, factor, inverse, mean, rss)
 
 

@@ -49,6 +49,7 @@ NOISE_EXCESS = 1.15
 """A residual this many times the stated noise is more than the noise."""
 BACKGROUND_SEEN_NATS = 5.0
 SUSPECT_WEIGHT = 0.5
+REST_OF_A_CURVE = 2.0
 NOTHING = "nothing in the table"
 """What scatter follows."""
 LISTED_SUSPECTS = 200
@@ -95,7 +96,8 @@ def judge(
     tell("drawing the atlas", 0.9)
     background = _backgrounds(evidence, search, variance)
     named = [_with_weight(found[c], background) for c in order]
-    effects = tuple(sorted([*named, *_scattered(evidence, variance)], key=lambda effect: -effect.rms_at_tool_mm))
+    scattered = [s for s in _scattered(evidence, variance) if not _rest_of_a_curve(s, named)]
+    effects = tuple(sorted([*named, *scattered], key=lambda effect: -effect.rms_at_tool_mm))
     unexplained = _unexplained(effects, evidence)
     answer, mismatch = _answer(effects, background, unexplained, evidence)
     separating = next_poses(search, best, rivals, fit, evidence.recordings, rng)
@@ -144,7 +146,8 @@ def _found(
     coefficients[fit.pool.of(placed)] = part.values
     rms = contribution(fit.gram, fit.pool.frames, coefficients)
     share = rms**2 / variance if variance > 0 else 0.0
-    close = [rival for gap, rival, _ in rivals if gap < certainty.TELLS_APART_NATS]
+    apart = [certainty.apart(evidence.best, other, placed, rival) for _, rival, other in rivals]
+    close = [rival for nats, (_, rival, _) in zip(apart, rivals, strict=True) if nats < certainty.TELLS_APART_NATS]
     named_as, title = certainty.name(placed, close)
     worth = _worth(evidence, search, candidate)
     return FoundEffect(
@@ -165,6 +168,16 @@ def _found(
         physics=placed.effect.physics,
         confirm=placed.effect.confirm,
         cure=placed.effect.cure,
+    )
+
+
+def _rest_of_a_curve(scatter: FoundEffect, named: Sequence[FoundEffect]) -> bool:
+    """Whether scatter is what a free curve at the same joint could not follow."""
+    return any(
+        effect.effect == "unknown"
+        and effect.location == scatter.location
+        and effect.rms_at_tool_mm > REST_OF_A_CURVE * scatter.rms_at_tool_mm
+        for effect in named
     )
 
 

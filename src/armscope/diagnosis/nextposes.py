@@ -8,13 +8,14 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.diagnosis.certainty import TELLS_APART_NATS
-from armscope.diagnosis.evidence import Hypothesis
+from armscope.diagnosis.certainty import TELLS_APART_NATS, apart
+from armscope.diagnosis.evidence import FRAME_PRIOR_MM, Hypothesis
 from armscope.diagnosis.problem import columns
 from armscope.diagnosis.refit import Refit
 from armscope.diagnosis.search import Search
 from armscope.diagnosis.verdict import NextPoses
-from armscope.physics.effect import Placed
+from armscope.physics.drift import six_terms
+from armscope.physics.effect import ONE, Placed
 from armscope.physics.scene import Scene
 from armscope.recordings import Recordings
 
@@ -41,19 +42,31 @@ def next_poses(
     Greedy: each next pose is the one where the two predictions differ most, measured against what the rival could still
     adapt to (its posterior covariance, updated after each choice) and the noise.
     """
-    pairs = [(gap, c, placed, other) for c, found in rivals.items() for gap, placed, other in found[:1]]
+    pairs = [
+        (apart(best, other, search.placed(c), placed), c, placed, other)
+        for c, found in rivals.items()
+        for _, placed, other in found
+    ]
     if not pairs:
         return None
-    gap, candidate, placed, other = min(pairs, key=lambda pair: pair[0])
-    if gap > TELLS_APART_NATS:
+    nats, candidate, placed, other = min(pairs, key=lambda pair: pair[0])
+    if nats > TELLS_APART_NATS:
         return None
     table = _reachable(fit, recordings, rng)
     scene = Scene(fit.model.arm, table)
-    X = columns(scene.posture(), search.problem.pool.terms).reshape(len(table), 3, -1) / search.problem.scale
+    posture = scene.posture()
+    X = columns(posture, search.problem.pool.terms).reshape(len(table), 3, -1) / search.problem.scale
+    # the poses will be a run of their own, with a base that is fitted anew
+    new_base = columns(posture, six_terms("base", ONE)).reshape(len(table), 3, 6)
     p = X.shape[2]
-    apart = X @ (best.coefficients(p) - other.coefficients(p))
+    between = X @ (best.coefficients(p) - other.coefficients(p))
     covariance = other.noise**2 * other.inverse.T @ other.inverse
-    chosen, separation = _greedy(X[:, :, other.columns], apart, covariance, other.noise)
+    k = len(covariance)
+    with_base = np.zeros((k + 6, k + 6))
+    with_base[:k, :k] = covariance
+    with_base[k:, k:] = np.eye(6) * (FRAME_PRIOR_MM * 1e-3) ** 2
+    adapting = np.concatenate([X[:, :, other.columns], new_base], axis=2)
+    chosen, separation = _greedy(adapting, between, with_base, other.noise)
     nats = float(np.sum(separation**2)) / (2 * other.noise**2)
     repeats = float(np.ceil(DECISIVE_NATS / nats)) if nats > 1e-6 else float("inf")
     payload = np.zeros(len(chosen)) if table.payload is None else table.payload[chosen]
@@ -69,7 +82,7 @@ def _reachable(fit: Refit, recordings: Recordings, rng: np.random.Generator) -> 
     low, high = np.where(stated, arm.limits[:, 0], low), np.where(stated, arm.limits[:, 1], high)
     angles = rng.uniform(low, high, (TRIED, arm.n_motors))
     heaviest = np.nanmax(recordings.payload) if recordings.payload is not None else 0.0
-    run = np.full(TRIED, recordings.run[-1])
+    run = np.full(TRIED, "next")
     shape = (TRIED, arm.n_motors)
     return replace(
         recordings,

@@ -61,6 +61,23 @@ class Pool:
             for number, placed in enumerate(self.candidates)
         )
 
+    @functools.cached_property
+    def resting(self) -> dict[int, frozenset[int]]:
+        """Candidates that do nothing by themselves, and those that each of them can rest on."""
+        return {
+            number: frozenset(
+                n
+                for n, other in enumerate(self.candidates)
+                if other.family == placed.effect.rests_on and not other.effect.rests_on
+            )
+            for number, placed in enumerate(self.candidates)
+            if placed.effect.rests_on
+        }
+
+    def stands(self, candidates: frozenset[int]) -> bool:
+        """Whether every one of some candidates has what it rests on."""
+        return all(candidates & needed for number, needed in self.resting.items() if number in candidates)
+
     def of(self, placed: Placed) -> Indices:
         """Columns of an effect whose terms are all in the pool."""
         index = self._index()

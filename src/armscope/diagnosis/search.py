@@ -99,6 +99,7 @@ class Search:
             gain[member] = -np.inf
             gain[[c for c in clashes[member] if not self._generalises(c, member)]] = -np.inf
         gain[list(without)] = -np.inf
+        gain[[n for n, needed in self.problem.pool.resting.items() if not needed & parent.candidates]] = -np.inf
         order = np.argsort(-gain)[:count]
         return [self._with(parent, Chosen(int(c), int(size[c]))) for c in order if np.isfinite(gain[c])]
 

@@ -61,7 +61,7 @@ class Curve:
     value: Array
     stderr: Array
     value_unit: str
-    periods: tuple[tuple[int, float], ...] = ()
+    periods: tuple[tuple[float, float], ...] = ()
     description: str = ""
 
 

@@ -43,11 +43,11 @@ def _angle(scene: Scene, j: int) -> Array:
     return scene.recordings.motor_angles[:, j - 1]
 
 
-def _sine(scene: Scene, j: int, periods: int) -> Array:
+def _sine(scene: Scene, j: int, periods: float) -> Array:
     return np.sin(periods * _angle(scene, j))
 
 
-def _cosine(scene: Scene, j: int, periods: int) -> Array:
+def _cosine(scene: Scene, j: int, periods: float) -> Array:
     return np.cos(periods * _angle(scene, j))
 
 

@@ -145,6 +145,7 @@ class Effect:
         confirm: one sentence: how to confirm it on the real arm.
         cure: one sentence: how to cure it.
         needs: context columns without which it can't be seen.
+        rests_on: family without which it does nothing: a payload's error shows through what gives way.
     """
 
     name: str
@@ -154,6 +155,7 @@ class Effect:
     confirm: str = field(compare=False)
     cure: str = field(compare=False)
     needs: tuple[str, ...] = ()
+    rests_on: str = ""
 
 
 CONTAINED = {

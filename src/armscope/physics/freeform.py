@@ -19,16 +19,18 @@ from armscope.robot import Arm
 
 Array = NDArray[np.float64]
 
-SMOOTH_PERIODS = 6.0
-"""Periods per turn up to which a free curve's waves are equally likely; beyond, their size falls with the square."""
+SMOOTH_WAVES, SMOOTH_WAVES_OF_LONG_TABLES = 6.0, 24.0
+"""Waves up to which a free curve's waves are equally likely; beyond, their size falls with the square."""
 KNOTS = 8
-ROWS_PER_WAVE = 12
-FEWEST_WAVES, MOST_WAVES, MOST_WAVES_OF_LONG_TABLES = 6, 16, 72
+ROWS_PER_WAVE = 7
+FEWEST_WAVES, MOST_WAVES, MOST_WAVES_OF_LONG_TABLES = 8, 20, 72
+SLACK = 1.25
+"""The longest wave spans this many times the range that a joint covers, so that its ends are free; a turn at most."""
 LONG_TABLE = 1500
 
 
 def waves(recordings: Recordings) -> int:
-    """How many waves per turn a free curve gets: what the number of rows carries."""
+    """How many waves a free curve gets: what the number of rows carries."""
     if len(recordings) >= LONG_TABLE:
         return MOST_WAVES_OF_LONG_TABLES
     return int(np.clip(len(recordings) // ROWS_PER_WAVE, FEWEST_WAVES, MOST_WAVES))
@@ -43,14 +45,15 @@ def _place(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
 
 def _own_angle(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     count = waves(recordings)
-    flat = 24.0 if count > MOST_WAVES else SMOOTH_PERIODS
+    flat = SMOOTH_WAVES_OF_LONG_TABLES if count > MOST_WAVES else SMOOTH_WAVES
     for j in moving_joints(recordings):
         trend = [*JOINT_OFFSET.place(arm, recordings), *GEAR_RATIO.place(arm, recordings)]
         terms: list[Term] = [t for placed in trend if placed.location == f"joint {j}" for t in placed.terms]
         shape: list[float] = []
-        for per_turn in range(1, count + 1):
-            terms += wave_terms(j, per_turn)
-            shape += [1 / (1 + (per_turn / flat) ** 2)] * 2
+        longest = min(SLACK * float(np.ptp(recordings.motor_angles[:, j - 1])), 2 * np.pi)
+        for number in range(1, count + 1):
+            terms += wave_terms(j, number if longest == 2 * np.pi else number * 2 * np.pi / longest)
+            shape += [1 / (1 + (number / flat) ** 2)] * 2
         yield _curve(f"joint {j}", tuple(terms), shape, f"angle of joint {j}", "angle", trends=2)
 
 

@@ -18,11 +18,11 @@ LEAST_OTHER_SIDE = 0.03
 """Share of the rows in which gravity must push to the other side."""
 
 
-def wave_terms(j: int, per_turn: int) -> tuple[Term, Term]:
+def wave_terms(j: int, per_turn: float) -> tuple[Term, Term]:
     """Cosine and sine of motor angle j, ``per_turn`` periods per turn, rad."""
     return (
-        term(f"cosine_{per_turn}", "rad", (motor(j), Driver("cosine", (j, per_turn)))),
-        term(f"sine_{per_turn}", "rad", (motor(j), Driver("sine", (j, per_turn)))),
+        term(f"cosine_{per_turn:g}", "rad", (motor(j), Driver("cosine", (j, per_turn)))),
+        term(f"sine_{per_turn:g}", "rad", (motor(j), Driver("sine", (j, per_turn)))),
     )
 
 

@@ -1,0 +1,114 @@
+"""Bad input: a clear statement, never a confident name."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from armscope.diagnosis import Settings, diagnose
+from armscope.diagnosis.verdict import Verdict
+from armscope.inputs import InputError
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+
+from ..physics.scenes import arm_named
+from .planted import planted
+
+QUICK = Settings(resamples=0, cross_validation=False)
+
+
+@pytest.fixture
+def clean() -> tuple[Arm, Recordings]:
+    return planted("six-axis", {}, 80, 0.03, seed=60)
+
+
+def kinds(verdict: Verdict) -> set[str]:
+    return {notice.kind for notice in verdict.notices}
+
+
+def cannot_tell(verdict: Verdict, kind: str) -> None:
+    assert verdict.effects == ()
+    assert verdict.mismatch is None
+    assert verdict.answer == "cannot tell"
+    assert kind in kinds(verdict)
+    assert "cannot be told" in verdict.headline
+
+
+def test_a_clean_table_has_nothing_to_complain_about(clean: tuple[Arm, Recordings]) -> None:
+    verdict = diagnose(*clean, QUICK)
+    assert verdict.answer == "nothing missing"
+    assert kinds(verdict) == set()
+
+
+def test_fewer_rows_than_parameters(clean: tuple[Arm, Recordings]) -> None:
+    arm, table = clean
+    cannot_tell(diagnose(arm, table.rows(np.arange(8)), QUICK), "fewer rows than parameters")
+
+
+def test_the_wrong_robot(clean: tuple[Arm, Recordings]) -> None:
+    _, table = clean
+    cannot_tell(diagnose(arm_named("parallelogram-120kg"), table, QUICK), "wrong robot")
+
+
+def test_rows_permuted_against_poses(clean: tuple[Arm, Recordings]) -> None:
+    arm, table = clean
+    order = np.random.default_rng(1).permutation(len(table))
+    cannot_tell(diagnose(arm, replace(table, positions=table.positions[order]), QUICK), "wrong robot")
+
+
+def test_rows_out_of_step_by_one(clean: tuple[Arm, Recordings]) -> None:
+    arm, table = clean
+    moved = replace(table, positions=np.roll(table.positions, 1, axis=0))
+    cannot_tell(diagnose(arm, moved, QUICK), "rows out of step")
+
+
+def test_lengths_in_another_unit(clean: tuple[Arm, Recordings]) -> None:
+    arm, table = clean
+    cannot_tell(diagnose(arm, replace(table, positions=table.positions * 1000), QUICK), "units")
+
+
+def test_a_left_handed_frame(clean: tuple[Arm, Recordings]) -> None:
+    arm, table = clean
+    cannot_tell(diagnose(arm, replace(table, positions=table.positions * [1, -1, 1]), QUICK), "left-handed frame")
+
+
+def test_another_number_of_motors(clean: tuple[Arm, Recordings]) -> None:
+    _, table = clean
+    with pytest.raises(InputError, match="7 motors"):
+        diagnose(arm_named("seven-axis"), table, QUICK)
+
+
+def test_repeated_clipped_and_stuck_rows_are_left_out_and_told(clean: tuple[Arm, Recordings]) -> None:
+    arm, table = clean
+    repeated = table.rows(np.concatenate([np.arange(80), np.arange(10)]))
+    assert kinds(diagnose(arm, repeated, QUICK)) == {"repeated rows"}
+    clipped = table.positions.copy()
+    clipped[:, 2] = np.minimum(clipped[:, 2], np.quantile(clipped[:, 2], 0.9))
+    verdict = diagnose(arm, replace(table, positions=clipped), QUICK)
+    assert kinds(verdict) == {"clipped rows"}
+    assert verdict.effects == ()
+    stuck = table.positions.copy()
+    stuck[20:24] = stuck[19]
+    verdict = diagnose(arm, replace(table, positions=stuck), QUICK)
+    assert kinds(verdict) == {"stuck instrument"}
+    assert verdict.rows == 76
+
+
+def test_joints_that_never_move_and_constant_context_are_told(clean: tuple[Arm, Recordings]) -> None:
+    arm, table = clean
+    held = replace(table, payload=np.full(80, 5.0))
+    held.motor_angles[:, 5] = 0.3
+    verdict = diagnose(arm, held, QUICK)
+    assert {"joints that never move", "constant context"} <= kinds(verdict)
+
+
+def test_a_table_without_masses_says_what_it_cannot_know() -> None:
+    from armscope.robot.arm import build_arm
+
+    arm, table = planted("six-axis", {}, 60, 0.03, seed=61)
+    bare = build_arm(arm.description.model_copy(update={"links": None, "tool_load": None}))
+    verdict = diagnose(bare, table, QUICK)
+    assert "no loads" in kinds(verdict)
+    assert verdict.effects == ()
