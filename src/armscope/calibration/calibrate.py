@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -21,6 +21,8 @@ from armscope.robot import Arm
 Array = NDArray[np.float64]
 Redundancy = Literal["fixed", "priors"]
 SUSPECT_SIGMAS = 6.0
+WEIGHINGS = 3
+"""Fits with orientations: the weight of the first comes from the nominal arm, that of the next from the fit before."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +91,9 @@ class Calibration:
     def table(self) -> pd.DataFrame:
         """One row per fitted parameter: name, unit, value (of the arm's constants: the change), stderr."""
         base = np.concatenate([self.state.translations, Rotation.from_matrix(self.state.rotations).as_rotvec()], axis=1)
-        values = np.concatenate([base.ravel(), self.state.tools.ravel(), self.state.constants, self.state.compliances])
+        turns = Rotation.from_matrix(self.state.tool_rotations).as_rotvec()
+        state = self.state
+        values = np.concatenate([base.ravel(), state.tools.ravel(), state.constants, state.compliances, turns.ravel()])
         return pd.DataFrame(
             {
                 "parameter": np.array(self.set_up.names)[self.free],
@@ -132,8 +136,9 @@ def calibrate(
     robust: bool = False,
     one_base: bool = False,
     tool_per_run: bool = False,
+    orientation: bool = True,
 ) -> Calibration:
-    """Fit base frames, tools and the arm's constants to measured positions.
+    """Fit base frames, tools and the arm's constants to measured positions, and orientations where there are any.
 
     Args:
         arm: the nominal arm.
@@ -145,15 +150,20 @@ def calibrate(
         robust: take the say from bad shots (Tukey's biweight).
         one_base: one base frame for all runs.
         tool_per_run: a tool of its own for every run.
+        orientation: use measured orientations, each weighed by the scatter that positions and orientations show.
 
     Raises:
         InputError: another number of motors than the arm's, or fewer measured numbers than parameters.
     """
-    rows = set_up(arm, recordings, one_base, tool_per_run)
+    priors = priors or Priors()
+    rows = set_up(arm, recordings, one_base, tool_per_run, orientation)
     start = placed(rows)
-    free, stiffness = freedom(rows, start, level, redundancy, priors or Priors())
-    _require_rows(recordings, rows, free, redundancy)
-    fitted = fit(rows, start, free, stiffness, robust)
+    for _ in range(WEIGHINGS if rows.orientations is not None else 1):
+        rows = _weighed(rows, start)
+        free, stiffness = freedom(rows, start, level, redundancy, priors)
+        _require_rows(recordings, rows, free, redundancy)
+        fitted = fit(rows, start, free, stiffness, robust)
+        start = fitted.state
     distance = np.linalg.norm(rows.residuals(fitted.state), axis=1)
     ids = [f"{run}: {name}" if run else name for run, name in zip(recordings.run, recordings.id, strict=True)]
     return Calibration(
@@ -170,6 +180,16 @@ def calibrate(
     )
 
 
+def _weighed(rows: SetUp, state: State) -> SetUp:
+    """The lever by which a turn counts as much as a shift: the ratio of their scatter, by medians."""
+    if rows.orientations is None:
+        return rows
+    known = np.isfinite(rows.orientations).all(axis=(1, 2))
+    shift = np.linalg.norm(rows.residuals(state), axis=1)
+    turn = np.linalg.norm(rows.turn_residuals(state)[known], axis=1)
+    return replace(rows, lever=spread_of(shift) / spread_of(turn))
+
+
 def fit(rows: SetUp, start: State, free: NDArray[np.bool_], stiffness: Array, robust: bool = False) -> Fitted:
     """Fit what is free from a start, with or without weights against bad shots."""
     solver = robust_least_squares if robust else least_squares
@@ -181,8 +201,6 @@ def freedom(
 ) -> tuple[NDArray[np.bool_], Array]:
     """Which parameters are fitted, and how stiffly they are held."""
     free = rows.free(level)
-    if rows.loads is None:
-        free[len(free) - rows.arm.n_motors :] = False
     if redundancy == "priors":
         return free, _stiffness(rows, priors)
     _, jacobian = rows.linearised(start, free)
@@ -194,7 +212,9 @@ def freedom(
 def _stiffness(rows: SetUp, priors: Priors) -> Array:
     sizes = {"m": priors.length, "rad": priors.angle, "rad/(N m)": priors.compliance}
     stiffness = np.array([(priors.noise / sizes[unit]) ** 2 for unit in rows.units])
-    stiffness[: 6 * len(rows.base_names) + 3 * len(rows.tool_names)] = 0.0
+    n_tool = 3 * len(rows.tool_names)
+    stiffness[: 6 * len(rows.base_names) + n_tool] = 0.0
+    stiffness[-n_tool:] = 0.0
     return stiffness
 
 
@@ -224,11 +244,13 @@ def _covariance(rows: SetUp, fitted: Fitted, free: NDArray[np.bool_], stiffness:
     residuals of each row really scatter.
     """
     residual, jacobian = rows.linearised(fitted.state, free)
-    per_component = np.repeat(fitted.weights, 3)
+    per_row = len(residual) // len(rows)
+    per_component = np.repeat(fitted.weights, per_row)
     normal = (jacobian * per_component[:, None]).T @ jacobian + np.diag(stiffness[free])
     inverse = np.linalg.pinv(normal, hermitian=True, rcond=1e-15)
     freedom = max(len(residual) - int(free.sum()), 1)
     if np.all(fitted.weights == 1):
         return inverse * float(residual @ residual) / freedom
-    pull = np.einsum("nc,ncp->np", (per_component * residual).reshape(-1, 3), jacobian.reshape(-1, 3, free.sum()))
+    weighed = (per_component * residual).reshape(-1, per_row)
+    pull = np.einsum("nc,ncp->np", weighed, jacobian.reshape(-1, per_row, free.sum()))
     return inverse @ (pull.T @ pull) @ inverse * len(residual) / freedom

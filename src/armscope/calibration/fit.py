@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from armscope.calibration.model import SetUp, State
 from armscope.calibration.registration import starts
@@ -53,9 +54,9 @@ def least_squares(
     """
     weights = np.ones(len(set_up)) if weights is None else weights
     stiffness = np.zeros(len(free)) if stiffness is None else stiffness
-    per_component = np.repeat(weights, 3)
     change = _changes(state)
     residual, jacobian = set_up.linearised(state, free)
+    per_component = np.repeat(weights, len(residual) // len(set_up))
     damping = 0.0
     for steps in range(1, most_steps + 1):
         cost = _cost(residual, per_component, stiffness, change)
@@ -81,8 +82,8 @@ def least_squares(
 
 def _changes(state: State) -> Array:
     """What priors hold near zero; frames are counted from where they start, and are never held."""
-    n_frames = 6 * len(state.rotations) + 3 * len(state.tools)
-    return np.concatenate([np.zeros(n_frames), state.constants, state.compliances])
+    n_frames, n_turns = 6 * len(state.rotations) + 3 * len(state.tools), 3 * len(state.tools)
+    return np.concatenate([np.zeros(n_frames), state.constants, state.compliances, np.zeros(n_turns)])
 
 
 def _cost(residual: Array, per_component: Array, stiffness: Array, change: Array) -> float:
@@ -142,7 +143,26 @@ def placed(set_up: SetUp, most_steps: int = LARGEST_STEPS) -> State:
         tools=np.tile(set_up.arm.tool, (len(set_up.tool_names), 1)),
         constants=np.zeros(len(set_up.constants)),
         compliances=np.zeros(set_up.arm.n_motors),
+        tool_rotations=np.tile(np.eye(3), (len(set_up.tool_names), 1, 1)),
     )
+    return with_tool_rotations(set_up, _placed(replace(set_up, orientations=None), blank, most_steps))
+
+
+def with_tool_rotations(set_up: SetUp, state: State) -> State:
+    """The state with each tool's mean orientation on the flange, where orientations are used."""
+    if set_up.orientations is None:
+        return state
+    _, frames = set_up.frames(state)
+    known = np.isfinite(set_up.orientations).all(axis=(1, 2))
+    seen = np.swapaxes(state.rotations[set_up.base], 1, 2) @ set_up.orientations
+    on_flange = np.swapaxes(frames.tool_rotation, 1, 2) @ seen
+    rotations = state.tool_rotations.copy()
+    for tool in np.unique(set_up.tool[known]):
+        rotations[tool] = Rotation.from_matrix(on_flange[known & (set_up.tool == tool)]).mean().as_matrix()
+    return replace(state, tool_rotations=rotations)
+
+
+def _placed(set_up: SetUp, blank: State, most_steps: int) -> State:
     _, frames = set_up.frames(blank)
     turned = frames.tool_rotation
     flange = frames.tool - np.einsum("nij,nj->ni", turned, blank.tools[set_up.tool])
@@ -156,7 +176,7 @@ def placed(set_up: SetUp, most_steps: int = LARGEST_STEPS) -> State:
             placement = found[0 if trust_nominal else -1]
             rotations[base], translations[base] = placement.rotation, placement.translation
             tools.append(placement.tools)
-        start = State(rotations, translations, _mean_known(np.array(tools)), blank.constants, blank.compliances)
+        start = replace(blank, rotations=rotations, translations=translations, tools=_mean_known(np.array(tools)))
         candidates.append(least_squares(set_up, start, free, most_steps=most_steps).state)
     return min(candidates, key=lambda state: float(np.sum(set_up.residuals(state) ** 2)))
 

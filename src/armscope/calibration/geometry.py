@@ -104,6 +104,15 @@ def columns(arm: Arm, frames: Chain, constants: tuple[Constant, ...]) -> Array:
     return result
 
 
+def turn_columns(arm: Arm, frames: Chain, constants: tuple[Constant, ...]) -> Array:
+    """(N, 3, P) turn of the last frame by a unit of each constant, in base axes; rad/m (zero) or rad/rad."""
+    turns = np.empty((len(frames.tool), 3, len(constants)))
+    for column, constant in enumerate(constants):
+        location, twist = _twist(arm, constant)
+        turns[:, :, column] = frames.frame(location)[0] @ twist[3:]
+    return turns
+
+
 def _twist(arm: Arm, constant: Constant) -> tuple[str, Array]:
     """Frame and twist (translation, rotation in its axes) that a unit of the constant is."""
     twist = np.zeros(6)

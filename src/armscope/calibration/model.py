@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from armscope.calibration.geometry import Constant, columns, constants_of, corrected
+from armscope.calibration.geometry import Constant, columns, constants_of, corrected, turn_columns
 from armscope.inputs import InputError
 from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain, position_jacobian
@@ -31,6 +31,7 @@ class State:
         tools: (K, 3) offsets in the last frame, m.
         constants: (P,) added to the arm's constants, m and rad.
         compliances: (m,) rad/(N m), angle += compliance * load.
+        tool_rotations: (K, 3, 3) last frame from measured tool frame; counts only where orientations are used.
     """
 
     rotations: Array
@@ -38,11 +39,13 @@ class State:
     tools: Array
     constants: Array
     compliances: Array
+    tool_rotations: Array
 
     def moved(self, step: Array) -> State:
         """A step in the order of `SetUp.names`; base steps are twists in the base's own axes."""
         n_bases, n_tools, n_constants = len(self.rotations), len(self.tools), len(self.constants)
-        base, tools, constants, compliances = np.split(step, np.cumsum([6 * n_bases, 3 * n_tools, n_constants]))
+        lengths = [6 * n_bases, 3 * n_tools, n_constants, len(self.compliances)]
+        base, tools, constants, compliances, turns = np.split(step, np.cumsum(lengths))
         base = base.reshape(n_bases, 6)
         return State(
             rotations=self.rotations @ Rotation.from_rotvec(base[:, 3:]).as_matrix(),
@@ -50,6 +53,7 @@ class State:
             tools=self.tools + tools.reshape(n_tools, 3),
             constants=self.constants + constants,
             compliances=self.compliances + compliances,
+            tool_rotations=self.tool_rotations @ Rotation.from_rotvec(turns.reshape(n_tools, 3)).as_matrix(),
         )
 
 
@@ -65,6 +69,8 @@ class SetUp:
         constants: the arm's constants.
         loads: (N, m) N m, torque that turns each motor, recorded or from the mass table; None if neither is known.
         load_source: "recorded torques", "gravity of the mass table" or "".
+        orientations: (N, 3, 3) measurement frame from tool frame, NaN where not measured; None uses positions only.
+        lever: m/rad, by which an orientation error counts beside a position error.
     """
 
     arm: Arm
@@ -77,6 +83,8 @@ class SetUp:
     constants: tuple[Constant, ...]
     loads: Array | None
     load_source: str
+    orientations: Array | None = None
+    lever: float = 0.0
 
     def __len__(self) -> int:
         return len(self.angles)
@@ -88,15 +96,18 @@ class SetUp:
         base = [f"base{_of(name)} {axis}" for name in self.base_names for axis in axes]
         tool = [f"tool{_of(name)} {axis}" for name in self.tool_names for axis in "xyz"]
         motors = range(1, self.arm.n_motors + 1)
-        return (*base, *tool, *(each.name for each in self.constants), *(f"joint {j} compliance" for j in motors))
+        turns = [f"tool{_of(name)} {axis}" for name in self.tool_names for axis in axes[3:]]
+        compliances = [f"joint {j} compliance" for j in motors]
+        return (*base, *tool, *(each.name for each in self.constants), *compliances, *turns)
 
     @property
     def units(self) -> tuple[str, ...]:
         """Unit of each parameter: m, rad or rad/(N m)."""
         base = ["m"] * 3 + ["rad"] * 3
         compliances = ["rad/(N m)"] * self.arm.n_motors
-        tools = ["m"] * 3 * len(self.tool_names)
-        return (*(base * len(self.base_names)), *tools, *(each.unit for each in self.constants), *compliances)
+        tools, turns = ([unit] * 3 * len(self.tool_names) for unit in ("m", "rad"))
+        constants = [each.unit for each in self.constants]
+        return (*(base * len(self.base_names)), *tools, *constants, *compliances, *turns)
 
     @property
     def tiers(self) -> NDArray[np.intp]:
@@ -106,7 +117,7 @@ class SetUp:
         """
         n_frames = 6 * len(self.base_names) + 3 * len(self.tool_names)
         arm = [2 if constant.is_zero_offset else 4 if constant.kind == "beta" else 3 for constant in self.constants]
-        return np.array([0] * n_frames + arm + [1] * self.arm.n_motors)
+        return np.array([0] * n_frames + arm + [1] * self.arm.n_motors + [0] * 3 * len(self.tool_names))
 
     def free(self, level: Level) -> NDArray[np.bool_]:
         """Which parameters a level lets free, identifiable or not."""
@@ -115,7 +126,9 @@ class SetUp:
             level in ("geometric", "compliance") or (level == "offsets" and constant.is_zero_offset)
             for constant in self.constants
         ]
-        return np.array([True] * n_frames + arm + [level == "compliance"] * self.arm.n_motors)
+        compliances = [level == "compliance" and self.loads is not None] * self.arm.n_motors
+        turns = [self.orientations is not None] * 3 * len(self.tool_names)
+        return np.array([True] * n_frames + arm + compliances + turns)
 
     def rows(self, which: NDArray[np.bool_] | NDArray[np.intp]) -> SetUp:
         """The set-up with some of its rows; frames and names stay."""
@@ -127,6 +140,7 @@ class SetUp:
             base=self.base[which],
             tool=self.tool[which],
             loads=loads,
+            orientations=None if self.orientations is None else self.orientations[which],
         )
 
     def frames(self, state: State) -> tuple[Arm, Chain]:
@@ -157,8 +171,24 @@ class SetUp:
         turned: Array = np.einsum("nij,nj->ni", state.rotations[self.base], frames.tool)
         return turned + state.translations[self.base]
 
+    def turn_residuals(self, state: State) -> Array:
+        """(N, 3) rotation vectors from predicted to measured orientation, arm base axes, rad; 0 where not measured."""
+        return self._turn_residuals(state, self.frames(state)[1])
+
+    def _turn_residuals(self, state: State, frames: Chain) -> Array:
+        assert self.orientations is not None
+        known = np.isfinite(self.orientations).all(axis=(1, 2))
+        seen = np.swapaxes(state.rotations[self.base[known]], 1, 2) @ self.orientations[known]
+        expected = frames.tool_rotation[known] @ state.tool_rotations[self.tool[known]]
+        turns = np.zeros((len(self), 3))
+        turns[known] = Rotation.from_matrix(seen @ np.swapaxes(expected, 1, 2)).as_rotvec()
+        return turns
+
     def linearised(self, state: State, free: NDArray[np.bool_]) -> tuple[Array, Array]:
-        """Residuals (3N,) and the columns (3N, free) of the prediction, both in the axes of each row's arm base."""
+        """Residuals (cN,) and the columns (cN, free) of the prediction, both in the axes of each row's arm base.
+
+        Each row has c = 3 numbers, or 6 where orientations are used: the position, and the turn times the lever.
+        """
         arm, frames = self.frames(state)
         back = np.swapaxes(state.rotations[self.base], 1, 2)
         seen = np.einsum("nij,nj->ni", back, self.measured - state.translations[self.base])
@@ -176,16 +206,47 @@ class SetUp:
                 jacobian[rows, axis, column] = frames.tool_rotation[:, axis, tool_axis]
         chosen = np.flatnonzero(free[n_frames : n_frames + len(self.constants)])
         jacobian[:, :, n_frames + chosen] = columns(arm, frames, tuple(self.constants[each] for each in chosen))
-        if self.loads is not None and free[n_frames + len(self.constants) :].any():
-            jacobian[:, :, n_frames + len(self.constants) :] = position_jacobian(arm, frames) * self.loads[:, None, :]
-        return (seen - frames.tool).ravel(), jacobian.reshape(3 * n_rows, -1)[:, free]
+        motors = slice(n_frames + len(self.constants), n_frames + len(self.constants) + arm.n_motors)
+        if self.loads is not None and free[motors].any():
+            jacobian[:, :, motors] = position_jacobian(arm, frames) * self.loads[:, None, :]
+        residual, jacobian = seen - frames.tool, jacobian[:, :, free]
+        if self.orientations is not None:
+            turned = self._turn_columns(arm, frames, state)[:, :, free]
+            jacobian = np.concatenate([jacobian, self.lever * turned], axis=1)
+            residual = np.concatenate([residual, self.lever * self._turn_residuals(state, frames)], axis=1)
+        return residual.ravel(), jacobian.reshape(residual.size, -1)
+
+    def _turn_columns(self, arm: Arm, frames: Chain, state: State) -> Array:
+        """(N, 3, P) turn of the tool by a unit of each parameter, arm base axes; 0 where not measured."""
+        assert self.orientations is not None
+        n_rows, n_bases, n_constants = len(self), len(self.base_names), len(self.constants)
+        n_frames = 6 * n_bases + 3 * len(self.tool_names)
+        jacobian = np.zeros((n_rows, 3, len(self.names)))
+        rows, expected = np.arange(n_rows), frames.tool_rotation @ state.tool_rotations[self.tool]
+        for axis in range(3):
+            jacobian[rows, axis, 6 * self.base + 3 + axis] = 1.0
+            for tool_axis in range(3):
+                column = n_frames + n_constants + arm.n_motors + 3 * self.tool + tool_axis
+                jacobian[rows, axis, column] = expected[:, axis, tool_axis]
+        jacobian[:, :, n_frames : n_frames + n_constants] = turn_columns(arm, frames, self.constants)
+        if self.loads is not None:
+            axes = np.swapaxes(frames.joint_rotation[..., 2], 1, 2) @ arm.actuation
+            jacobian[:, :, n_frames + n_constants : -3 * len(self.tool_names)] = axes * self.loads[:, None, :]
+        jacobian[~np.isfinite(self.orientations).all(axis=(1, 2))] = 0.0
+        return jacobian
 
 
 def _of(name: str) -> str:
     return f" of {name}" if name else ""
 
 
-def set_up(arm: Arm, recordings: Recordings, one_base: bool = False, tool_per_run: bool = False) -> SetUp:
+def set_up(
+    arm: Arm,
+    recordings: Recordings,
+    one_base: bool = False,
+    tool_per_run: bool = False,
+    orientation: bool = False,
+) -> SetUp:
     """Recordings as a set-up of base frames (one per run) and tools (one per target).
 
     Args:
@@ -193,6 +254,7 @@ def set_up(arm: Arm, recordings: Recordings, one_base: bool = False, tool_per_ru
         recordings: measured points.
         one_base: one base frame for all runs, where nothing was moved between them.
         tool_per_run: a tool of its own for every run, where it was taken off in between.
+        orientation: use measured orientations, where the table has them.
 
     Raises:
         InputError: another number of motors than the arm has.
@@ -223,7 +285,18 @@ def set_up(arm: Arm, recordings: Recordings, one_base: bool = False, tool_per_ru
         constants=constants_of(arm),
         loads=loads,
         load_source=load_source,
+        orientations=_matrices(recordings.orientation) if orientation else None,
     )
+
+
+def _matrices(quaternions: Array | None) -> Array | None:
+    """(N, 3, 3) from (N, 4) wxyz, NaN where not measured; None without any."""
+    if quaternions is None:
+        return None
+    known = np.isfinite(quaternions).all(axis=1)
+    matrices = np.full((len(quaternions), 3, 3), np.nan)
+    matrices[known] = Rotation.from_quat(quaternions[known][:, [1, 2, 3, 0]]).as_matrix()
+    return matrices
 
 
 def _groups(labels: NDArray[np.str_]) -> tuple[tuple[str, ...], NDArray[np.intp]]:
