@@ -64,6 +64,8 @@ def draw_arm(arm: Arm, motor_angles: Array, shares: Mapping[str, float]) -> Figu
         picture.floor(colour("base"))
         for location, line in shape.parts:
             picture.link(line, colour(location), place=location)
+            if by_place.get(location, 0) > 0:
+                picture.collar(line, colour(location), place=location)
         if shape.rod is not None:
             picture.linkage(shape.rod, colour("parallelogram"))
         for joint, (centre, axis) in enumerate(zip(shape.centres, shape.axes, strict=True), start=1):
@@ -140,6 +142,15 @@ class _Picture:
         for start, end in pairwise(line):
             for along in np.linspace(0, 1, 12):
                 self.obstacles.append((self.view.flat(start + along * (end - start)), width))
+
+    def collar(self, line: Array, colour: Any, place: str) -> None:
+        """A link too short to be seen shows its colour as a ring around the joint that covers it."""
+        if np.linalg.norm(np.diff(line, axis=0), axis=1).sum() > 0.12 * self.size or not place.startswith("link"):
+            return
+        centre, radius = self.view.flat(_halfway(line)), 2.0 * self.radius(_number(place))
+        ring = _capsule(centre, centre, radius)
+        self.axes.add_patch(Polygon(ring, facecolor=colour, edgecolor=OUTLINE, linewidth=1.0, zorder=19))
+        self.obstacles.append((centre, radius))
 
     def linkage(self, rod: Array, colour: Any) -> None:
         flat = self.view.flat(rod)
@@ -261,7 +272,7 @@ class _Picture:
         left, right = self.axes.get_xlim()
         bottom, _ = self.axes.get_ylim()
         nice = [0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0]
-        length = max((step for step in nice if step < 0.25 * self.size), default=nice[0])
+        length = max((step for step in nice if step < 0.3 * self.size), default=nice[0])
         x, y = left + 0.02 * (right - left), bottom + 0.025 * self.size
         self.obstacles.extend((np.array([x + along * length, y]), 0.05 * self.size) for along in np.linspace(0, 1, 6))
         self.axes.plot([x, x + length], [y, y], color=OUTLINE, linewidth=2.0, solid_capstyle="butt", zorder=5)
