@@ -6,6 +6,7 @@ include: "workflow/rules/common.smk"
 include: "workflow/rules/paper.smk"
 include: "workflow/rules/real.smk"
 include: "workflow/rules/sweep.smk"
+include: "workflow/rules/proof.smk"
 
 
 localrules:
@@ -16,11 +17,11 @@ rule all:
     default_target: True
     input:
         rules.paper.input,
+        rules.proof_small.input,
 
 
 onsuccess:
-    for name, reason in SKIPPED.items():
-        print(f"skipped    real arm {name}: {reason}")
     print(f"Table 2    {PAPER}/table2.html ({PAPER}/table2.csv)")
     print(f"figures    {PAPER}/figures/")
     print(f"report     {PAPER}/report.html")
+    print(f"proof      {PROOF}/small/report.html")

@@ -129,9 +129,11 @@ class RealSet(Strict):
 
 
 class Proof(Strict):
-    """The diagnosis on worlds with concealed effects."""
+    """The diagnosis on worlds with concealed effects: how it is run there."""
 
-    size: Literal["small", "full"] = "small"
+    resamples: Annotated[int, Field(ge=0, description="how often rows are resampled; not scored")] = 0
+    cross_validation: bool = Field(False, description="the proof scores rows that the diagnosis never saw instead")
+    parts: Count = Field(4, description="jobs per half of the full proof's worlds")
 
 
 class Config(Strict):
@@ -144,7 +146,9 @@ class Config(Strict):
     real: dict[str, RealSet] = Field(default_factory=dict)
     sweep: str = "config/sweeps/default.csv"
     proof: Proof = Proof()
-    proof_seed: Annotated[int, Field(ge=0)] | None = None
+    proof_seed: Annotated[int, Field(ge=0)] | None = Field(
+        None, description="from which half of the proof's worlds are drawn; null: drawn when the proof runs"
+    )
 
 
 def schema() -> dict[str, Any]:

@@ -74,7 +74,7 @@ rule proof_diagnose:
     shadow:
         "minimal"
     shell:
-        "(find -L . -type f -not -name '*.log' | LC_ALL=C sort > ../seen.$$ && mv ../seen.$$ {output.seen} && "
+        "(find -L . {input} -type f -not -name '*.log' -not -name '.*' > ../seen.$$ && mv ../seen.$$ {output.seen} && "
         "armscope proof diagnose {input} --resamples {params.resamples} {params.cross_validation} "
         "-o {output.verdicts}) > {log} 2>&1"
 

@@ -10,7 +10,7 @@ import sys
 
 import typer
 
-from armscope.cli import diagnosis, paper, recordings, sweep
+from armscope.cli import diagnosis, paper, proof, recordings, sweep
 from armscope.inputs import InputError
 
 app = typer.Typer(
@@ -23,6 +23,7 @@ app = typer.Typer(
 app.add_typer(diagnosis.app)
 app.add_typer(recordings.app)
 app.add_typer(paper.app, name="paper", help="The 2006 paper, step by step; the workflow calls these.")
+app.add_typer(proof.app, name="proof", help="The diagnosis on worlds with concealed effects, step by step.")
 app.add_typer(sweep.app, name="sweep", help="Variants of swarm and model; the workflow calls these.")
 
 

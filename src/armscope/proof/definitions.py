@@ -5,15 +5,15 @@ says "something is here" without a name. Several waves or jumps of one effect at
 
 **Acceptable.** A name is right if it is that of a concealed effect, or one of the alternatives that stand in the
 sealed truth (within 5 nats of evidence for whoever knows everything else; decided before anybody diagnosed). Each
-concealed effect is matched with at most one name. What a verdict itself lists as an alternative is no name: it counts only
-where that is said (`listed`, and the aim for ambiguous worlds).
+concealed effect is matched with at most one name. What a verdict itself lists as an alternative is no name: it counts
+only where that is said (`listed`, and the aim for ambiguous worlds).
 
-**Exact.** A set is exact if every concealed effect has an acceptable name and nothing else is said; an `unknown` beside
-them makes it inexact, too.
+**Exact.** A set is exact if every concealed effect has an acceptable name and nothing else is said; an `unknown`
+beside them makes it inexact, too.
 
 **Minor.** On most arms a name is a name, minor or not: a wrong minor name makes a set inexact. `exact_story` is the
-same without the wrong minor ones. Arms as real ones are have small effects everywhere, which the truth lists as minor: naming
-one of those is right, leaving it out is right, too; their set is exact if the effect that dominates is named and
+same without the wrong minor ones. Arms as real ones are have small effects everywhere, which the truth lists as minor:
+naming one of those is right, leaving it out is right, too; their set is exact if the effect that dominates is named and
 nothing that isn't concealed.
 
 **Outcome** of a concealed effect: `named` (its own name), `acceptable` (a sealed alternative), `listed` (only among
@@ -24,22 +24,23 @@ the alternatives of another name), `located` (another name, or `unknown`, at its
 at other places only), `cannot tell`, `missed` (nothing said). The aim counts the first two.
 
 **Found** on a power curve: `seen` means that the verdict holds any effect, right or wrong (false alarms on clean arms
-say what that is worth); `named` that its name is acceptable. The oracle knows which effect to test and uses one F test
-at 1 % false alarms. Sizes are in multiples of the size at which that oracle finds the effect in nine of ten cases in
-the same poses; so the 90 % point of the diagnosis's own curve is directly "times the oracle's threshold".
+say what that is worth); `right` that the effect has an acceptable name. The oracle knows which effect to test and uses
+one F test at 1 % false alarms. Sizes are in multiples of the size at which that oracle finds the effect in nine of ten
+cases in the same poses; so the 90 % point of the diagnosis's own curve is directly "times the oracle's threshold".
 
 **Coverage**: share of 95 % intervals that hold the true number, over the parameters of effects found under their own
-name in worlds whose inputs are right. Left out: numbers that the given masses make incomparable, scanned numbers (count of
-waves, time of a jump), which have no interval and are scored as right or wrong. Directions and phases are compared modulo
-what makes the same motion.
+name in worlds whose inputs are right. Left out: numbers that the given masses make incomparable, and scanned numbers
+(count of waves, time of a jump), which have no interval and are scored as right or wrong. Directions and phases are
+compared modulo what makes the same motion.
 
 **Held out**: RMS per axis between predicted and measured points on 100 rows whose readings the diagnosis never saw,
-divided by the RMS of the true model there (which is the noise). Fitting k numbers to N rows alone costs a factor of about
-sqrt(1 + k / 3 N).
+divided by the RMS of the true model there (which is the noise). Fitting k numbers to N rows alone costs a factor of
+about sqrt(1 + k / 3 N). The aim is met if the median world of those that hold nothing, one or several effects is.
 
 **Rates** come with exact binomial (Clopper-Pearson) 95 % intervals; intervals of one world hang together, which
-they don't allow for. An aim is `met` if the estimate reaches it, `open` if it does not but lies within the interval, `not
-met` if it lies outside, and `no evidence` without cases: worlds whose diagnosis failed count as wrong everywhere.
+they don't allow for. An aim is `met` if the estimate reaches it, `open` if it does not but lies within the interval,
+`not met` if it lies outside, and `too few cases` below ten: missing evidence is never a pass. Worlds whose diagnosis
+failed count as wrong everywhere.
 """
 
 from __future__ import annotations
@@ -60,6 +61,8 @@ RELIABLE = 0.9
 """Share of cases in which an effect of threshold size is found."""
 RIGHT_INPUTS = ("single", "multiple", "bad_shots", "faint", "inseparable", "real")
 """Categories in which what the diagnosis is told about the arm is right (as far as it is told)."""
+FEWEST_CASES = 10
+AXES_MM = ["x_mm", "y_mm", "z_mm"]
 SEEDS = ("fixed", "fresh", "all")
 
 
@@ -77,15 +80,14 @@ class Aim:
         text: as the aims say it.
         table: which table of cases it is counted in: worlds, effects, names or intervals.
         column: the column of that table that says right or wrong.
-        least, most: bounds of the rate.
+        bounds: the least and the most that the rate may be.
         among: which rows count.
     """
 
     text: str
     table: str
     column: str
-    least: float
-    most: float
+    bounds: tuple[float, float]
     among: Callable[[pd.DataFrame], pd.Series]
 
 
@@ -98,37 +100,40 @@ def _clear(name: str) -> Callable[[pd.DataFrame], pd.Series]:
 
 
 AIMS: tuple[Aim, ...] = (
-    Aim("no name on clean arms", "worlds", "silent", 0.99, 1.0, _category("clean")),
-    Aim("exact set of names, single effects at 3x the noise and above", "worlds", "exact", 0.95, 1.0, _clear("single")),
-    Aim("exact set of names, two to six effects at 3x and above", "worlds", "exact", 0.90, 1.0, _clear("multiple")),
+    Aim("no name on clean arms", "worlds", "silent", (0.99, 1.0), _category("clean")),
     Aim(
-        "location right whenever the name is", "names", "right", 1.0, 1.0,
+        "exact set of names, single effects at 3x the noise and above", "worlds", "exact", (0.95, 1.0), _clear("single")
+    ),
+    Aim("exact set of names, two to six effects at 3x and above", "worlds", "exact", (0.90, 1.0), _clear("multiple")),
+    Aim(
+        "location right whenever the name is", "names", "right", (1.0, 1.0),
         lambda rows: rows["effect_right"].astype(bool),
     ),
     Aim(
-        "95 % intervals hold the true number", "intervals", "covered", 0.93, 0.97,
+        "95 % intervals hold the true number", "intervals", "covered", (0.93, 0.97),
         lambda rows: rows["category"].isin(RIGHT_INPUTS) & rows["covered"].notna(),
     ),
-    Aim("outside the library: located and not misnamed", "worlds", "outside_right", 0.90, 1.0, _category("outside")),
+    Aim("outside the library: located and not misnamed", "worlds", "outside_right", (0.90, 1.0), _category("outside")),
     Aim(
-        "ambiguous: the truth among effects or alternatives", "effects", "among_all", 0.95, 1.0,
+        "ambiguous: the truth among effects or alternatives", "effects", "among_all", (0.95, 1.0),
         lambda rows: rows["ambiguous"].astype(bool) & ~rows["minor"].astype(bool),
     ),
     Aim(
         "held-out RMS within 5 % of the true model's (share of worlds; clean, single, multiple)", "worlds",
-        "held_out_close", 0.5, 1.0, lambda rows: rows["category"].isin(("clean", "single", "multiple")),
+        "held_out_close", (0.5, 1.0), lambda rows: rows["category"].isin(("clean", "single", "multiple")),
     ),
 )  # fmt: skip
 """Counted aims. Held-out RMS: met in the median world; the threshold of detection is fitted, see `power`."""
 
-THRESHOLD_AIM = 1.25
+THRESHOLD_AIM = (0.0, 1.25)
 """The 90 % point of the diagnosis in multiples of the oracle's."""
 
 
-def judged(estimate: float, low: float, high: float, least: float, most: float) -> str:
-    """"met", "open", "not met" or "no evidence" for an estimate with an interval, against bounds."""
-    if not np.isfinite(estimate):
-        return "no evidence"
+def judged(cases: int, estimate: float, low: float, high: float, aim: tuple[float, float]) -> str:
+    """ "met", "open", "not met" or "too few cases" for an estimate with an interval, against the aim's bounds."""
+    if cases < FEWEST_CASES or not np.isfinite(estimate):
+        return "too few cases"
+    least, most = aim
     if least <= estimate <= most:
         return "met"
     return "open" if low <= most and high >= least else "not met"

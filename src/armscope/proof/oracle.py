@@ -20,7 +20,7 @@ REPEATS = 400
 
 
 def power(noncentrality: float, columns: int, rows: int) -> float:
-    """Chance that the F test of ``columns`` numbers at 1 % false alarms finds an effect, in ``rows`` measured points."""
+    """Chance that an F test of ``columns`` numbers at 1 % false alarms finds an effect in ``rows`` measured points."""
     freedom = 3 * rows - FRAME_NUMBERS - columns
     critical = f.isf(FALSE_ALARMS_OF_ORACLE, columns, freedom)
     return float(ncf.sf(critical, columns, freedom, noncentrality))
@@ -66,6 +66,7 @@ def threshold(size: Array, found: NDArray[np.bool_], share: float, rng: np.rando
 
 def _logistic(x: Array, y: Array) -> tuple[float, float]:
     """Intercept and slope by maximum likelihood, the slope held in by a weak prior where the cases separate."""
+
     def loss(parameters: Array) -> tuple[float, Array]:
         a, b = parameters
         z = a + b * x

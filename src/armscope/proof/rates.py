@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
@@ -28,13 +29,24 @@ POWER_CATEGORIES = ("single", "faint")
 OUTCOMES = ("exact", "exact_story", "silent", "held_out_close")
 
 
-def rate(right: pd.Series) -> Row:
-    """cases, right, estimate, low, high of a column of right and wrong; NaN without cases."""
+@dataclass(frozen=True)
+class Rate:
+    """Cases, how many of them right, the share, and its 95 % interval; NaN without cases."""
+
+    cases: int
+    right: int | None
+    estimate: float
+    low: float
+    high: float
+
+
+def rate(right: pd.Series) -> Rate:
+    """The rate of a column of right and wrong, with its exact binomial interval."""
     cases, hits = len(right), int(right.astype(bool).sum())
     if cases == 0:
-        return {"cases": 0, "right": 0, "estimate": np.nan, "low": np.nan, "high": np.nan}
+        return Rate(0, 0, np.nan, np.nan, np.nan)
     interval = binomtest(hits, cases).proportion_ci(0.95)
-    return {"cases": cases, "right": hits, "estimate": hits / cases, "low": interval.low, "high": interval.high}
+    return Rate(cases, hits, hits / cases, float(interval.low), float(interval.high))
 
 
 def of_seeds(rows: pd.DataFrame, seeds: str) -> pd.DataFrame:
@@ -43,7 +55,7 @@ def of_seeds(rows: pd.DataFrame, seeds: str) -> pd.DataFrame:
 
 
 def aims_table(cases: Cases, rng: np.random.Generator) -> pd.DataFrame:
-    """Every aim for fixed, fresh and all worlds: aim, seeds, cases, right, estimate, low, high, least, most, verdict."""
+    """Every aim for fixed, fresh and all worlds, with its rate, interval, bounds and verdict."""
     tables = cases.tables()
     rows: list[Row] = []
     for aim in AIMS:
@@ -52,16 +64,17 @@ def aims_table(cases: Cases, rng: np.random.Generator) -> pd.DataFrame:
         for seeds in SEEDS:
             chosen = of_seeds(among, seeds)
             counted = rate(chosen[aim.column] if len(chosen) else pd.Series(dtype=bool))
-            verdict = judged(*(float(str(counted[k])) for k in ("estimate", "low", "high")), aim.least, aim.most)
-            rows.append({"aim": aim.text, "seeds": seeds, **counted, "least": aim.least, "most": aim.most, "verdict": verdict})
+            rows.append(_judged(aim.text, seeds, counted, aim.bounds))
     for seeds in SEEDS:
         found = detection_threshold(of_seeds(cases.effects, seeds), "seen", RELIABLE, rng)
-        verdict = judged(found.value, found.low, found.high, 0.0, THRESHOLD_AIM)
-        rows.append(
-            {"aim": THRESHOLD_TEXT, "seeds": seeds, "cases": found.cases, "estimate": found.value, "low": found.low}
-            | {"high": found.high, "least": 0.0, "most": THRESHOLD_AIM, "verdict": verdict}
-        )
+        counted = Rate(found.cases, None, found.value, found.low, found.high)
+        rows.append(_judged(THRESHOLD_TEXT, seeds, counted, THRESHOLD_AIM))
     return pd.DataFrame(rows)
+
+
+def _judged(aim: str, seeds: str, counted: Rate, bounds: tuple[float, float]) -> Row:
+    verdict = judged(counted.cases, counted.estimate, counted.low, counted.high, bounds)
+    return {"aim": aim, "seeds": seeds, **vars(counted), "least": bounds[0], "most": bounds[1], "verdict": verdict}
 
 
 def _powered(effects: pd.DataFrame) -> pd.DataFrame:
@@ -103,7 +116,9 @@ def power_table(effects: pd.DataFrame) -> pd.DataFrame:
             middle = float(np.exp(np.log(group["size_in_thresholds"]).mean()))
             for column in ("seen", "right"):
                 oracle = group["oracle_power"].mean()
-                rows.append({"seeds": seeds, "size": middle, "found": column, **rate(group[column]), "oracle": oracle})
+                rows.append(
+                    {"seeds": seeds, "size": middle, "found": column, **vars(rate(group[column])), "oracle": oracle}
+                )
     return pd.DataFrame(rows)
 
 
@@ -119,7 +134,13 @@ def strength_table(effects: pd.DataFrame) -> pd.DataFrame:
             for column in ("seen", "right"):
                 oracle = group["oracle_power"].mean()
                 rows.append(
-                    {"seeds": seeds, "strength": strength, "found": column, **rate(group[column]), "oracle": oracle}
+                    {
+                        "seeds": seeds,
+                        "strength": strength,
+                        "found": column,
+                        **vars(rate(group[column])),
+                        "oracle": oracle,
+                    }
                 )
     return pd.DataFrame(rows)
 
@@ -129,7 +150,7 @@ def per_effect_table(cases: Cases) -> pd.DataFrame:
     rows: list[Row] = []
     for seeds in SEEDS:
         for score, effect, right in _per_effect(cases, seeds):
-            rows.append({"effect": effect, "seeds": seeds, "score": score, **rate(right)})
+            rows.append({"effect": effect, "seeds": seeds, "score": score, **vars(rate(right))})
     return pd.DataFrame(rows)
 
 
@@ -164,7 +185,7 @@ def outcomes_table(cases: Cases) -> pd.DataFrame:
                 "nothing missing": group["answer"] == "nothing missing",
                 "failed": group["failed"] != "",
             }
-            rows += [{"category": category, "seeds": seeds, "score": s, **rate(v)} for s, v in scores.items()]
+            rows += [{"category": category, "seeds": seeds, "score": s, **vars(rate(v))} for s, v in scores.items()]
     return pd.DataFrame(rows)
 
 
@@ -175,7 +196,15 @@ def effect_outcomes_table(cases: Cases) -> pd.DataFrame:
     for seeds in SEEDS:
         for category, group in of_seeds(story, seeds).groupby("category", sort=False):
             for outcome, count in group["outcome"].value_counts().items():
-                rows.append({"category": category, "seeds": seeds, "outcome": outcome, "effects": count, "share": count / len(group)})
+                rows.append(
+                    {
+                        "category": category,
+                        "seeds": seeds,
+                        "outcome": outcome,
+                        "effects": count,
+                        "share": count / len(group),
+                    }
+                )
     return pd.DataFrame(rows)
 
 
@@ -206,7 +235,7 @@ def held_out_table(worlds: pd.DataFrame) -> pd.DataFrame:
 
 
 def confusion_table(cases: Cases) -> pd.DataFrame:
-    """Counts of (true effect, effect said) at 3x the noise and above where the inputs are right; acceptable names count as true."""
+    """Counts of (true effect, effect said) at 3x the noise and above with right inputs; acceptable names are true."""
     pairs = cases.pairs
     told = pairs["category"].isin((*RIGHT_INPUTS, "outside", "clean")) & ~pairs["category"].isin(("real", "faint"))
     clear = pairs["weakest"].isna() | (pairs["weakest"] >= CLEAR_STRENGTH)
@@ -224,7 +253,42 @@ def wrong_worlds(cases: Cases) -> pd.DataFrame:
     """Worlds that are not as they should be: what was concealed and what was said."""
     worlds = cases.worlds
     wrong = worlds[~worlds["exact"].astype(bool) | (worlds["failed"] != "")]
-    columns = ["world", "category", "fresh", "arm", "rows", "weakest", "left_out", "concealed", "said", "answer", "held_out_ratio", "failed"]
+    columns = [
+        "world",
+        "category",
+        "fresh",
+        "arm",
+        "rows",
+        "weakest",
+        "left_out",
+        "concealed",
+        "said",
+        "answer",
+        "held_out_ratio",
+        "failed",
+    ]
     return wrong[columns]
 
 
+def tables(cases: Cases, seed: int = 0) -> dict[str, pd.DataFrame]:
+    """All tables of a proof by name: the cases themselves and every rate.
+
+    Args:
+        cases: as `armscope.proof.scoring.score` returns them.
+        seed: of the bootstrap intervals of thresholds.
+    """
+    rng = np.random.default_rng(seed)
+    return cases.tables() | {
+        "aims": aims_table(cases, rng),
+        "per_effect": per_effect_table(cases),
+        "power": power_table(cases.effects),
+        "strength": strength_table(cases.effects),
+        "thresholds": thresholds_table(cases.effects, rng),
+        "outcomes": outcomes_table(cases),
+        "effect_outcomes": effect_outcomes_table(cases),
+        "outside": outside_table(cases),
+        "held_out": held_out_table(cases.worlds),
+        "confusion": confusion_table(cases),
+        "false_alarms": false_alarms(cases),
+        "wrong_worlds": wrong_worlds(cases),
+    }

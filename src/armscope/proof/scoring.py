@@ -9,13 +9,12 @@ import numpy as np
 import pandas as pd
 
 from armscope.proof.answers import Answer, Claim
-from armscope.proof.definitions import HELD_OUT_TOLERANCE, Name, place
+from armscope.proof.definitions import AXES_MM, HELD_OUT_TOLERANCE, Name, place
 from armscope.proof.intervals import compare
 from armscope.proof.matching import UNKNOWN, Match, among_all, distinct, match
 from armscope.proof.oracle import power, size_in_thresholds
 from armscope.proof.truth import Concealed, Truth
 
-AXES_MM = ["x_mm", "y_mm", "z_mm"]
 CANNOT_TELL, NOTHING = "cannot tell", "nothing"
 REAL = "real"
 
@@ -47,7 +46,9 @@ class Cases:
 
 def score(worlds: Iterable[World]) -> Cases:
     """Score every world."""
-    rows: dict[str, list[dict[str, object]]] = {name: [] for name in ("worlds", "effects", "names", "intervals", "pairs")}
+    rows: dict[str, list[dict[str, object]]] = {
+        name: [] for name in ("worlds", "effects", "names", "intervals", "pairs")
+    }
     for world in worlds:
         claims = distinct(world.answer.claims)
         matches, left = match(world.truth.effects, claims)
@@ -104,7 +105,7 @@ def _listed(names: Sequence[Name]) -> str:
 
 
 def held_out_ratio(truth: Truth, answer: Answer) -> float:
-    """RMS per axis of predicted minus measured on the test rows, in multiples of the true model's; infinite if failed."""
+    """RMS per axis of predicted minus measured test rows, in multiples of the true model's; infinite if failed."""
     if answer.predicted is None:
         return float("inf")
     off = answer.predicted[AXES_MM].to_numpy() - truth.test[AXES_MM].to_numpy()

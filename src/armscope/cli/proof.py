@@ -1,0 +1,113 @@
+"""The proof on concealed effects, step by step: worlds are made, diagnosed, unsealed, scored and shown."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+app = typer.Typer(no_args_is_help=True)
+
+Output = Annotated[Path, typer.Option("--output", "-o", help="where to write")]
+
+
+@app.command()
+def seed(
+    output: Output,
+    fixed: Annotated[int | None, typer.Option(help="this one; otherwise it is drawn from the system's entropy")] = None,
+) -> None:
+    """Draw the seed of the worlds that nobody can know beforehand, and record it."""
+    import secrets
+
+    from armscope.files import write_json
+
+    drawn = fixed is None
+    write_json(output, {"proof_seed": secrets.randbelow(2**31) if fixed is None else fixed, "drawn": drawn})
+
+
+@app.command()
+def worlds(
+    robots: Annotated[Path, typer.Argument(help="folder of the arms' descriptions")],
+    size: Annotated[str, typer.Option(help="small or full")],
+    half: Annotated[str, typer.Option(help="fixed or fresh seeds")],
+    part: Annotated[str, typer.Option(help="which part of how many, as in 0/4")],
+    visible: Annotated[Path, typer.Option(help="folder for what may be seen")],
+    sealed: Annotated[Path, typer.Option(help="archive for the truth")],
+    seed_file: Annotated[Path | None, typer.Option(help="as `armscope proof seed` writes it; for fresh seeds")] = None,
+) -> None:
+    """Make a batch of worlds: recordings with concealed effects, and the truth in an archive of its own."""
+    from armscope.proof.making import batch, make
+
+    number, _, parts = part.partition("/")
+    drawn = json.loads(seed_file.read_text(encoding="utf-8"))["proof_seed"] if seed_file else 0
+    chosen = batch(drawn, _size(size), half == "fresh", int(number), int(parts))
+    make(chosen, robots, visible, sealed)
+
+
+@app.command()
+def diagnose(
+    visible: Annotated[Path, typer.Argument(help="folder of worlds: robot.yaml and recordings.csv of each")],
+    output: Output,
+    resamples: Annotated[int, typer.Option(help="how often rows are resampled")] = 0,
+    cross_validation: Annotated[bool, typer.Option(help="whether each verdict is cross-validated")] = False,
+) -> None:
+    """Diagnose every world of a folder, each by its visible files alone."""
+    from armscope.diagnosis import Settings
+    from armscope.proof.diagnosing import diagnose_worlds
+
+    settings = Settings(resamples=resamples, cross_validation=cross_validation)
+    diagnose_worlds(sorted(path for path in visible.iterdir() if path.is_dir()), output, settings)
+
+
+@app.command()
+def score(
+    folder: Annotated[Path, typer.Argument(help="folder with visible, sealed, verdicts and seen")],
+    output: Output,
+) -> None:
+    """Unseal the truth, compare it with the verdicts, and write tables of cases and of rates."""
+    from armscope.files import write_table
+    from armscope.proof.rates import tables
+    from armscope.proof.reading import read_worlds
+    from armscope.proof.scoring import score as score_worlds
+
+    for name, table in tables(score_worlds(read_worlds(folder))).items():
+        write_table(output / f"{name}.csv", table, digits=6)
+
+
+@app.command()
+def figures(
+    tables: Annotated[Path, typer.Argument(help="folder of the tables that `armscope proof score` writes")],
+    output: Output,
+) -> None:
+    """Draw the proof: aims, power curves, confusions, scores per effect, outcomes, held-out rows."""
+    from armscope.report.proof_figures import draw_all
+    from armscope.report.style import save_figure
+
+    for name, figure in draw_all(tables).items():
+        save_figure(figure, output / name, formats=("png", "svg"))
+
+
+@app.command()
+def report(
+    tables: Annotated[Path, typer.Argument(help="folder of the tables")],
+    drawn: Annotated[Path, typer.Argument(help="folder of the figures")],
+    seed_file: Annotated[Path, typer.Argument(help="as `armscope proof seed` writes it")],
+    output: Output,
+    size: Annotated[str, typer.Option(help="small or full")] = "small",
+) -> None:
+    """One page: what the diagnosis finds, what it misses, and what it gets wrong."""
+    from armscope.report.proof_page import write_proof_page
+
+    write_proof_page(output, tables, drawn, json.loads(seed_file.read_text(encoding="utf-8")), _size(size))
+
+
+def _size(text: str) -> Literal["small", "full"]:
+    from armscope.inputs import InputError, nearest
+
+    if text == "small":
+        return "small"
+    if text == "full":
+        return "full"
+    raise InputError("--size", "", text, "a proof is small or full", nearest(text, ("small", "full")))

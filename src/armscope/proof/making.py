@@ -1,0 +1,43 @@
+"""Worlds made in batches: what may be seen in one tree, the truth sealed in an archive elsewhere."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from pathlib import Path
+from typing import Literal
+
+import pandas as pd
+
+from armscope.files import write_table
+from armscope.proof.definitions import AXES_MM
+from armscope.proof.truth import seal
+from armscope.world.catalogue import WorldSpec, catalogue
+from armscope.world.folder import build
+
+TEST_POSES = "test_poses.csv"
+
+
+def batch(proof_seed: int, size: Literal["small", "full"], fresh: bool, part: int, parts: int) -> list[WorldSpec]:
+    """Every ``parts``-th of the worlds with fixed, or with fresh seeds; ``part`` counts from 0."""
+    specs = [spec for spec in catalogue(proof_seed, size) if spec.fresh == fresh]
+    return specs[part::parts]
+
+
+def make(specs: list[WorldSpec], robots: Path, visible: Path, sealed: Path) -> None:
+    """Make worlds.
+
+    Args:
+        specs: which.
+        robots: folder of the arms' descriptions.
+        visible: new folder for robot.yaml, recordings.csv and test_poses.csv (poses without readings) of each world.
+        sealed: archive for the truth.
+    """
+    shutil.rmtree(visible, ignore_errors=True)
+    with tempfile.TemporaryDirectory() as made:
+        for spec in specs:
+            home = build(spec, Path(made), robots)
+            test = pd.read_csv(home / "sealed" / "test.csv", dtype=str, keep_default_na=False)
+            write_table(home / "visible" / TEST_POSES, test.drop(columns=AXES_MM))
+            shutil.copytree(home / "visible", visible / spec.id)
+        seal(Path(made), sealed)

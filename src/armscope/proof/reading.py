@@ -1,0 +1,53 @@
+"""A proof's folder read for scoring: this is where the truth is unsealed.
+
+visible/<batch>/<world>/   robot.yaml, recordings.csv, test_poses.csv
+sealed/<batch>.tar.gz      truth.yaml and test.csv of each world
+verdicts/<batch>/<world>/  what the diagnosis answered
+seen/<batch>.txt           the files that the diagnosing job could see
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pandas as pd
+
+from armscope.inputs import InputError
+from armscope.proof.answers import TIMES, read_answer
+from armscope.proof.scoring import World
+from armscope.proof.truth import unseal
+
+ALLOWED = {"robot.yaml", "recordings.csv", "test_poses.csv"}
+"""All that a diagnosing job may see of a world."""
+
+
+def read_worlds(folder: Path) -> Iterator[World]:
+    """Every world of a proof with its answer.
+
+    Raises:
+        InputError: a diagnosing job could see more than it may.
+    """
+    for archive in sorted((folder / "sealed").glob("*.tar.gz")):
+        batch = archive.name.removesuffix(".tar.gz")
+        check_seal(folder / "seen" / f"{batch}.txt")
+        verdicts = folder / "verdicts" / batch
+        seconds = pd.read_csv(verdicts / TIMES).set_index("world")["seconds"]
+        for world, truth in unseal(archive).items():
+            recorded = pd.read_csv(folder / "visible" / batch / world / "recordings.csv")
+            times = recorded.get("time_s")
+            yield World(truth, read_answer(verdicts / world), times, float(seconds[world]))
+
+
+def check_seal(seen: Path) -> None:
+    """Make sure that a diagnosing job saw nothing but what may be seen.
+
+    Raises:
+        InputError: the list holds another file.
+    """
+    files = seen.read_text(encoding="utf-8").splitlines()
+    if not files:
+        raise InputError(seen, "", "nothing", "the list says what the diagnosing job saw, its recordings at least")
+    for line in files:
+        if Path(line).name not in ALLOWED:
+            raise InputError(seen, "", line, f"a diagnosing job may see {', '.join(sorted(ALLOWED))} and nothing else")
