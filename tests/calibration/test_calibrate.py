@@ -8,8 +8,8 @@ import scipy.optimize
 
 from armscope.calibration import Priors, calibrate, held_out
 from armscope.calibration.geometry import columns, constants_of, corrected
-from armscope.calibration.held_out import split
 from armscope.calibration.model import set_up
+from armscope.calibration.splits import split
 from armscope.inputs import InputError
 from armscope.recordings import read_recordings
 from armscope.robot import chain, forward_kinematics, load_arm

@@ -102,6 +102,20 @@ def test_each_kind_weighs_as_much_as_its_noise_allows(world):
     assert error(3e-5, 5e-2, True) < 1.1 * error(3e-5, 5e-2, False)
 
 
+def test_orientations_are_left_out_where_they_make_positions_worse_and_this_is_said(world):
+    arm, real, base, rng = world
+    recordings = recorded(real, rng, poses(rng, 40, 6), base, 3e-4, 1e-5)
+    assert calibrate(arm, recordings).set_up.orientations is not None
+    # orientations that contradict positions: they turn about joint 3 by 5 mrad that no point moves by
+    axis = chain(real, recordings.motor_angles).joint_rotation[:, 2, :, 2] @ base[0].T
+    turned = Rotation.from_rotvec(5e-3 * axis) * Rotation.from_quat(recordings.orientation[:, [1, 2, 3, 0]])
+    spoilt = replace(recordings, orientation=np.roll(turned.as_quat(), 1, axis=1))
+    calibration = calibrate(arm, spoilt)
+    assert calibration.set_up.orientations is None
+    assert "orientations left out: held-out RMS distance" in calibration.text()
+    assert calibrate(arm, spoilt, orientation=True).set_up.orientations is not None
+
+
 def test_rows_without_orientation_still_count_by_their_position(world):
     arm, real, base, rng = world
     recordings = recorded(real, rng, poses(rng, 60, 6), base, 1e-5, 1e-5)

@@ -3,39 +3,32 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Literal
 
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from armscope.calibration.fit import Fitted, least_squares, placed, robust_least_squares, spread_of
-from armscope.calibration.identifiability import identifiable
+from armscope.calibration.fit import rms_distance, spread_of
 from armscope.calibration.model import Level, SetUp, State, set_up
+from armscope.calibration.solve import Priors, Redundancy, Solved, solve
+from armscope.calibration.splits import split
 from armscope.inputs import InputError
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
 Array = NDArray[np.float64]
-Redundancy = Literal["fixed", "priors"]
 SUSPECT_SIGMAS = 6.0
-WEIGHINGS = 3
-"""Fits with orientations: the weight of the first comes from the nominal arm, that of the next from the fit before."""
+DECIDING_SPLITS = 3
+"""Splits on which it is decided whether orientations help."""
 
+DECIDING_ROWS = 1000
+"""Rows to train on that are enough for this decision; long tables are thinned."""
 
-@dataclass(frozen=True)
-class Priors:
-    """1-sigma sizes by which redundant parameters are held near nominal, and the noise they are weighed against.
-
-    Defaults: those of the reference figures.
-    """
-
-    length: float = 3e-3
-    angle: float = 5e-3
-    compliance: float = 1e-3
-    noise: float = 1e-4
+HARM = 1.01
+"""Orientations are left out if they raise the held-out RMS of positions by more than this factor."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,6 +46,7 @@ class Calibration:
         reason: why the fit stopped.
         suspects: (N,) rows that look like bad shots: beyond six times the spread.
         ids: (N,) the rows' ids, "run: id".
+        note: why orientations were used or left out; empty where there are none.
     """
 
     level: Level
@@ -65,6 +59,7 @@ class Calibration:
     reason: str
     suspects: NDArray[np.bool_]
     ids: NDArray[np.str_]
+    note: str = ""
 
     @functools.cached_property
     def arm(self) -> Arm:
@@ -110,6 +105,8 @@ class Calibration:
             f"{self.set_up.arm.name}: {self.level} calibration on {n_rows} rows, {int(self.free.sum())} parameters",
             f"RMS of the 3D distance {self.rms_distance * 1e3:.4g} mm after {self.steps} steps; {self.reason}",
         ]
+        if self.note:
+            lines.append(self.note)
         if self.held:
             lines.append("held at nominal, not identifiable from these poses: " + ", ".join(self.held))
         if len(suspects):
@@ -119,11 +116,6 @@ class Calibration:
             shown = {"m": "mm", "rad": "mrad", "rad/(N m)": "mrad/(N m)"}[unit]
             lines.append(f"  {name:<28} {value * 1e3:12.5g} +- {error * 1e3:.2g} {shown}")
         return "\n".join(lines)
-
-
-def rms_distance(residuals: Array) -> float:
-    """Root mean square of the 3D distance of residuals (N, 3)."""
-    return float(np.sqrt(np.mean(np.sum(residuals**2, axis=1))))
 
 
 def calibrate(
@@ -136,7 +128,7 @@ def calibrate(
     robust: bool = False,
     one_base: bool = False,
     tool_per_run: bool = False,
-    orientation: bool = True,
+    orientation: bool | None = None,
 ) -> Calibration:
     """Fit base frames, tools and the arm's constants to measured positions, and orientations where there are any.
 
@@ -150,103 +142,86 @@ def calibrate(
         robust: take the say from bad shots (Tukey's biweight).
         one_base: one base frame for all runs.
         tool_per_run: a tool of its own for every run.
-        orientation: use measured orientations, each weighed by the scatter that positions and orientations show.
+        orientation: use measured orientations, weighed by the scatter that positions and orientations show; None uses
+            them unless positions of rows that took no part are then predicted worse, which happens where an arm errs
+            more in orientation than its constants can say.
 
     Raises:
         InputError: another number of motors than the arm's, or fewer measured numbers than parameters.
     """
     priors = priors or Priors()
-    rows = set_up(arm, recordings, one_base, tool_per_run, orientation)
-    start = placed(rows)
-    for _ in range(WEIGHINGS if rows.orientations is not None else 1):
-        rows = _weighed(rows, start)
-        free, stiffness = freedom(rows, start, level, redundancy, priors)
-        _require_rows(recordings, rows, free, redundancy)
-        fitted = fit(rows, start, free, stiffness, robust)
-        start = fitted.state
+
+    rows = set_up(arm, recordings, one_base, tool_per_run, orientation is not False)
+    without = replace(rows, orientations=None)
+
+    def solved_for(some: SetUp) -> Solved:
+        return solve(some, level, redundancy, priors, robust)
+
+    note = ""
+    if orientation is None and rows.orientations is not None:
+        helps, note = _orientation_helps(rows, without, recordings, solved_for)
+        rows = rows if helps else without
+    solved = solved_for(rows)
+    _require_rows(recordings, solved, redundancy)
+    rows, fitted = solved.rows, solved.fitted
     distance = np.linalg.norm(rows.residuals(fitted.state), axis=1)
     ids = [f"{run}: {name}" if run else name for run, name in zip(recordings.run, recordings.id, strict=True)]
     return Calibration(
         level=level,
         set_up=rows,
         state=fitted.state,
-        free=free,
+        free=solved.free,
         weights=fitted.weights,
-        covariance=_covariance(rows, fitted, free, stiffness),
+        covariance=_covariance(solved),
         steps=fitted.steps,
         reason=fitted.reason,
         suspects=distance > SUSPECT_SIGMAS * spread_of(distance),
         ids=np.array(ids),
+        note=note,
     )
 
 
-def _weighed(rows: SetUp, state: State) -> SetUp:
-    """The lever by which a turn counts as much as a shift: the ratio of their scatter, by medians."""
-    if rows.orientations is None:
-        return rows
-    known = np.isfinite(rows.orientations).all(axis=(1, 2))
-    shift = np.linalg.norm(rows.residuals(state), axis=1)
-    turn = np.linalg.norm(rows.turn_residuals(state)[known], axis=1)
-    return replace(rows, lever=spread_of(shift) / spread_of(turn))
+def _orientation_helps(
+    rows: SetUp, without: SetUp, recordings: Recordings, solved_for: Callable[[SetUp], Solved]
+) -> tuple[bool, str]:
+    """Whether positions of rows that took no part are predicted as well with orientations as without."""
+    found = []
+    for variant in (without, rows):
+        squares = []
+        for seed in range(DECIDING_SPLITS):
+            train, test = split(recordings, seed)
+            train = train[:: max(1, len(train) // DECIDING_ROWS)]
+            fitted = solved_for(variant.rows(train)).fitted
+            squares.append(rms_distance(without.rows(test).residuals(fitted.state)) ** 2)
+        found.append(1e3 * float(np.sqrt(np.mean(squares))))
+    helps = found[1] <= HARM * found[0]
+    said = f"held-out RMS distance {found[1]:.3g} mm with them, {found[0]:.3g} mm without"
+    return helps, f"orientations {'used' if helps else 'left out'}: {said}"
 
 
-def fit(rows: SetUp, start: State, free: NDArray[np.bool_], stiffness: Array, robust: bool = False) -> Fitted:
-    """Fit what is free from a start, with or without weights against bad shots."""
-    solver = robust_least_squares if robust else least_squares
-    return solver(rows, start, free, stiffness)
-
-
-def freedom(
-    rows: SetUp, start: State, level: Level, redundancy: Redundancy, priors: Priors
-) -> tuple[NDArray[np.bool_], Array]:
-    """Which parameters are fitted, and how stiffly they are held."""
-    free = rows.free(level)
-    if redundancy == "priors":
-        return free, _stiffness(rows, priors)
-    _, jacobian = rows.linearised(start, free)
-    chosen = free.copy()
-    chosen[free] = identifiable(jacobian, rows.tiers[free], _scales(rows)[free])
-    return chosen, np.zeros(len(free))
-
-
-def _stiffness(rows: SetUp, priors: Priors) -> Array:
-    sizes = {"m": priors.length, "rad": priors.angle, "rad/(N m)": priors.compliance}
-    stiffness = np.array([(priors.noise / sizes[unit]) ** 2 for unit in rows.units])
-    n_tool = 3 * len(rows.tool_names)
-    stiffness[: 6 * len(rows.base_names) + n_tool] = 0.0
-    stiffness[-n_tool:] = 0.0
-    return stiffness
-
-
-def _scales(rows: SetUp) -> Array:
-    """Sizes that make columns comparable: 1 m, and the angle that moves the tool by 1 m at full reach."""
-    load = 1.0 if rows.loads is None else max(float(np.sqrt(np.mean(rows.loads**2))), 1e-9)
-    size = {"m": 1.0, "rad": 1 / rows.arm.reach, "rad/(N m)": 1 / (rows.arm.reach * load)}
-    return np.array([size[unit] for unit in rows.units])
-
-
-def _require_rows(recordings: Recordings, rows: SetUp, free: NDArray[np.bool_], redundancy: Redundancy) -> None:
-    needed = int(free.sum())
-    if redundancy == "fixed" and 3 * len(rows) <= needed:
+def _require_rows(recordings: Recordings, solved: Solved, redundancy: Redundancy) -> None:
+    needed, n_rows = int(solved.free.sum()), len(solved.rows)
+    if redundancy == "fixed" and 3 * n_rows <= needed:
         raise InputError(
             recordings.source,
             "",
-            f"{len(rows)} rows",
+            f"{n_rows} rows",
             f"{needed} parameters need more than {needed // 3} measured points",
             "Measure more poses, or free fewer parameters (level nominal or offsets).",
         )
 
 
-def _covariance(rows: SetUp, fitted: Fitted, free: NDArray[np.bool_], stiffness: Array) -> Array:
+def _covariance(solved: Solved) -> Array:
     """Covariance of the fitted parameters, with the noise that the residuals show.
 
     Without weights sigma^2 (J'J + priors)^-1; with weights the sandwich of Huber (1981), which counts how the
     residuals of each row really scatter.
     """
-    residual, jacobian = rows.linearised(fitted.state, free)
-    per_row = len(residual) // len(rows)
+    fitted, free = solved.fitted, solved.free
+    residual, jacobian = solved.rows.linearised(fitted.state, free)
+    per_row = len(residual) // len(solved.rows)
     per_component = np.repeat(fitted.weights, per_row)
-    normal = (jacobian * per_component[:, None]).T @ jacobian + np.diag(stiffness[free])
+    normal = (jacobian * per_component[:, None]).T @ jacobian + np.diag(solved.stiffness[free])
     inverse = np.linalg.pinv(normal, hermitian=True, rcond=1e-15)
     freedom = max(len(residual) - int(free.sum()), 1)
     if np.all(fitted.weights == 1):

@@ -117,6 +117,11 @@ def robust_least_squares(
     return Fitted(fitted.state, fitted.weights, steps, fitted.reason)
 
 
+def rms_distance(residuals: Array) -> float:
+    """Root mean square of the 3D distance of residuals (N, 3)."""
+    return float(np.sqrt(np.mean(np.sum(residuals**2, axis=1))))
+
+
 def spread_of(distance: Array) -> float:
     """1-sigma per axis that the median 3D distance says, for normal errors; never zero."""
     return max(float(np.median(distance)) / 1.5382, 1e-9)

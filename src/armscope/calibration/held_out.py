@@ -6,16 +6,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from armscope.calibration.calibrate import Priors, Redundancy, fit, freedom, rms_distance
-from armscope.calibration.fit import placed
+from armscope.calibration.fit import placed, rms_distance
 from armscope.calibration.model import LEVELS, Level, set_up
+from armscope.calibration.solve import Priors, Redundancy, solve
+from armscope.calibration.splits import split
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-
-Array = NDArray[np.float64]
-TRAIN_SHARE = 0.7
 
 
 @dataclass(frozen=True)
@@ -39,22 +36,6 @@ class HeldOut:
     def median(self) -> float:
         """Median over the splits, m."""
         return float(np.median(self.per_split))
-
-
-def split(recordings: Recordings, seed: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Rows to train on and rows to test on: `default_rng(seed).permutation` of the configurations, 70 % to train on.
-
-    A configuration is an id within its run; all its targets stay together.
-    """
-    keys = np.char.add(np.char.add(recordings.run, "\n"), recordings.id)
-    _, first, number = np.unique(keys, return_index=True, return_inverse=True)
-    rank = np.empty_like(first)
-    rank[np.argsort(first)] = np.arange(len(first))
-    configuration = rank[number]
-    order = np.random.default_rng(seed).permutation(len(first))
-    train = order[: int(TRAIN_SHARE * len(first))]
-    in_train = np.isin(configuration, train)
-    return np.flatnonzero(in_train), np.flatnonzero(~in_train)
 
 
 def held_out(
@@ -88,7 +69,6 @@ def held_out(
         training, testing = rows.rows(train), rows.rows(test)
         start = placed(training)
         for level in levels:
-            free, stiffness = freedom(training, start, level, redundancy, priors or Priors())
-            fitted = fit(training, start, free, stiffness, robust)
-            found[level].append(rms_distance(testing.residuals(fitted.state)))
+            solved = solve(training, level, redundancy, priors or Priors(), robust, start)
+            found[level].append(rms_distance(testing.residuals(solved.fitted.state)))
     return [HeldOut(level, tuple(values)) for level, values in found.items()]

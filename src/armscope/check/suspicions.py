@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 from scipy.spatial.transform import Rotation
 
-from armscope.calibration.calibrate import rms_distance
-from armscope.calibration.fit import placed, robust_least_squares, spread_of
+from armscope.calibration.fit import placed, rms_distance, robust_least_squares, spread_of
 from armscope.calibration.model import SetUp, State, set_up
 from armscope.recordings import Recordings
 from armscope.robot import Arm

@@ -1,0 +1,104 @@
+"""One solution of a set-up: what is free, how redundant parameters are held, and how orientations weigh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.calibration.fit import Fitted, least_squares, placed, robust_least_squares, spread_of
+from armscope.calibration.identifiability import identifiable
+from armscope.calibration.model import Level, SetUp, State
+
+Array = NDArray[np.float64]
+Redundancy = Literal["fixed", "priors"]
+WEIGHINGS = 3
+"""Fits with orientations: the weight of the first comes from the nominal arm, that of the next from the fit before."""
+
+
+@dataclass(frozen=True)
+class Priors:
+    """1-sigma sizes by which redundant parameters are held near nominal, and the noise they are weighed against.
+
+    Defaults: those of the reference figures.
+    """
+
+    length: float = 3e-3
+    angle: float = 5e-3
+    compliance: float = 1e-3
+    noise: float = 1e-4
+
+
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """A set-up (with the lever that was found), its fit, what was free and how stiffly it was held."""
+
+    rows: SetUp
+    fitted: Fitted
+    free: NDArray[np.bool_]
+    stiffness: Array
+
+
+def solve(
+    rows: SetUp, level: Level, redundancy: Redundancy, priors: Priors, robust: bool = False, start: State | None = None
+) -> Solved:
+    """Fit a level to a set-up.
+
+    Args:
+        rows: measurements and frames.
+        level: what is free beyond base and tool.
+        redundancy: parameters that imitate each other are "fixed" at nominal until the rest can be told apart, or all
+            free and held by "priors".
+        priors: their sizes.
+        robust: take the say from bad shots.
+        start: of the fit; None places base and tools first.
+    """
+    solver = robust_least_squares if robust else least_squares
+    start = placed(rows) if start is None else start
+    for _ in range(WEIGHINGS if rows.orientations is not None else 1):
+        rows = _weighed(rows, start)
+        free, stiffness = _freedom(rows, start, level, redundancy, priors)
+        fitted = solver(rows, start, free, stiffness)
+        start = fitted.state
+    return Solved(rows, fitted, free, stiffness)
+
+
+def _weighed(rows: SetUp, state: State) -> SetUp:
+    """The lever by which a turn counts as much as a shift: the ratio of their scatter, by medians."""
+    if rows.orientations is None:
+        return rows
+    known = np.isfinite(rows.orientations).all(axis=(1, 2))
+    shift = np.linalg.norm(rows.residuals(state), axis=1)
+    turn = np.linalg.norm(rows.turn_residuals(state)[known], axis=1)
+    return replace(rows, lever=spread_of(shift) / spread_of(turn))
+
+
+def _freedom(
+    rows: SetUp, start: State, level: Level, redundancy: Redundancy, priors: Priors
+) -> tuple[NDArray[np.bool_], Array]:
+    """Which parameters are fitted, and how stiffly they are held."""
+    free = rows.free(level)
+    if redundancy == "priors":
+        return free, _stiffness(rows, priors)
+    _, jacobian = rows.linearised(start, free)
+    chosen = free.copy()
+    chosen[free] = identifiable(jacobian, rows.tiers[free], _scales(rows)[free])
+    return chosen, np.zeros(len(free))
+
+
+def _stiffness(rows: SetUp, priors: Priors) -> Array:
+    sizes = {"m": priors.length, "rad": priors.angle, "rad/(N m)": priors.compliance}
+    stiffness = np.array([(priors.noise / sizes[unit]) ** 2 for unit in rows.units])
+    n_tool = 3 * len(rows.tool_names)
+    stiffness[: 6 * len(rows.base_names) + n_tool] = 0.0
+    stiffness[-n_tool:] = 0.0
+    return stiffness
+
+
+def _scales(rows: SetUp) -> Array:
+    """Sizes that make columns comparable: 1 m, and the angle that moves the tool by 1 m at full reach."""
+    load = 1.0 if rows.loads is None else max(float(np.sqrt(np.mean(rows.loads**2))), 1e-9)
+    size = {"m": 1.0, "rad": 1 / rows.arm.reach, "rad/(N m)": 1 / (rows.arm.reach * load)}
+    return np.array([size[unit] for unit in rows.units])

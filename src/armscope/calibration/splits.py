@@ -1,0 +1,26 @@
+"""Configurations split at random into rows to train on and rows to test on."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.recordings import Recordings
+
+TRAIN_SHARE = 0.7
+
+
+def split(recordings: Recordings, seed: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Rows to train on and rows to test on: `default_rng(seed).permutation` of the configurations, 70 % to train on.
+
+    A configuration is an id within its run; all its targets stay together.
+    """
+    keys = np.char.add(np.char.add(recordings.run, "\n"), recordings.id)
+    _, first, number = np.unique(keys, return_index=True, return_inverse=True)
+    rank = np.empty_like(first)
+    rank[np.argsort(first)] = np.arange(len(first))
+    configuration = rank[number]
+    order = np.random.default_rng(seed).permutation(len(first))
+    train = order[: int(TRAIN_SHARE * len(first))]
+    in_train = np.isin(configuration, train)
+    return np.flatnonzero(in_train), np.flatnonzero(~in_train)
