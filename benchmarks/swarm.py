@@ -28,7 +28,7 @@ from swarm_peers import ITERATIONS, PARTICLES, PEERS, Fit, Runner
 
 from armscope.errormodels import PAPER_MODELS, FitProblem, fit_swarms, make_basis
 from armscope.swarm import spawn_generators
-from armscope.swarm.streams import draw_weights
+from armscope.swarm.streams import WeightStream
 
 KERNEL, NUMPY, RANDOM = "armscope kernel", "armscope NumPy", "random numbers alone (NumPy)"
 ONE_THREAD = {
@@ -119,11 +119,10 @@ def random_numbers(batch: list[FitProblem]) -> Callable[[int, int], np.ndarray]:
     dimensions = [problem.spec.features(problem.inputs).coefficients_per_axis for problem in batch]
 
     def run(model: int, seeds: int) -> np.ndarray:
-        side_by_side = 15
-        weights = np.empty((side_by_side, PARTICLES, dimensions[model], 2))
         for generators in np.array_split(np.array(spawn_generators(model, 3 * seeds)), max(1, seeds // 5)):
+            stream = WeightStream(generators, (PARTICLES, dimensions[model]))
             for _ in range(ITERATIONS):
-                draw_weights(list(generators), weights[: len(generators)])
+                stream.draw()
         return np.empty(0)
 
     return run

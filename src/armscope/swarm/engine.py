@@ -11,12 +11,12 @@ from numpy.typing import ArrayLike, NDArray
 from armscope.swarm.neighbourhoods import NEIGHBOURHOODS
 from armscope.swarm.result import StopReason, SwarmResult, final_reason
 from armscope.swarm.settings import SwarmSettings
-from armscope.swarm.streams import draw_weights
-from armscope.swarm.update import velocity_update
+from armscope.swarm.streams import WEIGHT_UNIT, WeightStream
+from armscope.swarm.update import Coefficients, velocity_update
 
 Array = NDArray[np.float64]
 
-CACHED_VALUES = 16384  # coordinates of a chunk's particles: its ten arrays then fit a megabyte or so
+CACHED_VALUES = 20000  # coordinates of a chunk's particles: its ten arrays then fit a megabyte or so
 
 
 class Objective(Protocol):
@@ -114,14 +114,14 @@ class _Chunk:
         count, dimensions = lower.shape
         shape = (count, settings.particles, dimensions)
         self.objective, self.settings = objective, settings
-        self.generators, self.swarms = list(generators), swarms
+        self.swarms = swarms
         self.speed_limit = None
         if settings.velocity_clamp is not None:
             self.speed_limit = settings.velocity_clamp * (upper - lower)[:, None, :]
         start = np.stack([generator.random(shape[1:]) for generator in generators])
         self.positions = lower[:, None, :] + (upper - lower)[:, None, :] * start
         self.velocities = np.zeros(shape)
-        self.weights = np.empty((*shape, 2))
+        self.stream = WeightStream(generators, shape[1:])
         self.bests = self.positions.copy()
         self.best_fitness = np.full(shape[:2], np.inf)
         self.rows = np.arange(count)  # where in the result each swarm still at work stands
@@ -146,18 +146,21 @@ class _Chunk:
         return self.result
 
     def _move(self, iteration: int) -> None:
-        draw_weights(self.generators, self.weights)
+        r1, r2 = self.stream.draw()
+        inertia, cognitive, social = self.settings.rule.coefficients(iteration - 1, self.settings.iterations)
         leaders = NEIGHBOURHOODS[self.settings.neighbourhood](self.best_fitness)
         neighbourhood_bests = self.bests[np.arange(len(leaders))[:, None], leaders]
-        self.velocities = velocity_update(
+        velocity_update(
             self.positions,
             self.velocities,
             self.bests,
             neighbourhood_bests,
-            self.weights[..., 0],
-            self.weights[..., 1],
-            self.settings.rule.coefficients(iteration - 1, self.settings.iterations),
+            r1,
+            r2,
+            # r1 and r2 come as whole numbers: their unit, a power of two, goes into the coefficients without rounding
+            Coefficients(inertia, cognitive * WEIGHT_UNIT, social * WEIGHT_UNIT),
             self.speed_limit,
+            out=self.velocities,
         )
         self.positions += self.velocities
 
@@ -169,17 +172,18 @@ class _Chunk:
         better = (fitness < self.best_fitness) & np.isfinite(fitness)
         gone: NDArray[np.bool_] = np.zeros(len(self.rows), dtype=bool)
         improved = np.flatnonzero(better)  # few in most iterations, so that going to each beats a mask over all
-        dimensions = self.positions.shape[2]
-        improvements = self.positions.reshape(-1, dimensions)[improved]
+        places = self.positions.reshape(-1, self.positions.shape[2])
+        improvements = places.take(improved, axis=0)
         if not (np.isfinite(fitness).all() and np.isfinite(improvements).all()):  # somebody may have left the numbers
             finite = np.isfinite(self.positions).all(axis=2)
             gone = np.logical_not(np.any(finite, axis=1))
             better &= finite
             improved = np.flatnonzero(better)
-            improvements = self.positions.reshape(-1, dimensions)[improved]
-        np.copyto(self.best_fitness, fitness, where=better)
-        self.bests.reshape(-1, dimensions)[improved] = improvements
-        swarm_best = self.best_fitness.min(axis=1)
+            improvements = places.take(improved, axis=0)
+        self.best_fitness.put(improved, fitness.take(improved))
+        whole_rows = np.dtype((np.void, places.strides[0]))  # numpy copies these several times faster than values
+        self.bests.reshape(places.shape).view(whole_rows).put(improved, improvements.view(whole_rows))
+        swarm_best = self.best_fitness[np.arange(len(self.rows)), self.best_fitness.argmin(axis=1)]
         self.result.history[self.rows, iteration] = swarm_best
         threshold = -np.inf if self.settings.threshold is None else self.settings.threshold
         reached: NDArray[np.bool_] = np.less(swarm_best, threshold)
@@ -191,8 +195,9 @@ class _Chunk:
         for row in np.flatnonzero(stopped):
             self._record(int(row), iteration, StopReason.THRESHOLD if reached[row] else StopReason.DIVERGED)
         at_work = ~stopped
-        self.generators = [g for g, stays in zip(self.generators, at_work, strict=True) if stays]
-        for name in ("swarms", "positions", "velocities", "weights", "bests", "best_fitness", "rows"):
+        remaining = [g for g, stays in zip(self.stream.generators, at_work, strict=True) if stays]
+        self.stream = WeightStream(remaining, self.positions.shape[1:])
+        for name in ("swarms", "positions", "velocities", "bests", "best_fitness", "rows"):
             setattr(self, name, getattr(self, name)[at_work])
         if self.speed_limit is not None:
             self.speed_limit = self.speed_limit[at_work]

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from armscope.swarm.least_squares import LeastSquares
 from armscope.swarm.result import StopReason, SwarmResult, final_reason
 from armscope.swarm.settings import SwarmSettings
-from armscope.swarm.streams import set_sfc64_states, sfc64_states
+from armscope.swarm.streams import WEIGHT_UNIT, set_sfc64_states, sfc64_states
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -31,7 +31,6 @@ ROW_BLOCK = 4  # rows of the triangular product that are computed in one loop
 # Unsigned, since indices that might be negative would keep numba's loops scalar.
 _NONE, _ONE, _TWO, _THREE, _FOUR, _FIVE = (np.uint64(k * LANES) for k in range(6))
 _UNIT = 2.0**-53  # numpy makes uniform doubles of a word's upper 53 bits
-_HALF_UNIT = 2.0**-32
 _LOWER_HALF, _HALF = np.uint64(2**32 - 1), np.uint64(32)
 _THRESHOLD, _DIVERGED, _OTHER = 0, 1, 2
 
@@ -237,9 +236,8 @@ def _move(
 
     SFC64 (C. Doty-Humphrey, PractRand; as in numpy) is drawn once per dimension, for both r1 and r2.
     """
-    # a power of two: the same bits as if r1 and r2 were divided by it (until positions come near the largest number)
-    cognitive *= _HALF_UNIT
-    social *= _HALF_UNIT
+    cognitive *= WEIGHT_UNIT
+    social *= WEIGHT_UNIT
     for _ in range(dimensions):
         for lane in range(lanes):
             a = stream[lane]

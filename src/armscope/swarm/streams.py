@@ -12,6 +12,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+WEIGHT_UNIT = 2.0**-32
+
 
 def spawn_generators(seed: int | Sequence[int] | np.random.SeedSequence, count: int) -> list[np.random.Generator]:
     """``count`` independent generators (SFC64, numpy's fastest), spawned from one seed; equal for equal seeds."""
@@ -19,12 +21,28 @@ def spawn_generators(seed: int | Sequence[int] | np.random.SeedSequence, count: 
     return [np.random.Generator(np.random.SFC64(child)) for child in sequence.spawn(count)]
 
 
-def draw_weights(generators: Sequence[np.random.Generator], weights: NDArray[np.float64]) -> None:
-    """Fill ``weights`` (swarms x particles x dimensions x 2) with (r1, r2) in [0, 1) for one iteration of each."""
-    words = np.empty((len(weights), weights[0].size // 2), dtype="<u8")
-    for row, generator in enumerate(generators):
-        words[row] = _words(generator, words.shape[1])
-    np.multiply(words.view("<u4").reshape(weights.shape), 2.0**-32, out=weights)
+class WeightStream:
+    """The weights r1 and r2 of several swarms, drawn iteration by iteration from their generators into one memory.
+
+    Args:
+        generators: one per swarm, of any kind.
+        shape: particles and dimensions.
+    """
+
+    def __init__(self, generators: Sequence[np.random.Generator], shape: tuple[int, int]) -> None:
+        self.generators = list(generators)
+        whole = (len(self.generators), *shape)
+        self._words = np.empty((len(self.generators), shape[0] * shape[1]), dtype="<u8")
+        self._halves = self._words.view("<u4").reshape(*whole, 2)
+        self._r1, self._r2 = np.empty(whole), np.empty(whole)
+
+    def draw(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """r1 and r2 of the next iteration, swarms x particles x dimensions, in units of `WEIGHT_UNIT`."""
+        for row, generator in enumerate(self.generators):
+            self._words[row] = _words(generator, self._words.shape[1])
+        np.copyto(self._r1, self._halves[..., 0])
+        np.copyto(self._r2, self._halves[..., 1])
+        return self._r1, self._r2
 
 
 def _words(generator: np.random.Generator, count: int) -> NDArray[np.uint64]:

@@ -29,6 +29,7 @@ def velocity_update(
     r2: Array,
     coefficients: Coefficients,
     speed_limit: Array | float | None = None,
+    out: Array | None = None,
 ) -> Array:
     """The velocities of the next iteration, for each particle and each dimension by itself.
 
@@ -36,7 +37,7 @@ def velocity_update(
 
     with the particle's position x, the best position p that it has seen, and the best position g that its
     neighbourhood has seen. With w = 1 and c1 = c2 = 2.05 this is the formula of Alici et al. (2006), section 5, as
-    printed. All arrays broadcast against ``positions`` (... x particles x dimensions); nothing passed in is changed.
+    printed. All arrays broadcast against ``positions`` (... x particles x dimensions); nothing is changed but ``out``.
 
     Args:
         positions: x(t).
@@ -46,18 +47,19 @@ def velocity_update(
         r1, r2: uniform random numbers in [0, 1), one for each particle and dimension.
         coefficients: w, c1 and c2.
         speed_limit: the largest |v(t+1)| allowed in each dimension; None allows any.
+        out: where to put the result, which saves memory traffic; it may be ``velocities``.
     """
-    own_pull = personal_bests - positions
-    own_pull *= r1
-    own_pull *= coefficients.cognitive
-    social_pull = neighbourhood_bests - positions
-    social_pull *= r2
-    social_pull *= coefficients.social
-    updated = velocities * coefficients.inertia
-    updated += own_pull
-    updated += social_pull
+    updated = np.multiply(velocities, coefficients.inertia, out=out)
+    pull = personal_bests - positions
+    pull *= r1
+    pull *= coefficients.cognitive
+    updated += pull
+    np.subtract(neighbourhood_bests, positions, out=pull)
+    pull *= r2
+    pull *= coefficients.social
+    updated += pull
     if speed_limit is not None:
-        updated = np.clip(updated, -np.asarray(speed_limit), speed_limit)
+        np.clip(updated, -np.asarray(speed_limit), speed_limit, out=updated)
     return updated
 
 
