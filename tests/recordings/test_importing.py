@@ -1,6 +1,8 @@
 """Raw files become the table that they say they are, or one clear error."""
 
 import gzip
+import tempfile
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -8,12 +10,16 @@ import pandas as pd
 import pytest
 import scipy.io
 import yaml
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from armscope.inputs import InputError
 from armscope.recordings import read_recordings
 from armscope.recordings.fetching import fetch_recordings
 from armscope.recordings.importing import import_recordings
+from armscope.recordings.mapping import TextFormat
+from armscope.recordings.rawfiles import read_pieces
 
 ROOT = Path(__file__).parents[2]
 SHARED = ROOT.parent / "shared" / "recordings"
@@ -229,6 +235,53 @@ def test_the_table_that_comes_out_is_one_that_the_reader_takes(tmp_path):
     np.testing.assert_allclose(recordings.orientation, [[0.8, 0.6, 0, 0]])
 
 
+@settings(max_examples=40, deadline=None)
+@given(
+    seed=st.integers(0, 10_000),
+    delimiter=st.sampled_from([",", ";", "tab", "|"]),
+    decimal=st.sampled_from([".", ","]),
+    angle=st.sampled_from(["rad", "deg"]),
+    length=st.sampled_from(["mm", "m"]),
+    by_number=st.booleans(),
+    packed=st.booleans(),
+)
+def test_whatever_way_a_table_is_written_it_comes_back(seed, delimiter, decimal, angle, length, by_number, packed):
+    if delimiter == decimal:
+        return
+    rng = np.random.default_rng(seed)
+    values = np.column_stack([rng.uniform(-3, 3, (7, 2)), rng.uniform(-5, 5, (7, 3))])
+    order = rng.permutation(5)
+    shown = values * [*[{"rad": 1, "deg": 180 / np.pi}[angle]] * 2, *[{"m": 1, "mm": 1e3}[length]] * 3]
+    names, sign = np.array(["j1", "j2", "x", "y", "z"])[order], {"tab": "\t"}.get(delimiter, delimiter)
+    lines = [sign.join(names)] + [sign.join(repr(float(v)).replace(".", decimal) for v in row[order]) for row in shown]
+    column = {name: (int(np.flatnonzero(names == name)[0]) + 1 if by_number else name) for name in names.tolist()}
+    mapping = {
+        "format": {"delimiter": delimiter, "decimal": decimal},
+        "columns": {
+            "angles": {"columns": [column["j1"], column["j2"]], "unit": angle},
+            "position": {"columns": [column[axis] for axis in "xyz"], "unit": length},
+        },
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        raw = Path(folder) / ("raw.csv.gz" if packed else "raw.csv")
+        text = "\n".join(lines).encode()
+        raw.write_bytes(gzip.compress(text) if packed else text)
+        convert_files(Path(folder), [raw], mapping)
+        back = read_recordings(Path(folder) / "out.csv")
+    np.testing.assert_allclose(back.motor_angles, values[:, :2], rtol=1e-9)
+    np.testing.assert_allclose(back.positions, values[:, 2:], rtol=1e-9)
+
+
+def test_a_long_file_is_read_piece_by_piece(tmp_path, monkeypatch):
+    monkeypatch.setattr("armscope.recordings.rawfiles.ROWS_PER_PIECE", 10)
+    (tmp_path / "raw.csv").write_text("a,b\n" + "1,2\n" * 25 + "cut")
+    pieces = read_pieces(tmp_path / "raw.csv", TextFormat(), Counter())
+    assert len(next(pieces)) == 10  # before the broken end is reached
+    assert next(pieces).numbers_of_rows[0] == 11
+    with pytest.raises(InputError, match=r"line 27.*cut off"):
+        next(pieces)
+
+
 # ---- orientations
 
 
@@ -357,6 +410,16 @@ def test_a_raw_file_that_no_run_wants_is_named(tmp_path):
     mapping = SIMPLE | {"runs": [{"run": "a", "file": "a.csv"}]}
     with pytest.raises(InputError, match=r"b\.csv.*no run"):
         convert(tmp_path, {"a.csv": "j1,j2,x,y,z\n0,0,1,2,3\n", "b.csv": ""}, mapping)
+    with pytest.raises(InputError, match="Name the runs"):
+        convert(tmp_path, {"a.csv": "", "a.txt": ""}, SIMPLE)
+
+
+def test_a_broken_archive_is_one_clear_error(tmp_path):
+    whole = gzip.compress(b"j1,j2,x,y,z\n0,0,1,2,3\n" * 50)
+    for content in (whole[: len(whole) // 2], b"j1,j2,x,y,z\n0,0,1,2,3\n"):
+        (tmp_path / "raw.csv.gz").write_bytes(content)
+        with pytest.raises(InputError, match="plain or gzipped"):
+            convert_files(tmp_path, [tmp_path / "raw.csv.gz"], SIMPLE)
 
 
 def test_text_that_is_not_utf8_asks_for_its_encoding_and_is_read_with_it(tmp_path):

@@ -329,7 +329,12 @@ def runs_for(mapping: Mapping, raw_files: list[Path], source: Path | str) -> lis
             source, "raw files", twice, "two raw files have this name, so the mapping can't tell them apart"
         )
     if not mapping.runs:
-        return [(Run(run=path.stem, file=path.name), {path.name: path}) for path in raw_files]
+        stems = [Path(path.name.removesuffix(".gz")).stem for path in raw_files]
+        shared = next((stem for stem in stems if stems.count(stem) > 1), None)
+        if shared is not None:
+            rule = "runs are named by their files' stems, and two files have this one"
+            raise InputError(source, "raw files", shared, rule, "Name the runs in the mapping: `runs`.")
+        return [(Run(run=stem, file=path.name), {path.name: path}) for stem, path in zip(stems, raw_files, strict=True)]
     wanted = [(run, [run.file, *(beside.file for beside in run.beside)]) for run in mapping.runs]
     for run, names in wanted:
         for name in names:

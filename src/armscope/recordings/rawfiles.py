@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import csv
+import gzip
+import zlib
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -205,8 +207,9 @@ def _refuse_pickles(path: Path) -> None:
 
 
 def _read_text(path: Path, style: TextFormat, notes: Counter[str]) -> Iterator[TextRows]:
+    opener = gzip.open if path.suffix == ".gz" else open
     try:
-        with path.open(encoding=style.encoding, newline="") as stream:
+        with opener(path, "rt", encoding=style.encoding, newline="") as stream:
             rows = _split(stream, style)
             yield from _gather(path, style, rows, notes)
     except LookupError as error:
@@ -214,8 +217,8 @@ def _read_text(path: Path, style: TextFormat, notes: Counter[str]) -> Iterator[T
     except UnicodeError as error:
         rule = f"the text is not {style.encoding.removesuffix('-sig')}"
         raise InputError(path, "", str(error), rule, "Declare `encoding` in the mapping, e.g. latin-1.") from error
-    except csv.Error as error:
-        raise InputError(path, "", str(error), "this must be delimited text") from error
+    except (csv.Error, EOFError, zlib.error, gzip.BadGzipFile) as error:
+        raise InputError(path, "", str(error), "this must be delimited text, plain or gzipped") from error
 
 
 def _split(stream: Iterator[str], style: TextFormat) -> Iterator[tuple[int, list[str]]]:
@@ -267,7 +270,7 @@ def _gather(
 
 
 def _why_ragged(style: TextFormat, row: list[str], width: int) -> str:
-    if len(row) == 1 and width > 1:
+    if len(row) == 1 and any(sign in row[0] for sign in ",;\t| "):
         return f"Is its delimiter really {style.delimiter!r}?"
     if style.delimiter == "," and len(row) > width:
         return "A decimal comma splits a number in two where the delimiter is a comma as well."
