@@ -5,7 +5,7 @@ that alternates; CPU time; the ratio within each round; its median over the roun
 library counts only on the models where its final fitness equals ours (its excess over least squares within one
 percentage point). Slow libraries run a stated share of the seeds, and their time is scaled.
 
-    python benchmarks/swarm.py [--rounds 5] [--seeds 100]
+    python -m benchmarks.swarm [--rounds 5] [--seeds 100]
 
 Needs armscope and whatever of requirements-benchmark.txt is installed; a missing library is reported as missing. Ends
 with 1 if a target is missed.
@@ -24,7 +24,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from swarm_peers import ITERATIONS, PARTICLES, PEERS, Fit, Runner
+from benchmarks.swarm_peers import ITERATIONS, PARTICLES, PEERS, Fit, Runner
 
 from armscope.errormodels import PAPER_MODELS, FitProblem, fit_swarms, make_basis
 from armscope.swarm import spawn_generators
@@ -39,6 +39,7 @@ ONE_THREAD = {
     "XLA_FLAGS": "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1",
     "JAX_PLATFORMS": "cpu",
 }
+THIS = [sys.executable, "-m", "benchmarks.swarm"]
 EQUAL_WITHIN = 1.0  # percentage points of excess over least squares
 PEAK_MB = 500
 
@@ -172,7 +173,7 @@ def spread(values: np.ndarray) -> str:
 
 def peak_memory(engine: str, seeds: int) -> tuple[float, float]:
     """Peak memory in MB of a process that runs our whole batch, and what the imports alone take."""
-    command = [sys.executable, __file__, "--memory-of", engine, "--seeds", str(seeds)]
+    command = [*THIS, "--memory-of", engine, "--seeds", str(seeds)]
     out = subprocess.run(command, check=True, capture_output=True, text=True).stdout.split()
     return float(out[0]), float(out[1])
 
@@ -235,7 +236,7 @@ def main() -> int:
     options = parser.parse_args()
     if any(os.environ.get(name) != value for name, value in ONE_THREAD.items()):
         os.environ.update(ONE_THREAD)  # libraries read these while they are imported: start again
-        os.execv(sys.executable, [sys.executable, *sys.argv])
+        os.execv(sys.executable, [*THIS, *sys.argv[1:]])
     os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
     warnings.simplefilter("ignore")
     if options.memory_of:

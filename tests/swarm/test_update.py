@@ -56,12 +56,11 @@ def test_the_clamp_limits_speed_in_both_directions_and_nothing_else():
     assert updated[0, 0].tolist() == [-1.0, -0.2, 0.2, 2.0]
 
 
-def test_clercs_factor_solves_the_equation_it_comes_from():
-    # chi is the modulus of the eigenvalues of the constricted, deterministic recurrence at phi = c1 + c2: their product
-    # is chi, and for phi = 4.1 the smaller root of lambda^2 + (phi - 2) lambda + 1 = 0 is -1/chi ... checked directly
-    phi = 4.1
-    roots = np.roots([1.0, phi - 2.0, 1.0])
-    assert clerc_constriction(2.05, 2.05) == pytest.approx(1.0 / np.abs(roots).max(), rel=1e-14)
+def test_clercs_factor_undoes_the_growth_of_the_unconstricted_swarm():
+    # unconstricted, without randomness and with p = g, a swarm's recurrence has the characteristic polynomial
+    # lambda^2 + (phi - 2) lambda + 1: it grows by its larger root in each iteration, and the factor undoes just that
+    growth = np.abs(np.roots([1.0, 4.1 - 2.0, 1.0])).max()
+    assert clerc_constriction(2.05, 2.05) == pytest.approx(1.0 / growth, rel=1e-14)
     assert clerc_constriction(2.05, 2.05) == pytest.approx(0.729843788, abs=1e-9)
 
 
