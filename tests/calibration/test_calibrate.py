@@ -189,6 +189,7 @@ def test_a_split_keeps_the_targets_of_a_configuration_together_and_follows_the_p
     assert not set(recordings.id[train]) & set(recordings.id[test])
 
 
+@pytest.mark.shared
 @pytest.mark.parametrize(
     ("name", "run", "seeds", "reference"),
     [

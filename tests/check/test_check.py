@@ -144,6 +144,7 @@ def test_joints_beyond_their_limits_are_counted(sound):
     assert f"joint 6 is outside its limits in {beyond} rows" in check(sound, arm).text()
 
 
+@pytest.mark.shared
 @pytest.mark.parametrize("name", ["ur10-ipa", "iiwa7-payload", "ma1400-leica", "irb120-offsets", "panda-charuco"])
 def test_real_tables_have_no_problems_and_their_mistakes_are_still_named(name):
     if not SHARED.is_dir():

@@ -58,6 +58,7 @@ def with_columns(**groups):
 # ---- the real sets
 
 
+@pytest.mark.shared
 @pytest.mark.parametrize("name", ["ur10-ipa", "iiwa7-payload", "ma1400-leica", "irb120-offsets"])
 def test_a_real_set_converts_to_the_reference_table_within_its_rounding(name, tmp_path):
     if not SHARED.is_dir():
