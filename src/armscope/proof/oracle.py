@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq, minimize
-from scipy.special import expit
-from scipy.stats import f, ncf
+from scipy.special import expit, ncfdtr
+from scipy.stats import f
 
 from armscope.proof.definitions import FALSE_ALARMS_OF_ORACLE, RELIABLE
 
@@ -17,13 +17,14 @@ Array = NDArray[np.float64]
 FRAME_NUMBERS = 9
 """Base (6) and tool point (3), which the oracle fits, too."""
 REPEATS = 400
+LARGEST_EXPONENT = 20.0
 
 
 def power(noncentrality: float, columns: int, rows: int) -> float:
     """Chance that an F test of ``columns`` numbers at 1 % false alarms finds an effect in ``rows`` measured points."""
     freedom = 3 * rows - FRAME_NUMBERS - columns
     critical = f.isf(FALSE_ALARMS_OF_ORACLE, columns, freedom)
-    return float(ncf.sf(critical, columns, freedom, noncentrality))
+    return float(1 - ncfdtr(columns, freedom, noncentrality, critical))
 
 
 def reliable_noncentrality(columns: int, rows: int, share: float = RELIABLE) -> float:
@@ -60,7 +61,7 @@ def threshold(size: Array, found: NDArray[np.bool_], share: float, rng: np.rando
     x, y = np.log(size), found.astype(float)
     draws = [rng.integers(0, len(x), len(x)) for _ in range(REPEATS)]
     values = [_read_off(*_logistic(x[rows], y[rows]), share) for rows in draws if 0 < y[rows].mean() < 1]
-    low, high = np.quantile(values, (0.025, 0.975))
+    low, high = np.quantile(values, (0.025, 0.975), method="inverted_cdf")
     return Threshold(_read_off(*_logistic(x, y), share), float(low), float(high), len(size))
 
 
@@ -80,4 +81,6 @@ def _logistic(x: Array, y: Array) -> tuple[float, float]:
 
 
 def _read_off(intercept: float, slope: float, share: float) -> float:
-    return float(np.exp((np.log(share / (1 - share)) - intercept) / slope)) if slope > 0 else float("nan")
+    """Infinite where the curve never gets there."""
+    exponent = (np.log(share / (1 - share)) - intercept) / slope if slope > 0 else np.inf
+    return float(np.exp(exponent)) if exponent < LARGEST_EXPONENT else float("inf")

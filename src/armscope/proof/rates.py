@@ -29,6 +29,9 @@ POWER_CATEGORIES = ("single", "faint")
 OUTCOMES = ("exact", "exact_story", "silent", "held_out_close")
 
 
+RATE = ("cases", "right", "estimate", "low", "high")
+
+
 @dataclass(frozen=True)
 class Rate:
     """Cases, how many of them right, the share, and its 95 % interval; NaN without cases."""
@@ -51,7 +54,7 @@ def rate(right: pd.Series) -> Rate:
 
 def of_seeds(rows: pd.DataFrame, seeds: str) -> pd.DataFrame:
     """The rows of fixed, fresh or all worlds."""
-    return rows if seeds == "all" or rows.empty else rows[rows["fresh"] == (seeds == "fresh")]
+    return rows if seeds == "all" else rows[rows["fresh"] == (seeds == "fresh")]
 
 
 def aims_table(cases: Cases, rng: np.random.Generator) -> pd.DataFrame:
@@ -60,10 +63,10 @@ def aims_table(cases: Cases, rng: np.random.Generator) -> pd.DataFrame:
     rows: list[Row] = []
     for aim in AIMS:
         among = tables[aim.table]
-        among = among[aim.among(among)] if len(among) else among
+        among = among[aim.among(among)]
         for seeds in SEEDS:
             chosen = of_seeds(among, seeds)
-            counted = rate(chosen[aim.column] if len(chosen) else pd.Series(dtype=bool))
+            counted = rate(chosen[aim.column])
             rows.append(_judged(aim.text, seeds, counted, aim.bounds))
     for seeds in SEEDS:
         found = detection_threshold(of_seeds(cases.effects, seeds), "seen", RELIABLE, rng)
@@ -79,8 +82,6 @@ def _judged(aim: str, seeds: str, counted: Rate, bounds: tuple[float, float]) ->
 
 def _powered(effects: pd.DataFrame) -> pd.DataFrame:
     """Effects that stood alone in a world with right inputs, sized against the oracle."""
-    if effects.empty:
-        return effects
     alone = effects["category"].isin(POWER_CATEGORIES) & ~effects["minor"].astype(bool)
     single = effects[alone & (effects["size_in_thresholds"] > 0)]
     return single[~single["world"].duplicated(keep=False)]
@@ -89,9 +90,9 @@ def _powered(effects: pd.DataFrame) -> pd.DataFrame:
 def detection_threshold(effects: pd.DataFrame, column: str, share: float, rng: np.random.Generator) -> Threshold:
     """Where on the scale of the oracle's thresholds that share is found."""
     chosen = _powered(effects)
-    if chosen.empty:
-        return Threshold(np.nan, np.nan, np.nan, 0)
-    return threshold(chosen["size_in_thresholds"].to_numpy(), chosen[column].to_numpy(dtype=bool), share, rng)
+    return threshold(
+        chosen["size_in_thresholds"].to_numpy(dtype=float), chosen[column].to_numpy(dtype=bool), share, rng
+    )
 
 
 def thresholds_table(effects: pd.DataFrame, rng: np.random.Generator) -> pd.DataFrame:
@@ -106,43 +107,31 @@ def thresholds_table(effects: pd.DataFrame, rng: np.random.Generator) -> pd.Data
 
 
 def power_table(effects: pd.DataFrame) -> pd.DataFrame:
-    """Share seen and named over bins of size: seeds, middle, found, cases, right, estimate, low, high, oracle."""
-    rows: list[Row] = []
-    for seeds in SEEDS:
-        chosen = _powered(of_seeds(effects, seeds))
-        if chosen.empty:
-            continue
-        for _, group in chosen.groupby(pd.cut(chosen["size_in_thresholds"], POWER_BINS), observed=True):
-            middle = float(np.exp(np.log(group["size_in_thresholds"]).mean()))
-            for column in ("seen", "right"):
-                oracle = group["oracle_power"].mean()
-                rows.append(
-                    {"seeds": seeds, "size": middle, "found": column, **vars(rate(group[column])), "oracle": oracle}
-                )
-    return pd.DataFrame(rows)
+    """Share seen and named over `size`, in multiples of the oracle's threshold; see `_found_over`."""
+    alone = _powered(effects)
+    size = alone["size_in_thresholds"].astype(float)
+    bins = pd.cut(size, POWER_BINS)
+    middles = np.exp(np.log(size).groupby(bins, observed=True).transform("mean"))
+    return _found_over(alone, "size", middles)
 
 
 def strength_table(effects: pd.DataFrame) -> pd.DataFrame:
-    """Share seen and named over strength (RMS at the tool / noise) of effects that stand alone."""
-    single = effects[effects["category"] == "single"] if len(effects) else effects
+    """Share seen and named over `strength` (RMS at the tool / noise); see `_found_over`."""
+    alone = _powered(effects[effects["category"] == "single"])
+    return _found_over(alone, "strength", alone["strength"].astype(float).round(1))
+
+
+def _found_over(effects: pd.DataFrame, name: str, over: pd.Series) -> pd.DataFrame:
+    """By seeds and ``over``: found (seen, right), its rate, and how often the oracle finds it."""
     rows: list[Row] = []
     for seeds in SEEDS:
-        chosen = _powered(of_seeds(single, seeds))
-        if chosen.empty:
-            continue
-        for strength, group in chosen.groupby(chosen["strength"].round(1)):
+        chosen = of_seeds(effects, seeds)
+        for at, group in chosen.groupby(over.loc[chosen.index]):
             for column in ("seen", "right"):
-                oracle = group["oracle_power"].mean()
-                rows.append(
-                    {
-                        "seeds": seeds,
-                        "strength": strength,
-                        "found": column,
-                        **vars(rate(group[column])),
-                        "oracle": oracle,
-                    }
-                )
-    return pd.DataFrame(rows)
+                counted = vars(rate(group[column])) | {"oracle": group["oracle_power"].mean()}
+                rows.append({"seeds": seeds, name: at, "found": column} | counted)
+    columns = ["seeds", name, "found", "cases", "right", "estimate", "low", "high", "oracle"]
+    return pd.DataFrame(rows, columns=columns)
 
 
 def per_effect_table(cases: Cases) -> pd.DataFrame:
@@ -151,27 +140,23 @@ def per_effect_table(cases: Cases) -> pd.DataFrame:
     for seeds in SEEDS:
         for score, effect, right in _per_effect(cases, seeds):
             rows.append({"effect": effect, "seeds": seeds, "score": score, **vars(rate(right))})
-    return pd.DataFrame(rows)
+    return pd.DataFrame(rows, columns=["effect", "seeds", "score", *RATE])
 
 
 def _per_effect(cases: Cases, seeds: str) -> Iterator[tuple[str, str, pd.Series]]:
     effects, names, intervals = (of_seeds(t, seeds) for t in (cases.effects, cases.names, cases.intervals))
-    if len(effects):
-        story = ~effects["minor"].astype(bool) & (effects["strength"] >= CLEAR_STRENGTH)
-        told = effects["category"].isin((*RIGHT_INPUTS, "outside"))
-        for effect, group in effects[story & told].groupby("effect"):
-            yield "recall", str(effect), group["right"]
-    if len(names):
-        for effect, group in names.groupby("effect"):
-            yield "precision", str(effect), group["right"]
-        for effect, group in names[names["effect_right"].astype(bool)].groupby("effect"):
-            yield "location", str(effect), group["right"]
-    if len(intervals):
-        held = intervals[intervals["category"].isin(RIGHT_INPUTS) & intervals["covered"].notna()]
-        for effect, group in held.groupby("effect"):
-            yield "coverage", str(effect), group["covered"]
-        for effect, group in intervals[intervals["right"].notna()].groupby("effect"):
-            yield "scanned number", str(effect), group["right"]
+    clear = ~effects["minor"].astype(bool) & (effects["strength"] >= CLEAR_STRENGTH)
+    told = effects["category"].isin((*RIGHT_INPUTS, "outside"))
+    held = intervals["category"].isin(RIGHT_INPUTS) & intervals["covered"].notna()
+    for score, rows, column in (
+        ("recall", effects[clear & told], "right"),
+        ("precision", names, "right"),
+        ("location", names[names["effect_right"].astype(bool)], "right"),
+        ("coverage", intervals[held], "covered"),
+        ("scanned number", intervals[intervals["right"].notna()], "right"),
+    ):
+        for effect, group in rows.groupby("effect"):
+            yield score, str(effect), group[column]
 
 
 def outcomes_table(cases: Cases) -> pd.DataFrame:
@@ -205,7 +190,7 @@ def effect_outcomes_table(cases: Cases) -> pd.DataFrame:
                         "share": count / len(group),
                     }
                 )
-    return pd.DataFrame(rows)
+    return pd.DataFrame(rows, columns=["category", "seeds", "outcome", "effects", "share"])
 
 
 def outside_table(cases: Cases) -> pd.DataFrame:
@@ -228,7 +213,7 @@ def held_out_table(worlds: pd.DataFrame) -> pd.DataFrame:
             ratio = group["held_out_ratio"]
             rows.append(
                 {"category": category, "seeds": seeds, "worlds": len(ratio), "median": ratio.median()}
-                | {"nine_in_ten_below": ratio.quantile(0.9), "largest": ratio.max()}
+                | {"nine_in_ten_below": ratio.quantile(0.9, interpolation="higher"), "largest": ratio.max()}
                 | {"within_5_percent": float((ratio <= HELD_OUT_TOLERANCE).mean())}
             )
     return pd.DataFrame(rows)
@@ -244,9 +229,9 @@ def confusion_table(cases: Cases) -> pd.DataFrame:
 
 def false_alarms(cases: Cases) -> pd.DataFrame:
     """Names on clean arms, one row each."""
-    clean = cases.names[cases.names["category"] == "clean"] if len(cases.names) else cases.names
+    clean = cases.names[cases.names["category"] == "clean"]
     columns = ["world", "fresh", "effect", "location", "minor", "evidence_nats", "rms_mm"]
-    return clean[columns] if len(clean) else pd.DataFrame(columns=columns)
+    return clean[columns]
 
 
 def wrong_worlds(cases: Cases) -> pd.DataFrame:

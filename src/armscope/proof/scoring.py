@@ -16,6 +16,28 @@ from armscope.proof.oracle import power, size_in_thresholds
 from armscope.proof.truth import Concealed, Truth
 
 CANNOT_TELL, NOTHING = "cannot tell", "nothing"
+_COMMON = ("world", "category", "fresh", "weakest")
+COLUMNS: dict[str, tuple[str, ...]] = {
+    "worlds": (
+        *_COMMON, "arm", "rows", "sigma_mm", "masses", "noise", "left_out", "shape", "concealed", "said", "answer",
+        "mismatch", "silent", "exact", "exact_story", "missed", "wrong_names", "outside", "outside_right",
+        "held_out_ratio", "held_out_close", "noise_ratio", "seconds", "failed",
+    ),
+    "effects": (
+        *_COMMON, "effect", "location", "shape", "driver", "minor", "strength", "noncentrality", "columns", "rows",
+        "oracle_power", "size_in_thresholds", "seen", "outcome", "right", "ambiguous", "among_all", "said_effect",
+        "said_location", "said_driver", "driver_right",
+    ),
+    "names": (
+        *_COMMON, "effect", "location", "minor", "named_as", "evidence_nats", "rms_mm", "right", "effect_right",
+    ),
+    "intervals": (
+        *_COMMON, "effect", "location", "minor", "strength", "parameter", "unit", "true", "fitted", "stderr", "covered",
+        "right",
+    ),
+    "pairs": (*_COMMON, "true", "said"),
+}  # fmt: skip
+"""What the tables of cases hold; `weakest` is the smallest strength of the world's story."""
 REAL = "real"
 
 
@@ -31,7 +53,7 @@ class World:
 
 @dataclass(frozen=True, eq=False)
 class Cases:
-    """What all rates are counted from; columns as in the functions below."""
+    """What all rates are counted from; columns as in `COLUMNS`."""
 
     worlds: pd.DataFrame
     effects: pd.DataFrame
@@ -46,9 +68,7 @@ class Cases:
 
 def score(worlds: Iterable[World]) -> Cases:
     """Score every world."""
-    rows: dict[str, list[dict[str, object]]] = {
-        name: [] for name in ("worlds", "effects", "names", "intervals", "pairs")
-    }
+    rows: dict[str, list[dict[str, object]]] = {name: [] for name in COLUMNS}
     for world in worlds:
         claims = distinct(world.answer.claims)
         matches, left = match(world.truth.effects, claims)
@@ -63,7 +83,7 @@ def score(worlds: Iterable[World]) -> Cases:
         rows["names"] += [common | _name(world.truth, claim, claim not in left) for claim in claims]
         rows["intervals"] += [common | number for m in matches for number in _numbers(world, m)]
         rows["pairs"] += [common | {"true": true, "said": said} for true, said in _pairs(matches, left)]
-    return Cases(**{name: pd.DataFrame(found) for name, found in rows.items()})
+    return Cases(**{name: pd.DataFrame(found, columns=list(COLUMNS[name])) for name, found in rows.items()})
 
 
 def _world(world: World, claims: Sequence[Claim], matches: Sequence[Match], left: Sequence[Claim]) -> dict[str, object]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import io
 import tarfile
 from dataclasses import dataclass
@@ -77,12 +78,15 @@ class Truth:
 
 def seal(folder: Path, archive: Path) -> None:
     """Put every world's sealed files of ``folder`` (world/sealed/...) into one archive; same files, same bytes."""
-    with replacing(archive) as beside, tarfile.open(beside, "w:gz") as tar:
+    packed = io.BytesIO()
+    with tarfile.open(fileobj=packed, mode="w") as tar:
         for file in sorted(folder.glob("*/sealed/*")):
             entry = tarfile.TarInfo(f"{file.parent.parent.name}/{file.name}")
             content = file.read_bytes()
             entry.size = len(content)
             tar.addfile(entry, io.BytesIO(content))
+    with replacing(archive) as beside:
+        beside.write_bytes(gzip.compress(packed.getvalue(), mtime=0))
 
 
 def unseal(archive: Path) -> dict[str, Truth]:

@@ -197,7 +197,7 @@ def per_effect(tables: dict[str, pd.DataFrame]) -> Figure:
         axes.set(title=score, xlim=(-4, 104), xlabel="%")
     panels[-1].axvspan(93, 97, color=GREEN, alpha=0.2, lw=0)
     panels[0].set_yticks(range(len(names)), [name.replace("_", " ") for name in names])
-    panels[0].set_ylim(len(names) - 0.5, -0.5)
+    panels[0].set_ylim(max(len(names), 1) - 0.5, -0.5)
     return figure
 
 
@@ -234,7 +234,7 @@ def _stacked(table: pd.DataFrame, group: str, part: str, count: str, colours: di
         axes.set(title=f"{half} seeds", xlabel=label, xlim=(0, 100))
         axes.grid(axis="y", visible=False)
     panels[0].set_yticks(range(len(groups)), [name.replace("_", " ") for name in groups])
-    panels[0].set_ylim(len(groups) - 0.5, -0.5)
+    panels[0].set_ylim(max(len(groups), 1) - 0.5, -0.5)
     used = [name for name in colours if name in set(table[part])]
     _legend(figure, [Patch(color=colours[name], label=name) for name in used], columns=max(len(used), 1))
     return figure
@@ -246,23 +246,25 @@ def held_out(tables: dict[str, pd.DataFrame]) -> Figure:
     groups = list(dict.fromkeys(worlds["category"]))
     figure, axes = plt.subplots(figsize=(9.6, 3.8), layout="constrained")
     rng = np.random.default_rng(0)
-    axes.axhspan(0.9, 1.05, color=GREEN, alpha=0.15, lw=0)
+    axes.axhspan(-100, 5, color=GREEN, alpha=0.15, lw=0)
     for at, group in enumerate(groups):
         for fresh, half in ((False, "fixed"), (True, "fresh")):
             colour, marker = HALVES[half]
             ratio = worlds[(worlds["category"] == group) & (worlds["fresh"] == fresh)]["held_out_ratio"].astype(float)
+            excess = 100 * (ratio - 1)
             x = at + (0.18 if fresh else -0.18) + rng.uniform(-0.13, 0.13, len(ratio))
-            axes.plot(x, ratio, marker, color=colour, ms=3, alpha=0.6, mew=0)
-            axes.hlines(
-                ratio.median(), at - (0.33 if not fresh else -0.03), at + (0.33 if fresh else -0.03), color=BLACK
-            )
-    axes.set(yscale="log", ylabel="held-out RMS / the true model's")
+            axes.plot(x, excess, marker, color=colour, ms=3, alpha=0.6, mew=0)
+            left = at + (0.03 if fresh else -0.33)
+            axes.hlines(excess.median(), left, left + 0.3, color=BLACK)
+    # linear around the true model's, logarithmic far above it
+    axes.set_yscale("symlog", linthresh=10)
+    axes.set_ylabel("held-out RMS above the true model's, %")
     axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
-    axes.yaxis.set_minor_formatter(lambda value, _: "")
-    finite = worlds["held_out_ratio"][np.isfinite(worlds["held_out_ratio"])]
-    axes.set_ylim(0.9, max(1.3, 1.2 * float(finite.max())))
-    ticks = [tick for tick in (1, 1.05, 1.2, 1.5, 2, 3, 5, 10, 30, 100) if tick < axes.get_ylim()[1]]
-    axes.set_yticks(ticks)
+    ticks = [-5, 0, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000]
+    excesses = 100 * (worlds["held_out_ratio"][np.isfinite(worlds["held_out_ratio"])] - 1)
+    top = max(20.0, 1.3 * float(excesses.max()))
+    axes.set_yticks([tick for tick in ticks if tick < top])
+    axes.set_ylim(-9, top)
     axes.set_xticks(range(len(groups)), [group.replace("_", " ") for group in groups])
     axes.grid(axis="x", visible=False)
     dots = [Line2D([], [], color=c, marker=m, ls="", label=f"{half} seeds") for half, (c, m) in HALVES.items()]

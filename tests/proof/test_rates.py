@@ -1,0 +1,34 @@
+"""Rates with intervals, and what is made of them."""
+
+from __future__ import annotations
+
+import pandas as pd
+import pytest
+
+from armscope.proof.definitions import judged
+from armscope.proof.rates import rate
+
+
+def test_intervals_are_those_of_clopper_and_pearson():
+    # 0 of 10: 1 - 0.025^(1/10); 8 of 10: printed in Clopper & Pearson's charts and many tables
+    assert rate(pd.Series([False] * 10)).high == pytest.approx(1 - 0.025 ** (1 / 10))
+    found = rate(pd.Series([True] * 8 + [False] * 2))
+    assert (found.low, found.high) == pytest.approx((0.4439, 0.9748), abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("cases", "estimate", "low", "high", "verdict"),
+    [
+        (40, 0.96, 0.90, 0.99, "met"),
+        (40, 0.93, 0.85, 0.97, "open"),
+        (400, 0.90, 0.88, 0.93, "not met"),
+        (9, 1.0, 0.66, 1.0, "too few cases"),
+        (0, float("nan"), float("nan"), float("nan"), "too few cases"),
+    ],
+)
+def test_an_aim_is_met_open_or_not_met_and_never_without_evidence(cases, estimate, low, high, verdict):
+    assert judged(cases, estimate, low, high, (0.95, 1.0)) == verdict
+
+
+def test_too_much_coverage_misses_the_aim_as_too_little_does():
+    assert judged(1000, 0.995, 0.99, 0.999, (0.93, 0.97)) == "not met"
