@@ -91,7 +91,7 @@ def test_pinning_an_effect_is_removing_it_where_nothing_else_holds_it(
     setting: tuple[Problem, np.ndarray, np.ndarray],
 ) -> None:
     problem, *_ = setting
-    chosen = numbers(problem, ("joint_offset", "joint 3"), ("joint_compliance", "joint 2"))
+    chosen = numbers(problem, ("gear_ratio", "joint 3"), ("joint_compliance", "joint 2"))
     whole = weigh(problem, chosen, PERFECT, 0.05)
     pinned = pinned_losses(problem, whole, [problem.pool.columns[c.candidate] for c in chosen])
     prices = [problem.costs[c.candidate] + np.log(len(problem.sizes)) for c in chosen]

@@ -21,7 +21,12 @@ LOOKED_AT = 12
 
 
 def alternatives(search: Search, best: Hypothesis, candidate: int) -> list[tuple[float, Placed, Hypothesis]]:
-    """(gap in nats, effect, hypothesis) of what could replace one effect, nearest first, each name once."""
+    """(gap in nats, effect, hypothesis) of what could replace one effect, nearest first, each name once.
+
+    None where a background holds the effect, too: without the name, the background explains the same.
+    """
+    if search.held(best, candidate):
+        return []
     base = search.without(best, [candidate])
     taken = {search.placed(c).key for c in best.candidates}
     nearest: dict[tuple[str, str], tuple[float, Placed, Hypothesis]] = {}

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,9 +54,19 @@ def check_table(arm: Arm, recordings: Recordings) -> Checked:
     kept &= _told(_not_stuck(recordings), "stuck instrument", "repeat a position although the arm moved", notices)
     if kept.sum() < 4:
         raise InputError(recordings.source, "", f"{int(kept.sum())} usable rows", "at least four poses are needed")
-    table = recordings if kept.all() else recordings.rows(kept)
+    table = _without_empty_context(recordings if kept.all() else recordings.rows(kept))
     notices += _limits(arm, table)
     return Checked(table, tuple(notices))
+
+
+def _without_empty_context(recordings: Recordings) -> Recordings:
+    """Context that no row of this table recorded is no context."""
+    empty: dict[str, Any] = {
+        name: None
+        for name in ("time", "temperature", "payload", "approach", "speed", "torque", "sigma")
+        if getattr(recordings, name) is not None and np.isnan(getattr(recordings, name)).all()
+    }
+    return replace(recordings, **empty) if empty else recordings
 
 
 def _told(good: NDArray[np.bool_], kind: str, what: str, notices: list[Notice]) -> NDArray[np.bool_]:

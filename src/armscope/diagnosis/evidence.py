@@ -313,6 +313,31 @@ def gains(problem: Problem, groups: Groups, hypothesis: Hypothesis) -> tuple[Arr
     return best - problem.costs - np.log(len(problem.sizes)), which
 
 
+def joint_gains(problem: Problem, rest: Hypothesis, sets: Sequence[tuple[Chosen, ...]]) -> Array:
+    """What each set of effects together would add to a hypothesis' value, nats; for small sets of small effects."""
+    members = sorted({c.candidate for chosen in sets for c in chosen})
+    columns = np.concatenate([problem.pool.columns[m] for m in members])
+    G, S, noise = problem.gram.G, rest.columns, rest.noise
+    V = rest.inverse @ G[np.ix_(S, columns)]
+    inner = (G[np.ix_(columns, columns)] - V.T @ V) / noise**2
+    r = (problem.gram.b[columns] - V.T @ (rest.inverse @ problem.gram.b[S])) / noise**2
+    ends = np.cumsum([len(problem.pool.columns[m]) for m in members])
+    at = {m: np.arange(end - len(problem.pool.columns[m]), end) for m, end in zip(members, ends, strict=True)}
+    totals = []
+    for chosen in sets:
+        own = np.concatenate([at[c.candidate] for c in chosen])
+        size = np.concatenate(
+            [problem.sizes[c.size] * np.array(problem.pool.candidates[c.candidate].shape) for c in chosen]
+        )
+        A = np.eye(len(own)) + inner[np.ix_(own, own)] * np.outer(size, size)
+        u = size * r[own]
+        quadratic = np.array(float(u @ np.linalg.solve(A, u)))
+        gain = _profiled(quadratic, rest.rss / noise**2, problem.n, noise, problem.least_noise)
+        paid = sum(problem.costs[c.candidate] + np.log(len(problem.sizes)) for c in chosen)
+        totals.append(float(gain) - 0.5 * float(np.linalg.slogdet(A)[1]) - paid)
+    return np.array(totals)
+
+
 def _profiled(quadratic: Array, chi2: float, n: float, noise: float, least: float) -> Array:
     """Gain of log likelihood when chi2 falls by ``quadratic`` and the noise follows, not below its least value."""
     left = np.maximum(chi2 - quadratic, 1e-9 * chi2)

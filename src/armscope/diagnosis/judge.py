@@ -185,8 +185,7 @@ def _worth(evidence: Evidence, search: Search, candidate: int) -> float:
     """Evidence that is lost without an effect, nats; where a background holds it, too, without both."""
     problem, best = evidence.problem, evidence.best
     columns = problem.pool.columns[candidate]
-    active = [family for family, size in zip(problem.pool.background, best.background, strict=True) if size]
-    if not any(set(columns) <= set(family) for family in active[1:]):
+    if not search.held(best, candidate):
         return best.value - search.without(best, [candidate]).value
     lost = float(pinned_losses(problem, best, [columns])[0])
     # the noise would grow to take it up

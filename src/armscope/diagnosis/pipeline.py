@@ -19,7 +19,7 @@ from armscope.diagnosis.problem import COUNTS, Gram, Pool, accumulate, pool, res
 from armscope.diagnosis.refit import Refit, refit
 from armscope.diagnosis.scan import jumps, mesh_lines
 from armscope.diagnosis.scatter import Scattered, find_scatter, levers, noise_between, whitening
-from armscope.diagnosis.search import Search
+from armscope.diagnosis.search import STARTS, Search
 from armscope.diagnosis.validation import Blocks, split
 from armscope.diagnosis.verdict import Notice, Verdict
 from armscope.diagnosis.weights import RowWeights
@@ -36,7 +36,8 @@ from armscope.robot import Arm
 Array = NDArray[np.float64]
 Progress = Callable[[str, float], None]
 
-ROUNDS = 8
+ROUNDS, FULL_ROUNDS = 8, 2
+"""Rounds at most; the first ones search from all starts, later ones from where the last one ended."""
 SAMPLE_ROWS = 5000
 """The first rounds look at this many rows at most; the last one at all of them."""
 
@@ -152,6 +153,7 @@ def select(
     weights = RowWeights(robust.first_weights(left, uncertainty, noise.least_mm))
     previous: tuple[frozenset[str], bytes] | None = None
     settled = False
+    last: tuple[Hypothesis, Pool] | None = None
     for number in range(ROUNDS):
         tell("looking for effects", 0.05 + 0.05 * number)
         model, payload = _payload(model, recordings)
@@ -159,7 +161,10 @@ def select(
         blocks = accumulate(columns, model, recordings, weights, layout.of_row)
         weighed = problem(columns, total(blocks), noise.least_mm)
         search = Search.on(weighed)
-        best = search.promoted(search.best())
+        warm = None if last is None else search.taken_over(*last)
+        starts = STARTS if warm is None or number < FULL_ROUNDS else (warm.background,)
+        found = search.best(starts, warm)
+        best, last = search.promoted(found), (found, columns)
         effects = [(columns.candidates[c.candidate], float(weighed.sizes[c.size])) for c in best.chosen]
         small = list(zip(families, background_sizes(weighed, best), strict=True))
         fit = refit(model, recordings, frames, small, effects, uncertainty, noise.least_mm, weights.turn)

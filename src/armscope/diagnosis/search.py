@@ -23,10 +23,12 @@ from armscope.diagnosis.evidence import (
     Problem,
     gains,
     group,
+    joint_gains,
     losses,
     pinned_losses,
     weigh,
 )
+from armscope.diagnosis.problem import Pool
 from armscope.physics.effect import Placed, region
 
 BEAM = 3
@@ -39,7 +41,15 @@ WORTH_TRYING_NATS = 2.0
 SPECIAL_CASES = 7
 """How many of a curve's special cases are tried in its place."""
 STANDS_OUT_NATS, STANDS_OUT = 20.0, 0.25
-"""A background's member is named when holding it rigid loses this much and it is worth this share of the RMS."""
+"""A background's member is named when holding it right loses this much and it is worth this share of the RMS."""
+SLACK_NATS = 3.0
+"""A predicted value that falls short by more than this is not computed."""
+POLISHED = 2
+"""How many ends of the search are polished."""
+NAMED_AT_ONCE = 3
+LARGE = 150
+"""A hypothesis of more columns than this (several free curves) is polished less."""
+POLISHES, POLISHES_OF_LARGE = 6, 2
 GAIN = 1e-3
 """Nats by which a move must better a hypothesis."""
 
@@ -63,8 +73,18 @@ class Search:
         ends = [self._climb(self._empty(start)) for start in starts]
         if also is not None:
             ends.append(self._pruned(weigh(self.problem, also.chosen, also.background, also.noise)))
-        ends = _distinct(ends)
+        ends = _distinct(sorted(ends, key=_value, reverse=True))[:POLISHED]
         return max((self._polish(end) for end in ends), key=_value)
+
+    def taken_over(self, hypothesis: Hypothesis, pool: Pool) -> Hypothesis:
+        """A hypothesis on another pool, with the effects that this search's pool has, too."""
+        index = {(p.key, p.driver, p.variant): n for n, p in enumerate(self.problem.pool.candidates)}
+        chosen = []
+        for c in hypothesis.chosen:
+            placed = pool.candidates[c.candidate]
+            if (placed.key, placed.driver, placed.variant) in index:
+                chosen.append(Chosen(index[(placed.key, placed.driver, placed.variant)], c.size))
+        return weigh(self.problem, tuple(chosen), hypothesis.background, hypothesis.noise)
 
     def empty(self) -> Hypothesis:
         """The best hypothesis without any named effect."""
@@ -81,7 +101,7 @@ class Search:
         for _ in range(MOST_EFFECTS):
             children: list[Hypothesis] = []
             for parent in alive:
-                for child in self.additions(parent, self.branches):
+                for child in self.additions(parent, self.branches, least=-SLACK_NATS):
                     if child.candidates not in seen:
                         seen.add(child.candidates)
                         children.append(self._pruned(child))
@@ -91,7 +111,9 @@ class Search:
             best, alive = children[0], children
         return best
 
-    def additions(self, parent: Hypothesis, count: int, without: Iterable[int] = ()) -> list[Hypothesis]:
+    def additions(
+        self, parent: Hypothesis, count: int, without: Iterable[int] = (), least: float = -np.inf
+    ) -> list[Hypothesis]:
         """The ``count`` most promising hypotheses with one effect more; a curve takes its special cases' place."""
         gain, size = gains(self.problem, self.groups, parent)
         clashes = self.problem.pool.clashes
@@ -101,7 +123,7 @@ class Search:
         gain[list(without)] = -np.inf
         gain[[n for n, needed in self.problem.pool.resting.items() if not needed & parent.candidates]] = -np.inf
         order = np.argsort(-gain)[:count]
-        return [self._with(parent, Chosen(int(c), int(size[c]))) for c in order if np.isfinite(gain[c])]
+        return [self._with(parent, Chosen(int(c), int(size[c]))) for c in order if gain[c] > least]
 
     def _generalises(self, candidate: int, member: int) -> bool:
         """Whether a candidate is a free curve that contains a member."""
@@ -137,7 +159,7 @@ class Search:
 
     def _polish(self, hypothesis: Hypothesis) -> Hypothesis:
         """Sizes, background, swaps and merges until nothing betters the hypothesis."""
-        for _ in range(6):
+        for _ in range(POLISHES if len(hypothesis.columns) < LARGE else POLISHES_OF_LARGE):
             better = self._resized(hypothesis)
             better = max([better, *self._moves(better)], key=_value)
             better = self._pruned(better)
@@ -163,13 +185,28 @@ class Search:
 
     def _moves(self, hypothesis: Hypothesis) -> list[Hypothesis]:
         """Additions; swaps of one effect for another; merges of all effects in one region; splits of curves."""
-        moves = self.additions(hypothesis, self.branches)
+        moves = self.additions(hypothesis, self.branches, least=-SLACK_NATS)
         for c in hypothesis.chosen:
             if self.placed(c.candidate).reading == "curve":
                 moves += self._split(hypothesis, c)
         groups = [(c.candidate,) for c in hypothesis.chosen] + self._regions(hypothesis)
         for removed in groups:
-            moves += self.additions(self.without(hypothesis, removed), self.branches, without=removed)
+            rest = self.without(hypothesis, removed)
+            least = hypothesis.value - rest.value - SLACK_NATS
+            moves += self.additions(rest, self.branches, without=removed, least=least)
+        return [*moves, *self._from_background(hypothesis)]
+
+    def _from_background(self, hypothesis: Hypothesis) -> list[Hypothesis]:
+        """Smaller geometric tolerances everywhere, and names for what then stands out."""
+        moves = []
+        for size in range(hypothesis.background[0]):
+            smaller = weigh(self.problem, hypothesis.chosen, (size, *hypothesis.background[1:]), hypothesis.noise)
+            for _ in range(NAMED_AT_ONCE):
+                larger = self.additions(smaller, 1, least=0.0)
+                if not larger:
+                    break
+                smaller = larger[0]
+            moves.append(smaller)
         return moves
 
     def _split(self, hypothesis: Hypothesis, curve: Chosen) -> list[Hypothesis]:
@@ -180,13 +217,19 @@ class Search:
             return []
         gain, _ = gains(self.problem, self.groups, rest)
         likely = sorted(special, key=lambda c: -gain[c])[:SPECIAL_CASES]
-        split = []
-        for count in (2, 3):
-            for members in itertools.combinations(likely, count):
-                if not any(b in self.problem.pool.clashes[a] for a, b in itertools.combinations(members, 2)):
-                    added = tuple(Chosen(c, curve.size) for c in members)
-                    split.append(weigh(self.problem, (*rest.chosen, *added), rest.background, rest.noise))
-        return [self._pruned(best) for best in sorted(split, key=_value, reverse=True)[:1]]
+        sets = [
+            tuple(Chosen(c, curve.size) for c in members)
+            for count in (2, 3)
+            for members in itertools.combinations(likely, count)
+            if not any(b in self.problem.pool.clashes[a] for a, b in itertools.combinations(members, 2))
+        ]
+        if not sets:
+            return []
+        promised = joint_gains(self.problem, rest, sets)
+        best = int(np.argmax(promised))
+        if rest.value + promised[best] < hypothesis.value - SLACK_NATS:
+            return []
+        return [self._pruned(weigh(self.problem, (*rest.chosen, *sets[best]), rest.background, rest.noise))]
 
     def _regions(self, hypothesis: Hypothesis) -> list[tuple[int, ...]]:
         by_region: dict[str, list[int]] = {}
@@ -194,16 +237,24 @@ class Search:
             by_region.setdefault(region(self.placed(c.candidate)), []).append(c.candidate)
         return [tuple(members) for members in by_region.values() if len(members) > 1]
 
-    def promoted(self, hypothesis: Hypothesis) -> Hypothesis:
-        """With the members of an elastic or transmission background named that stand out by themselves.
+    def held(self, hypothesis: Hypothesis, candidate: int) -> bool:
+        """Whether a background of the hypothesis holds an effect, too."""
+        columns = set(self.problem.pool.columns[candidate])
+        return any(
+            size and columns <= set(family)
+            for family, size in zip(self.problem.pool.background, hypothesis.background, strict=True)
+        )
 
-        In an arm that gives way everywhere, the joint that does so most deserves its name, although the background
-        explains it, too: its evidence is what is lost when it alone is held rigid.
+    def promoted(self, hypothesis: Hypothesis) -> Hypothesis:
+        """With the members of a background named that stand out by themselves.
+
+        In an arm that is a little wrong everywhere, the place that is so most deserves its name, although the
+        background explains it, too: its evidence is what is lost when it alone is held right.
         """
         named = {column for c in hypothesis.chosen for column in self.problem.pool.columns[c.candidate]}
         within = [
             (number, columns)
-            for family, size in zip(self.problem.pool.background[1:], hypothesis.background[1:], strict=True)
+            for family, size in zip(self.problem.pool.background, hypothesis.background, strict=True)
             if size
             for number, columns in enumerate(self.problem.pool.columns)
             if set(columns) <= set(family) and not named & set(columns)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from armscope.diagnosis.evidence import PERFECT, Chosen, Hypothesis, Problem, weigh
 from armscope.diagnosis.problem import Gram, total
-from armscope.diagnosis.search import Search
+from armscope.diagnosis.search import LARGE, Search
 from armscope.diagnosis.verdict import HeldOut, WaterfallStep
 from armscope.recordings import Recordings
 
@@ -73,7 +73,8 @@ def cross_validate(
         trained = problem.with_gram(whole - held)
         scaled = held.scaled(problem.scale)
         free = split.grouped_by == "run"
-        chosen = Search.on(trained, beam=2, branches=2).best(starts=tuple(sorted({best.background, PERFECT})))
+        starts = {best.background} if len(best.columns) > LARGE else {best.background, PERFECT}
+        chosen = Search.on(trained, beam=2 if len(starts) > 1 else 1, branches=2).best(starts=tuple(sorted(starts)))
         rows += held.n
         before += _held_out(trained, weigh(trained, (), PERFECT, empty.noise), scaled, free)
         after += _held_out(trained, chosen, scaled, free)

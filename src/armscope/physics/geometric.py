@@ -46,7 +46,7 @@ def row_terms(arm: Arm, j: int) -> dict[str, Term]:
 
 def _place_offsets(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     for j in moving_joints(recordings):
-        yield Placed(JOINT_OFFSET, f"joint {j}", (term("offset", "rad", (motor(j), ONE)),), (1.0,), "constant")
+        yield _offset(JOINT_OFFSET, j)
 
 
 JOINT_OFFSET = Effect(
@@ -76,12 +76,20 @@ LINK_GEOMETRY = Effect(
 
 
 def background(arm: Arm) -> list[Placed]:
-    """Every link's constant errors: what every real arm has, always allowed for with a prior of tolerance size."""
-    placed = []
+    """Every link's constant errors: what every real arm has, always allowed for with a prior of tolerance size.
+
+    The angles are the motors' zeros, which move the arm in the same ways as the rows' theta, so that a zero that stands
+    out is one of the background's own columns.
+    """
+    placed = [_offset(BACKGROUND, j) for j in range(1, arm.n_motors + 1)]
     for j in range(1, arm.n_joints + 1):
-        terms = tuple(row_terms(arm, j).values())
+        terms = tuple(term for name, term in row_terms(arm, j).items() if name not in ("theta", "rz"))
         placed.append(Placed(BACKGROUND, f"link {j}", terms, (1.0,) * len(terms), "constant"))
     return placed
+
+
+def _offset(effect: Effect, j: int) -> Placed:
+    return Placed(effect, f"joint {j}", (term("offset", "rad", (motor(j), ONE)),), (1.0,), "constant")
 
 
 BACKGROUND = Effect(
