@@ -116,7 +116,7 @@ AIMS: tuple[Aim, ...] = (
     Aim("outside the library: located and not misnamed", "worlds", "outside_right", (0.90, 1.0), _category("outside")),
     Aim(
         "ambiguous: the truth among effects or alternatives", "effects", "among_all", (0.95, 1.0),
-        lambda rows: rows["ambiguous"].astype(bool) & ~rows["minor"].astype(bool),
+        lambda rows: rows["ambiguous"].astype(bool) & ~rows["minor"].astype(bool) & (rows["category"] != "faint"),
     ),
     Aim(
         "held-out RMS within 5 % of the true model's (share of worlds; clean, single, multiple)", "worlds",

@@ -110,9 +110,8 @@ def power_table(effects: pd.DataFrame) -> pd.DataFrame:
     """Share seen and named over `size`, in multiples of the oracle's threshold; see `_found_over`."""
     alone = _powered(effects)
     size = alone["size_in_thresholds"].astype(float)
-    bins = pd.cut(size, POWER_BINS)
-    middles = np.exp(np.log(size).groupby(bins, observed=True).transform("mean"))
-    return _found_over(alone, "size", middles)
+    middle = size.groupby(pd.cut(size, POWER_BINS), observed=True).transform("median")
+    return _found_over(alone, "size", middle)
 
 
 def strength_table(effects: pd.DataFrame) -> pd.DataFrame:

@@ -181,7 +181,7 @@ def _effect(world: World, found: Match, claims: Sequence[Claim]) -> dict[str, ob
 def same_driver(truth: Concealed, claim: Claim) -> bool:
     """Whether a claim follows what the concealed effect follows."""
     words = {
-        "joint angle": ("angle",), "gravity load": ("load", "gravity"), "side of approach": ("approach",),
+        "joint angle": ("angle",), "gravity load": ("load", "gravity", "moment"), "side of approach": ("approach",),
         "time": ("time", "row"), "temperature": ("temperature", "warm"), "speed": ("speed",), "payload": ("payload",),
         "constant": ("constant",),
     }  # fmt: skip

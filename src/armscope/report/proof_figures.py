@@ -137,11 +137,11 @@ def _curves(axes: Axes, table: pd.DataFrame, over: str) -> None:
     if table.empty:
         return
     rows = table[table["seeds"] == "all"]
-    for found, (colour, marker, _) in FOUND.items():
+    for shift, (found, (colour, marker, _)) in zip((0.97, 1.03), FOUND.items(), strict=True):
         curve = rows[rows["found"] == found]
         y = curve["estimate"] * 100
         errors = np.array([y - curve["low"] * 100, curve["high"] * 100 - y])
-        axes.errorbar(curve[over], y, errors, color=colour, marker=marker, ms=4, capsize=2)
+        axes.errorbar(curve[over] * shift, y, errors, color=colour, marker=marker, ms=4, capsize=2)
     oracle = rows[rows["found"] == "seen"]
     axes.plot(oracle[over], oracle["oracle"] * 100, color=BLACK, ls="--")
 
