@@ -5,7 +5,8 @@ import pandas as pd
 import pytest
 
 from armscope.errormodels import FDP_AI, FDP_CI, FOURIER_2_AI, POLYNOMIAL_4_AI, SDP_AI, SDP_CI, fit_swarms
-from armscope.paper import identification_poses, measure_virtual, paper_paths_mm, residual_table, trajectory_poses
+from armscope.paper.residuals import residual_table
+from armscope.paper.virtual import identification_poses, measure_virtual, paper_paths_mm, trajectory_poses
 from armscope.robot import load_arm
 from armscope.world.tolerances import geometric_errors
 from armscope.world.tracker import Tracker

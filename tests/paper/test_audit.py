@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from armscope.paper import audit, predict_printed, printed_table2
-from armscope.paper import audit as audit_of_print
-from armscope.paper.audit import AuditScope
+from armscope.paper.audit import AuditScope, audit
+from armscope.paper.audit import audit as audit_of_print
+from armscope.paper.printed import predict_printed, printed_table2
 from armscope.world.trajectories import archimedes_spiral
 
 SMALL = AuditScope(corner_samples=256, rises=tuple(np.arange(-400.0, 401.0, 100.0)), search_generations=10)

@@ -6,8 +6,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from armscope.paper import predict_printed, printed_coefficients, printed_matrix, printed_table2
-from armscope.paper.printed import printed_half_digits
+from armscope.paper.printed import (
+    predict_printed,
+    printed_coefficients,
+    printed_half_digits,
+    printed_matrix,
+    printed_table2,
+)
 
 SHARED = Path(__file__).parents[3] / "shared" / "paper"
 DATA = Path(__file__).parents[2] / "src" / "armscope" / "paper" / "data"

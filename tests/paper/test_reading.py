@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from armscope.paper import reading
+from armscope.paper.reading import reading
 
 POINTS = np.random.default_rng(0).uniform(-1000, 1000, (50, 3))
 

@@ -9,7 +9,9 @@ from scipy.spatial.transform import Rotation
 
 from armscope.errormodels import FDP_AI, FDP_CI, fit_swarms
 from armscope.inputs import InputError
-from armscope.paper import real_measurements, residual_table, select_rows, table2
+from armscope.paper.real import real_measurements, select_rows
+from armscope.paper.residuals import residual_table
+from armscope.paper.table2 import table2
 from armscope.recordings import as_recordings, read_recordings
 from armscope.robot import chain, load_arm
 

@@ -5,8 +5,11 @@ import pandas as pd
 import pytest
 
 from armscope.errormodels import FDP_AI, FDP_CI, fit_swarms
-from armscope.paper import claims, cross_check, residual_table, sub_volumes, table2
-from armscope.paper.sub_volumes import _region, _split
+from armscope.paper.claims import claims
+from armscope.paper.cross_check import cross_check
+from armscope.paper.residuals import residual_table
+from armscope.paper.sub_volumes import _region, _split, sub_volumes
+from armscope.paper.table2 import table2
 from armscope.swarm import SwarmSettings
 from tests.paper.conftest import ENSEMBLE, rss
 

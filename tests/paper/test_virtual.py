@@ -6,8 +6,10 @@ import pytest
 
 from armscope.errormodels import FDP_CI
 from armscope.inputs import InputError
-from armscope.paper import Measurements, paper_paths_mm, pose_arrays, printed_matrix, trajectory_poses
 from armscope.paper.anchoring import anchor
+from armscope.paper.measurements import Measurements, pose_arrays
+from armscope.paper.printed import printed_matrix
+from armscope.paper.virtual import paper_paths_mm, trajectory_poses
 from armscope.robot import forward_kinematics
 from tests.paper.conftest import CORNERS_MM, ENSEMBLE, STARTS_MM
 
@@ -113,7 +115,7 @@ def test_tables_and_back(study):
 
 
 def test_equal_seeds_give_equal_measurements(errors, identification, trajectories, study):
-    from armscope.paper import measure_virtual
+    from armscope.paper.virtual import measure_virtual
     from armscope.world.tracker import Tracker
 
     poses = pd.concat([identification[0], trajectories], ignore_index=True)

@@ -31,6 +31,12 @@ def _plain(part):
     return part.model_dump(mode="json") if hasattr(part, "model_dump") else part
 
 
+def fit_settings(**changes):
+    """What a fit follows, with some of the swarm's settings changed."""
+    swarm = CONFIG.paper.swarm.model_copy(update=changes)
+    return settings(seed=CONFIG.seed, models=CONFIG.paper.models, swarm=swarm)
+
+
 def code(*modules):
     """A digest of the package's sources that a rule uses, so that a changed one reruns it."""
     return digest(*modules)

@@ -8,7 +8,8 @@ rule measure:
         robot=CONFIG.paper.robot.value,
     output:
         poses=f"{PAPER}/poses.csv",
-        errors=f"{PAPER}/errors.csv.gz",
+        errors=f"{PAPER}/errors.csv",
+        ensemble=f"{PAPER}/ensemble_errors.csv.gz",
         robots=f"{PAPER}/robots.csv",
         observability=f"{PAPER}/observability.csv",
     params:
@@ -34,16 +35,11 @@ rule fit:
     # of any study: the virtual SK120's, or a real arm's
     input:
         poses=f"{RESULTS}/{{study}}/poses.csv",
-        errors=f"{RESULTS}/{{study}}/errors.csv.gz",
+        errors=f"{RESULTS}/{{study}}/errors.csv",
     output:
         f"{RESULTS}/{{study}}/fits.json.gz",
     params:
-        settings=settings(
-            seed=CONFIG.seed,
-            models=CONFIG.paper.models,
-            swarm=CONFIG.paper.swarm,
-            ensemble_seeds=CONFIG.paper.ensemble.seeds,
-        ),
+        settings=fit_settings(),
         code=code("armscope.cli.paper:fit"),
     log:
         f"{RESULTS}/logs/{{study}}/fit.log",
@@ -53,75 +49,137 @@ rule fit:
         "armscope paper fit {input.poses} {input.errors} --settings {params.settings:q} -o {output} > {log} 2>&1"
 
 
-rule fit_as_printed:
-    # the velocity update without inertia or constriction, exactly as section 5 prints it, on the anchored robot only
+use rule fit as fit_ensemble with:
+    input:
+        poses=rules.measure.output.poses,
+        errors=rules.measure.output.ensemble,
+    output:
+        f"{PAPER}/ensemble_fits.json.gz",
+    params:
+        settings=fit_settings(seeds=CONFIG.paper.ensemble.seeds),
+        code=code("armscope.cli.paper:fit"),
+    log:
+        f"{RESULTS}/logs/fit_ensemble.log",
+
+
+use rule fit as fit_as_printed with:
+    # the velocity update without inertia or constriction, exactly as section 5 prints it
     input:
         poses=rules.measure.output.poses,
         errors=rules.measure.output.errors,
     output:
         f"{PAPER}/fits_as_printed.json.gz",
     params:
-        settings=settings(
-            seed=CONFIG.seed,
-            models=CONFIG.paper.models,
-            swarm=CONFIG.paper.swarm.model_copy(update={"update": "original", "velocity_clamp": None}),
-            ensemble_seeds=CONFIG.paper.ensemble.seeds,
-        ),
+        settings=fit_settings(update="original", velocity_clamp=None),
         code=code("armscope.cli.paper:fit"),
     log:
         f"{RESULTS}/logs/fit_as_printed.log",
-    conda:
-        "../envs/armscope.yaml"
-    shell:
-        "armscope paper fit {input.poses} {input.errors} --settings {params.settings:q} -o {output} > {log} 2>&1"
 
 
 rule residuals:
     input:
         poses=f"{RESULTS}/{{study}}/poses.csv",
-        errors=f"{RESULTS}/{{study}}/errors.csv.gz",
+        errors=f"{RESULTS}/{{study}}/errors.csv",
         fits=f"{RESULTS}/{{study}}/fits.json.gz",
     output:
-        residuals=f"{RESULTS}/{{study}}/residuals.csv.gz",
-        table2=f"{RESULTS}/{{study}}/table2.csv",
-        coefficients=f"{RESULTS}/{{study}}/coefficients.csv",
+        f"{RESULTS}/{{study}}/residuals.csv.gz",
     params:
-        folder=subpath(output.table2, parent=True),
-        beside=lambda wildcards: "--beside-printed" if wildcards.study == "paper" else "--no-beside-printed",
         code=code("armscope.cli.paper:residuals"),
     log:
         f"{RESULTS}/logs/{{study}}/residuals.log",
     conda:
         "../envs/armscope.yaml"
     shell:
-        "armscope paper residuals {input.poses} {input.errors} {input.fits} {params.beside} -o {params.folder} > {log} 2>&1"
+        "armscope paper residuals {input.poses} {input.errors} {input.fits} -o {output} > {log} 2>&1"
+
+
+use rule residuals as ensemble_residuals with:
+    input:
+        poses=rules.measure.output.poses,
+        errors=rules.measure.output.ensemble,
+        fits=rules.fit_ensemble.output,
+    output:
+        f"{PAPER}/ensemble_residuals.csv.gz",
+    log:
+        f"{RESULTS}/logs/ensemble_residuals.log",
+
+
+rule table2:
+    input:
+        residuals=f"{RESULTS}/{{study}}/residuals.csv.gz",
+        ensemble=lambda wildcards: rules.ensemble_residuals.output if wildcards.study == "paper" else [],
+    output:
+        f"{RESULTS}/{{study}}/table2.csv",
+    params:
+        beside=lambda wildcards: "--beside-printed" if wildcards.study == "paper" else "--no-beside-printed",
+        code=code("armscope.cli.paper:table2_"),
+    log:
+        f"{RESULTS}/logs/{{study}}/table2.log",
+    conda:
+        "../envs/armscope.yaml"
+    shell:
+        "armscope paper table2 {input.residuals} {input.ensemble} {params.beside} -o {output} > {log} 2>&1"
+
+
+rule coefficients:
+    input:
+        f"{PAPER}/fits.json.gz",
+    output:
+        f"{PAPER}/coefficients.csv",
+    params:
+        code=code("armscope.cli.paper:coefficients"),
+    log:
+        f"{RESULTS}/logs/coefficients.log",
+    conda:
+        "../envs/armscope.yaml"
+    shell:
+        "armscope paper coefficients {input} -o {output} > {log} 2>&1"
+
+
+rule sub_volumes:
+    input:
+        poses=rules.measure.output.poses,
+        errors=rules.measure.output.errors,
+        ensemble=rules.measure.output.ensemble,
+    output:
+        f"{PAPER}/sub_volumes.csv",
+    params:
+        code=code("armscope.cli.paper:sub_volumes_"),
+    log:
+        f"{RESULTS}/logs/sub_volumes.log",
+    conda:
+        "../envs/armscope.yaml"
+    shell:
+        "armscope paper sub-volumes {input.poses} --errors {input.errors} --errors {input.ensemble} -o {output} > {log} 2>&1"
 
 
 rule claims:
     input:
-        poses=rules.measure.output.poses,
-        errors=rules.measure.output.errors,
-        fits=f"{PAPER}/fits.json.gz",
-        as_printed=rules.fit_as_printed.output,
         residuals=f"{PAPER}/residuals.csv.gz",
+        ensemble_residuals=rules.ensemble_residuals.output,
+        fits=f"{PAPER}/fits.json.gz",
+        ensemble_fits=rules.fit_ensemble.output,
+        as_printed=rules.fit_as_printed.output,
+        sub_volumes=rules.sub_volumes.output,
     output:
-        claims=f"{PAPER}/claims.csv",
-        sub_volumes=f"{PAPER}/sub_volumes.csv",
+        f"{PAPER}/claims.csv",
     params:
-        folder=subpath(output.claims, parent=True),
         code=code("armscope.cli.paper:claims_"),
     log:
         f"{RESULTS}/logs/claims.log",
     conda:
         "../envs/armscope.yaml"
     shell:
-        "armscope paper claims {input.poses} {input.errors} {input.fits} {input.as_printed} {input.residuals} -o {params.folder} > {log} 2>&1"
+        "armscope paper claims {input.residuals} {input.ensemble_residuals} --fits {input.fits} --fits {input.ensemble_fits} "
+        "--as-printed {input.as_printed} --sub-volumes {input.sub_volumes} -o {output} > {log} 2>&1"
 
 
 rule cross_check:
     input:
         residuals=f"{PAPER}/residuals.csv.gz",
+        ensemble_residuals=rules.ensemble_residuals.output,
         fits=f"{PAPER}/fits.json.gz",
+        ensemble_fits=rules.fit_ensemble.output,
     output:
         f"{PAPER}/cross_check.csv",
     params:
@@ -131,7 +189,8 @@ rule cross_check:
     conda:
         "../envs/armscope.yaml"
     shell:
-        "armscope paper cross-check {input.residuals} {input.fits} -o {output} > {log} 2>&1"
+        "armscope paper cross-check {input.residuals} {input.ensemble_residuals} --fits {input.fits} --fits {input.ensemble_fits} "
+        "-o {output} > {log} 2>&1"
 
 
 rule audit:
@@ -170,7 +229,7 @@ rule convergence:
     output:
         f"{PAPER}/convergence.csv",
     params:
-        settings=settings(seed=CONFIG.seed, models=CONFIG.paper.models, swarm=CONFIG.paper.swarm),
+        settings=fit_settings(),
         code=code("armscope.cli.paper:convergence"),
     log:
         f"{RESULTS}/logs/convergence.log",
@@ -183,7 +242,7 @@ rule convergence:
 rule figure:
     input:
         poses=f"{RESULTS}/{{study}}/poses.csv",
-        errors=f"{RESULTS}/{{study}}/errors.csv.gz",
+        errors=f"{RESULTS}/{{study}}/errors.csv",
         fits=f"{RESULTS}/{{study}}/fits.json.gz",
     output:
         multiext(f"{RESULTS}/{{study}}/figures/{{figure}}", png=".png", svg=".svg", pdf=".pdf"),

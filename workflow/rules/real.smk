@@ -7,7 +7,7 @@ rule measure_real:
         robot=lambda wildcards: f"{RECORDINGS}/{CONFIG.real[wildcards.set].robot}",
     output:
         poses=f"{RESULTS}/real/{{set}}/paper/poses.csv",
-        errors=f"{RESULTS}/real/{{set}}/paper/errors.csv.gz",
+        errors=f"{RESULTS}/real/{{set}}/paper/errors.csv",
         observability=f"{RESULTS}/real/{{set}}/paper/observability.csv",
     params:
         folder=subpath(output.poses, parent=True),

@@ -3,15 +3,26 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
-from armscope.cli.studies import Errors, Output, Poses, Settings, parsed, read_fits, read_measurements, write_fits
+from armscope.cli.studies import (
+    Errors,
+    Fits,
+    ManyErrors,
+    ManyFits,
+    Output,
+    Poses,
+    Residuals,
+    Settings,
+    parsed,
+    read_fits,
+    read_measurements,
+    read_tables,
+    write_fits,
+)
 from armscope.inputs import InputError
-
-if TYPE_CHECKING:
-    from armscope.errormodels import FittedModel
 
 app = typer.Typer(no_args_is_help=True)
 
@@ -27,7 +38,7 @@ def measure(
 
     from armscope.cli.paper_settings import MeasureSettings, tracker_of
     from armscope.files import write_table
-    from armscope.paper import identification_poses, measure_virtual, paper_paths_mm, trajectory_poses
+    from armscope.paper.virtual import identification_poses, measure_virtual, paper_paths_mm, trajectory_poses
     from armscope.robot import load_arm
     from armscope.world.tolerances import geometric_errors
 
@@ -70,8 +81,10 @@ def measure(
         chosen.seed,
     )
     pose_rows, error_rows = study.measurements.to_tables()
+    is_anchored = error_rows["robot"] == study.robots.names[0]
     write_table(output / "poses.csv", pose_rows)
-    write_table(output / "errors.csv.gz", error_rows)
+    write_table(output / "errors.csv", error_rows[is_anchored])
+    write_table(output / "ensemble_errors.csv.gz", error_rows[~is_anchored])
     write_table(output / "robots.csv", study.robots.to_table())
     write_table(output / "observability.csv", _observability(choice))
 
@@ -96,87 +109,90 @@ def measure_real(
     study = real_measurements(arm, rows, chosen.seed, chosen.poses)
     pose_rows, error_rows = study.measurements.to_tables()
     write_table(output / "poses.csv", pose_rows)
-    write_table(output / "errors.csv.gz", error_rows)
+    write_table(output / "errors.csv", error_rows)
     write_table(output / "observability.csv", _observability(study.choice))
 
 
 @app.command()
 def fit(poses: Poses, errors: Errors, settings: Settings, output: Output) -> None:
-    """Fit the error models by particle swarm: many seeds on the first robot, fewer on the ensemble."""
-    from armscope.cli.paper_settings import FitSettings, specs_of, swarm_settings_of
+    """Fit the error models to every robot of a table by particle swarm, with many seeds."""
+    from armscope.cli.paper_settings import SwarmStudySettings, specs_of, swarm_settings_of
     from armscope.errormodels import fit_swarms
 
-    chosen = parsed(FitSettings, settings)
-    measurements = read_measurements(poses, errors)
-    swarm, specs = chosen.swarm, specs_of(chosen.models)
-    fits: list[FittedModel] = []
-    first, *ensemble = measurements.robots
-    for robots, seeds in ((([first]), swarm.seeds), (ensemble, chosen.ensemble_seeds)):
-        problems = measurements.fit_problems(specs, robots)
-        first_seed = chosen.seed
-        fits += fit_swarms(
-            problems, range(first_seed, first_seed + seeds), swarm_settings_of(swarm), swarm.basis, swarm.engine
-        )
-    write_fits(output, fits)
+    chosen = parsed(SwarmStudySettings, settings)
+    measurements, swarm = read_measurements(poses, errors), chosen.swarm
+    problems = measurements.fit_problems(specs_of(chosen.models), list(measurements.robots))
+    write_fits(output, fit_swarms(problems, chosen.seeds, swarm_settings_of(swarm), swarm.basis, swarm.engine))
 
 
 @app.command()
-def residuals(
-    poses: Poses,
-    errors: Errors,
-    fits: Annotated[Path, typer.Argument(help="fits.json.gz of a study")],
-    output: Annotated[Path, typer.Option("--output", "-o", help="folder for the tables")],
+def residuals(poses: Poses, errors: Errors, fits: Fits, output: Output) -> None:
+    """What every fit leaves of the errors, for every robot of a table."""
+    from armscope.files import write_table
+    from armscope.paper.residuals import residual_table
+
+    write_table(output, residual_table(read_measurements(poses, errors), read_fits(fits)))
+
+
+@app.command("table2")
+def table2_(
+    residuals: Residuals,
+    output: Output,
     beside_printed: Annotated[bool, typer.Option(help="beside what the paper prints of its own arm")] = True,
 ) -> None:
-    """Table 2 and the coefficients: what every fit leaves of the errors, beside what the paper prints."""
+    """Table 2: the first robot's errors that are left over, beside the printed ones and those of its ensemble."""
     from armscope.files import write_table
-    from armscope.paper import residual_table, table2
+    from armscope.paper.table2 import table2
+
+    table = table2(read_tables(residuals))
+    write_table(
+        output, table if beside_printed else table.drop(columns=["printed", "rss_ratio", "rms_ratio"]), digits=6
+    )
+
+
+@app.command()
+def coefficients(fits: Fits, output: Output) -> None:
+    """The fitted coefficients of one robot, beside Eqs. (9)-(20)."""
+    from armscope.files import write_table
     from armscope.paper.coefficients import coefficient_table
 
-    measurements, fitted = read_measurements(poses, errors), read_fits(fits)
-    rows = residual_table(measurements, fitted)
-    write_table(output / "residuals.csv.gz", rows)
-    of_first = [fit for fit in fitted if fit.label == measurements.robots[0]]
-    tables = {"table2": table2(rows), "coefficients": coefficient_table(of_first)}
-    for name, table in tables.items():
-        about_the_paper = [] if beside_printed else ["printed", "rss_ratio", "rms_ratio", "equation"]
-        write_table(output / f"{name}.csv", table.drop(columns=about_the_paper, errors="ignore"), digits=6)
+    write_table(output, coefficient_table(read_fits(fits)), digits=6)
 
 
 @app.command("cross-check")
-def cross_check_(
-    residuals: Annotated[Path, typer.Argument(help="residuals.csv.gz of the study")],
-    fits: Annotated[Path, typer.Argument(help="fits.json.gz of the study")],
-    output: Output,
-) -> None:
+def cross_check_(residuals: Residuals, fits: ManyFits, output: Output) -> None:
     """Hold the robots against printed numbers that anchoring did not use."""
-    import pandas as pd
-
     from armscope.files import write_table
-    from armscope.paper import cross_check
+    from armscope.paper.cross_check import cross_check
 
-    write_table(output, cross_check(pd.read_csv(residuals), read_fits(fits)), digits=5)
+    write_table(output, cross_check(read_tables(residuals), read_fits(*fits)), digits=5)
+
+
+@app.command("sub-volumes")
+def sub_volumes_(poses: Poses, errors: ManyErrors, output: Output) -> None:
+    """What one model for each of several regions of the workspace leaves of the errors."""
+    from armscope.files import write_table
+    from armscope.paper.sub_volumes import sub_volumes
+
+    write_table(output, sub_volumes(read_measurements(poses, *errors)), digits=6)
 
 
 @app.command("claims")
 def claims_(
-    poses: Poses,
-    errors: Errors,
-    fits: Annotated[Path, typer.Argument(help="fits.json.gz of a study")],
-    fits_as_printed: Annotated[Path, typer.Argument(help="fits of swarms that move as the paper prints it")],
-    residuals: Annotated[Path, typer.Argument(help="residuals.csv.gz of the study")],
-    output: Annotated[Path, typer.Option("--output", "-o", help="folder for claims.csv and sub_volumes.csv")],
+    residuals: Residuals,
+    fits: ManyFits,
+    as_printed: Annotated[Path, typer.Option(help="fits of swarms that move as the paper prints it")],
+    sub_volumes: Annotated[Path, typer.Option(help="sub_volumes.csv")],
+    output: Output,
 ) -> None:
     """Whether each claim of the paper holds: for the anchored robot and for which share of the ensemble."""
     import pandas as pd
 
     from armscope.files import write_table
-    from armscope.paper import claims, sub_volumes
+    from armscope.paper.claims import claims
 
-    regions = sub_volumes(read_measurements(poses, errors))
-    write_table(output / "sub_volumes.csv", regions, digits=6)
-    judged = claims(pd.read_csv(residuals), read_fits(fits), regions, read_fits(fits_as_printed))
-    write_table(output / "claims.csv", judged, digits=4)
+    judged = claims(read_tables(residuals), read_fits(*fits), pd.read_csv(sub_volumes), read_fits(as_printed))
+    write_table(output, judged, digits=4)
 
 
 @app.command("audit")
@@ -187,7 +203,7 @@ def audit_(
     """Whether the printed table, equations and trajectories can all be true."""
     from armscope.cli.paper_settings import AuditSettings, audit_scope_of
     from armscope.files import write_table
-    from armscope.paper import audit
+    from armscope.paper.audit import audit
 
     write_table(output, audit(audit_scope_of(parsed(AuditSettings, settings))), digits=4)
 
@@ -198,7 +214,7 @@ def reading_(poses: Poses, output: Output) -> None:
     import pandas as pd
 
     from armscope.files import write_table
-    from armscope.paper import reading
+    from armscope.paper.reading import reading
 
     table = pd.read_csv(poses)
     identification = table[table["trajectory"] == "identification"]
@@ -214,10 +230,9 @@ def convergence(poses: Poses, errors: Errors, settings: Settings, output: Output
 
     chosen = parsed(SwarmStudySettings, settings)
     measurements = read_measurements(poses, errors)
-    problems = measurements.fit_problems(specs_of(chosen.models), [measurements.robots[0]])
-    swarm = chosen.swarm
-    seeds = range(chosen.seed, chosen.seed + swarm.seeds)
-    write_table(output, histories(problems, seeds, swarm_settings_of(swarm), swarm.basis, swarm.engine), digits=5)
+    problems, swarm = measurements.fit_problems(specs_of(chosen.models), list(measurements.robots)), chosen.swarm
+    history = histories(problems, chosen.seeds, swarm_settings_of(swarm), swarm.basis, swarm.engine)
+    write_table(output, history, digits=5)
 
 
 @app.command()
@@ -225,7 +240,7 @@ def figure(
     name: Annotated[str, typer.Argument(help="fig03 ... fig11")],
     poses: Poses,
     errors: Errors,
-    fits: Annotated[Path, typer.Argument(help="fits.json.gz of a study")],
+    fits: Fits,
     output: Annotated[Path, typer.Option("--output", "-o", help="a path; PNG, SVG and PDF are written there")],
 ) -> None:
     """Draw one figure of the paper from what was measured and fitted."""

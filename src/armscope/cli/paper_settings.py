@@ -5,7 +5,7 @@ from __future__ import annotations
 from armscope.config import Audit, Count, Identification, Model, Paper, Swarm, Tolerances, Tracker, Trajectories
 from armscope.errormodels import ModelSpec
 from armscope.inputs import Strict
-from armscope.paper import AuditScope
+from armscope.paper.audit import AuditScope
 from armscope.swarm import SwarmSettings
 from armscope.variants import Variant
 from armscope.world.tracker import Tracker as VirtualTracker
@@ -22,21 +22,17 @@ class MeasureSettings(Strict):
     tracker: Tracker
 
 
-class FitSettings(Strict):
-    """`armscope paper fit`."""
-
-    seed: int
-    models: tuple[Model, ...]
-    swarm: Swarm
-    ensemble_seeds: Count
-
-
 class SwarmStudySettings(Strict):
-    """`armscope paper convergence`."""
+    """`armscope paper fit` and `armscope paper convergence`."""
 
     seed: int
     models: tuple[Model, ...]
     swarm: Swarm
+
+    @property
+    def seeds(self) -> range:
+        """The swarms' seeds, counted from the study's."""
+        return range(self.seed, self.seed + self.swarm.seeds)
 
 
 class SweepSettings(Strict):

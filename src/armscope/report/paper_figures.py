@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from armscope.errormodels import FittedModel
-from armscope.paper import Measurements
+from armscope.paper.measurements import Measurements
 from armscope.report.style import (
     AXIS_NAMES,
     BLACK,
