@@ -5,6 +5,7 @@ configfile: "config/config.yaml"
 include: "workflow/rules/common.smk"
 include: "workflow/rules/paper.smk"
 include: "workflow/rules/real.smk"
+include: "workflow/rules/recordings.smk"
 include: "workflow/rules/sweep.smk"
 include: "workflow/rules/proof.smk"
 

@@ -1,0 +1,64 @@
+"""Commands before and beside a diagnosis: check a table, calibrate the plain geometry."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+app = typer.Typer()
+
+
+@app.command()
+def check(
+    recordings: Annotated[Path, typer.Argument(help="recordings.csv")],
+    robot: Annotated[Path | None, typer.Option("--robot", "-r", help="robot.yaml: also compare with the arm")] = None,
+    figure: Annotated[Path | None, typer.Option(help="draw poses and joint coverage (PNG, SVG and PDF)")] = None,
+) -> None:
+    """Say what a recordings table holds and what looks wrong in it; exit code 1 if something does."""
+    from armscope.check import check as check_table
+    from armscope.recordings import read_recordings
+    from armscope.robot import load_arm
+
+    arm = None if robot is None else load_arm(robot)
+    table = read_recordings(recordings)
+    found = check_table(table, arm)
+    print(found.text())
+    if figure is not None:
+        from armscope.report.check_figure import draw_check
+        from armscope.report.style import save_figure
+
+        save_figure(draw_check(table, arm), figure)
+    if found.has_problems:
+        raise typer.Exit(1)
+
+
+@app.command()
+def calibrate(
+    recordings: Annotated[Path, typer.Argument(help="recordings.csv")],
+    robot: Annotated[Path, typer.Option("--robot", "-r", help="robot.yaml: the nominal arm")],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="folder for robot.yaml, URDF and frames")
+    ],
+    level: Annotated[
+        Literal["nominal", "offsets", "geometric", "compliance"], typer.Option(help="what is free beyond the frames")
+    ] = "geometric",
+    robust: Annotated[bool, typer.Option(help="bad shots weigh less")] = False,
+    one_base: Annotated[bool, typer.Option(help="all runs share one base frame")] = False,
+    tool_per_run: Annotated[bool, typer.Option(help="the tool was taken off between runs")] = False,
+) -> None:
+    """Calibrate the arm's geometry and export it as robot.yaml and URDF."""
+    from armscope.calibration import calibrate as calibrated
+    from armscope.calibration.export import export
+    from armscope.files import write_table
+    from armscope.recordings import read_recordings
+    from armscope.robot import load_arm
+
+    arm = load_arm(robot)
+    table = read_recordings(recordings, arm.n_motors)
+    calibration = calibrated(arm, table, level, robust=robust, one_base=one_base, tool_per_run=tool_per_run)
+    write_table(output / "calibration.csv", calibration.table)
+    paths = export(calibration, output)
+    print(calibration.text())
+    print("\n".join(str(path) for path in paths))

@@ -1,0 +1,48 @@
+# Public recordings of real arms, fetched from their source, checked, and converted:
+#   snakemake -j2 fetch_recordings
+#   snakemake -j2 --config recordings_dir=results/recordings
+IMPORTABLE = [path.parent.name for path in sorted(Path("config/recordings").glob("*/mapping.yaml"))]
+FETCHED = f"{RESULTS}/recordings"
+
+
+rule fetch_raw:
+    input:
+        source="config/recordings/{public_set}/source.yaml",
+    output:
+        directory(f"{FETCHED}/{{public_set}}/raw"),
+    params:
+        # a folder of the raw files stands in for the network where there is one
+        stand_in=lambda wildcards: (
+            f"--recordings-dir {RECORDINGS}" if Path(RECORDINGS, wildcards.public_set, "raw").is_dir() else ""
+        ),
+        code=code("armscope.cli.recordings:fetch"),
+    log:
+        f"{RESULTS}/logs/recordings/{{public_set}}/fetch.log",
+    conda:
+        "../envs/armscope.yaml"
+    shell:
+        "armscope fetch {input.source} -o {output} {params.stand_in} > {log} 2>&1"
+
+
+rule import_raw:
+    input:
+        raw=f"{FETCHED}/{{public_set}}/raw",
+        mapping="config/recordings/{public_set}/mapping.yaml",
+        robot="config/recordings/{public_set}/robot.yaml",
+    output:
+        recordings=f"{FETCHED}/{{public_set}}/recordings.csv.gz",
+        robot=f"{FETCHED}/{{public_set}}/robot.yaml",
+    params:
+        code=code("armscope.cli.recordings:import_"),
+    log:
+        f"{RESULTS}/logs/recordings/{{public_set}}/import.log",
+    conda:
+        "../envs/armscope.yaml"
+    shell:
+        "(armscope import {input.raw}/* --mapping {input.mapping} -o {output.recordings} && cp {input.robot} {output.robot}) "
+        "> {log} 2>&1"
+
+
+rule fetch_recordings:
+    input:
+        expand(f"{FETCHED}/{{public_set}}/recordings.csv.gz", public_set=IMPORTABLE),
