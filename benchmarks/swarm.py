@@ -121,7 +121,7 @@ def random_numbers(batch: list[FitProblem]) -> Callable[[int, int], np.ndarray]:
 
     def run(model: int, seeds: int) -> np.ndarray:
         for generators in np.array_split(np.array(spawn_generators(model, 3 * seeds)), max(1, seeds // 5)):
-            stream = WeightStream(generators, (PARTICLES, dimensions[model]))
+            stream = WeightStream(generators, (PARTICLES, dimensions[model]), ITERATIONS)
             for _ in range(ITERATIONS):
                 stream.draw()
         return np.empty(0)

@@ -121,7 +121,7 @@ class _Chunk:
         start = np.stack([generator.random(shape[1:]) for generator in generators])
         self.positions = lower[:, None, :] + (upper - lower)[:, None, :] * start
         self.velocities = np.zeros(shape)
-        self.stream = WeightStream(generators, shape[1:])
+        self.stream = WeightStream(generators, shape[1:], settings.iterations)
         self.bests = self.positions.copy()
         self.best_fitness = np.full(shape[:2], np.inf)
         self.rows = np.arange(count)  # where in the result each swarm still at work stands
@@ -195,8 +195,7 @@ class _Chunk:
         for row in np.flatnonzero(stopped):
             self._record(int(row), iteration, StopReason.THRESHOLD if reached[row] else StopReason.DIVERGED)
         at_work = ~stopped
-        remaining = [g for g, stays in zip(self.stream.generators, at_work, strict=True) if stays]
-        self.stream = WeightStream(remaining, self.positions.shape[1:])
+        self.stream.keep(at_work)
         for name in ("swarms", "positions", "velocities", "bests", "best_fitness", "rows"):
             setattr(self, name, getattr(self, name)[at_work])
         if self.speed_limit is not None:
