@@ -93,10 +93,13 @@ def twist_jacobian(frames: Chain, location: str) -> Array:
     The three translations move the tool by the frame's axes, the three rotations by axis x (tool - origin).
     """
     rotation, origin = frames.frame(location)
-    lever = frames.tool - origin
-    # axis x lever for each column axis of the rotation
-    turning = np.cross(np.swapaxes(rotation, 1, 2), lever[:, None, :])
-    return np.concatenate([rotation, np.swapaxes(turning, 1, 2)], axis=2)
+    jacobian = np.empty((len(origin), 3, 6))
+    jacobian[..., :3] = rotation
+    x, y, z = (frames.tool - origin).T[..., None]  # each (N, 1): axis x lever, written out, is several times faster
+    jacobian[:, 0, 3:] = rotation[:, 1] * z - rotation[:, 2] * y
+    jacobian[:, 1, 3:] = rotation[:, 2] * x - rotation[:, 0] * z
+    jacobian[:, 2, 3:] = rotation[:, 0] * y - rotation[:, 1] * x
+    return jacobian
 
 
 def joint_jacobian(frames: Chain) -> Array:
