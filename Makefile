@@ -22,8 +22,11 @@ test: .venv/installed-test
 	$(BIN)/snakemake -j2 --configfile config/small.yaml --forceall
 	$(BIN)/pytest -n 2
 
-benchmark: .venv/installed-benchmark
-	$(BIN)/python -m benchmarks
+# the packages compared with need older versions of ours, so they live in environments of their own
+benchmark: .venv/installed .venv-peers/installed .venv-figaroh/installed
+	$(BIN)/python -m benchmarks.kinematics
+	.venv-peers/bin/python -m benchmarks.swarm
+	$(BIN)/python -m benchmarks.calibration --pybotics .venv-peers/bin/python --figaroh .venv-figaroh/bin/python
 
 proof: .venv/installed
 	$(BIN)/snakemake -j2 proof
@@ -41,9 +44,16 @@ proof: .venv/installed
 	$(BIN)/pip install --quiet --disable-pip-version-check -r requirements-test.txt
 	@touch $@
 
-.venv/installed-benchmark: .venv/installed requirements-benchmark.txt
-	$(BIN)/pip install --quiet --disable-pip-version-check -r requirements-benchmark.txt
+.venv-peers/installed: requirements-benchmark.txt
+	$(PYTHON) -m venv .venv-peers
+	.venv-peers/bin/pip install --quiet --disable-pip-version-check -r requirements-benchmark.txt
+	.venv-peers/bin/pip install --quiet --disable-pip-version-check --no-deps --editable .
+	@touch $@
+
+.venv-figaroh/installed: benchmarks/peers/requirements-figaroh.txt
+	$(PYTHON) -m venv .venv-figaroh
+	.venv-figaroh/bin/pip install --quiet --disable-pip-version-check -r benchmarks/peers/requirements-figaroh.txt
 	@touch $@
 
 clean:
-	rm -rf .venv results .snakemake
+	rm -rf .venv .venv-peers .venv-figaroh results .snakemake

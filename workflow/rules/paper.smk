@@ -312,21 +312,3 @@ rule paper_report:
 rule paper:
     input:
         rules.paper_report.output,
-
-
-rule readme:
-    # a file under version control, so this is no part of the default run
-    input:
-        claims=f"{PAPER}/claims.csv",
-        table2=f"{PAPER}/table2.csv",
-    output:
-        touch(f"{PAPER}/readme.done"),
-    params:
-        folder=subpath(input.claims, parent=True),
-        code=code("armscope.cli.paper:readme_"),
-    log:
-        f"{RESULTS}/logs/readme.log",
-    conda:
-        "../envs/armscope.yaml"
-    shell:
-        "armscope paper readme README.md {params.folder} > {log} 2>&1"

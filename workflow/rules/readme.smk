@@ -1,0 +1,38 @@
+# The README's numbers and figure. They are files under version control, so this is no part of the default run.
+
+
+rule example:
+    input:
+        recordings="examples/{example}/recordings.csv",
+        robot="examples/{example}/robot.yaml",
+    output:
+        verdict=f"{RESULTS}/examples/{{example}}/verdict.json",
+        report=f"{RESULTS}/examples/{{example}}/report.html",
+        arm=f"{RESULTS}/examples/{{example}}/figures/arm.png",
+    params:
+        folder=subpath(output.verdict, parent=True),
+        code=code("armscope.cli.diagnosis:diagnose"),
+    log:
+        f"{RESULTS}/logs/examples/{{example}}.log",
+    conda:
+        "../envs/armscope.yaml"
+    shell:
+        "armscope diagnose {input.recordings} --robot {input.robot} -o {params.folder} > {log} 2>&1"
+
+
+rule readme:
+    input:
+        claims=f"{PAPER}/claims.csv",
+        table2=f"{PAPER}/table2.csv",
+        arm=f"{RESULTS}/examples/five-effects/figures/arm.png",
+    output:
+        touch(f"{RESULTS}/readme.done"),
+    params:
+        folder=subpath(input.claims, parent=True),
+        code=code("armscope.cli.paper:readme_"),
+    log:
+        f"{RESULTS}/logs/readme.log",
+    conda:
+        "../envs/armscope.yaml"
+    shell:
+        "(armscope paper readme README.md {params.folder} && cp {input.arm} docs/figures/five-effects.png) > {log} 2>&1"
