@@ -113,8 +113,9 @@ def test_a_vague_name_stays_vague_and_says_its_best_reading():
     vague = compliance(named_as="region", title="elastic, around joint 1, joint 2")
     sentence = headline(verdicts.case(effects=(vague,)).verdict)
     assert sentence.startswith("Something gives way under load around joint 1, joint 2 (best single reading: joint 2")
-    mixed = compliance(named_as="region", title="joint compliance at joint 2 or gear ratio at joint 2")
-    assert headline(verdicts.case(effects=(mixed,)).verdict).startswith("Either joint compliance at joint 2 or gear")
+    mixed = compliance(named_as="region", title="joint compliance at joint 2 or unknown at joint 3")
+    said = headline(verdicts.case(effects=(mixed,)).verdict)
+    assert said.startswith("Either joint compliance at joint 2 or an unexplained curve at joint 3 –")
 
 
 def test_nothing_missing_and_cannot_tell_are_whole_answers():

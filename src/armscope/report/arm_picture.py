@@ -130,6 +130,7 @@ class _Picture:
         self.axes.add_patch(Polygon(hull, facecolor=_shaded(colour), edgecolor=OUTLINE, linewidth=1.0, zorder=1))
         top = Polygon(self.view.flat(plate), facecolor=colour, edgecolor=OUTLINE, linewidth=0.7, zorder=1.1)
         self.axes.add_patch(top)
+        self.obstacles.extend((point, 0.012 * self.size) for point in body[::3])
 
     def link(self, line: Array, colour: Any, place: str) -> None:
         number = _number(place) if place != "tool" else self.n_joints + 1
@@ -273,7 +274,9 @@ class _Picture:
         bottom, _ = self.axes.get_ylim()
         nice = [0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0]
         length = max((step for step in nice if step < 0.3 * self.size), default=nice[0])
-        x, y = left + 0.02 * (right - left), bottom + 0.025 * self.size
+        base_is_left = self.view.flat(np.zeros(3))[0] < (left + right) / 2
+        x = right - 0.02 * (right - left) - length if base_is_left else left + 0.02 * (right - left)
+        y = bottom + 0.025 * self.size
         self.obstacles.extend((np.array([x + along * length, y]), 0.05 * self.size) for along in np.linspace(0, 1, 6))
         self.axes.plot([x, x + length], [y, y], color=OUTLINE, linewidth=2.0, solid_capstyle="butt", zorder=5)
         self.axes.text(x + length / 2, y + 0.012 * self.size, f"{1e3 * length:.0f} mm", ha="center", va="bottom",

@@ -39,8 +39,8 @@ GLOSSARY = (
     ("Held-out rows", "Rows that took no part in finding or fitting the effects. A model that merely memorises the "
      "rows it has seen fails on them."),
     ("Noise", "What remains when the model is right: instrument and repeatability together, 1 sigma per axis."),
-    ("Share of the mismatch", "How much of the squared residual after the free frames an effect accounts for. Effects "
-     "that look alike share, so the shares need not add up to 100 %."),
+    ("Share of the mismatch", "How much of the squared residual after the free frames an effect accounts for alone. "
+     "Effects overlap or reinforce one another, so the shares need not add up to 100 %."),
     ("Driver", "What an effect follows: a joint's angle, the load of gravity on it, temperature, time, ..."),
     ("Evidence, nats", "How much more probable the recordings are with the effect than without it, as a natural "
      "logarithm, after paying for the size of the library searched. 1 nat is odds of 3 to 1, 5 nats 150 to 1."),

@@ -16,6 +16,7 @@ from armscope.report.wording import (
     evidence_in_words,
     millimetres,
     percent,
+    plain,
     read_parameter,
 )
 
@@ -102,7 +103,7 @@ def title_of(effect: FoundEffect) -> str:
     """The name at the level that the evidence allows; a free curve is told by what it follows."""
     if effect.effect == "unknown" and effect.named_as == "effect" and effect.curve is not None:
         return f"{effect.location}: unexplained curve that follows the {effect.driver}"
-    return effect.title or effect_in_words(effect.effect, effect.location)
+    return plain(effect.title) or effect_in_words(effect.effect, effect.location)
 
 
 def told_parameters(effect: FoundEffect) -> Sequence[Parameter]:

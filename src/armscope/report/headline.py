@@ -88,7 +88,7 @@ def _cannot_tell(verdict: Verdict) -> str:
 def _vague(effect: FoundEffect) -> str:
     """A region or a family, with the best single reading in brackets."""
     if " or " in effect.title:
-        return f"either {effect.title}"
+        return f"either {plain(effect.title)}"
     kinds = {
         "elastic": "something gives way under load",
         "geometric": "something has another shape than stated",

@@ -181,7 +181,8 @@ def millimetres(value: float | None) -> str:
 
 def plain(text: str) -> str:
     """The files' names in a text as words: "gear_mesh (per_turn 9)" becomes "gear mesh (waves per turn 9)"."""
-    return text.replace("per_turn", "waves per turn").replace("_", " ")
+    words = text.replace("per_turn", "waves per turn").replace("_", " ")
+    return words.replace("unknown at", "an unexplained curve at")
 
 
 def effect_in_words(effect: str, location: str) -> str:
