@@ -153,3 +153,16 @@ def test_a_payload_off_the_tool_point_turns_the_wrist():
     loaded = scene.session.payload > 0
     assert np.all(np.abs(off_tool - at_tool)[loaded] > 1e-3)
     assert np.abs(off_tool - at_tool)[~loaded] == pytest.approx(0, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("moving", "giving", "place"),
+    [("base_drift", "base_compliance", "base"), ("axis_wobble", "bearing_compliance", "joint 2")],
+)
+def test_what_moves_and_gives_way_at_one_place_does_both(moving, giving, place):
+    scene, nominal = scene_of("six-axis")
+    both = [drawn(scene, moving, place), drawn(scene, giving, place)]
+    alone = [stand(scene, [effect]).tool - nominal for effect in both]
+    together = stand(scene, both).tool - nominal
+    size = min(np.abs(part).max() for part in alone)
+    assert np.abs(together - sum(alone)).max() < 0.02 * size

@@ -197,12 +197,14 @@ def _settle(
     angles = mechanism.angle_columns()
     actuation = mechanism.geometry.actuation
     z, turned = np.zeros(springs.count), np.zeros(actuation.shape[1])
+    # MuJoCo's springs rest at zero, these where their freedom is prescribed to stand
+    rest = springs.stiffness * (springs.spread.T @ prescribed)
     for _ in range(MAX_STEPS):
         qpos = prescribed + springs.spread @ z
         qpos[angles] += actuation @ turned
         gravity, elastic = mechanism.load(qpos)
         torque = actuation.T @ gravity[angles]
-        force = springs.spread.T @ (gravity + elastic)
+        force = springs.spread.T @ (gravity + elastic) + rest
         step = force / springs.stiffness if springs.count else force
         now = np.zeros_like(turned)
         for motor, curve in curves:
