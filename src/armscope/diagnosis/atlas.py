@@ -10,7 +10,7 @@ from armscope.diagnosis.extra import conditioned, explained, weigh_blocks
 from armscope.diagnosis.problem import Gram, Pool
 from armscope.diagnosis.verdict import Atlas
 from armscope.diagnosis.weights import RowWeights
-from armscope.physics.effect import AXES, ONE, Direction, Driver, Term, term
+from armscope.physics.effect import AXES, ONE, Direction, Driver, Term, motor, term
 from armscope.physics.elastic import has_load
 from armscope.physics.model import FittedModel
 from armscope.physics.placing import varies
@@ -91,9 +91,19 @@ def _cells(
             for depth, (_, kind) in enumerate(drivers):
                 chosen = _driver(model, recordings, location, axis, kind)
                 if len(chosen) == size:
-                    terms = tuple(term(f"{n}", "", (Direction(location, axis), d)) for n, d in enumerate(chosen))
+                    direction = _direction(model, location, axis)
+                    terms = tuple(term(f"{n}", "", (direction, d)) for n, d in enumerate(chosen))
                     cells.append(((row, column, depth), terms))
     return cells
+
+
+def _direction(model: FittedModel, location: str, axis: str) -> Direction:
+    """What turns about a joint's axis is its motor, which on a parallelogram arm turns another chain joint with it."""
+    if axis == "rz" and location != "base":
+        number = int(location.split()[1])
+        if number <= model.arm.n_motors and model.arm.actuation[number - 1, number - 1] != 0:
+            return motor(number)
+    return Direction(location, axis)
 
 
 def _driver(model: FittedModel, recordings: Recordings, location: str, axis: str, kind: str) -> tuple[Driver, ...]:
@@ -107,10 +117,11 @@ def _driver(model: FittedModel, recordings: Recordings, location: str, axis: str
         return _load(model, recordings, location, axis, number)
     if number == 0:
         return ()
+    own = "" if _direction(model, location, axis).axis == "turn" else "chain "
     if kind in ("1", "2"):
-        return Driver("chain cosine", (number, int(kind))), Driver("chain sine", (number, int(kind)))
+        return Driver(f"{own}cosine", (number, int(kind))), Driver(f"{own}sine", (number, int(kind)))
     if kind == "angle":
-        return (Driver("chain angle", (number,)),)
+        return (Driver(f"{own}angle", (number,)),)
     moves = np.flatnonzero(model.arm.actuation[number - 1])
     return (Driver(kind, (int(moves[-1] if number - 1 not in moves else number - 1) + 1,)),)
 
