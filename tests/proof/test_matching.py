@@ -48,6 +48,14 @@ def test_one_name_cannot_stand_for_two_concealed_effects():
     assert not left
 
 
+def test_a_name_stands_for_the_story_before_it_stands_for_the_background():
+    background = concealed("gear_eccentricity", "joint 2", minor=True)
+    for truths in itertools.permutations([COMPLIANCE, background]):
+        matches, left = match(truths, [claim("gear_eccentricity", "joint 2")])
+        assert {m.truth.minor: m.outcome for m in matches} == {False: "acceptable", True: "missed"}
+        assert not left
+
+
 def test_waves_of_one_effect_at_one_place_are_one_name():
     claims = [claim("gear_mesh", "joint 1", minor=True, rms=0.2), claim("gear_mesh", "joint 1", rms=0.1)]
     (only,) = distinct(claims)

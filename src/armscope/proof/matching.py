@@ -13,7 +13,7 @@ from armscope.proof.definitions import Name, place
 from armscope.proof.truth import Concealed
 
 UNKNOWN = "unknown"
-_OWN, _ALTERNATIVE, _NEVER = 0.0, 1.0, 1e6
+_OWN, _ALTERNATIVE, _BACKGROUND, _NEVER = 0.0, 1.0, 2.0, 1e6
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ def distinct(claims: Sequence[Claim]) -> list[Claim]:
 def match(concealed: Sequence[Concealed], claims: Sequence[Claim]) -> tuple[list[Match], list[Claim]]:
     """Concealed effects with the claims that stand for them, and the claims left over.
 
-    Own names go before alternatives, as many as possible in all.
+    As many as possible in all; among those, own names before alternatives, and the story before the background.
 
     Args:
         concealed: all of a world's effects.
@@ -67,7 +67,7 @@ def match(concealed: Sequence[Concealed], claims: Sequence[Claim]) -> tuple[list
 
 def _price(truth: Concealed, claim: Claim) -> float:
     if claim.name == truth.name:
-        return _OWN
+        return _BACKGROUND if truth.minor else _OWN
     return _ALTERNATIVE if claim.name in truth.alternatives else _NEVER
 
 
