@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from armscope.diagnosis.verdict import Parameter
 from armscope.physics.registry import EFFECTS
+from armscope.report.diagnosis_figures import location_shares
 from armscope.report.effect_cards import card, told_parameters
 from armscope.report.headline import exact_phrase, headline
 from armscope.report.page import unbroken
@@ -191,7 +192,8 @@ def test_evidence_is_told_as_odds(nats, words):
 
 
 @pytest.mark.parametrize(
-    ("share", "text"), [(0.553, "55 %"), (0.0949, "9.5 %"), (0.0123, "1.2 %"), (1e-5, "< 0.1 %"), (math.nan, "–")]
+    ("share", "text"),
+    [(0.553, "55 %"), (0.0949, "9.5 %"), (0.0123, "1.2 %"), (1e-5, "< 0.1 %"), (53.0, "over 100 %"), (math.nan, "–")],
 )
 def test_shares_carry_no_false_digits(share, text):
     assert percent(share) == text
@@ -216,6 +218,13 @@ def test_a_free_curve_is_told_by_how_far_it_reaches():
     (reach,) = told_parameters(verdicts.unknown_curve())
     assert reach.value == pytest.approx(1.5e-4, rel=0.01)
     assert reach.stderr == pytest.approx(1.2e-5)
+
+
+def test_effects_that_cancel_each_other_are_told_as_such():
+    assert "nearly cancel" in card(compliance(share=53.0), 1).cancels
+    assert card(compliance(share=0.9), 1).cancels == ""
+    case = verdicts.case(effects=(compliance(share=53.0), compliance("joint 3", share=48.0)))
+    assert location_shares(case.verdict) == {"joint 2": 1.0, "joint 3": 1.0}
 
 
 def test_rivals_too_close_to_tell_apart_are_marked():

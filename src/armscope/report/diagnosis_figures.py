@@ -100,13 +100,13 @@ def location_shares(verdict: Verdict) -> dict[str, float]:
     """Share of the mismatch by location: of all effects found, and of what is left unexplained at a known place."""
     shares: dict[str, float] = {}
     for effect in verdict.effects:
-        shares[effect.location] = shares.get(effect.location, 0.0) + max(effect.share, 0.0)
+        shares[effect.location] = shares.get(effect.location, 0.0) + min(max(effect.share, 0.0), 1.0)
     left = verdict.unexplained
     told = any(effect.effect == "unknown" and effect.location == left.location for effect in verdict.effects)
     if left.present and left.location and not told and verdict.residual_before_mm > 0:
         share = (left.rms_mm / verdict.residual_before_mm) ** 2
         shares[left.location] = shares.get(left.location, 0.0) + min(share, 1.0)
-    return shares
+    return {location: min(share, 1.0) for location, share in shares.items()}
 
 
 def waterfall_steps(verdict: Verdict) -> list[WaterfallStep]:

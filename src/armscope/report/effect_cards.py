@@ -21,6 +21,7 @@ from armscope.report.wording import (
 )
 
 MOST_PARAMETERS = 8
+CANCELS = 1.05
 UNKNOWN_MASSES = "compliance_times_moment"
 TOO_CLOSE_NATS = 3.0
 """Alternatives nearer than this can't be told apart (odds below 20 to 1)."""
@@ -55,6 +56,7 @@ class Card:
     alternatives: tuple[Alternative, ...]
     chosen: str
     how_specific: str
+    cancels: str
     physics: str
     confirm: str
     cure: str
@@ -91,6 +93,7 @@ def card(effect: FoundEffect, number: int, figure: str = "") -> Card:
         ),
         chosen=chosen_how_often(effect.inclusion),
         how_specific=how_specific(effect),
+        cancels=cancelling(effect),
         physics=effect.physics,
         confirm=effect.confirm,
         cure=effect.cure,
@@ -130,6 +133,16 @@ def remark_on(effect: FoundEffect, shown: int) -> str:
         )
     left_out = len(told_parameters(effect)) - shown
     return f"{left_out} further numbers stand in model.yaml." if left_out > 0 else ""
+
+
+def cancelling(effect: FoundEffect) -> str:
+    """A warning about an effect that is larger than the mismatch itself; empty for others."""
+    if effect.share <= CANCELS:
+        return ""
+    return (
+        "Alone it would be larger than the whole mismatch: it and another effect nearly cancel each other in these "
+        "poses. Take the two as one finding; their single values mean little."
+    )
 
 
 def chosen_how_often(inclusion: float | None) -> str:

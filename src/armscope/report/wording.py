@@ -167,6 +167,8 @@ def percent(share: float) -> str:
     if not math.isfinite(share):
         return "–"
     value = 100 * share
+    if value > 105:
+        return "over 100 %"  # it and another nearly cancel: the number itself says nothing
     if abs(value) < 0.05:
         return "< 0.1 %"
     return f"{value:.0f} %" if value >= 9.5 else f"{value:.1f} %"
