@@ -59,9 +59,7 @@ def main() -> None:
             start = time.process_time()
             functions[which](arm, angles)
             seconds[number, which] = time.process_time() - start
-    print(
-        f"{arm.name}, {POSES} poses, {ROUNDS} rounds, CPU time of one thread; ratio to the pinocchio loop in the same round"
-    )
+    print(f"{arm.name}, {POSES} poses, {ROUNDS} rounds, CPU time; ratio to the pinocchio loop of the same round")
     for which, function in enumerate(functions):
         ratios = seconds[:, -1] / seconds[:, which]
         print(

@@ -42,6 +42,21 @@ def code(*modules):
     return digest(*modules)
 
 
+PROOF = f"{RESULTS}/proof"
+HALVES = ("fixed", "fresh")
+PARTS = {"small": 1, "full": CONFIG.proof.parts}
+
+
+def batches(size):
+    """The batches that a proof's worlds are made and diagnosed in."""
+    return [f"{half}-{part}" for half in HALVES for part in range(PARTS[size])]
+
+
+def of_batches(pattern):
+    """That file of every batch."""
+    return lambda wildcards: expand(pattern, size=wildcards.size, batch=batches(wildcards.size))
+
+
 def _missing(arm):
     files = [f"{RECORDINGS}/{arm.recordings}", f"{RECORDINGS}/{arm.robot}"]
     return next((file for file in files if not Path(file).is_file()), None)

@@ -1,22 +1,9 @@
 # The diagnosis on worlds with concealed effects. Who diagnoses sees the recordings only; the truth is in an archive elsewhere.
-PROOF = f"{RESULTS}/proof"
-HALVES = ("fixed", "fresh")
-PARTS = {"small": 1, "full": CONFIG.proof.parts}
 PROOF_TABLES = (
     "worlds effects names intervals pairs aims per_effect power strength thresholds outcomes effect_outcomes outside "
     "held_out confusion false_alarms wrong_worlds"
 ).split()
 PROOF_FIGURES = "aims power confusion per_effect outcomes outside held_out".split()
-
-
-def batches(size):
-    """The batches that a proof's worlds are made and diagnosed in."""
-    return [f"{half}-{part}" for half in HALVES for part in range(PARTS[size])]
-
-
-def of_batches(pattern):
-    """That file of every batch."""
-    return lambda wildcards: expand(pattern, size=wildcards.size, batch=batches(wildcards.size))
 
 
 wildcard_constraints:
@@ -35,6 +22,8 @@ rule proof_seed:
         code=code("armscope.cli.proof:diagnose"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/seed.log",
+    conda:
+        "../envs/armscope.yaml"
     shell:
         "armscope proof seed {params.fixed} -o {output} > {log} 2>&1"
 
@@ -52,6 +41,8 @@ rule proof_worlds:
         code=code("armscope.cli.proof:worlds"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/worlds-{{half}}-{{part}}.log",
+    conda:
+        "../envs/armscope.yaml"
     shell:
         "armscope proof worlds {input.robots} --size {wildcards.size} --half {wildcards.half} "
         "--part {wildcards.part}/{params.parts} {params.seed} --visible {output.visible} --sealed {output.sealed} "
@@ -71,6 +62,8 @@ rule proof_diagnose:
         code=code("armscope.cli.proof:diagnose"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/diagnose-{{batch}}.log",
+    conda:
+        "../envs/armscope.yaml"
     shadow:
         "minimal"
     shell:
@@ -93,6 +86,8 @@ rule proof_score:
         code=code("armscope.cli.proof:score"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/score.log",
+    conda:
+        "../envs/armscope.yaml"
     shell:
         "armscope proof score {params.folder} -o {params.folder}/tables > {log} 2>&1"
 
@@ -107,6 +102,8 @@ rule proof_figures:
         code=code("armscope.cli.proof:figures"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/figures.log",
+    conda:
+        "../envs/armscope.yaml"
     shell:
         "armscope proof figures {params.folder}/tables -o {params.folder}/figures > {log} 2>&1"
 
@@ -123,6 +120,8 @@ rule proof_report:
         code=code("armscope.cli.proof:report"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/report.log",
+    conda:
+        "../envs/armscope.yaml"
     shell:
         "armscope proof report {params.folder}/tables {params.folder}/figures {input.seed} --size {wildcards.size} "
         "-o {output} > {log} 2>&1"
