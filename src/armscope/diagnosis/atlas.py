@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.linalg import cholesky, solve_triangular
 
 from armscope.diagnosis.extra import conditioned, explained, weigh_blocks
-from armscope.diagnosis.problem import Gram, Pool
+from armscope.diagnosis.problem import Gram, Pool, accumulate
 from armscope.diagnosis.verdict import Atlas
 from armscope.diagnosis.weights import RowWeights
 from armscope.physics.effect import AXES, ONE, Direction, Driver, Term, motor, term
@@ -22,16 +22,18 @@ ATLAS_ROWS = 4000
 Cell = tuple[int, int, int]
 
 
-def atlas(pool: Pool, model: FittedModel, recordings: Recordings, weights: RowWeights, fitted: Gram) -> Atlas:
+def atlas(pool: Pool, model: FittedModel, recordings: Recordings, weights: RowWeights) -> Atlas:
     """The atlas on top of the free frames and on top of the fitted model.
 
     Args:
         pool: of the fitted model.
-        fitted: Gram matrix of the pool's columns.
     """
     rows = np.unique(np.linspace(0, len(recordings) - 1, min(len(recordings), ATLAS_ROWS)).astype(np.intp))
     share = len(rows) / len(recordings)
     table, w = recordings.rows(rows), weights.take(rows, share)
+    # columns and response must stand at one and the same point and on the same rows, or what the frames absorb does not
+    # cancel
+    fitted = accumulate(pool, model, table, w, np.zeros(len(rows), dtype=np.intp))[0]
     locations = ("base", *(f"joint {j}" for j in range(1, model.arm.n_joints + 1)))
     drivers = _drivers(model, recordings)
     names = tuple(name for name, _ in drivers)

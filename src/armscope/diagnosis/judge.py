@@ -119,7 +119,7 @@ def judge(
         unexplained=unexplained,
         held_out=held_out,
         waterfall=waterfall,
-        atlas=atlas(fit.pool, fit.model, evidence.recordings, fit.weights, fit.gram),
+        atlas=atlas(fit.pool, fit.model, evidence.recordings, fit.weights),
         residuals=_residuals(evidence),
         suspects=_suspects(evidence),
         next_poses=separating,
