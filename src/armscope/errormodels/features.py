@@ -137,6 +137,21 @@ class FeatureSet:
             columns += self._columns_of(k, table[:, k])
         return np.stack(columns, axis=1)
 
+    def slopes(self, inputs: ArrayLike) -> Array:
+        """The terms' derivatives by the inputs, N x terms x k, per mm or rad, at ``inputs`` (N x k).
+
+        Raises:
+            ValueError: as `matrix`.
+        """
+        table = checked_inputs(inputs)
+        slopes = np.zeros((len(table), self.coefficients_per_axis, len(self.inputs)))
+        term = 1
+        for k in self._moving_indices():
+            for column in self._slopes_of(k, table[:, k]):
+                slopes[:, term, k] = column
+                term += 1
+        return slopes
+
     def to_dict(self) -> dict[str, Any]:
         """Plain values, for YAML or JSON."""
         return {
@@ -166,6 +181,18 @@ class FeatureSet:
             return [values**power for power in orders]
         angle = values if self.wavelengths_mm is None else values * (2 * np.pi / self.wavelengths_mm[k])
         return [wave(harmonic * angle) for harmonic in orders for wave in (np.cos, np.sin)]
+
+    def _slopes_of(self, k: int, values: Array) -> list[Array]:
+        orders = range(1, self.spec.order + 1)
+        if self.spec.family == "polynomial":
+            return [power * values ** (power - 1) for power in orders]
+        unit = 1.0 if self.wavelengths_mm is None else 2 * np.pi / self.wavelengths_mm[k]
+        angle = values * unit
+        return [
+            slope
+            for harmonic in orders
+            for slope in (-harmonic * unit * np.sin(harmonic * angle), harmonic * unit * np.cos(harmonic * angle))
+        ]
 
     def _names_of(self, k: int) -> list[str]:
         name, orders = self.inputs[k], range(1, self.spec.order + 1)

@@ -113,7 +113,7 @@ def read_recordings(path: Path | str, n_motors: int | None = None, measured: boo
         InputError: names file, row (line of the file), column, the value found, the rule and the cure.
     """
     path = Path(path)
-    return as_recordings(_read_text_table(path), path, n_motors, measured)
+    return as_recordings(read_text_table(path), path, n_motors, measured)
 
 
 def as_recordings(
@@ -146,7 +146,12 @@ def as_recordings(
     return replace(recordings, extra=table[unknown] if unknown else None, notes=notes)
 
 
-def _read_text_table(path: Path) -> pd.DataFrame:
+def read_text_table(path: Path) -> pd.DataFrame:
+    """A CSV file (``.gz`` allowed) with a header and equally long rows; id, run and target stay text.
+
+    Raises:
+        InputError: it is no such table.
+    """
     opener = gzip.open if path.suffix == ".gz" else open
     try:
         with opener(path, "rt", encoding="utf-8-sig", newline="") as stream:

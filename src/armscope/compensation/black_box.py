@@ -1,0 +1,276 @@
+"""A single fitted black-box model as a file: the nominal arm, the error of its tool point, where that was identified."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from armscope.compensation.domain import Domain
+from armscope.errormodels import FeatureSet, FitProblem, ModelSpec, fit_least_squares, fit_swarms
+from armscope.errormodels import FittedModel as Fit
+from armscope.files import write_json
+from armscope.inputs import InputError, validate
+from armscope.physics.model import Base
+from armscope.recordings import Recordings
+from armscope.robot import Arm, chain
+from armscope.robot.arm import build_arm
+from armscope.robot.description import RobotDescription
+
+Array = NDArray[np.float64]
+FORMAT = "armscope error model 1"
+LARGEST_PLAIN_ERROR_MM = 50.0
+"""Errors beyond this are no positioning errors: the measurements stand in another frame than the arm's base."""
+
+
+@dataclass(frozen=True, eq=False)
+class ErrorModel:
+    """Real tool point = nominal tool point + error(nominal position or motor angles), in the arm's base frame (Eq. 8).
+
+    Attributes:
+        arm: the nominal arm (with the fitted tool offset, where frames were registered).
+        features: the model's terms.
+        coefficients: (3, n) mm per unit of the terms.
+        method: how they were found.
+        rms_mm: (3,) residual on the identification rows.
+        base: measurement frame from base frame.
+        domain: where it was identified.
+    """
+
+    arm: Arm
+    features: FeatureSet
+    coefficients: Array
+    method: str
+    rms_mm: Array
+    base: Base
+    domain: Domain
+
+    @property
+    def name(self) -> str:
+        """The model's name: "FDP(CI)"."""
+        return self.features.spec.name
+
+    @property
+    def space(self) -> str:
+        """What the error follows: "cartesian" (nominal position) or "angular" (motor angles)."""
+        return self.features.spec.space
+
+    def error_and_slope(self, angles: Array, nominal: Array) -> tuple[Array, Array]:
+        """Errors (N, 3), m, and their derivatives (N, 3, 3) by the nominal position (m/m) or (N, 3, m) by the angles.
+
+        Args:
+            angles: (N, m) rad.
+            nominal: (N, 3) nominal tool points in the base frame, m.
+        """
+        cartesian = self.space == "cartesian"
+        inputs = nominal * 1e3 if cartesian else angles
+        error = self.features.matrix(inputs) @ self.coefficients.T * 1e-3
+        slope = np.einsum("at,ntk->nak", self.coefficients, self.features.slopes(inputs))
+        return error, slope if cartesian else slope * 1e-3
+
+
+def error_model(arm: Arm, fit: Fit, angles: Array, seed: int | None = None, base: Base | None = None) -> ErrorModel:
+    """A fit of `armscope.errormodels` as a model to compensate with.
+
+    Args:
+        arm: the nominal arm.
+        fit: fitted to x, y and z.
+        angles: (M, m) its identification rows, rad.
+        seed: whose swarm; None takes, per axis, the one with the smallest residual; -1 the least-squares fit.
+        base: measurement frame from base frame; None: they are the same.
+    """
+    axes = np.arange(len(fit.axes))
+    if seed == -1:
+        chosen, rms, method = fit.least_squares, fit.least_squares_mm, "least squares"
+    else:
+        number = fit.best_seeds if seed is None else np.full(len(axes), fit.seeds.index(seed))
+        chosen, rms, method = fit.coefficients[number, axes], fit.fitness_mm[number, axes], fit.method
+    return ErrorModel(
+        arm, fit.features, chosen, method, rms, base or _same_frame(), domain_of(arm, fit.features, angles)
+    )
+
+
+def fit_error_model(
+    arm: Arm,
+    recordings: Recordings,
+    spec: ModelSpec,
+    method: str = "least squares",
+    seed: int = 0,
+    register: bool = False,
+) -> ErrorModel:
+    """Fit one of the paper's models to recordings.
+
+    Args:
+        arm: the nominal arm.
+        recordings: measured points.
+        spec: which model.
+        method: "least squares" or "swarm".
+        seed: of the swarm.
+        register: fit the measurement frame and the tool offset with the nominal arm first; without, the measurements
+            must stand in the arm's base frame, as in the paper, and the model holds the frames' errors, too.
+
+    Raises:
+        InputError: too few rows; several runs or targets; measurements that stand in another frame.
+    """
+    _check_one_setup(recordings)
+    count = spec.features(_inputs(arm, spec, recordings.motor_angles)).coefficients_per_axis
+    if len(recordings) <= count:
+        raise InputError(
+            recordings.source, "", f"{len(recordings)} rows", f"{spec.name} has {count} terms: more rows are needed"
+        )
+    base = _same_frame()
+    if register:
+        arm, base = register_frames(arm, recordings)
+    nominal = chain(arm, recordings.motor_angles).tool
+    errors = ((recordings.positions - base.translation) @ base.rotation - nominal) * 1e3
+    rms = float(np.sqrt(np.mean(errors**2)))
+    if not register and rms > LARGEST_PLAIN_ERROR_MM:
+        raise InputError(
+            recordings.source,
+            "x_mm, y_mm, z_mm",
+            f"{rms:.0f} mm RMS from the nominal arm",
+            f"errors are differences in the arm's base frame, below {LARGEST_PLAIN_ERROR_MM:.0f} mm",
+            "Use --register to fit the measurement frame and the tool offset first.",
+        )
+    inputs = _inputs(arm, spec, recordings.motor_angles)
+    if method == "swarm":
+        fit = fit_swarms([FitProblem(spec, inputs, errors, arm.name)], [seed])[0]
+        return error_model(arm, fit, recordings.motor_angles, seed, base)
+    features = spec.features(inputs)
+    coefficients, rms_mm = fit_least_squares(features, inputs, errors)
+    domain = domain_of(arm, features, recordings.motor_angles)
+    return ErrorModel(arm, features, coefficients, "least squares", rms_mm, base, domain)
+
+
+def domain_of(arm: Arm, features: FeatureSet, angles: Array) -> Domain:
+    """Where a black-box model holds: the range of its own inputs, and motors that stood still stay where they were."""
+    names = [f"q{motor}" for motor in range(1, arm.n_motors + 1)]
+    if features.spec.space == "angular":
+        return Domain.of(angles, names, ["rad"] * len(names))
+    still = np.flatnonzero(np.ptp(angles, axis=0) <= 0.02)
+    inputs = np.column_stack([chain(arm, angles).tool * 1e3, angles[:, still]])
+    return Domain.of(inputs, ["x", "y", "z", *(names[j] for j in still)], ["mm"] * 3 + ["rad"] * len(still))
+
+
+def domain_inputs(model: ErrorModel, angles: Array) -> Array:
+    """(N, k) the inputs of a model's domain at motor angles (N, m)."""
+    by_name = {f"q{motor}": values for motor, values in enumerate(angles.T, start=1)}
+    by_name |= dict(zip("xyz", chain(model.arm, angles).tool.T * 1e3, strict=True))
+    return np.column_stack([by_name[name] for name in model.domain.names])
+
+
+def register_frames(arm: Arm, recordings: Recordings) -> tuple[Arm, Base]:
+    """The measurement frame and the tool offset that suit the nominal arm best (least squares, 9 numbers).
+
+    Returns:
+        The arm with that tool offset, and measurement frame from base frame.
+    """
+    frames = chain(arm, recordings.motor_angles)
+    last = frames.tool - frames.tool_rotation @ arm.tool
+    tool, measured = arm.tool.copy(), recordings.positions
+    rotation = _aligned(measured, frames.tool)
+    translation = np.zeros(3)
+    for _ in range(100):
+        points = last + frames.tool_rotation @ tool
+        turned = points @ rotation.T
+        turning = np.swapaxes(np.cross(np.eye(3)[None], turned[:, None, :]), 1, 2)
+        shifting = np.broadcast_to(np.eye(3), turning.shape)
+        columns = np.concatenate([turning, shifting, rotation @ frames.tool_rotation], axis=2)
+        gap = measured - turned - translation
+        step = np.linalg.lstsq(columns.reshape(-1, 9), gap.reshape(-1), rcond=1e-10)[0]
+        rotation = Rotation.from_rotvec(step[:3]).as_matrix() @ rotation
+        translation, tool = translation + step[3:6], tool + step[6:]
+        if np.abs(step).max() < 1e-12:
+            break
+    description = arm.description.model_copy(update={"tool_mm": tuple(float(value) for value in tool * 1e3)})
+    return build_arm(description), Base(rotation, translation)
+
+
+def save_error_model(path: Path | str, model: ErrorModel) -> None:
+    """Write errormodel.json; the robot's description is part of it (a URDF by its path)."""
+    write_json(
+        path,
+        {
+            "format": FORMAT,
+            "name": model.name,
+            "method": model.method,
+            "rms_mm": model.rms_mm,
+            "robot": model.arm.description.model_dump(mode="json", exclude_none=True),
+            "features": model.features.to_dict(),
+            "terms": list(model.features.term_names),
+            "coefficients": model.coefficients,
+            "base": {"rotation": model.base.rotation, "translation_m": model.base.translation},
+            "domain": model.domain.to_dict(),
+        },
+    )
+
+
+def load_error_model(path: Path | str) -> ErrorModel:
+    """Read errormodel.json.
+
+    Raises:
+        InputError: it is no model of this format.
+    """
+    try:
+        content = json.loads(Path(path).read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise InputError(path, "", "no readable JSON", "an error model is needed here", str(error)) from error
+    found = content.get("format", "no key format") if isinstance(content, dict) else "no mapping"
+    if found != FORMAT:
+        cure = "`armscope fit-error-model` writes one."
+        raise InputError(path, "format", found, f"an error model says {FORMAT!r}", cure)
+    try:
+        return _from_content(content, path)
+    except KeyError as error:
+        raise InputError(path, str(error.args[0]), "nothing", "this key is missing", "Was the file edited?") from error
+
+
+def _from_content(content: dict[str, Any], path: Path | str) -> ErrorModel:
+    features = FeatureSet.from_dict(content["features"])
+    coefficients = np.array(content["coefficients"], dtype=float)
+    if coefficients.shape != (3, features.coefficients_per_axis) or not np.isfinite(coefficients).all():
+        expected = f"{features.spec.name} has 3 x {features.coefficients_per_axis} finite numbers"
+        raise InputError(path, "coefficients", f"shape {coefficients.shape}", expected, "Was the file edited?")
+    base = content["base"]
+    return ErrorModel(
+        build_arm(validate(RobotDescription, content["robot"], path)),
+        features,
+        coefficients,
+        content["method"],
+        np.array(content["rms_mm"], dtype=float),
+        Base(np.array(base["rotation"], dtype=float), np.array(base["translation_m"], dtype=float)),
+        Domain.from_dict(content["domain"]),
+    )
+
+
+def _inputs(arm: Arm, spec: ModelSpec, angles: Array) -> Array:
+    return chain(arm, angles).tool * 1e3 if spec.space == "cartesian" else angles
+
+
+def _check_one_setup(recordings: Recordings) -> None:
+    for column, values in (("run", recordings.run), ("target", recordings.target)):
+        known = np.unique(values)
+        if len(known) > 1:
+            raise InputError(
+                recordings.source,
+                f"column {column}",
+                ", ".join(map(str, known[:5])),
+                f"a black-box model is fitted to one {column}: it has one set of frames",
+                f"Choose one with --{column}.",
+            )
+
+
+def _same_frame() -> Base:
+    return Base(np.eye(3), np.zeros(3))
+
+
+def _aligned(measured: Array, points: Array) -> Array:
+    matrix: Array = Rotation.align_vectors(measured - measured.mean(axis=0), points - points.mean(axis=0))[
+        0
+    ].as_matrix()
+    return matrix

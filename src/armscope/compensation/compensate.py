@@ -1,0 +1,416 @@
+"""False targets: the commands under which the real arm reaches the wanted points, row by row, or why there are none."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from armscope.compensation.black_box import ErrorModel, domain_inputs
+from armscope.compensation.branch import nominal_branch
+from armscope.compensation.domain import ALLOWED, Domain
+from armscope.compensation.forward import BlackBoxArm, Forward, NominalArm, PhysicalArm
+from armscope.compensation.newton import POLE, Solution, Wanted, solve
+from armscope.compensation.path import Frame, WantedPath, unit_doubt
+from armscope.compensation.physical import Identified, missing_context, with_torques
+from armscope.inputs import InputError
+from armscope.physics.model import FittedModel
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+from armscope.robot.inverse import LARGEST_STEP_RAD
+
+Array = NDArray[np.float64]
+
+LARGEST_CORRECTION_RAD = np.radians(3)
+"""Errors of millimetres never ask for more, unless the arm is close to a pole."""
+
+
+@dataclass(frozen=True, eq=False)
+class Options:
+    """How to compensate.
+
+    Attributes:
+        frame: where wanted points and orientations stand: in the arm's base frame, or in the measurement frame.
+        pose: keep the orientation, too: of the table's quaternions, or of its joint angles.
+        start: (m,) rad, where the arm comes from; None takes the middle of the identified range.
+        allowed: how far outside the identified range a command may lie, standard deviations.
+        largest_step: rad; a larger motion of a motor between neighbouring rows is a jump.
+    """
+
+    frame: Frame = "base"
+    pose: bool = False
+    start: Array | None = None
+    allowed: float = ALLOWED
+    largest_step: float = LARGEST_STEP_RAD
+
+
+@dataclass(frozen=True, eq=False)
+class Compensated:
+    """Commands for N rows of a path; NaN in rows that are refused.
+
+    Attributes:
+        arm: the nominal arm.
+        id, run: (N,) of the path's rows.
+        reasons: (N,) why a row is refused; "" where it is not.
+        commands: (N, m) motor angles, rad.
+        nominal: (N, m) motor angles without correction, rad; NaN where the nominal arm can't get there.
+        false_targets: (N, 3) nominal tool points at the commands, base frame, m: what a controller is given.
+        false_rotations: (N, 3, 3) nominal orientations at the commands.
+        wanted, predicted: (N, 3) m, in ``frame``.
+        residual: (N,) distance of the predicted from the wanted point, m.
+        uncorrected: (N,) the same without correction, m.
+        outside, nearest: (N,) distance of the commands from the identified range, and from the nearest identification
+            row (root mean square over the inputs), in standard deviations.
+        frame: of wanted and predicted points.
+        pose: whether the orientation was kept.
+        iterations: Newton steps of the row that took most.
+        notes: what a user should know.
+    """
+
+    arm: Arm
+    id: NDArray[np.str_]
+    run: NDArray[np.str_]
+    reasons: NDArray[np.str_]
+    commands: Array
+    nominal: Array
+    false_targets: Array
+    false_rotations: Array
+    wanted: Array
+    predicted: Array
+    residual: Array
+    uncorrected: Array
+    outside: Array
+    nearest: Array
+    frame: Frame
+    pose: bool
+    iterations: int
+    notes: tuple[str, ...] = ()
+
+    @property
+    def reached(self) -> NDArray[np.bool_]:
+        """(N,) rows that have commands."""
+        reached: NDArray[np.bool_] = self.reasons == ""
+        return reached
+
+    def to_table(self) -> pd.DataFrame:
+        """One row per row of the path, refused ones with their reason and without commands."""
+        table = pd.DataFrame({"id": self.id, "run": self.run})
+        table["status"] = np.where(self.reached, "ok", "refused")
+        table["reason"] = self.reasons
+        for motor, angles in enumerate(self.commands.T, start=1):
+            table[f"q{motor}_rad"] = angles
+        quaternions = np.full((len(table), 4), np.nan)
+        if self.reached.any():
+            turned = Rotation.from_matrix(self.false_rotations[self.reached]).as_quat(canonical=True)
+            quaternions[self.reached] = turned[:, [3, 0, 1, 2]]
+        for prefix, points in (("command", self.false_targets), ("wanted", self.wanted), ("predicted", self.predicted)):
+            for n, axis in enumerate("xyz"):
+                table[f"{prefix}_{axis}_mm"] = points[:, n] * 1e3
+            if prefix == "command":
+                for n, name in enumerate("wxyz"):
+                    table[f"command_q{name}"] = quaternions[:, n]
+        table["uncorrected_mm"] = self.uncorrected * 1e3
+        table["residual_mm"] = self.residual * 1e3
+        table["outside_sd"] = self.outside
+        table["nearest_sd"] = self.nearest
+        return table
+
+    def require_all(self, source: object) -> Array:
+        """The commands, if every row has one.
+
+        Raises:
+            InputError: names the first refused row and why.
+        """
+        refused = np.flatnonzero(~self.reached)
+        if len(refused):
+            raise InputError(
+                source,
+                f"row {refused[0] + 1} of the path",
+                str(self.reasons[refused[0]]),
+                f"every row must be possible, {len(refused)} of {len(self.reasons)} are refused",
+                "The table of commands says why for each row; mend the path or leave these rows out yourself.",
+            )
+        return self.commands
+
+
+def compensate_black_box(model: ErrorModel, path: WantedPath, options: Options | None = None) -> Compensated:
+    """Commands by a black-box error model.
+
+    Motors that stood still when the model was identified keep their angles. With ``pose`` the nominal orientation is
+    kept: such a model says nothing about the orientation's error.
+
+    Raises:
+        InputError: a path of another arm, or options that the path can't serve.
+    """
+    options = options or Options()
+    _check_arm(model.arm, path.table)
+    rotation, translation = np.eye(3), np.zeros(3)
+    if options.frame == "measurement":
+        rotation, translation = model.base.rotation, model.base.translation
+    task = _Task(
+        model.arm,
+        path,
+        options,
+        model.domain,
+        forward=lambda nominal: (BlackBoxArm(model), ""),
+        domain_inputs=lambda angles: domain_inputs(model, angles),
+        to_base=lambda points: (points - translation) @ rotation,
+        to_frame=lambda points: points @ rotation.T + translation,
+        turn=np.tile(rotation, (len(path), 1, 1)),
+    )
+    return task.run(np.full(len(path), "", dtype=object))
+
+
+def compensate_physical(
+    model: FittedModel, identified: Identified, path: WantedPath, options: Options | None = None
+) -> Compensated:
+    """Commands by diagnosed physics, every effect in place, in the context of each row.
+
+    In the base frame the point that is brought to the wanted one is the real place of the measured tool point; in the
+    measurement frame it is what the instrument would read there (its scale error included).
+
+    Raises:
+        InputError: a path of another arm, or options that the path can't serve.
+    """
+    options = options or Options()
+    _check_arm(model.arm, path.table)
+    if identified.arm != model.arm.name:
+        rule = f"the model is of {model.arm.name!r}"
+        raise InputError("domain", "robot", identified.arm, rule, "These files do not belong together.")
+    rows, refused, notes = _named(model, path.table)
+    for column, missing in missing_context(model, identified, rows).items():
+        _refuse(refused, missing, f"no {column}, which the model follows")
+    measured = options.frame == "measurement"
+
+    def forward(nominal: Array) -> tuple[Forward, str]:
+        with_load, note = with_torques(model, identified, rows, nominal)
+        return PhysicalArm(model, with_load, measured), note
+
+    task = _Task(
+        model.arm,
+        replace(path, table=rows),
+        options,
+        identified.domain,
+        forward=forward,
+        domain_inputs=lambda angles: identified.inputs(angles, rows),
+        to_base=(lambda points: model.to_base(points, rows.run)) if measured else _same,
+        to_frame=(lambda points: model.to_measurement(points, rows.run)) if measured else _same,
+        turn=np.array([model.base_of(str(run)).rotation if measured else np.eye(3) for run in rows.run]),
+    )
+    result = task.run(refused)
+    return replace(result, notes=(*notes, *result.notes))
+
+
+@dataclass(frozen=True, eq=False)
+class _Task:
+    """A path, the arm that shall follow it, and where its model holds.
+
+    Attributes:
+        forward: the real arm near given nominal postures, and a note about it.
+        domain_inputs: the domain's inputs at motor angles of all rows.
+        to_base, to_frame: points from the path's frame to the base frame and back.
+        turn: (N, 3, 3) the path's frame from the base frame.
+    """
+
+    arm: Arm
+    path: WantedPath
+    options: Options
+    domain: Domain
+    forward: Callable[[Array], tuple[Forward, str]]
+    domain_inputs: Callable[[Array], Array]
+    to_base: Callable[[Array], Array]
+    to_frame: Callable[[Array], Array]
+    turn: Array
+
+    def run(self, refused: NDArray[np.object_]) -> Compensated:
+        """Nominal branch, Newton's method on the real arm from there, every reason to refuse a row."""
+        rows = np.arange(len(self.path))
+        held = {} if self.options.pose else self._held()
+        wanted = self._wanted(refused)
+        nominal = self._nominal(wanted, held, refused)
+        real, note = self.forward(nominal)
+        free = np.array([motor + 1 not in held for motor in range(self.arm.n_motors)])
+        uncorrected = np.full(len(rows), np.nan)
+        commands, predicted = np.full_like(nominal, np.nan), np.full((len(rows), 3), np.nan)
+        iterations = 0
+        known = np.flatnonzero(~np.isnan(nominal).any(axis=1) & np.isfinite(wanted.points).all(axis=1))
+        if len(known):
+            before = real.at(nominal[known], known)
+            uncorrected[known] = np.linalg.norm(wanted.points[known] - before.points, axis=1)
+            solution = solve(real, wanted.rows(known), nominal[known], free, known)
+            commands[known], iterations = solution.angles, solution.iterations
+            moved = np.abs(solution.angles - nominal[known])
+            self._refuse_unsolved(refused, known, solution, moved)
+            predicted[known] = real.at(commands[known], known).points
+        outside, nearest = self._refuse_outside(refused, commands)
+        reasons = refused.astype(str)
+        residual = np.linalg.norm(wanted.points - predicted, axis=1)
+        for values in (commands, predicted, residual):
+            values[reasons != ""] = np.nan
+        ok = np.flatnonzero(reasons == "")
+        points, turns = np.full((len(rows), 3), np.nan), np.full((len(rows), 3, 3), np.nan)
+        if len(ok):
+            stand = NominalArm(self.arm).at(commands[ok], ok)
+            points[ok], turns[ok] = stand.points, stand.rotations
+        return Compensated(
+            self.arm,
+            self.path.table.id,
+            self.path.table.run,
+            reasons,
+            commands,
+            nominal,
+            points,
+            turns,
+            self.to_frame(wanted.points),
+            self.to_frame(predicted),
+            residual,
+            uncorrected,
+            outside,
+            nearest,
+            self.options.frame,
+            self.options.pose,
+            iterations,
+            (note,) if note else (),
+        )
+
+    def _held(self) -> dict[int, float]:
+        """Motors that stood still in the identification data, where enough others can move the tool point."""
+        still = {int(name[1:]): angle for name, angle in self.domain.still("rad").items()}
+        return still if self.arm.n_motors - len(still) >= 3 else {}
+
+    def _wanted(self, refused: NDArray[np.object_]) -> Wanted:
+        """Points and, where asked, orientations in base axes."""
+        table, nominal = self.path.table, None
+        if self.path.points is None or (self.options.pose and table.orientation is None):
+            nominal = NominalArm(self.arm).at(table.motor_angles, np.arange(len(table)))
+        points = nominal.points if self.path.points is None and nominal else self.to_base(_given(self.path.points))
+        if not self.options.pose:
+            return Wanted(points)
+        if table.orientation is None:
+            if not self.path.has_angles:
+                raise InputError(
+                    table.source, "line 1", "no columns qw, qx, qy, qz", "a full pose needs an orientation",
+                    "Add them, or leave the orientation free.",
+                )  # fmt: skip
+            assert nominal is not None
+            return Wanted(points, nominal.rotations)
+        unknown = np.isnan(table.orientation).any(axis=1)
+        _refuse(refused, unknown, "no orientation")
+        quaternions = np.where(unknown[:, None], [1.0, 0, 0, 0], table.orientation)
+        given = Rotation.from_quat(quaternions[:, [1, 2, 3, 0]]).as_matrix()
+        return Wanted(points, np.swapaxes(self.turn, 1, 2) @ given)
+
+    def _nominal(self, wanted: Wanted, held: dict[int, float], refused: NDArray[np.object_]) -> Array:
+        """(N, m) postures of the nominal arm; NaN and a reason where there are none."""
+        if self.path.has_angles:
+            angles = self.path.table.motor_angles.copy()
+            self._refuse_beyond_limits(refused, angles)
+            return angles
+        start = self.options.start
+        if start is None:
+            middle = [self.domain.value(f"q{j}") if f"q{j}" in self.domain.names else np.nan for j in self._motors]
+            limits = np.where(np.isfinite(self.arm.limits).all(axis=1), np.nan_to_num(self.arm.limits).mean(axis=1), 0)
+            start = np.where(np.isnan(middle), limits, middle)
+        branch = nominal_branch(self.arm, wanted, start, held, self.options.largest_step)
+        doubt = unit_doubt(wanted.points, self.arm.reach)
+        for reason in np.unique(branch.reasons[~branch.reached]):
+            _refuse(refused, branch.reasons == reason, str(reason) + (doubt if "reach" in reason else ""))
+        return branch.motor_angles
+
+    @property
+    def _motors(self) -> range:
+        return range(1, self.arm.n_motors + 1)
+
+    def _refuse_beyond_limits(self, refused: NDArray[np.object_], angles: Array) -> None:
+        low, high = self.arm.limits.T
+        for motor in self._motors:
+            beyond = (angles[:, motor - 1] < low[motor - 1] - 1e-9) | (angles[:, motor - 1] > high[motor - 1] + 1e-9)
+            _refuse(refused, beyond, f"limit of joint {motor}")
+
+    def _refuse_unsolved(
+        self, refused: NDArray[np.object_], known: NDArray[np.intp], solution: Solution, moved: Array
+    ) -> None:
+        pole = solution.singular < POLE
+        named = "pole of the wrist" if self.options.pose else "pole: the tool can't be moved in all directions"
+        _refuse(refused, known[solution.converged & pole], named)
+        for motor in np.unique(solution.limit[solution.limit > 0]):
+            _refuse(refused, known[solution.limit == motor], f"limit of joint {motor}")
+        _refuse(refused, known[~solution.converged], "no command found: the real arm can't get there")
+        worst = np.argmax(moved, axis=1)
+        for row in np.flatnonzero(moved.max(axis=1) > LARGEST_CORRECTION_RAD):
+            size = np.degrees(moved[row, worst[row]])
+            text = f"the correction turns joint {worst[row] + 1} by {size:.1f} degrees: close to a pole"
+            _refuse(refused, known[row : row + 1], text)
+
+    def _refuse_outside(self, refused: NDArray[np.object_], commands: Array) -> tuple[Array, Array]:
+        """Distances (N,) from the identified range and from the nearest identification row."""
+        outside, nearest = np.full(len(commands), np.nan), np.full(len(commands), np.nan)
+        solved = ~np.isnan(commands).any(axis=1)
+        if not solved.any():
+            return outside, nearest
+        inputs = self.domain_inputs(np.where(solved[:, None], commands, 0.0))[solved]
+        outside[solved], label = self.domain.outside(inputs)
+        nearest[solved] = self.domain.nearest(inputs)
+        where = np.flatnonzero(solved)
+        for row, name in zip(where, label, strict=True):
+            if outside[row] > self.options.allowed:
+                text = f"outside the identified range: {name} by {outside[row]:.2g} standard deviations"
+                _refuse(refused, np.array([row]), text)
+        return outside, nearest
+
+
+def _same(points: Array) -> Array:
+    return points
+
+
+def _given(points: Array | None) -> Array:
+    assert points is not None
+    return points
+
+
+def _refuse(refused: NDArray[np.object_], rows: NDArray[np.bool_] | NDArray[np.intp], reason: str) -> None:
+    """The first reason of a row stays."""
+    which = np.zeros(len(refused), dtype=bool)
+    which[rows] = True
+    refused[which & (refused == "")] = reason
+
+
+def _check_arm(arm: Arm, rows: Recordings) -> None:
+    if rows.n_motors != arm.n_motors:
+        raise InputError(
+            rows.source,
+            "line 1",
+            f"{rows.n_motors} motor angles",
+            f"{arm.name} has {arm.n_motors} motors",
+            "Is this the right model for the path?",
+        )
+
+
+def _named(model: FittedModel, rows: Recordings) -> tuple[Recordings, NDArray[np.object_], tuple[str, ...]]:
+    """Rows whose run and target the model knows, refusals for the others, and what was filled in.
+
+    A path without runs is meant for the set-up as it was last; without targets, for the only one there is.
+    """
+    refused, notes = np.full(len(rows), "", dtype=object), []
+    run, target = rows.run.astype(object), rows.target.astype(object)
+    if "" not in model.bases and (run == "").any():
+        last = list(model.bases)[-1]
+        run[run == ""] = last
+        notes.append(f"rows without a run are taken as of run {last!r}")
+    for name in sorted(set(run) - set(model.bases)):
+        _refuse(refused, run == name, f"run {name!r} is not in the model")
+    targets = sorted({str(part.placed.variant) for part in model.tools})
+    if targets and "" not in targets and (target == "").any():
+        if len(targets) == 1:
+            target[target == ""] = targets[0]
+        else:
+            _refuse(refused, target == "", f"no target; the model knows {', '.join(targets)}")
+    for name in sorted(set(target) - set(targets)) if targets else ():
+        _refuse(refused, target == name, f"target {name!r} is not in the model")
+    known = np.isin(run, list(model.bases))
+    filled = np.where(known, run, list(model.bases)[-1])
+    return replace(rows, run=filled.astype(str), target=target.astype(str)), refused, tuple(notes)

@@ -1,0 +1,142 @@
+"""Where a model holds: the range of the data it was identified from, and how far outside a point lies.
+
+Every input (motor angles, nominal positions, payload, temperature) is standardised: minus its mean, over its standard
+deviation. The domain is the intersection of all slabs "lowest <= direction . z <= highest" over the axes and, for every
+two inputs that move, the directions (e_i +- e_j) / sqrt 2: an outer bound of the data's convex hull with the hull's
+exact extent in these directions. It catches what single ranges miss (joints that moved in lockstep), costs one matrix
+product, and suits designs that sit in the corners of the workspace, where the distance to the nearest recorded row says
+little; that distance is stated beside it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.spatial import cKDTree
+
+Array = NDArray[np.float64]
+
+ALLOWED = 0.2
+"""A point may lie this many standard deviations outside: 6 % of an evenly filled range."""
+STILL = {"rad": 0.02, "mm": 5.0, "kg": 0.1, "degC": 2.0}
+"""An input that stood still in the data may leave its value by this much."""
+MOST_NEIGHBOURS = 2000
+"""Of larger tables every k-th row is kept for the distance to the nearest one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Domain:
+    """The range of M identification rows in k inputs.
+
+    Attributes:
+        names, units: (k) of the inputs; units are keys of `STILL`.
+        mean, scale: (k,) in these units.
+        moving: (k,) whether the input moved in the data.
+        low, high: (d,) extent along each direction, in standard deviations.
+        neighbours: (M', k) standardised rows.
+        rows: M.
+    """
+
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    mean: Array
+    scale: Array
+    moving: NDArray[np.bool_]
+    low: Array
+    high: Array
+    neighbours: Array
+    rows: int
+
+    @staticmethod
+    def of(inputs: ArrayLike, names: Sequence[str], units: Sequence[str]) -> Domain:
+        """The domain of identification rows ``inputs`` (M, k)."""
+        table = np.asarray(inputs, dtype=float)
+        tolerances = np.array([STILL[unit] for unit in units])
+        moving = np.ptp(table, axis=0) > tolerances
+        # a still input's unit makes its tolerance the allowed distance
+        scale = np.where(moving, table.std(axis=0), tolerances / ALLOWED)
+        mean = table.mean(axis=0)
+        z = (table - mean) / scale
+        extent = z @ _directions(moving).T
+        thin = z[:: -(-len(z) // MOST_NEIGHBOURS)]
+        return Domain(
+            tuple(names), tuple(units), mean, scale, moving, extent.min(axis=0), extent.max(axis=0), thin, len(table)
+        )
+
+    def outside(self, inputs: ArrayLike) -> tuple[Array, NDArray[np.str_]]:
+        """How far (N,) rows (N, k) lie outside, in standard deviations (0 inside), and what sticks out most ("" inside)."""
+        z = (np.asarray(inputs, dtype=float) - self.mean) / self.scale
+        extent = z @ _directions(self.moving).T
+        excess = np.maximum(np.maximum(self.low - extent, extent - self.high), 0.0)
+        distance = excess.max(axis=1)
+        labels = np.array(_labels(self.names, self.moving))
+        return distance, np.where(distance > 0, labels[np.argmax(excess, axis=1)], "")
+
+    def nearest(self, inputs: ArrayLike) -> Array:
+        """(N,) distance to the nearest identification row, in standard deviations per input (root mean square)."""
+        z = (np.asarray(inputs, dtype=float) - self.mean) / self.scale
+        distance: Array = cKDTree(self.neighbours).query(z)[0] / np.sqrt(len(self.names))
+        return distance
+
+    def still(self, unit: str) -> dict[str, float]:
+        """Inputs of a unit that stood still, with their values."""
+        return {
+            name: float(value)
+            for name, of, value, moves in zip(self.names, self.units, self.mean, self.moving, strict=True)
+            if of == unit and not moves
+        }
+
+    def value(self, name: str) -> float:
+        """The mean of an input."""
+        return float(self.mean[self.names.index(name)])
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain values."""
+        return {
+            "inputs": list(self.names),
+            "units": list(self.units),
+            "rows": self.rows,
+            "mean": self.mean.tolist(),
+            "scale": self.scale.tolist(),
+            "moving": self.moving.tolist(),
+            "low": self.low.tolist(),
+            "high": self.high.tolist(),
+            "standardised_rows": self.neighbours.round(4).tolist(),
+        }
+
+    @staticmethod
+    def from_dict(content: dict[str, Any]) -> Domain:
+        """The inverse of `to_dict`."""
+        arrays = (np.array(content[name], dtype=float) for name in ("mean", "scale"))
+        mean, scale = arrays
+        return Domain(
+            tuple(content["inputs"]),
+            tuple(content["units"]),
+            mean,
+            scale,
+            np.array(content["moving"], dtype=bool),
+            np.array(content["low"], dtype=float),
+            np.array(content["high"], dtype=float),
+            np.array(content["standardised_rows"], dtype=float),
+            int(content["rows"]),
+        )
+
+
+def _pairs(moving: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    return list(combinations(np.flatnonzero(moving).tolist(), 2))
+
+
+def _directions(moving: NDArray[np.bool_]) -> Array:
+    """(d, k) unit directions: the axes, then sum and difference of every two inputs that move."""
+    axes = np.eye(len(moving))
+    pairs = [(axes[i] + sign * axes[j]) / np.sqrt(2) for i, j in _pairs(moving) for sign in (1, -1)]
+    return np.array([*axes, *pairs])
+
+
+def _labels(names: Sequence[str], moving: NDArray[np.bool_]) -> list[str]:
+    return [*names, *(f"{names[i]} together with {names[j]}" for i, j in _pairs(moving) for _ in (1, -1))]

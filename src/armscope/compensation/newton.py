@@ -1,0 +1,155 @@
+"""Newton's method for all rows of a path at once: the command nearest to a start under which a tool is where it should.
+
+Each row solves min |q - q0|^2 subject to f(q) = wanted, as `armscope.robot.inverse` does, on the given forward model:
+
+    q <- q0 + J+ (wanted - f(q) + J (q - q0)),    J+ = J' (J J')^-1.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from armscope.compensation.forward import Forward, Rows, Stand
+
+Array = NDArray[np.float64]
+
+TOLERANCE_M = 1e-9
+ITERATIONS = 30
+LARGEST_NEWTON_STEP_RAD = 0.3
+POLE = 0.01
+"""Smallest singular value of the scaled Jacobian below which an arm is at a pole (a wrist: 0.8 degrees from straight)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Wanted:
+    """Where the tool should be, N rows in base axes.
+
+    Attributes:
+        points: (N, 3) m.
+        rotations: (N, 3, 3) of the last frame, or None where the orientation is free.
+    """
+
+    points: Array
+    rotations: Array | None = None
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    def rows(self, which: Rows | NDArray[np.bool_]) -> Wanted:
+        """Some of the rows."""
+        return Wanted(self.points[which], None if self.rotations is None else self.rotations[which])
+
+    def gap(self, stand: Stand, lever: float) -> Array:
+        """(N, 3 or 6) what is missing: displacement (m) and turn times ``lever`` (m)."""
+        gap = self.points - stand.points
+        if self.rotations is None:
+            return gap
+        turn = Rotation.from_matrix(self.rotations @ np.swapaxes(stand.rotations, 1, 2)).as_rotvec()
+        return np.concatenate([gap, lever * turn], axis=1)
+
+    def jacobian(self, stand: Stand, lever: float) -> Array:
+        """(N, 3 or 6, m) how the gap closes by unit turns of the motors, m/rad."""
+        if self.rotations is None:
+            return stand.jacobian[:, :3]
+        return stand.jacobian * np.repeat([1.0, lever], 3)[None, :, None]
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """Commands for N rows.
+
+    Attributes:
+        angles: (N, m) rad; the last iterate where not converged.
+        converged: (N,) whether the tool is where it should be (1e-9 m; turns by the arm's lever).
+        limit: (N,) number of a motor (from 1) whose limit the row would break; 0 for none.
+        singular: (N,) smallest singular value of the scaled Jacobian (m/rad over the lever).
+        iterations: of the row that took most.
+    """
+
+    angles: Array
+    converged: NDArray[np.bool_]
+    limit: NDArray[np.intp]
+    singular: Array
+    iterations: int
+
+
+def lever(forward: Forward) -> float:
+    """By how many metres a radian of turn counts: a quarter of the arm's reach."""
+    return 0.25 * forward.arm.reach
+
+
+def solve(
+    forward: Forward, wanted: Wanted, start: Array, free: NDArray[np.bool_], rows: Rows | None = None
+) -> Solution:
+    """The commands nearest to ``start`` (N, m) rad that bring the tool to ``wanted``, within the joint limits.
+
+    Args:
+        forward: the arm.
+        wanted: N rows.
+        start: (N, m) rad.
+        free: (m,) motors that may move.
+        rows: (N,) their row numbers in the path; None counts from 0.
+
+    A motor that would break its limit is put there, and the others solve again; a row is given up when no motor is left
+    or the rest can't reach.
+    """
+    rows = np.arange(len(wanted)) if rows is None else rows
+    low, high = forward.arm.limits.T
+    moves = np.tile(free, (len(wanted), 1))
+    origin, limit = start.copy(), np.zeros(len(wanted), dtype=np.intp)
+    angles, converged, singular, steps = _iterate(forward, wanted, origin, moves, rows)
+    for _ in range(forward.arm.n_motors):
+        excess = np.maximum(low - angles, angles - high)
+        broken = np.flatnonzero(((excess > 1e-12) & moves).any(axis=1) & converged)
+        if not len(broken):
+            break
+        over = (excess[broken] > 1e-12) & moves[broken]
+        limit[broken] = np.argmax(np.where(over, excess[broken], -np.inf), axis=1) + 1
+        origin[broken] = np.where(over, np.clip(angles[broken], low, high), origin[broken])
+        moves[broken] &= ~over
+        again = _iterate(forward, wanted.rows(broken), origin[broken], moves[broken], rows[broken])
+        angles[broken], converged[broken], singular[broken] = again[:3]
+        steps = max(steps, again[3])
+    return Solution(angles, converged, np.where(converged, 0, limit), singular, steps)
+
+
+def _iterate(
+    forward: Forward, wanted: Wanted, origin: Array, moves: NDArray[np.bool_], rows: Rows
+) -> tuple[Array, NDArray[np.bool_], Array, int]:
+    """Angles, converged, smallest singular value, steps."""
+    arm_lever, angles = lever(forward), origin.copy()
+    converged, singular = np.zeros(len(wanted), dtype=bool), np.zeros(len(wanted))
+    at_work, best, steps = np.arange(len(wanted)), np.full(len(wanted), np.inf), 0
+    for steps in range(ITERATIONS + 1):
+        here = wanted.rows(at_work)
+        stand = forward.at(angles[at_work], rows[at_work])
+        gap = here.gap(stand, arm_lever)
+        jacobian = here.jacobian(stand, arm_lever) * moves[at_work][:, None, :]
+        size = np.linalg.norm(gap, axis=1)
+        gram = jacobian @ np.swapaxes(jacobian, 1, 2)
+        done = size < TOLERANCE_M
+        if done.any():
+            weakest = np.linalg.eigvalsh(gram[done])[:, 0]
+            singular[at_work[done]] = np.sqrt(np.maximum(weakest, 0)) / arm_lever
+            converged[at_work[done]] = True
+        # a row that has not halved its gap in six steps is given up
+        stuck = np.zeros(len(at_work), dtype=bool)
+        if steps % 6 == 0:
+            stuck = size > best[at_work] / 2
+            best[at_work] = size
+        stays = ~done & ~stuck & np.isfinite(size)
+        at_work = at_work[stays]
+        if not len(at_work) or steps == ITERATIONS:
+            break
+        gap, jacobian, gram = gap[stays], jacobian[stays], gram[stays]
+        back = angles[at_work] - origin[at_work]
+        goal = gap + np.einsum("nij,nj->ni", jacobian, back)
+        gram += (1e-12 + 1e-6 * np.minimum(size[stays] ** 2, 1.0))[:, None, None] * np.eye(gram.shape[1])
+        step = np.einsum("nij,ni->nj", jacobian, np.linalg.solve(gram, goal[..., None])[..., 0]) - back * moves[at_work]
+        largest = np.abs(step).max(axis=1)
+        angles[at_work] += step * np.minimum(1.0, LARGEST_NEWTON_STEP_RAD / np.maximum(largest, 1e-12))[:, None]
+    return angles, converged, singular, steps

@@ -1,0 +1,76 @@
+"""What a user wants: a table of Cartesian points or of joint angles, with whatever context the model follows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from armscope.inputs import InputError
+from armscope.recordings import Recordings
+from armscope.recordings.table import as_recordings, read_text_table
+from armscope.robot import Arm
+
+Array = NDArray[np.float64]
+Frame = Literal["base", "measurement"]
+
+
+@dataclass(frozen=True, eq=False)
+class WantedPath:
+    """N rows of a path.
+
+    Attributes:
+        table: the rows as recordings without measurements: angles (where given), context, runs, targets, orientations.
+        points: (N, 3) wanted points, m, in `frame`; None for a joint path: where the nominal arm's tool would be.
+        has_angles: whether the table gives motor angles: the wanted posture, or the branch to solve on.
+    """
+
+    table: Recordings
+    points: Array | None
+    has_angles: bool
+
+    def __len__(self) -> int:
+        return len(self.table)
+
+
+def read_path(path: Path | str, arm: Arm) -> WantedPath:
+    """Read a path table: x_mm, y_mm, z_mm (or _m), or q1_rad ... (or _deg), or both.
+
+    With both, the points are wanted and the angles say on which branch (elbow up or down, wrist flipped or not).
+
+    Raises:
+        InputError: names file, row, column, the value found, the rule and the cure.
+    """
+    return as_path(read_text_table(Path(path)), path, arm)
+
+
+def as_path(table: pd.DataFrame, source: Path | str, arm: Arm) -> WantedPath:
+    """A table as a path; see `read_path`."""
+    has_angles = any(f"q{motor}_{unit}" in table for motor in range(1, 10) for unit in ("rad", "deg"))
+    has_points = any(f"{axis}_{unit}" in table for axis in "xyz" for unit in ("mm", "m"))
+    if not has_angles and not has_points:
+        raise InputError(
+            source,
+            "line 1",
+            ", ".join(map(str, table.columns[:6])),
+            "a path has x_mm, y_mm, z_mm (or _m), or q1_rad, q2_rad, ... (or _deg)",
+            "The unit is part of the column's name.",
+        )
+    if not has_angles:
+        table = table.assign(**{f"q{motor}_rad": 0.0 for motor in range(1, arm.n_motors + 1)})
+    rows = as_recordings(table, source, arm.n_motors, measured=has_points)
+    return WantedPath(rows, rows.positions if has_points else None, has_angles)
+
+
+def unit_doubt(points: Array, reach: float) -> str:
+    """A hint that lengths may be in another unit than the column's name says; "" without doubt."""
+    far = float(np.median(np.linalg.norm(points, axis=1)))
+    if far > 50 * reach:
+        return f"; the points lie {far:.4g} m away: are they millimetres in columns called _m?"
+    if far < reach / 200:
+        return f"; the points lie {far * 1e3:.3g} mm from the base: are they metres in columns called _mm?"
+    return ""

@@ -1,0 +1,201 @@
+"""What diagnosed physics needs before it may be used: where it was identified, and the context that it follows."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.compensation.domain import Domain
+from armscope.files import write_json
+from armscope.inputs import InputError
+from armscope.physics.effect import Driver
+from armscope.physics.model import FittedModel
+from armscope.recordings import Recordings
+from armscope.robot import Arm, Chain, chain
+from armscope.robot.gravity import gravity_torques, mass_moment_regressor
+
+Array = NDArray[np.float64]
+FORMAT = "armscope domain 1"
+FILE = "domain.json"
+
+LOADS = {"payload", "force", "torque", "gravity torque", "payload torque", "heavier", "off centre", "load side", "moment",
+         "bend"}  # fmt: skip
+"""Drivers that follow the payload."""
+RECORDED = {"torque", "load side"}
+"""Drivers that take recorded torques where there are some."""
+CONTEXT = {
+    "payload_kg": LOADS,
+    "temperature_c": {"warmth"},
+    "time_s": {"hours", "after time"},
+    "approach": {"approach", "lost motion"},
+    "dq_rad_s": {"speed"},
+}
+"""By column: the drivers that need it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Identified:
+    """The recordings that a physical model was found on.
+
+    Attributes:
+        arm: the arm's name.
+        domain: range of motor angles, and of payload and temperature where recorded.
+        payload_kg: whether rows carried a payload, and which one where it never changed: None for no column.
+        torque_weights: (m, p) recorded torque of each motor by the static torque regressor, where torques were recorded.
+    """
+
+    arm: str
+    domain: Domain
+    payload_kg: tuple[float, float] | None
+    torque_weights: Array | None = None
+
+    def inputs(self, angles: Array, rows: Recordings) -> Array:
+        """(N, k) the domain's inputs at motor angles (N, m) rad; context that is not stated counts as usual."""
+        context = {"payload_kg": rows.payload, "temperature_c": rows.temperature}
+        columns = [angles]
+        for name in self.domain.names[angles.shape[1] :]:
+            values = context[name]
+            known = np.full(len(rows), np.nan) if values is None else values
+            columns.append(np.where(np.isnan(known), self.domain.value(name), known)[:, None])
+        return np.concatenate(columns, axis=1)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain values."""
+        return {
+            "format": FORMAT,
+            "robot": self.arm,
+            "payload_kg": None if self.payload_kg is None else list(self.payload_kg),
+            "torque_weights": None if self.torque_weights is None else self.torque_weights.tolist(),
+            "domain": self.domain.to_dict(),
+        }
+
+
+def identified_on(arm: Arm, recordings: Recordings) -> Identified:
+    """What the recordings of a diagnosis say about where its model holds."""
+    if recordings.n_motors != arm.n_motors:
+        raise InputError(
+            recordings.source, "line 1", f"{recordings.n_motors} motor angles", f"{arm.name} has {arm.n_motors} motors"
+        )
+    names, units = [f"q{motor}" for motor in range(1, arm.n_motors + 1)], ["rad"] * arm.n_motors
+    columns, payload = [recordings.motor_angles], None
+    if recordings.payload is not None:
+        payload = (float(np.nanmin(recordings.payload)), float(np.nanmax(recordings.payload)))
+        names, units = [*names, "payload_kg"], [*units, "kg"]
+        columns.append(np.nan_to_num(recordings.payload)[:, None])
+    temperature = recordings.temperature
+    if temperature is not None and not np.isnan(temperature).all():
+        names, units = [*names, "temperature_c"], [*units, "degC"]
+        columns.append(np.where(np.isnan(temperature), np.nanmean(temperature), temperature)[:, None])
+    weights = _torque_weights(arm, recordings)
+    return Identified(arm.name, Domain.of(np.concatenate(columns, axis=1), names, units), payload, weights)
+
+
+def save_identified(path: Path | str, identified: Identified) -> None:
+    """Write domain.json."""
+    write_json(path, identified.to_dict())
+
+
+def load_identified(path: Path | str) -> Identified:
+    """Read domain.json.
+
+    Raises:
+        InputError: it is none.
+    """
+    try:
+        content = json.loads(Path(path).read_text(encoding="utf-8"))
+        payload, weights = content["payload_kg"], content["torque_weights"]
+        return Identified(
+            content["robot"],
+            Domain.from_dict(content["domain"]),
+            None if payload is None else (float(payload[0]), float(payload[1])),
+            None if weights is None else np.array(weights, dtype=float),
+        )
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise InputError(path, "", "no readable domain", "`armscope diagnose` writes one", str(error)) from error
+
+
+def drivers_of(model: FittedModel) -> set[str]:
+    """The kinds of drivers that a model's effects follow, nested ones included."""
+
+    def kinds(driver: Driver) -> set[str]:
+        nested = [kinds(argument) for argument in driver.arguments if isinstance(argument, Driver)]
+        return {driver.kind}.union(*nested)
+
+    parts = (*model.parts, *model.tools)
+    products = [product for part in parts for term in part.placed.terms for product in term.products]
+    return set().union(*(kinds(product.driver) for product in products)) if products else set()
+
+
+def missing_context(model: FittedModel, identified: Identified, rows: Recordings) -> dict[str, NDArray[np.bool_]]:
+    """By column that the model needs: (N,) which rows lack it."""
+    used, lacks = drivers_of(model), {}
+    held = {
+        "payload_kg": rows.payload,
+        "temperature_c": rows.temperature,
+        "time_s": rows.time,
+        "approach": rows.approach,
+        "dq_rad_s": rows.speed,
+    }
+    for column, kinds in CONTEXT.items():
+        if not used & kinds:
+            continue
+        if column == "payload_kg" and (identified.payload_kg is None or identified.payload_kg == (0.0, 0.0)):
+            continue  # an arm that was never loaded: none is meant
+        values = held[column]
+        missing = np.ones(len(rows), dtype=bool)
+        if values is not None:
+            missing = np.isnan(values) if values.ndim == 1 else np.isnan(values).any(axis=1)
+        if missing.any():
+            lacks[column] = missing
+    return lacks
+
+
+def with_torques(model: FittedModel, identified: Identified, rows: Recordings, angles: Array) -> tuple[Recordings, str]:
+    """Rows with the joint torques that the model follows, and what stands in for them where they are not recorded.
+
+    Torques of a diagnosis may come from recordings. A path has none yet: gravity of mass moments fitted to the
+    recorded torques gives them.
+    """
+    if not drivers_of(model) & RECORDED or identified.torque_weights is None or rows.torque is not None:
+        return rows, ""
+    known = ~np.isnan(angles).any(axis=1)
+    torque = np.full_like(angles, np.nan)
+    torque[known] = _torques(model.arm, angles[known], _payload(rows)[known], identified.torque_weights)
+    return replace(rows, torque=torque), "joint torques: mass moments fitted to the recorded ones"
+
+
+def _torque_weights(arm: Arm, recordings: Recordings) -> Array | None:
+    torque = recordings.torque
+    if torque is None or np.isnan(torque).any():
+        return None
+    columns = _torque_columns(arm, recordings.motor_angles, _payload(recordings))
+    fitted = [np.linalg.lstsq(columns[:, j], torque[:, j], rcond=1e-8)[0] for j in range(arm.n_motors)]
+    return np.array(fitted)
+
+
+def _torque_columns(arm: Arm, angles: Array, payload: Array) -> Array:
+    """(N, m, p) static torque regressor, payload at the tool point, and a constant."""
+    frames = chain(arm, angles)
+    regressor = mass_moment_regressor(arm, frames)
+    at_tool = _payload_columns(arm, frames) * payload[:, None]
+    return np.concatenate([regressor, at_tool[..., None], np.ones_like(at_tool)[..., None]], axis=2)
+
+
+def _payload_columns(arm: Arm, frames: Chain) -> Array:
+    """(N, m) torque of one kilogram at the tool point."""
+    ones = np.ones(len(frames.tool))
+    return gravity_torques(arm, frames, ones) - gravity_torques(arm, frames)
+
+
+def _torques(arm: Arm, angles: Array, payload: Array, weights: Array) -> Array:
+    torques: Array = np.einsum("nmp,mp->nm", _torque_columns(arm, angles, payload), weights)
+    return torques
+
+
+def _payload(rows: Recordings) -> Array:
+    return np.zeros(len(rows)) if rows.payload is None else np.nan_to_num(rows.payload)
