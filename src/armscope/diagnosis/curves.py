@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -44,9 +46,10 @@ def curve_of(placed: Placed, values: Array, covariance: Array, scene: Scene) -> 
     best: tuple[float, Array, Array, str] | None = None
     for direction in sorted(directions, key=lambda d: (d.location, d.axis)):
         inside = [n for n, term in enumerate(placed.terms) if term.products[0].direction == direction]
-        basis = np.column_stack(
-            [placed.terms[n].products[0].factor * _value(placed.terms[n].products[0].driver, at) for n in inside]
-        )
+        basis = _basis(placed, inside, at)
+        if placed.reading == "curve":
+            # a constant is the base's or the joint's zero: only the shape about the mean is the curve's own
+            basis = basis - _basis(placed, inside, recorded).mean(axis=0)
         value = basis @ values[inside]
         band = np.sqrt(np.maximum(np.einsum("ni,ij,nj->n", basis, covariance[np.ix_(inside, inside)], basis), 0.0))
         telling = float(np.std(value) / max(float(np.median(band)), 1e-30))
@@ -58,6 +61,12 @@ def curve_of(placed: Placed, values: Array, covariance: Array, scene: Scene) -> 
     return Curve(
         placed.driver, UNITS[source.kind], at, value, band, best[3], periods, describe(at, value, recorded, periods)
     )
+
+
+def _basis(placed: Placed, inside: Sequence[int], at: Array) -> Array:
+    """(K, terms) what the terms ``inside`` do at values of their driver."""
+    products = [placed.terms[n].products[0] for n in inside]
+    return np.column_stack([product.factor * _value(product.driver, at) for product in products])
 
 
 def _value(driver: Driver, at: Array) -> Array:
