@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from armscope.diagnosis.verdict import Parameter
+from armscope.diagnosis.verdict import Curve, Parameter
 from armscope.physics.registry import EFFECTS
 from armscope.report.diagnosis_figures import location_shares
 from armscope.report.effect_cards import card, told_parameters
@@ -17,6 +17,7 @@ from armscope.report.wording import (
     evidence_in_words,
     number_of,
     percent,
+    reach,
     read_parameter,
     rounded,
     shown_unit,
@@ -215,9 +216,9 @@ def test_products_with_unknown_masses_are_not_told_as_numbers():
 
 
 def test_a_free_curve_is_told_by_how_far_it_reaches():
-    (reach,) = told_parameters(verdicts.unknown_curve())
-    assert reach.value == pytest.approx(1.5e-4, rel=0.01)
-    assert reach.stderr == pytest.approx(1.2e-5)
+    (told,) = told_parameters(verdicts.unknown_curve())
+    assert told.value == pytest.approx(1.5e-4, rel=0.01)
+    assert told.stderr == pytest.approx(1.2e-5)
 
 
 def test_effects_that_cancel_each_other_are_told_as_such():
@@ -225,6 +226,12 @@ def test_effects_that_cancel_each_other_are_told_as_such():
     assert card(compliance(share=0.9), 1).cancels == ""
     case = verdicts.case(effects=(compliance(share=53.0), compliance("joint 3", share=48.0)))
     assert location_shares(case.verdict) == {"joint 2": 1.0, "joint 3": 1.0}
+
+
+def test_where_a_curve_is_not_known_its_height_is_not_quoted():
+    at = np.linspace(0, 1, 5)
+    curve = Curve("time", "h", at, np.array([0, 3.0, 9.0, 1.0, 0]), np.array([0.1, 0.1, 8.0, 0.1, 0.1]), "rad")
+    assert reach(curve).value == 3.0
 
 
 def test_rivals_too_close_to_tell_apart_are_marked():

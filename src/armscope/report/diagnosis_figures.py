@@ -12,7 +12,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from armscope.diagnosis.verdict import Atlas, FoundEffect, Verdict, WaterfallStep
+from armscope.diagnosis.verdict import INTERVAL, Atlas, FoundEffect, Verdict, WaterfallStep
 from armscope.diagnosis.verdict import Curve as FoundCurve
 from armscope.recordings import Recordings
 from armscope.report.arm_picture import draw_arm
@@ -30,7 +30,6 @@ Array = NDArray[np.float64]
 FORMATS = ("png", "svg")
 MOST_ROWS = 20_000
 """Running means along the joints need no more rows than this."""
-BAND = 1.959964
 
 
 @dataclass(frozen=True)
@@ -177,7 +176,7 @@ def curve_of(effect: FoundEffect, found: FoundCurve) -> Curve:
     x, x_unit = (np.degrees(found.at), "deg") if found.driver_unit == "rad" else (found.at, found.driver_unit)
     size = float(np.max(np.abs(found.value), initial=0.0))
     factor, unit = shown_unit(found.value_unit, size)
-    value, band = factor * found.value, BAND * factor * found.stderr
+    value, band = factor * found.value, INTERVAL * factor * found.stderr
     does = "moves by" if found.value_unit.startswith("m") else "turns by"
     return Curve(
         title=f"what {effect.location} does over the {found.driver}",

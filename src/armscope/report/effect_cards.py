@@ -6,8 +6,6 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from armscope.diagnosis.verdict import FoundEffect, Parameter
 from armscope.report.wording import (
     Reading,
@@ -17,6 +15,7 @@ from armscope.report.wording import (
     millimetres,
     percent,
     plain,
+    reach,
     read_parameter,
 )
 
@@ -116,9 +115,7 @@ def told_parameters(effect: FoundEffect) -> Sequence[Parameter]:
     """
     if effect.effect != "unknown" or effect.curve is None:
         return [p for p in effect.parameters if not p.name.startswith(UNKNOWN_MASSES)]
-    curve = effect.curve
-    largest = int(np.argmax(np.abs(curve.value)))
-    return [Parameter("reaches", curve.value_unit, float(curve.value[largest]), float(curve.stderr[largest]))]
+    return [reach(effect.curve)]
 
 
 def remark_on(effect: FoundEffect, shown: int) -> str:

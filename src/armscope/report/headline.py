@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 
-import numpy as np
-
 from armscope.diagnosis.verdict import FoundEffect, Parameter, Verdict
 from armscope.report.wording import (
     capitalised,
@@ -15,6 +13,7 @@ from armscope.report.wording import (
     number_of,
     percent,
     plain,
+    reach,
     rounded,
     spelled,
 )
@@ -189,8 +188,7 @@ def _unknown(effect: FoundEffect, parameters: Parameters) -> str:
         return f"{effect.location} scatters by {size} for a reason that the table does not record"
     size = ""
     if effect.curve is not None and len(effect.curve.value):
-        largest = float(np.max(np.abs(effect.curve.value)))
-        size = f", by up to {number_of(Parameter('', effect.curve.value_unit, largest, math.nan))}"
+        size = f", by up to {number_of(reach(effect.curve))}"
     return f"something unexplained at {effect.location} follows the {effect.driver}{size}"
 
 

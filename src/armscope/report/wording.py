@@ -6,7 +6,9 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from armscope.diagnosis.verdict import FoundEffect, Parameter
+import numpy as np
+
+from armscope.diagnosis.verdict import INTERVAL, Curve, FoundEffect, Parameter
 
 UNITS: dict[str, tuple[tuple[float, float, str], ...]] = {
     # file unit: (from this size on, shown per file unit, shown unit), largest first
@@ -39,7 +41,7 @@ LABELS = {
     "per_turn": "waves",
     "phase": "largest at",
     "ratio": "turns further by",
-    "reaches": "reaches (at most)",
+    "reaches": "reaches",
     "scale": "lengths too long by",
     "scatter": "scatter (1 sigma)",
     "a": "length a",
@@ -179,6 +181,13 @@ def millimetres(value: float | None) -> str:
     if value is None or not math.isfinite(value):
         return "–"
     return f"{value:.3g} mm"
+
+
+def reach(curve: Curve) -> Parameter:
+    """How far a curve goes where it is known to go farthest; elsewhere a wide band may reach higher."""
+    sure = np.abs(curve.value) - INTERVAL * curve.stderr
+    at = int(np.argmax(sure))
+    return Parameter("reaches", curve.value_unit, float(curve.value[at]), float(curve.stderr[at]))
 
 
 def plain(text: str) -> str:
