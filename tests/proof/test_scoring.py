@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -43,6 +45,8 @@ def test_on_an_arm_as_real_ones_are_the_background_may_be_named_or_left_out():
 def test_a_clean_arm_is_silent_only_without_any_effect():
     assert only(world([], [], category="clean"))["silent"]
     assert not only(world([], [claim("unknown", "joint 1", minor=True)], category="clean"))["silent"]
+    mismatch = world([], [], category="clean")
+    assert not only(replace(mismatch, answer=replace(mismatch.answer, mismatch=True)))["silent"]
 
 
 @pytest.mark.parametrize(
@@ -74,6 +78,8 @@ def test_a_failed_diagnosis_is_wrong_everywhere():
 def test_the_held_out_ratio_by_hand():
     assert only(world([], [], off=0.5))["held_out_ratio"] == pytest.approx(1.0)
     assert not only(world([], [], off=0.6))["held_out_close"]
+    # two runs with six numbers each, the tool's three, one effect's one, 100 rows
+    assert only(world([OFFSET], []))["price_of_fitting"] == pytest.approx((1 + 16 / 300) ** 0.5)
 
 
 def test_missed_and_invented_names_stand_beside_each_other_in_the_confusion_matrix():

@@ -13,20 +13,23 @@ beside them makes it inexact, too.
 
 **Minor.** On most arms a name is a name, minor or not: a wrong minor name makes a set inexact. `exact_story` is the
 same without the wrong minor ones. Arms as real ones are have small effects everywhere, which the truth lists as minor:
-naming one of those is right, leaving it out is right, too; their set is exact if the effect that dominates is named and
-nothing that isn't concealed.
+naming one of those is right, leaving it out is right, too; their set is exact if the effect that dominates is named
+and nothing that isn't concealed.
 
 **Outcome** of a concealed effect: `named` (its own name), `acceptable` (a sealed alternative), `listed` (only among
 the alternatives of another name), `located` (another name, or `unknown`, at its place), `missed`.
 
 **Outcome of a world outside the library**: `located` (`unknown` at the place, no name), `acceptable`, `partly named`
-(`unknown` at the place, and names at the same place only), `misnamed` (any other name), `elsewhere` (`unknown`, but
-at other places only), `cannot tell`, `missed` (nothing said). The aim counts the first two.
+(`unknown` at the place, and names at the same place only), `misnamed` (any other name), `elsewhere` (`unknown`, but at
+other places only), `cannot tell`, `missed` (nothing said). The aim counts the first two.
 
-**Found** on a power curve: `seen` means that the verdict holds any effect, right or wrong (false alarms on clean arms
-say what that is worth); `right` that the effect has an acceptable name. The oracle knows which effect to test and uses
-one F test at 1 % false alarms. Sizes are in multiples of the size at which that oracle finds the effect in nine of ten
-cases in the same poses; so the 90 % point of the diagnosis's own curve is directly "times the oracle's threshold".
+**Silent** on a clean arm: no effect is listed, and no mismatch stated.
+
+**Found** on a power curve: `seen` means that the verdict states a mismatch, whatever it names (false alarms on clean
+arms say what that is worth); `right` that the effect has an acceptable name. The oracle knows which effect to test and
+uses one F test at 1 % false alarms. Sizes are in multiples of the size at which that oracle finds the effect in nine
+of ten cases in the same poses; so the 90 % point of the diagnosis's own curve, the monotone one that fits the cases
+best (isotonic regression, interval by bootstrap), is directly "times the oracle's threshold".
 
 **Coverage**: share of 95 % intervals that hold the true number, over the parameters of effects found under their own
 name in worlds whose inputs are right. Left out: numbers that the given masses make incomparable, and scanned numbers
@@ -34,13 +37,15 @@ name in worlds whose inputs are right. Left out: numbers that the given masses m
 compared modulo what makes the same motion.
 
 **Held out**: RMS per axis between predicted and measured points on 100 rows whose readings the diagnosis never saw,
-divided by the RMS of the true model there (which is the noise). Fitting k numbers to N rows alone costs a factor of
-about sqrt(1 + k / 3 N). The aim is met if the median world of those that hold nothing, one or several effects is.
+divided by the RMS of the true model there (which is the noise). Who knew every effect and had to fit but their numbers
+and the frames (six per run and three), k in all, to N rows would be off by about sqrt(1 + k / 3 N): that is the `price
+of fitting`, and stands beside it. The aim is met if the median world of those that hold nothing, one or several
+effects is.
 
-**Rates** come with exact binomial (Clopper-Pearson) 95 % intervals; intervals of one world hang together, which
-they don't allow for. An aim is `met` if the estimate reaches it, `open` if it does not but lies within the interval,
-`not met` if it lies outside, and `too few cases` below ten: missing evidence is never a pass. Worlds whose diagnosis
-failed count as wrong everywhere.
+**Rates** come with exact binomial (Clopper-Pearson) 95 % intervals; intervals of one world hang together, which they
+don't allow for. An aim is `met` if the estimate reaches it, `open` if it does not but lies within the interval, `not
+met` if it lies outside, and `too few cases` below ten: missing evidence is never a pass. Worlds whose diagnosis failed
+count as wrong everywhere.
 """
 
 from __future__ import annotations

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq, minimize
-from scipy.special import expit, ncfdtr
+from scipy.optimize import brentq, isotonic_regression
+from scipy.special import ncfdtr
 from scipy.stats import f
 
 from armscope.proof.definitions import FALSE_ALARMS_OF_ORACLE, RELIABLE
@@ -17,7 +17,6 @@ Array = NDArray[np.float64]
 FRAME_NUMBERS = 9
 """Base (6) and tool point (3), which the oracle fits, too."""
 REPEATS = 400
-LARGEST_EXPONENT = 20.0
 
 
 def power(noncentrality: float, columns: int, rows: int) -> float:
@@ -48,7 +47,7 @@ class Threshold:
 
 
 def threshold(size: Array, found: NDArray[np.bool_], share: float, rng: np.random.Generator) -> Threshold:
-    """Fit found = logistic(a + b log size) by maximum likelihood and read it off at ``share``.
+    """The size from which that share is found, by the monotone curve that fits the cases best (isotonic regression).
 
     Args:
         size: (K,) sizes of the cases, any unit.
@@ -58,29 +57,15 @@ def threshold(size: Array, found: NDArray[np.bool_], share: float, rng: np.rando
     """
     if len(size) < 10 or found.all() or not found.any():
         return Threshold(float("nan"), float("nan"), float("nan"), len(size))
-    x, y = np.log(size), found.astype(float)
-    draws = [rng.integers(0, len(x), len(x)) for _ in range(REPEATS)]
-    values = [_read_off(*_logistic(x[rows], y[rows]), share) for rows in draws if 0 < y[rows].mean() < 1]
+    draws = (rng.integers(0, len(size), len(size)) for _ in range(REPEATS))
+    values = [_read_off(size[rows], found[rows], share) for rows in draws]
     low, high = np.quantile(values, (0.025, 0.975), method="inverted_cdf")
-    return Threshold(_read_off(*_logistic(x, y), share), float(low), float(high), len(size))
+    return Threshold(_read_off(size, found, share), float(low), float(high), len(size))
 
 
-def _logistic(x: Array, y: Array) -> tuple[float, float]:
-    """Intercept and slope by maximum likelihood, the slope held in by a weak prior where the cases separate."""
-
-    def loss(parameters: Array) -> tuple[float, Array]:
-        a, b = parameters
-        z = a + b * x
-        rest = expit(z) - y
-        weak = 1e-3
-        value = float(np.sum(np.logaddexp(0, z) - y * z) + weak * b**2 / 2)
-        return value, np.array([rest.sum(), rest @ x + weak * b])
-
-    fit = minimize(loss, np.array([0.0, 1.0]), jac=True, method="BFGS")
-    return float(fit.x[0]), float(fit.x[1])
-
-
-def _read_off(intercept: float, slope: float, share: float) -> float:
+def _read_off(size: Array, found: NDArray[np.bool_], share: float) -> float:
     """Infinite where the curve never gets there."""
-    exponent = (np.log(share / (1 - share)) - intercept) / slope if slope > 0 else np.inf
-    return float(np.exp(exponent)) if exponent < LARGEST_EXPONENT else float("inf")
+    order = np.argsort(size)
+    curve = isotonic_regression(found[order].astype(float)).x
+    reached = np.flatnonzero(curve >= share)
+    return float(size[order][reached[0]]) if len(reached) else float("inf")

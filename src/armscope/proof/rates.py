@@ -205,7 +205,7 @@ def outside_table(cases: Cases) -> pd.DataFrame:
 
 
 def held_out_table(worlds: pd.DataFrame) -> pd.DataFrame:
-    """Held-out RMS over the true model's by category: median, nine in ten, share within 5 %."""
+    """Held-out RMS over the true model's by category: median, nine in ten, price, share within 5 %."""
     rows: list[Row] = []
     for seeds in SEEDS:
         for category, group in of_seeds(worlds, seeds).groupby("category", sort=False):
@@ -213,6 +213,7 @@ def held_out_table(worlds: pd.DataFrame) -> pd.DataFrame:
             rows.append(
                 {"category": category, "seeds": seeds, "worlds": len(ratio), "median": ratio.median()}
                 | {"nine_in_ten_below": ratio.quantile(0.9, interpolation="higher"), "largest": ratio.max()}
+                | {"price_of_fitting": group["price_of_fitting"].median()}
                 | {"within_5_percent": float((ratio <= HELD_OUT_TOLERANCE).mean())}
             )
     return pd.DataFrame(rows)

@@ -36,7 +36,8 @@ def read_worlds(folder: Path) -> Iterator[World]:
         for world, truth in unseal(archive).items():
             recorded = pd.read_csv(folder / "visible" / batch / world / "recordings.csv")
             times = recorded.get("time_s")
-            yield World(truth, read_answer(verdicts / world), times, float(seconds[world]))
+            runs = int(recorded["run"].nunique()) if "run" in recorded else 1
+            yield World(truth, read_answer(verdicts / world), times, runs, float(seconds[world]))
 
 
 def check_seal(seen: Path) -> None:

@@ -21,7 +21,7 @@ COLUMNS: dict[str, tuple[str, ...]] = {
     "worlds": (
         *_COMMON, "arm", "rows", "sigma_mm", "masses", "noise", "left_out", "shape", "concealed", "said", "answer",
         "mismatch", "silent", "exact", "exact_story", "missed", "wrong_names", "outside", "outside_right",
-        "held_out_ratio", "held_out_close", "noise_ratio", "seconds", "failed",
+        "held_out_ratio", "price_of_fitting", "held_out_close", "noise_ratio", "seconds", "failed",
     ),
     "effects": (
         *_COMMON, "effect", "location", "shape", "driver", "minor", "strength", "noncentrality", "columns", "rows",
@@ -43,12 +43,26 @@ REAL = "real"
 
 @dataclass(frozen=True, eq=False)
 class World:
-    """A world unsealed beside the answer it got; ``times`` are the recorded `time_s`, where there are any."""
+    """A world unsealed beside the answer it got.
+
+    Attributes:
+        truth, answer: the two.
+        times: the recorded `time_s`, where there are any.
+        runs: recorded runs, each with a base frame of its own.
+        seconds: how long the diagnosis took.
+    """
 
     truth: Truth
     answer: Answer
     times: pd.Series | None = None
+    runs: int = 1
     seconds: float = float("nan")
+
+    @property
+    def price_of_fitting(self) -> float:
+        """Held-out ratio of one who knows every effect and fits its numbers and the frames; see `definitions`."""
+        numbers = 6 * self.runs + 3 + sum(effect.columns for effect in self.truth.story)
+        return float(np.sqrt(1 + numbers / (3 * self.truth.rows)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +119,7 @@ def _world(world: World, claims: Sequence[Claim], matches: Sequence[Match], left
         "said": _listed([claim.name for claim in claims]),
         "answer": answer.answer,
         "mismatch": answer.mismatch,
-        "silent": not answer.failed and not claims,
+        "silent": not answer.failed and not claims and not answer.mismatch,
         "exact": all_right and not wrong,
         "exact_story": all_right and not [claim for claim in wrong if not claim.minor],
         "missed": sum(not m.right for m in story),
@@ -113,6 +127,7 @@ def _world(world: World, claims: Sequence[Claim], matches: Sequence[Match], left
         "outside": outside,
         "outside_right": outside in ("located", "acceptable") if truth.outside else None,
         "held_out_ratio": ratio,
+        "price_of_fitting": world.price_of_fitting,
         "held_out_close": bool(ratio <= HELD_OUT_TOLERANCE),
         "noise_ratio": answer.noise_mm / truth.noise_rms_mm,
         "seconds": world.seconds,
@@ -166,7 +181,7 @@ def _effect(world: World, found: Match, claims: Sequence[Claim]) -> dict[str, ob
         "rows": rows,
         "oracle_power": power(truth.noncentrality, truth.columns, rows) if tested else float("nan"),
         "size_in_thresholds": size_in_thresholds(truth.noncentrality, truth.columns, rows) if tested else float("nan"),
-        "seen": bool(claims),
+        "seen": bool(world.answer.mismatch),
         "outcome": found.outcome,
         "right": found.right,
         "ambiguous": bool(truth.alternatives) or (world.truth.category == "inseparable" and not truth.minor),
