@@ -64,7 +64,7 @@ def _left_after(gram: Gram, inside: NDArray[np.intp]) -> float:
 def _drivers(model: FittedModel, recordings: Recordings) -> list[tuple[str, str]]:
     """(name, kind) of the drivers that the recordings hold."""
     drivers = [("constant", "one"), ("own angle", "angle"), ("once per turn", "1"), ("twice per turn", "2")]
-    if has_load(model.arm, recordings) or recordings.torque is not None:
+    if has_load(model.arm) or recordings.torque is not None:
         drivers.append(("gravity load", "load"))
     if recordings.approach is not None:
         drivers.append(("side of approach", "approach"))

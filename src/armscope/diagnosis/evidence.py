@@ -27,6 +27,8 @@ BACKGROUND_SIZES = (0.003, 0.03, 0.1, 0.3, 1.0)
 """Shares of the tolerance among which the background's size is averaged: from a perfect arm to an ordinary one."""
 FAMILY_SIZES = 4
 """Sizes of an elastic or transmission background: none, then the smallest of the effects' sizes."""
+CROWDED_NATS = 15.0
+"""What a third effect in one joint's transmission costs more: one unknown cause is likelier than three known ones."""
 BACKGROUND_CAUTION_NATS = 2.0
 """What an elastic or transmission background costs."""
 PERFECT = (0, 0, 0)
@@ -183,7 +185,9 @@ def weigh(problem: Problem, chosen: tuple[Chosen, ...], background: Background, 
     evidence = -problem.n * np.log(noise) - 0.5 * logdet - 0.5 * rss / noise**2
     paid = sum(problem.costs[c.candidate] + np.log(len(problem.sizes)) for c in chosen)
     paid += BACKGROUND_CAUTION_NATS * np.count_nonzero(background[1:])
-    if not problem.pool.stands(frozenset(c.candidate for c in chosen)):
+    names = frozenset(c.candidate for c in chosen)
+    paid += CROWDED_NATS * max(problem.pool.crowding(names), 0)
+    if not problem.pool.stands(names):
         paid = np.inf
     return Hypothesis(chosen, background, noise, float(evidence - paid), columns, variance, factor, inverse, mean, rss)
 
@@ -270,9 +274,11 @@ class Groups:
 
 
 def group(pool: Pool) -> Groups:
-    """Candidates by their number of columns."""
+    """Candidates that compete, by their number of columns."""
     by_size: dict[int, list[int]] = {}
     for number, columns in enumerate(pool.columns):
+        if pool.candidates[number].fine:
+            continue
         by_size.setdefault(len(columns), []).append(number)
     return Groups(
         tuple(np.array(members) for members in by_size.values()),

@@ -62,6 +62,19 @@ class Pool:
         )
 
     @functools.cached_property
+    def special_cases(self) -> tuple[frozenset[int], ...]:
+        """For every free curve of an angle or a load, the candidates that it contains."""
+        return tuple(
+            frozenset(n for n in self.clashes[number] if self.candidates[n].reading != "curve")
+            for number, placed in enumerate(self.candidates)
+            if placed.reading == "curve" and not placed.fine
+        )
+
+    def crowding(self, candidates: frozenset[int]) -> int:
+        """By how many effects some curve's special cases at one place exceed two."""
+        return max((len(special & candidates) - 2 for special in self.special_cases), default=0)
+
+    @functools.cached_property
     def resting(self) -> dict[int, frozenset[int]]:
         """Candidates that do nothing by themselves, and those that each of them can rest on."""
         return {

@@ -99,7 +99,8 @@ def refit(
         if moved < CONVERGED_MM:
             break
     left = residuals(model, recordings)
-    return Refit(model, parts, gram, noise**2 * covariance, noise, spent, RowWeights(w, turn), left)
+    # a lucky residual does not make the instrument better than it is known to be
+    return Refit(model, parts, gram, max(noise, least_noise) ** 2 * covariance, noise, spent, RowWeights(w, turn), left)
 
 
 def _without(placed: Placed, named: set[Term]) -> Placed | None:

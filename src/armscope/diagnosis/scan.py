@@ -27,7 +27,7 @@ LINES_KEPT = 2
 SHORTEST_PIECE = 8
 """Rows on either side of a jump."""
 MOST_TIMES = 240
-WORTH_A_LOOK = 3.0
+WORTH_A_LOOK = 8.0
 """Nats that a scanned number must promise before its price to go on to compete."""
 
 

@@ -78,7 +78,7 @@ class Search:
 
     def taken_over(self, hypothesis: Hypothesis, pool: Pool) -> Hypothesis:
         """A hypothesis on another pool, with the effects that this search's pool has, too."""
-        index = {(p.key, p.driver, p.variant): n for n, p in enumerate(self.problem.pool.candidates)}
+        index = {(p.key, p.driver, p.variant): n for n, p in enumerate(self.problem.pool.candidates) if not p.fine}
         chosen = []
         for c in hypothesis.chosen:
             placed = pool.candidates[c.candidate]
@@ -140,9 +140,14 @@ class Search:
 
     def without(self, hypothesis: Hypothesis, removed: Iterable[int]) -> Hypothesis:
         """The hypothesis without some candidates."""
-        gone = set(removed)
-        kept = tuple(c for c in hypothesis.chosen if c.candidate not in gone)
+        left = hypothesis.candidates - set(removed)
+        # what rested on them goes with them
+        left = frozenset(c for c in left if self.problem.pool.stands(left & {c} | (left - self._resting())))
+        kept = tuple(c for c in hypothesis.chosen if c.candidate in left)
         return weigh(self.problem, kept, hypothesis.background, hypothesis.noise)
+
+    def _resting(self) -> frozenset[int]:
+        return frozenset(self.problem.pool.resting)
 
     def _pruned(self, hypothesis: Hypothesis) -> Hypothesis:
         """With every effect removed that has stopped paying for itself."""
@@ -236,6 +241,18 @@ class Search:
         for c in hypothesis.chosen:
             by_region.setdefault(region(self.placed(c.candidate)), []).append(c.candidate)
         return [tuple(members) for members in by_region.values() if len(members) > 1]
+
+    def refined(self, hypothesis: Hypothesis) -> Hypothesis:
+        """With the finer form of a curve in its place wherever the evidence is for it."""
+        fine = {p.key: n for n, p in enumerate(self.problem.pool.candidates) if p.fine}
+        for number, c in enumerate(hypothesis.chosen):
+            placed = self.placed(c.candidate)
+            if placed.key in fine and placed.variant == "angle" and not placed.fine:
+                finer = Chosen(fine[placed.key], c.size)
+                chosen = (*hypothesis.chosen[:number], finer, *hypothesis.chosen[number + 1 :])
+                other = weigh(self.problem, chosen, hypothesis.background, hypothesis.noise)
+                hypothesis = max(hypothesis, other, key=_value)
+        return hypothesis
 
     def held(self, hypothesis: Hypothesis, candidate: int) -> bool:
         """Whether a background of the hypothesis holds an effect, too."""

@@ -74,7 +74,8 @@ def cross_validate(
         scaled = held.scaled(problem.scale)
         free = split.grouped_by == "run"
         starts = {best.background} if len(best.columns) > LARGE else {best.background, PERFECT}
-        chosen = Search.on(trained, beam=2 if len(starts) > 1 else 1, branches=2).best(starts=tuple(sorted(starts)))
+        search = Search.on(trained, beam=2 if len(starts) > 1 else 1, branches=2)
+        chosen = search.refined(search.best(starts=tuple(sorted(starts))))
         rows += held.n
         before += _held_out(trained, weigh(trained, (), PERFECT, empty.noise), scaled, free)
         after += _held_out(trained, chosen, scaled, free)

@@ -101,6 +101,7 @@ class Placed:
         variant: which of several forms of the effect at this location this is.
         reading: how the terms' values are told: "plain", or "sine" for (sine, cosine) pairs as amplitude and phase,
             or "curve" for a free curve.
+        fine: a finer form of a curve: it does not compete, it may take the curve's place once that is chosen.
     """
 
     effect: Effect
@@ -112,6 +113,7 @@ class Placed:
     tried: int = 1
     variant: str = ""
     reading: Literal["plain", "sine", "curve"] = "plain"
+    fine: bool = False
 
     @property
     def name(self) -> str:

@@ -24,13 +24,13 @@ MASS_DIRECTIONS_SHARE = 1e-3
 """Directions of the unknown mass moments that make up less of the torque's variation are left out."""
 
 
-def has_load(arm: Arm, recordings: Recordings) -> bool:
-    """Whether gravity's load is known: stated masses, or a recorded payload."""
-    return arm.has_masses or varies(recordings.payload, 1e-6)
+def has_load(arm: Arm) -> bool:
+    """Whether gravity's load is known; a payload alone is not the load, the arm weighs something, too."""
+    return arm.has_masses
 
 
 def _place_joints(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    if not has_load(arm, recordings) and recordings.torque is None:
+    if not has_load(arm) and recordings.torque is None:
         yield from _unknown_masses(arm, recordings)
         return
     for j in range(1, arm.n_motors + 1):
@@ -92,7 +92,7 @@ JOINT_COMPLIANCE = Effect(
 
 
 def _place_bearings(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    if not has_load(arm, recordings):
+    if not has_load(arm):
         return
     for j in range(1, arm.n_joints + 1):
         yield Placed(BEARING_COMPLIANCE, f"joint {j}", (_tilt(f"joint {j}"),), (1.0,), f"moment across joint {j}")
@@ -117,7 +117,7 @@ BEARING_COMPLIANCE = Effect(
 
 
 def _place_base(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    if has_load(arm, recordings):
+    if has_load(arm):
         yield Placed(BASE_COMPLIANCE, "base", (_tilt("base"),), (1.0,), "moment on the base")
 
 
@@ -132,7 +132,7 @@ BASE_COMPLIANCE = Effect(
 
 
 def _place_beams(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    if not has_load(arm, recordings):
+    if not has_load(arm):
         return
     for j in range(1, arm.n_joints + 1):
         step = arm.before[j - 1] if arm.is_modified_dh else arm.behind[j - 1]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,21 +20,27 @@ from armscope.robot import Arm
 
 Array = NDArray[np.float64]
 
-SMOOTH_WAVES, SMOOTH_WAVES_OF_LONG_TABLES = 6.0, 24.0
+SMOOTH_WAVES, SMOOTH_FINE_WAVES = 6.0, 24.0
 """Waves up to which a free curve's waves are equally likely; beyond, their size falls with the square."""
 KNOTS = 8
-ROWS_PER_WAVE = 7
-FEWEST_WAVES, MOST_WAVES, MOST_WAVES_OF_LONG_TABLES = 8, 20, 72
+ROWS_PER_WAVE, ROWS_PER_FINE_WAVE = 7, 20
+FEWEST_WAVES, MOST_WAVES, MOST_FINE_WAVES = 8, 20, 72
 SLACK = 1.25
 """The longest wave spans this many times the range that a joint covers, so that its ends are free; a turn at most."""
-LONG_TABLE = 1500
 
 
 def waves(recordings: Recordings) -> int:
     """How many waves a free curve gets: what the number of rows carries."""
-    if len(recordings) >= LONG_TABLE:
-        return MOST_WAVES_OF_LONG_TABLES
     return int(np.clip(len(recordings) // ROWS_PER_WAVE, FEWEST_WAVES, MOST_WAVES))
+
+
+def refined(arm: Arm, recordings: Recordings, curve: Placed) -> Placed | None:
+    """A free curve of a joint's own angle with the finest waves that a long table carries; None for other curves."""
+    count = min(len(recordings) // ROWS_PER_FINE_WAVE, MOST_FINE_WAVES)
+    if curve.effect is not UNKNOWN or curve.variant != "angle" or curve.fine or count <= MOST_WAVES:
+        return None
+    j = int(curve.location.split()[1])
+    return replace(_angle_curve(arm, recordings, j, count, SMOOTH_FINE_WAVES), fine=True)
 
 
 def _place(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
@@ -44,21 +51,23 @@ def _place(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
 
 
 def _own_angle(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    count = waves(recordings)
-    flat = SMOOTH_WAVES_OF_LONG_TABLES if count > MOST_WAVES else SMOOTH_WAVES
     for j in moving_joints(recordings):
-        trend = [*JOINT_OFFSET.place(arm, recordings), *GEAR_RATIO.place(arm, recordings)]
-        terms: list[Term] = [t for placed in trend if placed.location == f"joint {j}" for t in placed.terms]
-        shape: list[float] = []
-        longest = min(SLACK * float(np.ptp(recordings.motor_angles[:, j - 1])), 2 * np.pi)
-        for number in range(1, count + 1):
-            terms += wave_terms(j, number if longest == 2 * np.pi else number * 2 * np.pi / longest)
-            shape += [1 / (1 + (number / flat) ** 2)] * 2
-        yield _curve(f"joint {j}", tuple(terms), shape, f"angle of joint {j}", "angle", trends=2)
+        yield _angle_curve(arm, recordings, j, waves(recordings), SMOOTH_WAVES)
+
+
+def _angle_curve(arm: Arm, recordings: Recordings, j: int, count: int, smooth: float) -> Placed:
+    trend = [*JOINT_OFFSET.place(arm, recordings), *GEAR_RATIO.place(arm, recordings)]
+    terms: list[Term] = [t for placed in trend if placed.location == f"joint {j}" for t in placed.terms]
+    shape: list[float] = []
+    longest = min(SLACK * float(np.ptp(recordings.motor_angles[:, j - 1])), 2 * np.pi)
+    for number in range(1, count + 1):
+        terms += wave_terms(j, number if longest == 2 * np.pi else number * 2 * np.pi / longest)
+        shape += [1 / (1 + (number / smooth) ** 2)] * 2
+    return _curve(f"joint {j}", tuple(terms), shape, f"angle of joint {j}", "angle", trends=2)
 
 
 def _load(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    if not has_load(arm, recordings) and recordings.torque is None:
+    if not has_load(arm) and recordings.torque is None:
         return
     scene = Scene(arm, recordings)
     offsets = {placed.location: placed.terms for placed in JOINT_OFFSET.place(arm, recordings)}

@@ -1,0 +1,240 @@
+"""Rounds of columns -> selection -> exact refit -> scan, until neither effects, suspect rows nor scatter change.
+
+A long table is diagnosed on a sample of its rows first; all rows then weigh what could matter, once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.diagnosis import robust
+from armscope.diagnosis.evidence import Hypothesis, Problem, background_sizes, gains, problem
+from armscope.diagnosis.noise import Noise, relative_uncertainty
+from armscope.diagnosis.problem import COUNTS, Gram, Pool, accumulate, pool, residuals, total
+from armscope.diagnosis.refit import Refit, refit
+from armscope.diagnosis.scan import jumps, mesh_lines
+from armscope.diagnosis.scatter import Scattered, find_scatter, levers, noise_between, whitening
+from armscope.diagnosis.search import STARTS, Search
+from armscope.diagnosis.weights import RowWeights
+from armscope.physics.backgrounds import backgrounds
+from armscope.physics.effect import Placed
+from armscope.physics.freeform import refined
+from armscope.physics.model import FittedModel
+from armscope.physics.payload import PAYLOAD_ERROR, payload_errors
+from armscope.physics.registry import library
+from armscope.physics.scene import Part
+from armscope.recordings import Recordings
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
+Progress = Callable[[str, float], None]
+State = tuple[frozenset[str], NDArray[np.bool_]]
+
+ROUNDS, FULL_ROUNDS = 7, 2
+"""Rounds at most; the first ones search from all starts, later ones from where the last one ended."""
+SAMPLE_ROWS = 4000
+"""Longer tables are diagnosed on this many of their rows first."""
+ROWS_OF_A_GROUP = 20
+"""Rows of every run and target that the sample holds at least."""
+FLICKERING = 0.002
+"""Share of the rows that may still come and go when the rounds end."""
+PROMISING = 60
+"""How many effects beside the chosen ones are weighed again on all rows of a long table."""
+
+
+@dataclass(frozen=True, eq=False)
+class Selected:
+    """Where the rounds ended."""
+
+    problem: Problem
+    blocks: list[Gram]
+    best: Hypothesis
+    fit: Refit
+    scatter: tuple[Scattered, ...]
+
+
+def select(
+    start: FittedModel,
+    recordings: Recordings,
+    noise: Noise,
+    frames: Sequence[Placed],
+    block_of_row: Indices,
+    tell: Progress,
+) -> Selected:
+    """The effects that the evidence asks for, fitted with the exact model."""
+    if len(recordings) <= SAMPLE_ROWS:
+        return Rounds(start, recordings, noise, frames, block_of_row, tell).until_settled()
+    rows = _sample(recordings)
+    small = Rounds(start, recordings.rows(rows), noise, frames, block_of_row[rows], tell)
+    found = small.until_settled()
+    whole = Rounds(start, recordings, noise, frames, block_of_row, tell, _promising(found))
+    whole.follow(small)
+    tell("weighing all rows", 0.45)
+    whole.round((found.best.background,))
+    return whole.selected()
+
+
+def _sample(recordings: Recordings) -> Indices:
+    """Rows spread evenly over the table, and some of every run and target."""
+    rows = [np.linspace(0, len(recordings) - 1, SAMPLE_ROWS).astype(np.intp)]
+    groups = np.char.add(np.char.add(recordings.run, "\n"), recordings.target)
+    rows += [np.flatnonzero(groups == group)[:ROWS_OF_A_GROUP] for group in np.unique(groups)]
+    return np.unique(np.concatenate(rows))
+
+
+def _promising(found: Selected) -> list[Placed]:
+    """The chosen effects and those that come next, given the best hypothesis and given none."""
+    search = Search.on(found.problem)
+    candidates = found.problem.pool.candidates
+    kept = set(found.best.candidates) | {n for n, placed in enumerate(candidates) if placed.fine}
+    coarse = {candidates[n].key for n in kept if candidates[n].fine}
+    kept |= {n for n, placed in enumerate(candidates) if placed.key in coarse and placed.variant == "angle"}
+    for hypothesis in (found.best, search.empty()):
+        gain, _ = gains(found.problem, search.groups, hypothesis)
+        kept |= {int(c) for c in np.argsort(-gain)[: PROMISING // 2]}
+    return [candidates[c] for c in sorted(kept) if candidates[c].effect is not PAYLOAD_ERROR]
+
+
+class Rounds:
+    """The rounds on one table.
+
+    Args:
+        start: the arm with its frames fitted.
+        recordings: the rows.
+        noise: what is known of it.
+        frames: the free frames.
+        block_of_row: (N,) which block of rows each row is in.
+        tell: told of the progress.
+        candidates: effects that compete; the whole library where not given.
+    """
+
+    def __init__(
+        self,
+        start: FittedModel,
+        recordings: Recordings,
+        noise: Noise,
+        frames: Sequence[Placed],
+        block_of_row: Indices,
+        tell: Progress,
+        candidates: Sequence[Placed] | None = None,
+    ) -> None:
+        self.recordings, self.noise, self.frames, self.tell = recordings, noise, frames, tell
+        self.block_of_row = block_of_row
+        self.candidates = library(start.arm, recordings) if candidates is None else list(candidates)
+        self.families = list(backgrounds(start.arm, recordings).values())
+        self.moved = levers(start, recordings)
+        self.model, self.left = start, residuals(start, recordings)
+        self.scatter: list[Scattered] = []
+        self.uncertainty = relative_uncertainty(recordings, robust.scale_of(self.left))
+        self.weights = RowWeights(robust.first_weights(self.left, self.uncertainty, noise.least_mm))
+        self.last: tuple[Hypothesis, Pool] | None = None
+
+    def until_settled(self) -> Selected:
+        """Rounds until nothing changes."""
+        previous: State | None = None
+        settled = False
+        for number in range(ROUNDS):
+            self.tell("looking for effects", 0.05 + 0.05 * number)
+            new = self.round(STARTS if number < FULL_ROUNDS else None)
+            state = self._state()
+            same = previous is not None and self._alike(state, previous)
+            if not new and same and (settled or not self._rests()) and not self._scatter_changed():
+                break
+            settled = same
+            previous = state
+            self.candidates = [*self.candidates, *new]
+        fine = [refined(self.model.arm, self.recordings, self.pool.candidates[c]) for c in self.best.candidates]
+        if any(fine):
+            self.candidates = [*self.candidates, *[placed for placed in fine if placed is not None]]
+            self.round(None)
+        return self.selected()
+
+    def follow(self, other: Rounds) -> None:
+        """Go on from where the rounds on a sample of the rows ended."""
+        self.model, self.last, self.scatter = other.model, other.last, other.scatter
+        self.left = residuals(self.model, self.recordings)
+        self.uncertainty = relative_uncertainty(self.recordings, other.fit.noise)
+        turn = whitening(self.scatter, self.moved, other.fit.noise)
+        white = RowWeights(self.uncertainty, turn).whitened(self.left)
+        self.weights = RowWeights(robust.weights(white, self.uncertainty, self.noise.least_mm), turn)
+
+    def round(self, starts: Sequence[tuple[int, ...]] | None) -> list[Placed]:
+        """One round; returns new candidates that scanning found. Without starts it goes on from the last round."""
+        model, payload = _payload(self.model, self.recordings)
+        self.pool = pool(self.frames, self.families, [*self.candidates, *payload])
+        self.blocks = accumulate(self.pool, model, self.recordings, self.weights, self.block_of_row)
+        self.problem = problem(self.pool, total(self.blocks), self.noise.least_mm)
+        search = Search.on(self.problem)
+        warm = None if self.last is None else search.taken_over(*self.last)
+        if starts is None:
+            starts = STARTS if warm is None else (warm.background,)
+        found = search.best(starts, warm)
+        self.best, self.last = search.refined(search.promoted(found)), (found, self.pool)
+        effects = [(self.pool.candidates[c.candidate], float(self.problem.sizes[c.size])) for c in self.best.chosen]
+        small = list(zip(self.families, background_sizes(self.problem, self.best), strict=True))
+        turn = self.weights.turn
+        self.fit = refit(
+            model, self.recordings, self.frames, small, effects, self.uncertainty, self.noise.least_mm, turn
+        )
+        new = self._scanned(search, model)
+        self.model, self.left, self.weights = self.fit.model, self.fit.residuals, self.fit.weights
+        self.uncertainty = relative_uncertainty(self.recordings, self.fit.noise)
+        return new
+
+    def selected(self) -> Selected:
+        """Where the rounds stand."""
+        return Selected(self.problem, self.blocks, self.best, self.fit, tuple(self.scatter))
+
+    def _state(self) -> State:
+        """What must not change any more: the effects and the rows that do not count."""
+        chosen = [self.pool.candidates[c] for c in self.best.candidates]
+        return frozenset(str(p) + p.variant for p in chosen), self.weights.row < COUNTS
+
+    def _alike(self, state: State, previous: State) -> bool:
+        """Whether two rounds ended alike: the same effects, and the same rows count but for a few of very many."""
+        changed = np.count_nonzero(state[1] != previous[1])
+        return state[0] == previous[0] and bool(changed <= FLICKERING * len(self.recordings))
+
+    def _rests(self) -> bool:
+        """Whether some effect rests on others' values, which then must settle, too."""
+        return any(self.pool.candidates[c].effect.rests_on for c in self.best.candidates)
+
+    def _scatter_changed(self) -> bool:
+        """Look for scatter in what is left; take its whitening into account where it is new."""
+        found = find_scatter(self.left, self.moved, self.noise.least_mm)
+        if {s.motor for s in found} == {s.motor for s in self.scatter}:
+            return False
+        self.scatter = found
+        between = noise_between(self.left, self.moved, found, self.noise.least_mm)
+        turn = whitening(found, self.moved, between)
+        white = RowWeights(self.weights.row, turn).whitened(self.left)
+        self.weights = RowWeights(robust.weights(white, self.uncertainty, self.noise.least_mm), turn)
+        return True
+
+    def _scanned(self, search: Search, model: FittedModel) -> list[Placed]:
+        """New candidates whose scanned numbers promise something, given the best hypothesis and given none."""
+        known = {(placed.key, placed.variant) for placed in self.pool.candidates}
+        new: dict[tuple[tuple[str, str], str], Placed] = {}
+        given = (self.best, search.empty()) if self.best.chosen else (self.best,)
+        for scan in (mesh_lines, jumps):
+            for placed in scan(self.problem, given, model, self.recordings, self.weights):
+                if (placed.key, placed.variant) not in known:
+                    new[(placed.key, placed.variant)] = placed
+        return list(new.values())
+
+
+def _payload(model: FittedModel, recordings: Recordings) -> tuple[FittedModel, list[Placed]]:
+    """Payload errors on top of what gives way in the model, and the model with its own ones written anew."""
+    stiff = [part for part in model.parts if part.placed.effect is not PAYLOAD_ERROR]
+    placed = list(payload_errors(recordings, [part for part in stiff if part.placed.reading == "plain"]))
+    by_variant = {p.variant: p for p in placed}
+    errors = [
+        Part(by_variant[part.placed.variant], part.values)
+        for part in model.parts
+        if part.placed.effect is PAYLOAD_ERROR and part.placed.variant in by_variant
+    ]
+    return replace(model, parts=(*stiff, *errors)), placed
