@@ -135,6 +135,13 @@ def test_what_was_not_recorded_is_said():
     assert "masses that robot.yaml states" in told
 
 
+def test_where_nothing_was_fitted_nothing_is_promised(folder):
+    """No model, no number for it, no validation, no advice to act on."""
+    page = Page((folder / "cannot_tell" / "report.html").read_text())
+    assert "No effect was fitted" in page.words
+    assert "mismatch with the fitted model" not in page.words
+
+
 def test_the_same_verdict_gives_the_same_page(folder, tmp_path):
     case = CASES["cannot_tell"]()
     again = write_report(case.verdict, case.arm, case.recordings, tmp_path)

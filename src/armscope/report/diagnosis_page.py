@@ -130,10 +130,16 @@ def _tiles(verdict: Verdict) -> list[tuple[str, str, str]]:
     after = verdict.held_out.after if held_out else verdict.residual_after_mm
     where = "RMS per axis on held-out rows" if held_out else "RMS per axis on the fitted rows (no held-out rows)"
     runs = f" in {len(verdict.runs)} runs" if len(verdict.runs) > 1 else ""
-    return [
+    known = math.isfinite(verdict.noise_mm)
+    tiles = [
         (millimetres(before), "mismatch before", where),
         (millimetres(after), "mismatch with the fitted model", where),
-        (millimetres(verdict.noise_mm), "noise", f"per axis, {verdict.noise_source}"),
+    ]
+    if verdict.mismatch is None and not verdict.effects:
+        tiles = [(millimetres(before), "mismatch", "RMS per axis once base and tool are placed")]
+    return [
+        *tiles,
+        (millimetres(verdict.noise_mm), "noise", f"per axis, {verdict.noise_source}" if known else "not known"),
         (f"{verdict.rows:,}".replace(",", " "), "recorded rows", f"{Path(verdict.source).name}{runs}"),
     ]
 
@@ -141,6 +147,8 @@ def _tiles(verdict: Verdict) -> list[tuple[str, str, str]]:
 def improvement(verdict: Verdict) -> str:
     """One sentence: how much smaller the error becomes on rows that took no part."""
     before, after = verdict.held_out.before, verdict.held_out.after
+    if verdict.mismatch is None and not verdict.effects:
+        return "No effect was fitted, so there is nothing to test on held-out rows."
     if not (math.isfinite(before) and math.isfinite(after)):
         return (
             "Whether the model also holds on rows that took no part in the fit was not tested: there are too few rows "
@@ -213,7 +221,9 @@ def assumptions(verdict: Verdict, arm: Arm, recordings: Recordings) -> list[str]
         "Every link, drive and bearing may have small errors, as in any real arm (assumed: of tolerance size, about 1 "
         "mm and 1 mrad, for the geometry); one of them is named only when the recordings ask for it by itself.",
         loads,
-        f"The noise per axis, {millimetres(verdict.noise_mm)}, is {verdict.noise_source}.",
+        f"The noise per axis, {millimetres(verdict.noise_mm)}, is {verdict.noise_source}."
+        if math.isfinite(verdict.noise_mm)
+        else "The noise is not known.",
         "Joint angles are the commanded ones, lengths hold at 20 °C, the arm stands still or moves slowly, and each "
         "effect is small: it is found in a linear picture and then fitted exactly.",
     ]
