@@ -18,7 +18,7 @@ from armscope.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, SKY, VERMILI
 
 HALVES = {"fixed": (GREY, "s"), "fresh": (BLUE, "o")}
 """Colour and marker of worlds with fixed and with fresh seeds."""
-FOUND = {"seen": (ORANGE, "s", "anything is seen"), "right": (BLUE, "o", "named right")}
+FOUND = {"seen": (ORANGE, "s", "a mismatch is stated"), "right": (BLUE, "o", "named right")}
 OUTCOME_COLOURS = {
     "named": BLUE, "acceptable": SKY, "listed": GREEN, "located": YELLOW, "missed": VERMILION,
 }  # fmt: skip

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
+from markupsafe import Markup, escape
 
 from armscope.proof import definitions
 from armscope.report.page import significant, write_page
@@ -115,10 +117,10 @@ def _wrong(table: pd.DataFrame) -> pd.DataFrame:
     return shown.head(SHOWN_WRONG).rename(columns={"weakest": "weakest / noise", "held_out_ratio": "held out / true"})
 
 
-def _paragraphs(text: str) -> list[tuple[str, str]]:
-    """(bold head, rest) of the definitions' paragraphs."""
+def _paragraphs(text: str) -> list[tuple[str, Markup]]:
+    """(bold head, rest as HTML) of the definitions' paragraphs."""
     found = []
     for paragraph in text.strip().split("\n\n")[1:]:
         head, _, rest = " ".join(paragraph.split()).removeprefix("**").partition("**")
-        found.append((head, rest.lstrip(" .:")))
+        found.append((head, Markup(re.sub(r"`(.+?)`", r"<code>\1</code>", str(escape(rest))))))
     return found
