@@ -192,10 +192,13 @@ def weigh(problem: Problem, chosen: tuple[Chosen, ...], background: Background, 
     return Hypothesis(chosen, background, noise, float(evidence - paid), columns, variance, factor, inverse, mean, rss)
 
 
+ROUNDING = 1e-11
+
+
 def lower_factor(G: Array, ridge: Array) -> Array:
-    """Cholesky factor (lower) of G + diag(ridge)."""
+    """Cholesky factor (lower) of G + diag(ridge); a ridge below rounding is raised to it (few rows, fitted exactly)."""
     A = G.copy()
-    A[np.diag_indices_from(A)] += ridge
+    A[np.diag_indices_from(A)] += np.maximum(ridge, ROUNDING * np.diag(G))
     factor, failed = dpotrf(A, lower=1, clean=1, overwrite_a=1)
     if failed:
         raise np.linalg.LinAlgError(f"the Gram matrix is not positive definite at column {failed}")
