@@ -10,7 +10,7 @@ import sys
 
 import typer
 
-from armscope.cli import calibration, diagnosis, paper, proof, recordings, sweep
+from armscope.cli import calibration, compensation, diagnosis, paper, proof, recordings, sweep
 from armscope.inputs import InputError
 
 app = typer.Typer(
@@ -21,6 +21,7 @@ app = typer.Typer(
     add_completion=False,
 )
 app.add_typer(diagnosis.app)
+app.add_typer(compensation.app)
 app.add_typer(calibration.app)
 app.add_typer(recordings.app)
 app.add_typer(paper.app, name="paper", help="The 2006 paper, step by step; the workflow calls these.")

@@ -32,6 +32,8 @@ def diagnose(
     report: Annotated[bool, typer.Option(help="write report.html and its figures")] = True,
 ) -> None:
     """Find where simulation and recordings differ, and which physics was left out."""
+    from armscope.compensation.physical import FILE as DOMAIN
+    from armscope.compensation.physical import identified_on, save_identified
     from armscope.diagnosis import Settings, write_verdict
     from armscope.diagnosis import diagnose as diagnose_arm
     from armscope.recordings import read_recordings
@@ -48,6 +50,7 @@ def diagnose(
     with _progress("diagnosing") as tell:
         verdict = diagnose_arm(arm, table, settings, tell)
         write_verdict(verdict, output)
+        save_identified(output / DOMAIN, identified_on(arm, table))
         if report:
             from armscope.report.diagnosis_page import write_report
 

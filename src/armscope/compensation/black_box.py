@@ -1,4 +1,4 @@
-"""A single fitted black-box model as a file: the nominal arm, the error of its tool point, where that was identified."""
+"""One fitted black-box model as a file: the nominal arm, its tool point's error, where that was identified."""
 
 from __future__ import annotations
 
@@ -90,9 +90,8 @@ def error_model(arm: Arm, fit: Fit, angles: Array, seed: int | None = None, base
     else:
         number = fit.best_seeds if seed is None else np.full(len(axes), fit.seeds.index(seed))
         chosen, rms, method = fit.coefficients[number, axes], fit.fitness_mm[number, axes], fit.method
-    return ErrorModel(
-        arm, fit.features, chosen, method, rms, base or _same_frame(), domain_of(arm, fit.features, angles)
-    )
+    domain = domain_of(arm, fit.features, angles)
+    return ErrorModel(arm, fit.features, chosen, method, rms, base or _same_frame(), domain)
 
 
 def fit_error_model(
@@ -270,7 +269,7 @@ def _same_frame() -> Base:
 
 
 def _aligned(measured: Array, points: Array) -> Array:
-    matrix: Array = Rotation.align_vectors(measured - measured.mean(axis=0), points - points.mean(axis=0))[
-        0
-    ].as_matrix()
+    """The rotation that turns points into measured ones best, both about their middle."""
+    turn, _ = Rotation.align_vectors(measured - measured.mean(axis=0), points - points.mean(axis=0))
+    matrix: Array = turn.as_matrix()
     return matrix

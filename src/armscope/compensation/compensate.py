@@ -247,7 +247,7 @@ class _Task:
             self._refuse_unsolved(refused, known, solution, moved)
             predicted[known] = real.at(commands[known], known).points
         outside, nearest = self._refuse_outside(refused, commands)
-        reasons = refused.astype(str)
+        reasons = np.asarray(refused, dtype=str)
         residual = np.linalg.norm(wanted.points - predicted, axis=1)
         for values in (commands, predicted, residual):
             values[reasons != ""] = np.nan
@@ -298,7 +298,7 @@ class _Task:
                 )  # fmt: skip
             assert nominal is not None
             return Wanted(points, nominal.rotations)
-        unknown = np.isnan(table.orientation).any(axis=1)
+        unknown = np.asarray(np.isnan(table.orientation).any(axis=1))
         _refuse(refused, unknown, "no orientation")
         quaternions = np.where(unknown[:, None], [1.0, 0, 0, 0], table.orientation)
         given = Rotation.from_quat(quaternions[:, [1, 2, 3, 0]]).as_matrix()
@@ -318,7 +318,9 @@ class _Task:
         branch = nominal_branch(self.arm, wanted, start, held, self.options.largest_step)
         doubt = unit_doubt(wanted.points, self.arm.reach)
         for reason in np.unique(branch.reasons[~branch.reached]):
-            _refuse(refused, branch.reasons == reason, str(reason) + (doubt if "reach" in reason else ""))
+            _refuse(
+                refused, np.flatnonzero(branch.reasons == reason), str(reason) + (doubt if "reach" in reason else "")
+            )
         return branch.motor_angles
 
     @property
@@ -349,7 +351,7 @@ class _Task:
     def _refuse_outside(self, refused: NDArray[np.object_], commands: Array) -> tuple[Array, Array]:
         """Distances (N,) from the identified range and from the nearest identification row."""
         outside, nearest = np.full(len(commands), np.nan), np.full(len(commands), np.nan)
-        solved = ~np.isnan(commands).any(axis=1)
+        solved = np.isfinite(commands.sum(axis=1))
         if not solved.any():
             return outside, nearest
         inputs = self.domain_inputs(np.where(solved[:, None], commands, 0.0))[solved]
@@ -376,7 +378,7 @@ def _refuse(refused: NDArray[np.object_], rows: NDArray[np.bool_] | NDArray[np.i
     """The first reason of a row stays."""
     which = np.zeros(len(refused), dtype=bool)
     which[rows] = True
-    refused[which & (refused == "")] = reason
+    refused[np.flatnonzero(which & np.equal(refused, ""))] = reason
 
 
 def _check_arm(arm: Arm, rows: Recordings) -> None:
@@ -402,15 +404,15 @@ def _named(model: FittedModel, rows: Recordings) -> tuple[Recordings, NDArray[np
         run[run == ""] = last
         notes.append(f"rows without a run are taken as of run {last!r}")
     for name in sorted(set(run) - set(model.bases)):
-        _refuse(refused, run == name, f"run {name!r} is not in the model")
+        _refuse(refused, np.flatnonzero(run == name), f"run {name!r} is not in the model")
     targets = sorted({str(part.placed.variant) for part in model.tools})
     if targets and "" not in targets and (target == "").any():
         if len(targets) == 1:
             target[target == ""] = targets[0]
         else:
-            _refuse(refused, target == "", f"no target; the model knows {', '.join(targets)}")
+            _refuse(refused, np.flatnonzero(target == ""), f"no target; the model knows {', '.join(targets)}")
     for name in sorted(set(target) - set(targets)) if targets else ():
-        _refuse(refused, target == name, f"target {name!r} is not in the model")
+        _refuse(refused, np.flatnonzero(target == name), f"target {name!r} is not in the model")
     known = np.isin(run, list(model.bases))
     filled = np.where(known, run, list(model.bases)[-1])
     return replace(rows, run=filled.astype(str), target=target.astype(str)), refused, tuple(notes)

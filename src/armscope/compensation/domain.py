@@ -69,7 +69,7 @@ class Domain:
         )
 
     def outside(self, inputs: ArrayLike) -> tuple[Array, NDArray[np.str_]]:
-        """How far (N,) rows (N, k) lie outside, in standard deviations (0 inside), and what sticks out most ("" inside)."""
+        """How far (N,) rows (N, k) lie outside, in standard deviations (0 inside), and what does most ("" inside)."""
         z = (np.asarray(inputs, dtype=float) - self.mean) / self.scale
         extent = z @ _directions(self.moving).T
         excess = np.maximum(np.maximum(self.low - extent, extent - self.high), 0.0)

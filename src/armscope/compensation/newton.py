@@ -21,7 +21,7 @@ TOLERANCE_M = 1e-9
 ITERATIONS = 30
 LARGEST_NEWTON_STEP_RAD = 0.3
 POLE = 0.01
-"""Smallest singular value of the scaled Jacobian below which an arm is at a pole (a wrist: 0.8 degrees from straight)."""
+"""An arm with a smaller singular value of the scaled Jacobian is at a pole (a wrist: 0.8 degrees from straight)."""
 
 
 @dataclass(frozen=True, eq=False)

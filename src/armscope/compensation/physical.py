@@ -23,8 +23,10 @@ Array = NDArray[np.float64]
 FORMAT = "armscope domain 1"
 FILE = "domain.json"
 
-LOADS = {"payload", "force", "torque", "gravity torque", "payload torque", "heavier", "off centre", "load side", "moment",
-         "bend"}  # fmt: skip
+LOADS = {
+    *("payload", "payload torque", "heavier", "off centre"),
+    *("force", "moment", "bend", "torque", "gravity torque", "load side"),
+}
 """Drivers that follow the payload."""
 RECORDED = {"torque", "load side"}
 """Drivers that take recorded torques where there are some."""
@@ -46,7 +48,7 @@ class Identified:
         arm: the arm's name.
         domain: range of motor angles, and of payload and temperature where recorded.
         payload_kg: whether rows carried a payload, and which one where it never changed: None for no column.
-        torque_weights: (m, p) recorded torque of each motor by the static torque regressor, where torques were recorded.
+        torque_weights: (m, p) recorded torque of each motor by the static torque regressor, where recorded.
     """
 
     arm: str
@@ -149,7 +151,7 @@ def missing_context(model: FittedModel, identified: Identified, rows: Recordings
         values = held[column]
         missing = np.ones(len(rows), dtype=bool)
         if values is not None:
-            missing = np.isnan(values) if values.ndim == 1 else np.isnan(values).any(axis=1)
+            missing = np.asarray(np.isnan(values).reshape(len(rows), -1).any(axis=1))
         if missing.any():
             lacks[column] = missing
     return lacks

@@ -1,0 +1,242 @@
+"""Commands of the compensation: compensate, fit-error-model, closed-loop."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from armscope.inputs import InputError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from armscope.compensation import Compensated, Identified
+    from armscope.errormodels import ModelSpec
+    from armscope.physics.model import FittedModel
+    from armscope.robot import Arm
+
+app = typer.Typer()
+
+REFUSED = 3
+"""Exit code where some rows of a path have no command."""
+
+
+@app.command()
+def compensate(
+    model: Annotated[Path, typer.Argument(help="model.yaml of a diagnosis, or errormodel.json of fit-error-model")],
+    path: Annotated[Path, typer.Argument(help="wanted points (x_mm, y_mm, z_mm) or joint path (q1_rad, ...)")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="commands: .csv, .json, or .mod (ABB RAPID)")],
+    robot: Annotated[Path | None, typer.Option("--robot", "-r", help="robot.yaml that the model must be of")] = None,
+    recordings: Annotated[
+        Path | None, typer.Option(help="what model.yaml was diagnosed on; else domain.json beside it")
+    ] = None,
+    frame: Annotated[str, typer.Option(help="where the wanted points stand: base or measurement")] = "base",
+    pose: Annotated[bool, typer.Option(help="keep the orientation, too")] = False,
+    start_rad: Annotated[str | None, typer.Option(help="q1,q2,...: where the arm comes from (rad)")] = None,
+    allowed_outside: Annotated[
+        float, typer.Option(min=0, help="standard deviations that a command may leave the identified range")
+    ] = 0.2,
+    separate_points: Annotated[bool, typer.Option(help="no path: the arm may turn far between points")] = False,
+) -> None:
+    """Commands that make the real arm reach the wanted points; exit code 3 where some rows have none."""
+    import numpy as np
+
+    from armscope.compensation import Options, compensate_black_box, load_error_model, read_path
+    from armscope.compensation.output import FORMATS, write_commands
+    from armscope.robot.inverse import LARGEST_STEP_RAD
+
+    if frame not in ("base", "measurement"):
+        raise InputError("--frame", "", frame, "base or measurement")
+    if not str(output).endswith(FORMATS):
+        raise InputError("--output", "", str(output), f"the file's ending says the format: {', '.join(FORMATS)}")
+    step = np.inf if separate_points else LARGEST_STEP_RAD
+    black_box = load_error_model(model) if model.suffix == ".json" else None
+    if black_box is not None:
+        _check_robot(robot, black_box.arm)
+        options = Options(frame, pose, _start(start_rad, black_box.arm), allowed_outside, step)  # type: ignore[arg-type]
+        result = compensate_black_box(black_box, read_path(path, black_box.arm), options)
+    else:
+        result = _compensate_physical(model, path, robot, recordings, (frame, pose, start_rad, allowed_outside, step))
+    for note in result.notes:
+        print(f"note: {note}", file=sys.stderr)
+    _tell(result)
+    write_commands(output, result)
+    print(output)
+    if not result.reached.all():
+        raise typer.Exit(REFUSED)
+
+
+def _compensate_physical(
+    model: Path,
+    path: Path,
+    robot: Path | None,
+    recordings: Path | None,
+    choice: tuple[str, bool, str | None, float, float],
+) -> Compensated:
+    from armscope.compensation import Options, compensate_physical, read_path
+    from armscope.physics.model import load_model
+
+    fitted = load_model(model)
+    _check_robot(robot, fitted.arm)
+    frame, pose, start, allowed, step = choice
+    options = Options(frame, pose, _start(start, fitted.arm), allowed, step)  # type: ignore[arg-type]
+    return compensate_physical(fitted, _identified(model, fitted, recordings), read_path(path, fitted.arm), options)
+
+
+@app.command("fit-error-model")
+def fit_error_model(
+    recordings: Annotated[Path, typer.Argument(help="recordings.csv: commanded angles and measured positions")],
+    robot: Annotated[Path, typer.Option("--robot", "-r", help="robot.yaml: the nominal arm")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="errormodel.json")],
+    model: Annotated[str, typer.Option("--model", "-m", help="FDP(CI), SDP(AI), 'Fourier 2 (AI)', ...")] = "SDP(CI)",
+    method: Annotated[str, typer.Option(help="least-squares or swarm")] = "least-squares",
+    seed: Annotated[int, typer.Option(help="of the swarm")] = 0,
+    run: Annotated[str | None, typer.Option(help="only this run")] = None,
+    target: Annotated[str | None, typer.Option(help="only this target")] = None,
+    register: Annotated[bool, typer.Option(help="fit measurement frame and tool offset with the nominal arm")] = False,
+) -> None:
+    """Fit one of the paper's error models to recordings, ready for `armscope compensate`."""
+    from armscope.compensation import fit_error_model as fit
+    from armscope.compensation import save_error_model
+    from armscope.inputs import nearest
+    from armscope.recordings import read_recordings
+    from armscope.robot import load_arm
+
+    methods = {"least-squares": "least squares", "swarm": "swarm"}
+    if method not in methods:
+        raise InputError("--method", "", method, "least-squares or swarm")
+    arm = load_arm(robot)
+    table = read_recordings(recordings, arm.n_motors)
+    for column, wanted, values in (("run", run, table.run), ("target", target, table.target)):
+        if wanted is not None and wanted not in values:
+            cure = nearest(wanted, set(values.tolist()))
+            raise InputError(f"--{column}", "", wanted, f"{recordings} has no such {column}", cure)
+    for name, wanted in (("run", run), ("target", target)):
+        if wanted is not None:
+            table = table.rows(getattr(table, name) == wanted)
+    fitted = fit(arm, table, _spec(model), methods[method], seed, register)
+    save_error_model(output, fitted)
+    left = ", ".join(f"{value:.4g}" for value in fitted.rms_mm)
+    print(f"{fitted.name} by {fitted.method} on {len(table)} rows leaves ({left}) mm RMS along x, y, z")
+    print(output)
+
+
+@app.command("closed-loop")
+def closed_loop(
+    robot: Annotated[Path, typer.Argument(help="robot.yaml")],
+    poses: Annotated[Path, typer.Option(help="poses.csv of `armscope paper measure`")],
+    errors: Annotated[Path, typer.Option(help="errors.csv")],
+    robots: Annotated[Path, typer.Option(help="robots.csv: the anchored robot's geometric errors")],
+    fits: Annotated[Path, typer.Option(help="fits.json.gz: the models, fitted")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="table: model, trajectory, stage, axis, rms_mm")],
+    figure: Annotated[Path | None, typer.Option(help="picture of the table")] = None,
+    diagnosed: Annotated[bool, typer.Option(help="diagnose the identification rows, too")] = True,
+) -> None:
+    """Compensate the paper's test paths with every model and let the virtual arm follow the commands."""
+    from armscope.cli.studies import read_fits, read_measurements
+    from armscope.files import write_table
+    from armscope.report.closed_loop import paper_closed_loop
+    from armscope.report.compensation_figure import cross_table_figure
+    from armscope.report.style import save_figure
+    from armscope.robot import load_arm
+
+    measurements = read_measurements(poses, errors)
+    table = paper_closed_loop(load_arm(robot), measurements, read_fits(fits), _true_errors(robots), diagnosed)
+    write_table(output, table)
+    if figure is not None:
+        save_figure(cross_table_figure(table), figure)
+
+
+def _true_errors(robots: Path) -> NDArray[np.float64]:
+    """Geometric errors of the anchored robot, m and rad."""
+    import numpy as np
+    import pandas as pd
+
+    table = pd.read_csv(robots)
+    if "anchored" not in table:
+        raise InputError(robots, "line 1", "no column anchored", "`armscope paper measure` writes this table")
+    return np.asarray(table["anchored"], dtype=float) * 1e-3  # mm and mrad
+
+
+def _identified(model: Path, fitted: FittedModel, recordings: Path | None) -> Identified:
+    from armscope.compensation import identified_on, load_identified
+    from armscope.compensation.physical import FILE
+    from armscope.recordings import read_recordings
+
+    if recordings is not None:
+        return identified_on(fitted.arm, read_recordings(recordings, fitted.arm.n_motors))
+    beside = model.parent / FILE
+    if not beside.is_file():
+        raise InputError(
+            model, "", f"no {FILE} beside it", "commands outside the identified range are refused: it must be known",
+            "Give the recordings of the diagnosis with --recordings.",
+        )  # fmt: skip
+    return load_identified(beside)
+
+
+def _check_robot(robot: Path | None, arm: Arm) -> None:
+    """The robot.yaml must describe the model's arm; the tool may differ, since models may hold a fitted one."""
+    if robot is None:
+        return
+    from armscope.robot import load_arm
+
+    ours, theirs = arm.description, load_arm(robot).description
+    for name in ("dh", "urdf", "actuation", "tip"):
+        if getattr(ours, name) != getattr(theirs, name):
+            rule = f"the model is of {ours.name!r}, whose {name} differs"
+            raise InputError(robot, name, theirs.name, rule, "Is this the model of another arm?")
+
+
+def _start(text: str | None, arm: Arm) -> NDArray[np.float64] | None:
+    import numpy as np
+
+    if text is None:
+        return None
+    try:
+        values = np.array([float(part) for part in text.split(",")])
+    except ValueError as error:
+        raise InputError("--start-rad", "", text, "numbers separated by commas") from error
+    if len(values) != arm.n_motors or np.abs(values).max() > 4 * np.pi:
+        raise InputError("--start-rad", "", text, f"{arm.n_motors} angles in rad, within two turns")
+    return values
+
+
+def _spec(name: str) -> ModelSpec:
+    """A model by its name."""
+    from armscope.errormodels import ModelSpec
+    from armscope.inputs import nearest
+
+    specs = [
+        ModelSpec(f, n, s) for f in ("polynomial", "fourier") for n in range(1, 7) for s in ("cartesian", "angular")
+    ]
+    by_name = {spec.name: spec for spec in specs}
+    if name not in by_name:
+        raise InputError("--model", "", name, "no model of that name", nearest(name, by_name))
+    return by_name[name]
+
+
+def _tell(result: Compensated) -> None:
+    import numpy as np
+
+    reached, count = result.reached, len(result.reasons)
+    if reached.any():
+        missed, left = (np.sqrt(np.mean(miss[reached] ** 2)) * 1e3 for miss in (result.uncorrected, result.residual))
+        outside = result.outside[reached].max()
+        print(f"{reached.sum()} of {count} rows: predicted miss {missed:.4g} mm RMS, with correction {left:.2g} mm")
+        print(f"up to {outside:.2g} standard deviations outside the identified range")
+    for reason in np.unique(result.reasons[~reached])[:10]:
+        rows = np.flatnonzero(result.reasons == reason) + 1
+        print(f"refused: {len(rows)} rows ({_ranges(rows)}): {reason}")
+
+
+def _ranges(rows: NDArray[np.intp]) -> str:
+    """Row numbers as "1-5, 8, ..."."""
+    import numpy as np
+
+    pieces = np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1)
+    text = [str(piece[0]) if len(piece) == 1 else f"{piece[0]}-{piece[-1]}" for piece in pieces]
+    return ", ".join(text[:5]) + (", ..." if len(text) > 5 else "")

@@ -1,0 +1,142 @@
+"""What models leave of the error: on the rows they were fitted to, on others, and on an arm that obeys them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from armscope.compensation.black_box import ErrorModel
+from armscope.compensation.compensate import Compensated, Options, compensate_black_box, compensate_physical
+from armscope.compensation.path import WantedPath, as_path
+from armscope.compensation.physical import Identified
+from armscope.physics.model import FittedModel, predict
+from armscope.recordings.table import as_recordings
+from armscope.robot import Arm, chain
+
+Array = NDArray[np.float64]
+
+STAGES = ("fit", "prediction", "closed loop")
+NO_MODEL = "Uncompensated"
+"""The negative control: the nominal commands."""
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """A model that predicts and compensates.
+
+    Attributes:
+        predict: tool points (N, 3), m, at motor angles (N, m) rad, in the frame of the measurements.
+        compensate: commands for a path in that frame.
+    """
+
+    predict: Callable[[Array], Array]
+    compensate: Callable[[WantedPath], Compensated]
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredPath:
+    """N points of a trajectory, measured at the nominal commands; base frame.
+
+    Attributes:
+        motor_angles: (N, m) nominal commands, rad.
+        wanted_mm: (N, 3) mm.
+        errors_mm: (N, 3) measured minus wanted.
+    """
+
+    motor_angles: Array
+    wanted_mm: Array
+    errors_mm: Array
+
+
+def black_box_candidate(model: ErrorModel) -> Candidate:
+    """A black-box error model; measurements stand in the arm's base frame."""
+
+    def points(angles: Array) -> Array:
+        nominal = chain(model.arm, angles).tool
+        return nominal + model.error_and_slope(angles, nominal)[0]
+
+    return Candidate(points, lambda path: compensate_black_box(model, path))
+
+
+def physical_candidate(model: FittedModel, identified: Identified) -> Candidate:
+    """Diagnosed physics; measurements stand in the measurement frame that it was diagnosed in."""
+    motors = [f"q{motor}_rad" for motor in range(1, model.arm.n_motors + 1)]
+    run, options = list(model.bases)[-1], Options(frame="measurement")
+
+    def points(angles: Array) -> Array:
+        rows = as_recordings(pd.DataFrame(angles, columns=motors), measured=False)
+        return predict(model, replace(rows, run=np.full(len(rows), run)))
+
+    return Candidate(points, lambda path: compensate_physical(model, identified, path, options))
+
+
+def cross_table(
+    arm: Arm,
+    candidates: Mapping[str, Candidate],
+    identification: MeasuredPath,
+    trajectories: Mapping[str, MeasuredPath],
+    true_points: Callable[[Array], Array],
+) -> pd.DataFrame:
+    """Model by trajectory by stage: what is left of the error.
+
+    Args:
+        arm: the nominal arm.
+        candidates: models by name.
+        identification: the rows that they were fitted to.
+        trajectories: test paths by name.
+        true_points: where the real arm's tool is, (N, 3) m, at commands (N, m) rad; without measurement noise.
+
+    Returns:
+        Columns model, trajectory, stage, axis ("x", "y", "z", "3D"), points, refused, rms_mm, rss_mm. Stages: "fit"
+        (measured minus predicted on the identification rows), "prediction" (the same on a test path), "closed loop"
+        (true points at the corrected commands minus wanted points; refused rows are counted and left out). The model
+        "Uncompensated" gives the errors themselves; its closed loop is the true arm at the nominal commands.
+    """
+    rows = [*_rows(NO_MODEL, "identification", "fit", identification.errors_mm)]
+    for name, path in trajectories.items():
+        rows += _rows(NO_MODEL, name, "prediction", path.errors_mm)
+        rows += _rows(NO_MODEL, name, "closed loop", true_points(path.motor_angles) * 1e3 - path.wanted_mm)
+    for model, candidate in candidates.items():
+        rows += _rows(model, "identification", "fit", _left(candidate, identification))
+        for name, path in trajectories.items():
+            rows += _rows(model, name, "prediction", _left(candidate, path))
+            result = candidate.compensate(_as_wanted(arm, path, name))
+            error = np.full_like(path.wanted_mm, np.nan)
+            error[result.reached] = true_points(result.commands[result.reached]) * 1e3 - path.wanted_mm[result.reached]
+            rows += _rows(model, name, "closed loop", error)
+    return pd.DataFrame(rows)
+
+
+def _as_wanted(arm: Arm, path: MeasuredPath, name: str) -> WantedPath:
+    """Points wanted on the branch of the nominal commands."""
+    columns = {f"q{motor}_rad": angles for motor, angles in enumerate(path.motor_angles.T, start=1)}
+    columns |= {f"{axis}_mm": path.wanted_mm[:, n] for n, axis in enumerate("xyz")}
+    return as_path(pd.DataFrame(columns), f"trajectory {name}", arm)
+
+
+def _left(candidate: Candidate, path: MeasuredPath) -> Array:
+    return path.wanted_mm + path.errors_mm - candidate.predict(path.motor_angles) * 1e3
+
+
+def _rows(model: str, trajectory: str, stage: str, error_mm: Array) -> list[dict[str, object]]:
+    known = np.isfinite(error_mm.sum(axis=1))
+    by_axis = np.sum(error_mm[known] ** 2, axis=0)
+    squares: Sequence[float] = [*by_axis, by_axis.sum()]
+    count = int(known.sum())
+    return [
+        {
+            "model": model,
+            "trajectory": trajectory,
+            "stage": stage,
+            "axis": axis,
+            "points": count,
+            "refused": int(len(known) - count),
+            "rms_mm": float(np.sqrt(total / count)) if count else float("nan"),
+            "rss_mm": float(np.sqrt(total)) if count else float("nan"),
+        }
+        for axis, total in zip((*"xyz", "3D"), squares, strict=True)
+    ]
