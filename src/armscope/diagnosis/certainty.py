@@ -15,6 +15,8 @@ from armscope.physics.effect import Placed, region
 
 LISTED_NATS = 10.0
 """Alternatives that lose more evidence than this are not listed."""
+LISTED_NATS_OF_SPECIAL_CASES = 40.0
+"""A curve's special cases are listed farther: most of it may be one of them."""
 TELLS_APART_NATS = 3.0
 """Evidence of 20 to 1: two readings closer than this are both named."""
 LOOKED_AT = 12
@@ -33,7 +35,8 @@ def alternatives(search: Search, best: Hypothesis, candidate: int) -> list[tuple
     for other in search.additions(base, LOOKED_AT, without=[candidate]):
         placed = search.placed(other.chosen[-1].candidate)
         gap = best.value - other.value
-        if placed.key in taken or gap > LISTED_NATS:
+        special = other.chosen[-1].candidate in search.problem.pool.clashes[candidate]
+        if placed.key in taken or gap > (LISTED_NATS_OF_SPECIAL_CASES if special else LISTED_NATS):
             continue
         if placed.key not in nearest or gap < nearest[placed.key][0]:
             nearest[placed.key] = (gap, placed, other)
@@ -61,6 +64,8 @@ def listed(found: Sequence[tuple[float, Placed, Hypothesis]]) -> tuple[Alternati
 
 def name(placed: Placed, rivals: Sequence[Placed]) -> tuple[Specific, str]:
     """How specific the name may be, and the name in words, given the rivals that cannot be told apart from it."""
+    if not rivals and placed.reading == "curve":
+        return "effect", f"an unknown error at {placed.location} that follows the {placed.driver}"
     if not rivals:
         return "effect", f"{_words(placed.name)} at {placed.location}"
     together = [placed, *rivals]

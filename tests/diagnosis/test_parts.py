@@ -1,0 +1,161 @@
+"""The pieces of the pipeline one by one: curves, scatter, parameters, noise, folds, atlas, jumps, long tables."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from armscope.diagnosis import Settings, diagnose, robust, rounds
+from armscope.diagnosis.curves import describe
+from armscope.diagnosis.noise import known_noise, relative_uncertainty
+from armscope.diagnosis.parameters import parameters
+from armscope.diagnosis.scatter import find_scatter, levers, whitening
+from armscope.diagnosis.validation import split
+from armscope.diagnosis.weights import RowWeights
+from armscope.physics.model import Base, FittedModel
+from armscope.physics.registry import library
+
+from ..physics.scenes import arm_named, full_table
+from .planted import one_run, planted, recorded
+
+QUICK = Settings(resamples=0, cross_validation=False)
+
+AT = np.linspace(-1.5, 1.5, 361)
+SHAPES = {
+    "a trend in proportion": 3e-4 * AT,
+    "a step at": 3e-4 * (AT > 0.4),
+    "only beyond": 3e-4 * np.clip(AT - 0.5, 0, None),
+    "only below": 3e-4 * np.clip(-0.5 - AT, 0, None),
+    "a local bump at": 3e-4 * np.exp(-0.5 * ((AT - 0.3) / 0.15) ** 2),
+}
+
+
+@pytest.mark.parametrize("words", SHAPES)
+def test_a_curve_is_described_by_its_shape(words: str) -> None:
+    said = describe(AT, SHAPES[words], np.random.default_rng(1).uniform(-1.5, 1.5, 200))
+    assert said.startswith(words), said
+
+
+def test_a_wave_is_described_by_its_period_and_noise_by_nothing() -> None:
+    assert describe(AT, np.cos(7 * AT), AT, ((7, 1.0),)) == "a wave, 7 per turn"
+    assert describe(AT, np.random.default_rng(2).normal(size=361), AT).startswith("a free curve")
+
+
+@given(st.floats(1e-6, 1e-2), st.floats(-3.1, 3.1))
+@settings(max_examples=30, deadline=None)
+def test_a_wave_is_told_as_amplitude_and_phase(amplitude: float, phase: float) -> None:
+    arm = arm_named("six-axis")
+    placed = next(p for p in library(arm, one_run(arm, 20, 1)) if p.name == "gear_eccentricity")
+    values = amplitude * np.array([np.cos(phase), np.sin(phase)])
+    told = parameters(placed, values, np.eye(2) * (1e-3 * amplitude) ** 2)
+    assert told[0].value == pytest.approx(amplitude, rel=1e-6)
+    assert told[1].value == pytest.approx(phase, abs=1e-6)
+    assert told[0].stderr == pytest.approx(1e-3 * amplitude, rel=1e-3)
+    assert told[1].stderr == pytest.approx(1e-3, rel=1e-3)
+
+
+def test_a_wobble_is_told_as_amplitude_phase_and_direction() -> None:
+    arm = arm_named("six-axis")
+    placed = next(p for p in library(arm, one_run(arm, 20, 1)) if p.name == "axis_wobble")
+    wave, direction = np.array([np.cos(0.7), np.sin(0.7)]), np.array([np.cos(-0.4), np.sin(-0.4)])
+    told = parameters(placed, (2e-4 * np.outer(direction, wave)).reshape(-1), np.eye(4) * 1e-12)
+    assert [p.value for p in told[:3]] == pytest.approx([2e-4, 0.7, -0.4], abs=1e-6)
+
+
+def test_scatter_is_found_at_its_joint_and_noise_has_no_place() -> None:
+    arm, table = planted("six-axis", {}, 150, 0.0, seed=3)
+    moved = levers(FittedModel(arm, {"1": Base(np.eye(3), np.zeros(3))}), table)
+    rng = np.random.default_rng(4)
+    noise = 0.02 * rng.normal(size=(150, 3))
+    assert find_scatter(noise, moved, 0.0) == []
+    scattered = noise + 1e-4 * rng.choice([-1, 1], 150)[:, None] * moved[2]
+    (found,) = find_scatter(scattered, moved, 0.0)
+    assert found.motor == 3
+    assert found.size == pytest.approx(1e-4, rel=0.6)
+    turn = whitening([found], moved, 0.02)
+    white = RowWeights(np.ones(150), turn).whitened(scattered)
+    assert np.sqrt(np.mean(white**2)) < 1.2 * 0.02 < 0.5 * np.sqrt(np.mean(scattered**2))
+
+
+def test_bad_shots_of_any_direction_are_no_scatter() -> None:
+    arm, table = planted("six-axis", {}, 150, 0.0, seed=3)
+    moved = levers(FittedModel(arm, {"1": Base(np.eye(3), np.zeros(3))}), table)
+    rng = np.random.default_rng(5)
+    residuals = 0.02 * rng.normal(size=(150, 3))
+    residuals[:3] += rng.normal(size=(3, 3))
+    assert find_scatter(residuals, moved, 0.0) == []
+
+
+def test_weights_leave_noise_alone_and_silence_what_is_far() -> None:
+    rng = np.random.default_rng(6)
+    residuals = rng.normal(size=(400, 3))
+    residuals[7] = 30
+    w = robust.weights(residuals, np.ones(400), 0.0)
+    assert w[7] < 0.01
+    assert np.mean(w[np.arange(400) != 7] == 1) > 0.99
+    assert robust.scale_of(residuals) == pytest.approx(1, rel=0.1)
+
+
+def test_noise_comes_from_the_robot_the_table_or_repeats() -> None:
+    arm = arm_named("six-axis")
+    table = recorded(arm, one_run(arm, 30, 2), {}, 0.02, seed=2)
+    assert known_noise(arm, table).least_mm == 0
+    twice = table.rows(np.repeat(np.arange(30), 3))
+    twice.positions[:] += 2e-5 * np.random.default_rng(1).normal(size=twice.positions.shape)
+    assert known_noise(arm, twice).least_mm == pytest.approx(0.8 * 0.02, rel=0.25)
+    assert "repeated poses" in known_noise(arm, twice).source
+    stated = replace(table, sigma=np.full((30, 3), 1e-5))
+    assert known_noise(arm, stated).least_mm == pytest.approx(0.01)
+    uneven = np.full((30, 3), 1e-5)
+    uneven[4] = 5e-5
+    relative = relative_uncertainty(replace(table, sigma=uneven), 0.01)
+    assert relative[4] == pytest.approx(5)
+    assert relative_uncertainty(replace(table, sigma=uneven), 1.0)[4] == pytest.approx(1, abs=0.01)
+
+
+def test_targets_and_repeats_of_one_pose_are_never_split_between_folds() -> None:
+    arm = arm_named("six-axis")
+    table = one_run(arm, 60, 2).rows(np.tile(np.arange(30), 2))
+    layout = split(table, np.random.default_rng(0))
+    assert layout.grouped_by == "configuration"
+    np.testing.assert_array_equal(layout.of_row[:30], layout.of_row[30:])
+    runs = replace(full_table(arm, 120, 2), run=np.repeat(["1", "2", "3"], 40))
+    layout = split(runs, np.random.default_rng(0))
+    assert layout.grouped_by == "run"
+    for run in "123":
+        assert len(set(layout.fold[layout.of_row[runs.run == run]])) == 1
+
+
+def test_the_atlas_shows_where_and_by_what() -> None:
+    arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [1e-6]}, 100, 0.02, seed=9)
+    atlas = diagnose(arm, table, QUICK).atlas
+    assert atlas is not None
+    cell = atlas.locations.index("joint 2"), atlas.directions.index("rz"), atlas.drivers.index("gravity load")
+    assert atlas.share[cell] > 0.98
+    assert np.nanmax(atlas.left) < 0.05
+    assert np.nanmax(atlas.share[atlas.locations.index("joint 5")]) < 0.9
+
+
+def test_a_jump_of_the_base_is_found_with_its_row() -> None:
+    arm, table = planted("six-axis", {}, 120, 0.02, seed=14)
+    table = replace(table, time=None)
+    table.positions[70:] += [3e-4, -2e-4, 1e-4]
+    (found,) = diagnose(arm, table, QUICK).effects
+    assert (found.effect, found.location) == ("base_shift", "base")
+    rows = {p.name: p.value for p in found.parameters}
+    assert rows["row"] == pytest.approx(71, abs=2)
+
+
+def test_a_long_table_is_sampled_and_then_weighed_whole(monkeypatch: pytest.MonkeyPatch) -> None:
+    arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [5e-7]}, 400, 0.02, seed=15)
+    monkeypatch.setattr(rounds, "SAMPLE_ROWS", 120)
+    verdict = diagnose(arm, table, QUICK)
+    (found,) = verdict.effects
+    assert (found.effect, found.location) == ("joint_compliance", "joint 2")
+    assert verdict.rows == 400
+    assert found.parameters[0].value == pytest.approx(5e-7, rel=0.02)
+    assert len(verdict.residuals.after) == 400
