@@ -285,6 +285,8 @@ rule paper_report:
             f"{PAPER}/{{table}}.csv",
             table="table2 claims coefficients convergence cross_check audit reading observability robots".split(),
         ),
+        proof=f"{PROOF}/small/report.html",
+        aims=f"{PROOF}/small/figures/aims.svg",
         real_tables=expand(f"{RESULTS}/real/{{set}}/paper/table2.csv", set=REAL),
         real_figures=expand(f"{RESULTS}/real/{{set}}/paper/figures/fig04.svg", set=REAL),
     output:
@@ -300,13 +302,14 @@ rule paper_report:
                 for name, arm in CONFIG.real.items()
             ),
         ),
+        proof=subpath(input.proof, parent=True),
         code=code("armscope.cli.paper:report"),
     log:
         f"{RESULTS}/logs/paper_report.log",
     conda:
         "../envs/armscope.yaml"
     shell:
-        "armscope paper report {params.folder} --settings {params.settings:q} -o {output.page} > {log} 2>&1"
+        "armscope paper report {params.folder} {params.proof} --settings {params.settings:q} -o {output.page} > {log} 2>&1"
 
 
 rule paper:

@@ -270,6 +270,7 @@ def convergence_figure(
 @app.command()
 def report(
     results: Annotated[Path, typer.Argument(help="folder with the study's tables and figures")],
+    proof: Annotated[Path, typer.Argument(help="folder of the small proof of the diagnosis")],
     settings: Settings,
     output: Annotated[Path, typer.Option("--output", "-o", help="report.html; table2.html is written beside it")],
 ) -> None:
@@ -282,7 +283,7 @@ def report(
     chosen = parsed(ReportSettings, settings)
     arms = [RealArm(arm.title, Path(arm.folder) if arm.folder else None, arm.reason) for arm in chosen.real]
     write_table2(output.with_name("table2.html"), pd.read_csv(results / "table2.csv"))
-    write_paper_page(output, chosen.paper, chosen.seed, results, results / "figures", arms)
+    write_paper_page(output, chosen.paper, chosen.seed, results, proof, arms)
 
 
 @app.command("readme")

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import base64
+import hashlib
 import re
+import zlib
 from pathlib import Path
 from typing import Any
 
 import jinja2
 import pandas as pd
 from markupsafe import Markup
+from pandas.io.formats.style import Styler
 
 from armscope.files import write_text
 from armscope.report.wording import plain
@@ -51,9 +54,19 @@ def embed(figure: Path | str, alt: str = "") -> Markup:
 
 
 def html_table(rows: pd.DataFrame, digits: int = 3) -> Markup:
-    """A table as HTML, numbers with ``digits`` significant digits, missing values as a dash."""
-    html = rows.to_html(index=False, border=0, na_rep="–", float_format=lambda value: significant(value, digits))
-    return Markup('<div class="scroll">{}</div>').format(Markup(html))
+    """A table as HTML: numbers right, with ``digits`` significant digits, text left, a dash for nothing."""
+    text = [name for name in rows.columns if not pd.api.types.is_numeric_dtype(rows[name])]
+
+    def shown(value: Any) -> str:
+        return significant(value, digits) if isinstance(value, float) else str(value)
+
+    left: Any = dict.fromkeys(text, [{"selector": "th, td", "props": "text-align: left"}])
+    # named by its content: a random name would make each rendering another file
+    name = hashlib.sha1(rows.to_csv().encode()).hexdigest()[:8]
+    styler = Styler(rows, uuid=name, cell_ids=False).hide(axis="index").format(shown, na_rep="–")
+    return Markup('<div class="scroll">{}</div>').format(
+        Markup(styler.set_table_styles(left, overwrite=False).to_html())
+    )
 
 
 def significant(value: float, digits: int = 3) -> str:

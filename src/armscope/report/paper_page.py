@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -45,10 +46,17 @@ class RealArm:
         assert self.folder is not None
         table = pd.read_csv(self.folder / "table2.csv")
         wide = table.pivot_table(index="model", columns=["trajectory", "axis"], values="rms_median", sort=False)
-        rows = table.groupby("trajectory", sort=False)["points"].first()
         trajectories, axes = (wide.columns.get_level_values(level) for level in (0, 1))
-        names = [f"{name} ({rows[name]} rows), {axis}" for name, axis in zip(trajectories, axes, strict=True)]
+        short = {"identification": "fitted"}
+        names = [f"{short.get(name, name)} {axis}" for name, axis in zip(trajectories, axes, strict=True)]
         return wide.set_axis(names, axis=1).reset_index().rename(columns={"model": "RMS error in mm"})
+
+    @property
+    def rows(self) -> dict[str, int]:
+        """How many rows were fitted ("identification") and held out."""
+        assert self.folder is not None
+        points = pd.read_csv(self.folder / "table2.csv").groupby("trajectory")["points"].first()
+        return {str(name): int(count) for name, count in points.items()}
 
 
 def table2_blocks(table: pd.DataFrame, reading: str = "rss") -> list[tuple[str, list[Row]]]:
@@ -89,20 +97,29 @@ def _ranges(cells: list[Any], low: str, high: str) -> tuple[str, ...]:
     return tuple(first if first == second else f"{first}–{second}" for first, second in pairs)
 
 
+def _needed(history: pd.DataFrame) -> pd.DataFrame:
+    """By model and rule, the iterations after which 90 % of the swarms are within 1 % of least squares."""
+    table = iterations_needed(history)
+    far = "never; " + table["final_excess_percent"].map(lambda excess: significant(excess, 2)) + " % above"
+    table["shown"] = table["iterations"].astype("Int64").astype("string").fillna(far)
+    wide = table.pivot_table(index="model", columns="rule", values="shown", aggfunc="first", sort=False)
+    return wide.rename_axis(columns=None).reset_index()
+
+
 def write_table2(path: Path, table: pd.DataFrame) -> None:
     """Table 2 as a page of its own."""
     write_page(path, "table2.html.j2", blocks=table2_blocks(table), trajectories=TRAJECTORIES)
 
 
-def write_paper_page(path: Path, paper: Paper, seed: int, results: Path, figures: Path, real: list[RealArm]) -> None:
+def write_paper_page(path: Path, paper: Paper, seed: int, results: Path, proof: Path, real: list[RealArm]) -> None:
     """The report of the reproduction.
 
     Args:
         path: report.html.
         paper: the configuration of the study.
         seed: of the study.
-        results: the folder with its tables.
-        figures: the folder with its figures (SVG).
+        results: the folder with its tables and figures (SVG).
+        proof: the folder of the small proof of the diagnosis.
         real: real arms.
     """
     table = pd.read_csv(results / "table2.csv")
@@ -121,8 +138,8 @@ def write_paper_page(path: Path, paper: Paper, seed: int, results: Path, figures
         significant=significant,
         blocks=table2_blocks(table),
         trajectories=TRAJECTORIES,
-        coefficients=pd.read_csv(results / "coefficients.csv"),
-        needed=iterations_needed(pd.read_csv(results / "convergence.csv")),
+        coefficients=pd.read_csv(results / "coefficients.csv").astype({"equation": "Int64"}),
+        needed=_needed(pd.read_csv(results / "convergence.csv")),
         audit=audit,
         audited=audit[audit["check"] == "all together"],
         untold=pd.read_csv(results / "cross_check.csv"),
@@ -130,6 +147,8 @@ def write_paper_page(path: Path, paper: Paper, seed: int, results: Path, figures
         observability=pd.read_csv(results / "observability.csv"),
         anchored=pd.read_csv(results / "robots.csv"),
         assumptions=pd.DataFrame(stated_numbers(paper)),
-        figures=figures,
+        figures=results / "figures",
+        proof=proof / "figures" / "aims.svg",
+        proof_page=os.path.relpath(proof / "report.html", path.parent),
         real=real,
     )
