@@ -60,13 +60,11 @@ def html_table(rows: pd.DataFrame, digits: int = 3) -> Markup:
     def shown(value: Any) -> str:
         return significant(value, digits) if isinstance(value, float) else str(value)
 
-    left: Any = dict.fromkeys(text, [{"selector": "th, td", "props": "text-align: left"}])
-    # named by its content: a random name would make each rendering another file
-    name = hashlib.sha1(rows.to_csv().encode()).hexdigest()[:8]
-    styler = Styler(rows, uuid=name, cell_ids=False).hide(axis="index").format(shown, na_rep="–")
-    return Markup('<div class="scroll">{}</div>').format(
-        Markup(styler.set_table_styles(left, overwrite=False).to_html())
-    )
+    left: Any = {name: [{"selector": "th, td", "props": "text-align: left"}] for name in text}
+    same_for_same_rows = f"{zlib.crc32(rows.to_csv().encode()):08x}"
+    styler = Styler(rows, uuid=same_for_same_rows, cell_ids=False).hide(axis="index").format(shown, na_rep="–")
+    html = styler.set_table_styles(left, overwrite=False).to_html()
+    return Markup('<div class="scroll">{}</div>').format(Markup(html))
 
 
 def significant(value: float, digits: int = 3) -> str:
