@@ -59,7 +59,7 @@ def html_table(rows: pd.DataFrame, digits: int = 3) -> Markup:
     def shown(value: Any) -> str:
         return significant(value, digits) if isinstance(value, float) else str(value)
 
-    left: Any = {name: [{"selector": "th, td", "props": "text-align: left"}] for name in text}
+    left: Any = {name: [{"selector": "th, td", "props": "text-align: left; white-space: normal"}] for name in text}
     same_for_same_rows = f"{zlib.crc32(rows.to_csv().encode()):08x}"
     styler = Styler(rows, uuid=same_for_same_rows, cell_ids=False).hide(axis="index").format(shown, na_rep="–")
     html = styler.set_table_styles(left, overwrite=False).to_html()
