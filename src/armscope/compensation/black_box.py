@@ -227,6 +227,10 @@ def load_error_model(path: Path | str) -> ErrorModel:
         return _from_content(content, path)
     except KeyError as error:
         raise InputError(path, str(error.args[0]), "nothing", "this key is missing", "Was the file edited?") from error
+    except InputError:
+        raise
+    except (ValueError, TypeError) as error:
+        raise InputError(path, "", str(error), "this must hold a fitted model", "Was the file edited?") from error
 
 
 def _from_content(content: dict[str, Any], path: Path | str) -> ErrorModel:

@@ -14,9 +14,9 @@ from armscope.compensation.black_box import ErrorModel, domain_inputs
 from armscope.compensation.branch import nominal_branch
 from armscope.compensation.domain import ALLOWED, Domain
 from armscope.compensation.forward import BlackBoxArm, Forward, NominalArm, PhysicalArm
-from armscope.compensation.newton import POLE, Solution, Wanted, solve
+from armscope.compensation.newton import POLE, Solution, Wanted, lever, solve, weakest
 from armscope.compensation.path import Frame, WantedPath, unit_doubt
-from armscope.compensation.physical import Identified, missing_context, with_torques
+from armscope.compensation.physical import Identified, missing_context, with_empty_context, with_torques
 from armscope.inputs import InputError
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
@@ -184,6 +184,7 @@ def compensate_physical(
     rows, refused, notes = _named(model, path.table)
     for column, missing in missing_context(model, identified, rows).items():
         _refuse(refused, missing, f"no {column}, which the model follows")
+    rows = with_empty_context(rows)
     measured = options.frame == "measurement"
 
     def forward(nominal: Array) -> tuple[Forward, str]:
@@ -237,14 +238,17 @@ class _Task:
         uncorrected = np.full(len(rows), np.nan)
         commands, predicted = np.full_like(nominal, np.nan), np.full((len(rows), 3), np.nan)
         iterations = 0
-        known = np.flatnonzero(~np.isnan(nominal).any(axis=1) & np.isfinite(wanted.points).all(axis=1))
+        possible = np.isfinite(nominal.sum(axis=1)) & np.isfinite(wanted.points.sum(axis=1))
+        known = np.flatnonzero(possible & np.equal(refused, ""))
         if len(known):
             before = real.at(nominal[known], known)
             uncorrected[known] = np.linalg.norm(wanted.points[known] - before.points, axis=1)
             solution = solve(real, wanted.rows(known), nominal[known], free, known)
             commands[known], iterations = solution.angles, solution.iterations
             moved = np.abs(solution.angles - nominal[known])
-            self._refuse_unsolved(refused, known, solution, moved)
+            at_start = weakest(wanted.rows(known), before, free, lever(real))
+            pole = np.where(solution.converged, solution.singular, at_start) < POLE
+            self._refuse_unsolved(refused, known, solution, moved, pole)
             predicted[known] = real.at(commands[known], known).points
         outside, nearest = self._refuse_outside(refused, commands)
         reasons = np.asarray(refused, dtype=str)
@@ -334,11 +338,15 @@ class _Task:
             _refuse(refused, beyond, f"limit of joint {motor}")
 
     def _refuse_unsolved(
-        self, refused: NDArray[np.object_], known: NDArray[np.intp], solution: Solution, moved: Array
+        self,
+        refused: NDArray[np.object_],
+        known: NDArray[np.intp],
+        solution: Solution,
+        moved: Array,
+        pole: NDArray[np.bool_],
     ) -> None:
-        pole = solution.singular < POLE
         named = "pole of the wrist" if self.options.pose else "pole: the tool can't be moved in all directions"
-        _refuse(refused, known[solution.converged & pole], named)
+        _refuse(refused, known[pole], named)
         for motor in np.unique(solution.limit[solution.limit > 0]):
             _refuse(refused, known[solution.limit == motor], f"limit of joint {motor}")
         _refuse(refused, known[~solution.converged], "no command found: the real arm can't get there")

@@ -77,6 +77,14 @@ class Solution:
     iterations: int
 
 
+def weakest(wanted: Wanted, stand: Stand, free: NDArray[np.bool_], arm_lever: float) -> Array:
+    """(N,) smallest singular value of the scaled Jacobian: what a unit turn of the motors moves the tool at least."""
+    jacobian = wanted.jacobian(stand, arm_lever) * free
+    gram = jacobian @ np.swapaxes(jacobian, 1, 2)
+    smallest: Array = np.sqrt(np.maximum(np.linalg.eigvalsh(gram)[:, 0], 0)) / arm_lever
+    return smallest
+
+
 def lever(forward: Forward) -> float:
     """By how many metres a radian of turn counts: a quarter of the arm's reach."""
     return 0.25 * forward.arm.reach

@@ -157,6 +157,23 @@ def missing_context(model: FittedModel, identified: Identified, rows: Recordings
     return lacks
 
 
+def with_empty_context(rows: Recordings) -> Recordings:
+    """Rows with every context column, empty where there is none; rows that lack what they need are refused anyway."""
+    one, per_motor = np.full(len(rows), np.nan), np.full(rows.motor_angles.shape, np.nan)
+
+    def kept(values: Array | None, otherwise: Array) -> Array:
+        return otherwise if values is None else values
+
+    return replace(
+        rows,
+        payload=kept(rows.payload, one),
+        temperature=kept(rows.temperature, one),
+        time=kept(rows.time, one),
+        approach=kept(rows.approach, per_motor),
+        speed=kept(rows.speed, per_motor),
+    )
+
+
 def with_torques(model: FittedModel, identified: Identified, rows: Recordings, angles: Array) -> tuple[Recordings, str]:
     """Rows with the joint torques that the model follows, and what stands in for them where they are not recorded.
 

@@ -1,0 +1,145 @@
+"""From recordings to commands by the command line."""
+
+import json
+
+import numpy as np
+import pandas as pd
+import pytest
+from typer.testing import CliRunner
+
+from armscope.cli import app
+from armscope.compensation import load_error_model, save_error_model
+from armscope.compensation.physical import load_identified, save_identified
+from armscope.compensation.rapid import read_rapid
+from armscope.inputs import InputError
+from armscope.physics.model import save_model
+from armscope.robot import forward_kinematics
+from tests.robot.arms import CONFIG, SK120
+
+from .arms import CONTEXT, black_box, identification_angles, physical, physical_path, sk120, table_of, wanted_points
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, [str(argument) for argument in arguments])
+
+
+@pytest.fixture
+def recordings(tmp_path):
+    angles = identification_angles()
+    nominal = forward_kinematics(sk120(), angles) * 1e3
+    measured = nominal + [1.0, -2.0, 0.5] + nominal * 1e-3
+    table = pd.DataFrame(np.column_stack([angles, measured]), columns=[*(f"q{j}_rad" for j in range(1, 7)), *"xyz"])
+    table.rename(columns={axis: f"{axis}_mm" for axis in "xyz"}).to_csv(tmp_path / "recordings.csv", index=False)
+    return tmp_path / "recordings.csv"
+
+
+@pytest.mark.parametrize("method", ["least-squares", "swarm"])
+def test_a_fitted_error_model_compensates_a_path_in_three_formats(recordings, tmp_path, method):
+    model = tmp_path / "errormodel.json"
+    fitted = run("fit-error-model", recordings, "-r", SK120, "-m", "FDP(CI)", "--method", method, "-o", model)
+    assert fitted.exit_code == 0, fitted.output
+    table_of(wanted_points(30)).to_csv(tmp_path / "path.csv", index=False)
+    for name in ("a.csv", "a.json", "a.mod"):
+        done = run("compensate", model, tmp_path / "path.csv", "-o", tmp_path / name, "-r", SK120)
+        assert done.exit_code == 0, done.output
+    table = pd.read_csv(tmp_path / "a.csv")
+    commands = table[[f"q{j}_rad" for j in range(1, 7)]].to_numpy()
+    nominal = forward_kinematics(sk120(), commands) * 1e3
+    real = nominal + [1.0, -2.0, 0.5] + nominal * 1e-3
+    assert np.abs(real - wanted_points(30) * 1e3).max() < 0.01
+    np.testing.assert_allclose(read_rapid(tmp_path / "a.mod", 6), commands, atol=1e-8)
+    content = json.loads((tmp_path / "a.json").read_text())
+    assert (content["rows"], content["refused"], content["frame"]) == (30, 0, "base")
+    assert content["commands"][4]["q2_rad"] == pytest.approx(commands[4, 1])
+
+
+def test_a_partly_impossible_path_keeps_its_rows_and_gives_no_job(tmp_path):
+    save_error_model(tmp_path / "m.json", black_box())
+    wanted = wanted_points(10)
+    wanted[3] = [9.0, 0, 0]
+    table_of(wanted, id=[f"p{n}" for n in range(10)]).to_csv(tmp_path / "path.csv", index=False)
+    done = run("compensate", tmp_path / "m.json", tmp_path / "path.csv", "-o", tmp_path / "a.csv")
+    assert done.exit_code == 3
+    assert "refused: 1 rows (4): beyond reach" in done.output
+    table = pd.read_csv(tmp_path / "a.csv")
+    assert len(table) == 10
+    assert table.loc[3, ["id", "status"]].tolist() == ["p3", "refused"]
+    job = run("compensate", tmp_path / "m.json", tmp_path / "path.csv", "-o", tmp_path / "a.mod")
+    assert isinstance(job.exception, InputError)
+    assert not (tmp_path / "a.mod").exists()
+
+
+def test_diagnosed_physics_needs_to_know_where_it_was_identified(tmp_path):
+    model, identified = physical()
+    points, middle = physical_path(12)
+    save_model(tmp_path / "model.yaml", model)
+    table_of(points, **CONTEXT).to_csv(tmp_path / "path.csv", index=False)
+    start = ",".join(f"{value:.6f}" for value in middle)
+    call = (
+        "compensate",
+        tmp_path / "model.yaml",
+        tmp_path / "path.csv",
+        "-o",
+        tmp_path / "a.csv",
+        "--start-rad",
+        start,
+    )
+    assert "--recordings" in str(run(*call).exception)
+    save_identified(tmp_path / "domain.json", identified)
+    done = run(*call)
+    assert done.exit_code == 0, done.output
+    assert pd.read_csv(tmp_path / "a.csv")["residual_mm"].max() < 1e-5
+
+
+def test_a_model_of_another_arm_is_an_error(tmp_path):
+    save_error_model(tmp_path / "m.json", black_box())
+    table_of(wanted_points(5)).to_csv(tmp_path / "path.csv", index=False)
+    other = CONFIG / "robots" / "six-axis.yaml"
+    done = run("compensate", tmp_path / "m.json", tmp_path / "path.csv", "-o", tmp_path / "a.csv", "-r", other)
+    assert isinstance(done.exception, InputError)
+    assert "another arm" in str(done.exception)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "found"),
+    [
+        (("--frame", "world"), "base or measurement"),
+        (("-o", "a.xlsx"), "ending"),
+        (("--start-rad", "1,2"), "6 angles"),
+        (("--start-rad", "a,b"), "numbers"),
+    ],
+)
+def test_options_that_cannot_be(tmp_path, arguments, found):
+    save_error_model(tmp_path / "m.json", black_box())
+    table_of(wanted_points(5)).to_csv(tmp_path / "path.csv", index=False)
+    done = run("compensate", tmp_path / "m.json", tmp_path / "path.csv", "-o", tmp_path / "a.csv", *arguments)
+    assert isinstance(done.exception, InputError)
+    assert found in str(done.exception)
+
+
+def test_model_files_come_back_and_broken_ones_are_errors(tmp_path):
+    model = black_box()
+    save_error_model(tmp_path / "m.json", model)
+    again = load_error_model(tmp_path / "m.json")
+    angles = identification_angles(10, 9)
+    nominal = forward_kinematics(sk120(), angles)
+    np.testing.assert_allclose(again.error_and_slope(angles, nominal)[0], model.error_and_slope(angles, nominal)[0])
+    content = json.loads((tmp_path / "m.json").read_text())
+    content["coefficients"][0].pop()
+    for broken in ("{", "[]", json.dumps({**content}), json.dumps({**content, "format": "other"})):
+        (tmp_path / "broken.json").write_text(broken)
+        with pytest.raises(InputError) as error:
+            load_error_model(tmp_path / "broken.json")
+        assert "broken.json" in str(error.value)
+
+
+def test_a_domain_file_comes_back(tmp_path):
+    _, identified = physical()
+    save_identified(tmp_path / "domain.json", identified)
+    again = load_identified(tmp_path / "domain.json")
+    assert again.arm == identified.arm
+    assert again.payload_kg == identified.payload_kg
+    np.testing.assert_allclose(again.domain.low, identified.domain.low)
+    (tmp_path / "domain.json").write_text("{}")
+    with pytest.raises(InputError):
+        load_identified(tmp_path / "domain.json")
