@@ -24,3 +24,31 @@ rule measure_real:
         "../envs/armscope.yaml"
     shell:
         "armscope paper measure-real {input.recordings} {input.robot} --settings {params.settings:q} -o {params.folder} > {log} 2>&1"
+
+
+rule diagnose_real:
+    # what is wrong with a real arm: report page, verdict, fitted model
+    input:
+        recordings=lambda wildcards: f"{RECORDINGS}/{CONFIG.real[wildcards.set].recordings}",
+        robot=lambda wildcards: f"{RECORDINGS}/{CONFIG.real[wildcards.set].robot}",
+    output:
+        verdict=f"{RESULTS}/real/{{set}}/verdict.json",
+        report=f"{RESULTS}/real/{{set}}/report.html",
+    params:
+        folder=subpath(output.verdict, parent=True),
+        run=lambda wildcards: f"--run {CONFIG.real[wildcards.set].run}" if CONFIG.real[wildcards.set].run else "",
+        first=lambda wildcards: (
+            f"--first-id {CONFIG.real[wildcards.set].first_id}" if CONFIG.real[wildcards.set].first_id else ""
+        ),
+        code=code("armscope.cli.diagnosis:diagnose"),
+    log:
+        f"{RESULTS}/logs/real/{{set}}/diagnose.log",
+    conda:
+        "../envs/armscope.yaml"
+    shell:
+        "armscope diagnose {input.recordings} --robot {input.robot} {params.run} {params.first} -o {params.folder} > {log} 2>&1"
+
+
+rule real:
+    input:
+        expand(f"{RESULTS}/real/{{set}}/report.html", set=REAL),

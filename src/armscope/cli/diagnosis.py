@@ -25,6 +25,7 @@ def diagnose(
     robot: Annotated[Path, typer.Option("--robot", "-r", help="robot.yaml: the nominal arm")],
     output: Annotated[Path, typer.Option("--output", "-o", help="folder for report, verdict, model and figures")],
     run: Annotated[list[str] | None, typer.Option(help="only these runs (may be given several times)")] = None,
+    first_id: Annotated[int | None, typer.Option(help="leave out rows with a smaller id")] = None,
     seed: Annotated[int, typer.Option(help="of folds and resampling")] = 0,
     resamples: Annotated[int, typer.Option(min=0, help="how often rows are resampled; 0 saves time")] = 10,
     cross_validation: Annotated[bool, typer.Option(help="repeat the whole diagnosis on held-out folds")] = True,
@@ -46,6 +47,8 @@ def diagnose(
         print(f"note: {note}", file=sys.stderr)
     if run:
         table = table.rows(_rows_of_runs(table, run))
+    if first_id is not None:
+        table = table.rows(_rows_from(table, first_id))
     settings = Settings(seed, tool_per_run, resamples, cross_validation)
     with _progress("diagnosing") as tell:
         verdict = diagnose_arm(arm, table, settings, tell)
@@ -70,6 +73,17 @@ def _rows_of_runs(table: Recordings, runs: list[str]) -> NDArray[np.bool_]:
         if name not in known:
             raise InputError("--run", "", name, f"{table.source} has no such run", nearest(name, known))
     return np.isin(table.run, runs)
+
+
+def _rows_from(table: Recordings, first_id: int) -> NDArray[np.bool_]:
+    import numpy as np
+
+    from armscope.inputs import InputError
+
+    kept = np.array([text.isdecimal() and int(text) >= first_id for text in table.id])
+    if not kept.any():
+        raise InputError("--first-id", "", first_id, f"{table.source} has no row with this id or a later one")
+    return kept
 
 
 @contextlib.contextmanager
