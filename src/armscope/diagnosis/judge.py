@@ -15,7 +15,7 @@ from armscope.diagnosis.evidence import Hypothesis, Problem, background_sizes, p
 from armscope.diagnosis.nextposes import next_poses
 from armscope.diagnosis.noise import Noise
 from armscope.diagnosis.parameters import parameters
-from armscope.diagnosis.problem import Gram, contribution
+from armscope.diagnosis.problem import Gram, accumulate, contribution
 from armscope.diagnosis.refit import Refit
 from armscope.diagnosis.scatter import Scattered, levers
 from armscope.diagnosis.search import Search
@@ -33,6 +33,7 @@ from armscope.diagnosis.verdict import (
     Verdict,
     WaterfallStep,
 )
+from armscope.diagnosis.weights import RowWeights
 from armscope.physics.backgrounds import FAMILIES
 from armscope.physics.effect import Placed
 from armscope.physics.model import FittedModel
@@ -82,9 +83,10 @@ def judge(
     rivals = {c.candidate: certainty.alternatives(search, best, c.candidate) for c in best.chosen}
     often = certainty.inclusion(problem, evidence.blocks, best, resamples, rng) if resamples else {}
     scene = fit.model.scene(evidence.recordings)
-    variance = _variance_after_frames(fit)
+    gram = _plain_gram(evidence)
+    variance = _variance_after_frames(gram, fit.pool.frames)
     found = {
-        c.candidate: _found(evidence, search, c.candidate, part, rivals[c.candidate], often, scene, variance)
+        c.candidate: _found(evidence, search, c.candidate, part, rivals[c.candidate], often, scene, gram, variance)
         for c, part in zip(best.chosen, fit.model.parts, strict=True)
     }
     order = sorted(found, key=lambda c: -found[c].rms_at_tool_mm)
@@ -92,9 +94,11 @@ def judge(
     waterfall: tuple[WaterfallStep, ...] = ()
     if cross_validation:
         tell("validating on held-out rows", 0.75)
-        held_out, waterfall = cross_validate(problem, evidence.blocks, evidence.layout, best, order)
+        held_out, waterfall = cross_validate(
+            problem, evidence.blocks, _plain_blocks(evidence), evidence.layout, best, order
+        )
     tell("drawing the atlas", 0.9)
-    background = _backgrounds(evidence, search, variance)
+    background = _backgrounds(evidence, search, gram, variance)
     named = [_with_weight(found[c], background) for c in order]
     scattered = [s for s in _scattered(evidence, variance) if not _rest_of_a_curve(s, named)]
     effects = tuple(sorted([*named, *scattered], key=lambda effect: -effect.rms_at_tool_mm))
@@ -129,6 +133,24 @@ def judge(
     return replace(draft, headline=headline(draft))
 
 
+def _plain_blocks(evidence: Evidence) -> list[Gram]:
+    """The blocks without the whitening of scatter, so that errors come out in millimetres as measured."""
+    weights = evidence.fit.weights
+    if weights.turn is None:
+        return evidence.blocks
+    pool, model = evidence.problem.pool, evidence.fit.model
+    return accumulate(pool, model, evidence.recordings, RowWeights(weights.row), evidence.layout.of_row)
+
+
+def _plain_gram(evidence: Evidence) -> Gram:
+    """The fit's sums without the whitening of scatter."""
+    fit = evidence.fit
+    if fit.weights.turn is None:
+        return fit.gram
+    one_block = np.zeros(len(evidence.recordings), dtype=np.intp)
+    return accumulate(fit.pool, fit.model, evidence.recordings, RowWeights(fit.weights.row), one_block)[0]
+
+
 def _found(
     evidence: Evidence,
     search: Search,
@@ -137,6 +159,7 @@ def _found(
     rivals: Sequence[tuple[float, Placed, Hypothesis]],
     often: dict[int, float],
     scene: Scene,
+    gram: Gram,
     variance: float,
 ) -> FoundEffect:
     """One effect with everything that is known about it."""
@@ -144,7 +167,7 @@ def _found(
     covariance = fit.covariance_of(placed)
     coefficients = np.zeros(len(fit.pool.terms))
     coefficients[fit.pool.of(placed)] = part.values
-    rms = contribution(fit.gram, fit.pool.frames, coefficients)
+    rms = contribution(gram, fit.pool.frames, coefficients)
     share = rms**2 / variance if variance > 0 else 0.0
     apart = [certainty.apart(evidence.best, other, placed, rival) for _, rival, other in rivals]
     close = [rival for nats, (_, rival, _) in zip(apart, rivals, strict=True) if nats < certainty.TELLS_APART_NATS]
@@ -225,13 +248,12 @@ def _with_weight(found: FoundEffect, background: Sequence[Background]) -> FoundE
     return replace(found, minor=found.share < (MINOR_SHARE if ordinary else MINOR_SHARE_OF_PERFECT_ARM))
 
 
-def _variance_after_frames(fit: Refit) -> float:
+def _variance_after_frames(gram: Gram, frames: NDArray[np.intp]) -> float:
     """Residual variance per axis after the free frames only, mm^2."""
-    frames = fit.pool.frames
-    G = fit.gram.G[np.ix_(frames, frames)]
-    explained = fit.gram.b[frames] @ np.linalg.lstsq(G, fit.gram.b[frames], rcond=1e-12)[0]
-    left = float(fit.gram.yy - explained)
-    return max(left, 0.0) / max(fit.gram.n, 1.0)
+    G = gram.G[np.ix_(frames, frames)]
+    explained = gram.b[frames] @ np.linalg.lstsq(G, gram.b[frames], rcond=1e-12)[0]
+    left = float(gram.yy - explained)
+    return max(left, 0.0) / max(gram.n, 1.0)
 
 
 def _weighted_rms(fit: Refit) -> float:
@@ -239,7 +261,7 @@ def _weighted_rms(fit: Refit) -> float:
     return float(np.sqrt(np.mean(fit.residuals[trusted] ** 2)))
 
 
-def _backgrounds(evidence: Evidence, search: Search, variance: float) -> tuple[Background, ...]:
+def _backgrounds(evidence: Evidence, search: Search, gram: Gram, variance: float) -> tuple[Background, ...]:
     """What each family's background amounts to, and whether the evidence asks for it."""
     fit, best = evidence.fit, evidence.best
     sizes = background_sizes(evidence.problem, best)
@@ -248,7 +270,7 @@ def _backgrounds(evidence: Evidence, search: Search, variance: float) -> tuple[B
     for number, (family, columns) in enumerate(zip(FAMILIES, fit.pool.background, strict=True)):
         coefficients = np.zeros(len(fit.pool.terms))
         coefficients[columns] = [values[fit.pool.terms[column]] for column in columns]
-        rms = contribution(fit.gram, fit.pool.frames, coefficients)
+        rms = contribution(gram, fit.pool.frames, coefficients)
         without = search.resized(best, (*best.background[:number], 0, *best.background[number + 1 :]))
         present = best.background[number] > 0 and best.value - without.value > BACKGROUND_SEEN_NATS
         told.append(Background(family, present, sizes[number], rms, rms**2 / variance if variance > 0 else 0.0))

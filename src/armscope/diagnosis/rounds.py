@@ -34,9 +34,9 @@ Indices = NDArray[np.intp]
 Progress = Callable[[str, float], None]
 State = tuple[frozenset[str], NDArray[np.bool_]]
 
-ROUNDS, FULL_ROUNDS = 7, 2
-"""Rounds at most; the first ones search from all starts, later ones from where the last one ended."""
-SAMPLE_ROWS = 4000
+ROUNDS, FULL_ROUNDS, SCANNING_ROUNDS = 7, 2, 4
+"""Rounds at most; the first search from all starts, later ones from where the last one ended; the last do not scan."""
+SAMPLE_ROWS = 3000
 """Longer tables are diagnosed on this many of their rows first."""
 ROWS_OF_A_GROUP = 20
 """Rows of every run and target that the sample holds at least."""
@@ -139,7 +139,7 @@ class Rounds:
         settled = False
         for number in range(ROUNDS):
             self.tell("looking for effects", 0.05 + 0.05 * number)
-            new = self.round(STARTS if number < FULL_ROUNDS else None)
+            new = self.round(STARTS if number < FULL_ROUNDS else None, scanning=number < SCANNING_ROUNDS)
             state = self._state()
             same = previous is not None and self._alike(state, previous)
             if not new and same and (settled or not self._rests()) and not self._scatter_changed():
@@ -150,6 +150,9 @@ class Rounds:
         fine = [refined(self.model.arm, self.recordings, self.pool.candidates[c]) for c in self.best.candidates]
         if any(fine):
             self.candidates = [*self.candidates, *[placed for placed in fine if placed is not None]]
+            self.round(None)
+            # what looked like scatter may have been what the coarse curves could not follow
+            self._take_scatter(find_scatter(self.left, self.moved, self.noise.least_mm))
             self.round(None)
         return self.selected()
 
@@ -162,7 +165,7 @@ class Rounds:
         white = RowWeights(self.uncertainty, turn).whitened(self.left)
         self.weights = RowWeights(robust.weights(white, self.uncertainty, self.noise.least_mm), turn)
 
-    def round(self, starts: Sequence[tuple[int, ...]] | None) -> list[Placed]:
+    def round(self, starts: Sequence[tuple[int, ...]] | None, scanning: bool = False) -> list[Placed]:
         """One round; returns new candidates that scanning found. Without starts it goes on from the last round."""
         model, payload = _payload(self.model, self.recordings)
         self.pool = pool(self.frames, self.families, [*self.candidates, *payload])
@@ -173,14 +176,14 @@ class Rounds:
         if starts is None:
             starts = STARTS if warm is None else (warm.background,)
         found = search.best(starts, warm)
-        self.best, self.last = search.refined(search.promoted(found)), (found, self.pool)
+        self.best, self.last = search.promoted(search.refined(found)), (found, self.pool)
         effects = [(self.pool.candidates[c.candidate], float(self.problem.sizes[c.size])) for c in self.best.chosen]
         small = list(zip(self.families, background_sizes(self.problem, self.best), strict=True))
         turn = self.weights.turn
         self.fit = refit(
             model, self.recordings, self.frames, small, effects, self.uncertainty, self.noise.least_mm, turn
         )
-        new = self._scanned(search, model)
+        new = self._scanned(search, model) if scanning else []
         self.model, self.left, self.weights = self.fit.model, self.fit.residuals, self.fit.weights
         self.uncertainty = relative_uncertainty(self.recordings, self.fit.noise)
         return new
@@ -208,12 +211,16 @@ class Rounds:
         found = find_scatter(self.left, self.moved, self.noise.least_mm)
         if {s.motor for s in found} == {s.motor for s in self.scatter}:
             return False
+        self._take_scatter(found)
+        return True
+
+    def _take_scatter(self, found: list[Scattered]) -> None:
+        """Whiten the rows by scatter of these places and sizes, and weigh them anew."""
         self.scatter = found
         between = noise_between(self.left, self.moved, found, self.noise.least_mm)
         turn = whitening(found, self.moved, between)
         white = RowWeights(self.weights.row, turn).whitened(self.left)
         self.weights = RowWeights(robust.weights(white, self.uncertainty, self.noise.least_mm), turn)
-        return True
 
     def _scanned(self, search: Search, model: FittedModel) -> list[Placed]:
         """New candidates whose scanned numbers promise something, given the best hypothesis and given none."""

@@ -252,7 +252,7 @@ class Search:
                 chosen = (*hypothesis.chosen[:number], finer, *hypothesis.chosen[number + 1 :])
                 other = weigh(self.problem, chosen, hypothesis.background, hypothesis.noise)
                 hypothesis = max(hypothesis, other, key=_value)
-        return hypothesis
+        return self._pruned(hypothesis)
 
     def held(self, hypothesis: Hypothesis, candidate: int) -> bool:
         """Whether a background of the hypothesis holds an effect, too."""

@@ -52,7 +52,12 @@ def split(recordings: Recordings, rng: np.random.Generator) -> Blocks:
 
 
 def cross_validate(
-    problem: Problem, blocks: Sequence[Gram], split: Blocks, best: Hypothesis, order: Sequence[int]
+    problem: Problem,
+    blocks: Sequence[Gram],
+    plain: Sequence[Gram],
+    split: Blocks,
+    best: Hypothesis,
+    order: Sequence[int],
 ) -> tuple[HeldOut, tuple[WaterfallStep, ...]]:
     """Held-out RMS before and after, selection repeated per fold; and the waterfall of the chosen effects.
 
@@ -60,6 +65,8 @@ def cross_validate(
     fitted on its rows, as it always is.
 
     Args:
+        blocks: sums over the rows as they were fitted.
+        plain: the same without the whitening of scatter: errors are told in millimetres as measured.
         order: candidates of ``best`` in the order in which the waterfall adds them.
     """
     whole = total(blocks)
@@ -69,9 +76,10 @@ def cross_validate(
     steps = np.zeros(len(sets))
     empty = Search.on(problem).empty()
     for fold in folds:
-        held = total([blocks[int(k)] for k in np.flatnonzero(split.fold == fold)])
-        trained = problem.with_gram(whole - held)
-        scaled = held.scaled(problem.scale)
+        inside = [int(k) for k in np.flatnonzero(split.fold == fold)]
+        trained = problem.with_gram(whole - total([blocks[k] for k in inside]))
+        scaled = total([plain[k] for k in inside]).scaled(problem.scale)
+        held = scaled
         free = split.grouped_by == "run"
         starts = {best.background} if len(best.columns) > LARGE else {best.background, PERFECT}
         search = Search.on(trained, beam=2 if len(starts) > 1 else 1, branches=2)
@@ -85,7 +93,10 @@ def cross_validate(
     if rows == 0:
         return HeldOut(float("nan"), float("nan")), ()
     fitted = [
-        _rms(problem.gram, weigh(problem, subset, best.background if n == len(sets) - 1 else PERFECT, best.noise))
+        _rms(
+            total(plain).scaled(problem.scale),
+            weigh(problem, subset, best.background if n == len(sets) - 1 else PERFECT, best.noise),
+        )
         for n, subset in enumerate(sets)
     ]
     labels = ["free frames", *[str(problem.pool.candidates[c]) for c in order], "tolerances everywhere"]
