@@ -159,3 +159,17 @@ def test_a_long_table_is_sampled_and_then_weighed_whole(monkeypatch: pytest.Monk
     assert verdict.rows == 400
     assert found.parameters[0].value == pytest.approx(5e-7, rel=0.02)
     assert len(verdict.residuals.after) == 400
+
+
+def test_what_carries_over_between_runs_is_said_and_what_does_not_is_too() -> None:
+    arm = arm_named("six-axis")
+    table = replace(one_run(arm, 150, 16), run=np.repeat(["1", "2", "3"], 50))
+    same = recorded(arm, table, {("joint_compliance", "joint 2"): [5e-7]}, 0.02, seed=17)
+    (found,) = diagnose(arm, same, QUICK).effects
+    assert found.carries_over.startswith("Each of the 3 runs alone gives the same value")
+    stiffer = recorded(arm, table, {("joint_compliance", "joint 2"): [2e-7]}, 0.02, seed=17)
+    changed = same.positions.copy()
+    changed[table.run == "3"] = stiffer.positions[table.run == "3"]
+    named = diagnose(arm, replace(same, positions=changed), QUICK).effects
+    found = next(effect for effect in named if effect.effect == "joint_compliance")
+    assert "different values" in found.carries_over

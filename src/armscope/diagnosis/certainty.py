@@ -35,7 +35,8 @@ def alternatives(search: Search, best: Hypothesis, candidate: int) -> list[tuple
     for other in search.additions(base, LOOKED_AT, without=[candidate]):
         placed = search.placed(other.chosen[-1].candidate)
         gap = best.value - other.value
-        special = other.chosen[-1].candidate in search.problem.pool.clashes[candidate]
+        curve = search.placed(candidate).reading == "curve"
+        special = curve and other.chosen[-1].candidate in search.problem.pool.clashes[candidate]
         if placed.key in taken or gap > (LISTED_NATS_OF_SPECIAL_CASES if special else LISTED_NATS):
             continue
         if placed.key not in nearest or gap < nearest[placed.key][0]:

@@ -19,7 +19,7 @@ from armscope.diagnosis.problem import Gram, accumulate, contribution
 from armscope.diagnosis.refit import Refit
 from armscope.diagnosis.scatter import Scattered, levers
 from armscope.diagnosis.search import Search
-from armscope.diagnosis.validation import Blocks, cross_validate
+from armscope.diagnosis.validation import Blocks, carry_over, cross_validate
 from armscope.diagnosis.verdict import (
     Answer,
     Background,
@@ -46,6 +46,8 @@ Progress = Callable[[str, float], None]
 MINOR_SHARE, MINOR_SHARE_OF_PERFECT_ARM = 0.025, 0.001
 """Effects worth less of the residual variance are apart from the story: in an arm with small errors everywhere, and in
 one that is perfect but for what is named."""
+FAINT_SHARE, FAINT_NATS = 0.05, 3.0
+"""A small effect that the evidence hardly asks for is apart from the story, too."""
 NOISE_EXCESS = 1.15
 """A residual this many times the stated noise is more than the noise."""
 BACKGROUND_SEEN_NATS = 5.0
@@ -101,6 +103,8 @@ def judge(
     background = _backgrounds(evidence, search, gram, variance)
     named = [_with_weight(found[c], background) for c in order]
     scattered = [s for s in _scattered(evidence, variance) if not _rest_of_a_curve(s, named)]
+    over = carry_over(problem, evidence.blocks, evidence.layout, best)
+    named = [replace(e, carries_over=over.get(c, "")) for c, e in zip(order, named, strict=True)]
     effects = tuple(sorted([*named, *scattered], key=lambda effect: -effect.rms_at_tool_mm))
     unexplained = _unexplained(effects, evidence)
     answer, mismatch = _answer(effects, background, unexplained, evidence)
@@ -245,7 +249,9 @@ def _scattered(evidence: Evidence, variance: float) -> Iterator[FoundEffect]:
 def _with_weight(found: FoundEffect, background: Sequence[Background]) -> FoundEffect:
     """Minor or not: in an arm with small errors everywhere, a small effect is one of them."""
     ordinary = any(family.present for family in background)
-    return replace(found, minor=found.share < (MINOR_SHARE if ordinary else MINOR_SHARE_OF_PERFECT_ARM))
+    small = found.share < (MINOR_SHARE if ordinary else MINOR_SHARE_OF_PERFECT_ARM)
+    faint = found.share < FAINT_SHARE and found.evidence_nats < FAINT_NATS
+    return replace(found, minor=small or faint)
 
 
 def _variance_after_frames(gram: Gram, frames: NDArray[np.intp]) -> float:

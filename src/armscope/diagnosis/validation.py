@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import chi2
 
 from armscope.diagnosis.evidence import PERFECT, Chosen, Hypothesis, Problem, weigh
 from armscope.diagnosis.problem import Gram, total
@@ -21,6 +22,7 @@ FOLDS = 5
 BLOCKS = 20
 FEWEST_ROWS_PER_RUN = 30
 FEWEST_RUNS = 3
+CHANCE = 0.99
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,6 +107,44 @@ def cross_validate(
         for label, f, s in zip(labels, fitted, steps, strict=True)
     )
     return HeldOut(float(np.sqrt(before / rows)), float(np.sqrt(after / rows)), len(folds), split.grouped_by), waterfall
+
+
+def carry_over(problem: Problem, blocks: Sequence[Gram], split: Blocks, best: Hypothesis) -> dict[int, str]:
+    """For effects with plain parameters: whether every run alone gives the same values; empty where runs are few.
+
+    Each run's rows give their own posterior under the chosen hypothesis; the values agree where their scatter about
+    the common mean is within chance (one in a hundred).
+    """
+    if split.grouped_by != "run":
+        return {}
+    runs = [int(k) for k in np.unique(split.fold)]
+    alone = [
+        weigh(
+            problem.with_gram(total([blocks[int(k)] for k in np.flatnonzero(split.fold == run)])),
+            best.chosen,
+            best.background,
+            best.noise,
+        )
+        for run in runs
+    ]
+    said = {}
+    for c in best.chosen:
+        if problem.pool.candidates[c.candidate].reading != "plain":
+            continue
+        at = [np.searchsorted(h.columns, problem.pool.columns[c.candidate]) for h in alone]
+        values = np.array([h.mean[a] for h, a in zip(alone, at, strict=True)])
+        variances = np.array(
+            [h.noise**2 * np.sum(h.inverse[:, a] ** 2, axis=0) for h, a in zip(alone, at, strict=True)]
+        )
+        mean = np.sum(values / variances, axis=0) / np.sum(1 / variances, axis=0)
+        misfit = float(np.sum((values - mean) ** 2 / variances))
+        agrees = misfit < chi2.ppf(CHANCE, values.size - values.shape[1])
+        said[c.candidate] = (
+            f"Each of the {len(runs)} runs alone gives the same value within its interval."
+            if agrees
+            else f"The {len(runs)} runs alone give different values: what is meant here may not be the cause."
+        )
+    return said
 
 
 def _steps(best: Hypothesis, order: Sequence[int]) -> list[tuple[Chosen, ...]]:

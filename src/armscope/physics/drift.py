@@ -10,6 +10,7 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm
 
 LEAST_SPAN_S = 1.0
+FEWEST_ORDERED_ROWS = 20
 
 
 def six_terms(location: str, driver: Driver, per: str = "", axes: tuple[str, ...] = AXES) -> tuple[Term, ...]:
@@ -29,6 +30,10 @@ def _place_drift(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     if recordings.time is not None and varies(recordings.time, LEAST_SPAN_S):
         start = float(recordings.time[recordings.time == recordings.time].min())
         yield Placed(BASE_DRIFT, "base", six_terms("base", Driver("hours", (start,)), "/h"), (1.0,) * 6, "time")
+    elif len(recordings) >= FEWEST_ORDERED_ROWS:
+        # assumed: rows stand in the order in which they were measured
+        terms = six_terms("base", Driver("rows"), "/1000 rows")
+        yield Placed(BASE_DRIFT, "base", terms, (1.0,) * 6, "order of rows", variant="rows")
 
 
 BASE_DRIFT = Effect(
@@ -38,7 +43,7 @@ BASE_DRIFT = Effect(
     "The base (or the instrument) moves steadily during the recording.",
     "Measure fixed reference points on the base at the start and the end.",
     "Let the set-up settle and warm up; measure references in between and correct.",
-    needs=("time_s",),
+    needs=("time_s, or rows in order",),
 )
 
 

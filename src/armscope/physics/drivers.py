@@ -23,6 +23,7 @@ Array = NDArray[np.float64]
 REFERENCE_TEMPERATURE_C = 20.0
 """Lengths hold at this temperature."""
 SECONDS_PER_HOUR = 3600.0
+ROWS_PER_UNIT = 1000.0
 
 
 def evaluate(scene: Scene, driver: Driver) -> Array:
@@ -165,6 +166,11 @@ def _hours(scene: Scene, start: float) -> Array:
     return np.nan_to_num((scene.recordings.time - start) / SECONDS_PER_HOUR)
 
 
+def _rows(scene: Scene) -> Array:
+    """Thousands of rows since the table's beginning."""
+    return scene.row_numbers / ROWS_PER_UNIT
+
+
 def _after_time(scene: Scene, start: float, run: str) -> Array:
     if scene.recordings.time is None:
         raise _missing(scene, "time_s")
@@ -255,6 +261,7 @@ _KINDS: dict[str, Callable[..., Any]] = {
     "speed": _speed,
     "warmth": _warmth,
     "hours": _hours,
+    "rows": _rows,
     "after time": _after_time,
     "after row": _after_row,
     "in run": _in_run,
