@@ -8,7 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 from armscope.cli import app
-from armscope.compensation import load_error_model, save_error_model
+from armscope.compensation import as_path, compensate_black_box, load_error_model, save_error_model
 from armscope.compensation.physical import load_identified, save_identified
 from armscope.compensation.rapid import read_rapid
 from armscope.inputs import InputError
@@ -143,3 +143,20 @@ def test_a_domain_file_comes_back(tmp_path):
     (tmp_path / "domain.json").write_text("{}")
     with pytest.raises(InputError):
         load_identified(tmp_path / "domain.json")
+
+
+def test_blended_regions_compensate_too(recordings, tmp_path):
+    model = tmp_path / "errormodel.json"
+    call = ("fit-error-model", recordings, "-r", SK120, "-m", "FDP(CI)", "-o", model, "--regions")
+    assert run(*call, 4).exit_code == 0
+    fitted = load_error_model(model)
+    assert fitted.coefficients.shape == (4, 3, 4)
+    path = as_path(table_of(wanted_points(30)), "path", sk120())
+    result = compensate_black_box(fitted, path)
+    assert result.reached.all()
+    nominal = forward_kinematics(sk120(), result.commands) * 1e3
+    assert np.abs(nominal + [1.0, -2.0, 0.5] + nominal * 1e-3 - wanted_points(30) * 1e3).max() < 1e-3
+    assert run(*call, "auto").exit_code == 0
+    assert load_error_model(model).coefficients.shape == (1, 3, 4)  # one law everywhere needs no regions
+    assert isinstance(run(*call, 3).exception, InputError)
+    assert isinstance(run(*call, 64).exception, InputError)

@@ -22,7 +22,7 @@ def error_mm(model, angles):
     """The black-box error by its definition."""
     nominal = forward_kinematics(sk120(), angles) * 1e3
     inputs = nominal if model.space == "cartesian" else angles
-    return model.features.matrix(inputs) @ model.coefficients.T
+    return model.features.matrix(inputs) @ model.coefficients[0].T
 
 
 @pytest.mark.parametrize("space", ["cartesian", "angular"])

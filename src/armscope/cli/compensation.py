@@ -1,4 +1,4 @@
-"""Commands of the compensation: compensate, fit-error-model, closed-loop."""
+"""Commands of the compensation: compensate, fit-error-model, closed-loop, regions."""
 
 from __future__ import annotations
 
@@ -98,6 +98,7 @@ def fit_error_model(
     run: Annotated[str | None, typer.Option(help="only this run")] = None,
     target: Annotated[str | None, typer.Option(help="only this target")] = None,
     register: Annotated[bool, typer.Option(help="fit measurement frame and tool offset with the nominal arm")] = False,
+    regions: Annotated[str, typer.Option(help="1, 2, 4, ... blended models, or auto: by cross-validation")] = "1",
 ) -> None:
     """Fit one of the paper's error models to recordings, ready for `armscope compensate`."""
     from armscope.compensation import fit_error_model as fit
@@ -109,6 +110,8 @@ def fit_error_model(
     methods = {"least-squares": "least squares", "swarm": "swarm"}
     if method not in methods:
         raise InputError("--method", "", method, "least-squares or swarm")
+    if regions != "auto" and (not regions.isdecimal() or (method != "least-squares" and regions != "1")):
+        raise InputError("--regions", "", regions, "auto or 1, 2, 4, ...; more than one by least squares only")
     arm = load_arm(robot)
     table = read_recordings(recordings, arm.n_motors)
     for column, wanted, values in (("run", run, table.run), ("target", target, table.target)):
@@ -118,10 +121,12 @@ def fit_error_model(
     for name, wanted in (("run", run), ("target", target)):
         if wanted is not None:
             table = table.rows(getattr(table, name) == wanted)
-    fitted = fit(arm, table, _spec(model), methods[method], seed, register)
+    fitted = fit(arm, table, _spec(model), methods[method], seed, register, None if regions == "auto" else int(regions))
     save_error_model(output, fitted)
     left = ", ".join(f"{value:.4g}" for value in fitted.rms_mm)
     print(f"{fitted.name} by {fitted.method} on {len(table)} rows leaves ({left}) mm RMS along x, y, z")
+    if len(fitted.coefficients) > 1:
+        print(f"{len(fitted.coefficients)} regions")
     print(output)
 
 
@@ -149,6 +154,29 @@ def closed_loop(
     write_table(output, table)
     if figure is not None:
         save_figure(cross_table_figure(table), figure)
+
+
+@app.command("regions")
+def regions_(
+    poses: Annotated[Path, typer.Option(help="poses.csv of `armscope paper measure`")],
+    errors: Annotated[Path, typer.Option(help="errors.csv")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="table: model, regions, held_out_rms_mm, ...")],
+    model: Annotated[list[str] | None, typer.Option(help="models; may be given several times")] = None,
+    figure: Annotated[Path | None, typer.Option(help="picture of the table")] = None,
+    seed: Annotated[int, typer.Option(help="of the folds")] = 0,
+) -> None:
+    """Error against the number of blended sub-volumes, chosen by cross-validation on the identification rows."""
+    from armscope.cli.studies import read_measurements
+    from armscope.files import write_table
+    from armscope.report.closed_loop import paper_regions
+    from armscope.report.compensation_figure import regions_figure
+    from armscope.report.style import save_figure
+
+    specs = [_spec(name) for name in model or ("FDP(CI)", "SDP(CI)", "FDP(AI)", "SDP(AI)")]
+    table = paper_regions(read_measurements(poses, errors), specs, seed)
+    write_table(output, table)
+    if figure is not None:
+        save_figure(regions_figure(table), figure)
 
 
 def _true_errors(robots: Path) -> NDArray[np.float64]:

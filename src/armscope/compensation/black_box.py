@@ -14,6 +14,16 @@ from scipy.spatial.transform import Rotation
 from armscope.compensation.domain import Domain
 from armscope.errormodels import FeatureSet, FitProblem, ModelSpec, fit_least_squares, fit_swarms
 from armscope.errormodels import FittedModel as Fit
+from armscope.errormodels.regions import (
+    Cut,
+    blended,
+    chosen_regions,
+    compare_regions,
+    divide,
+    fit_regions,
+    halvings_of,
+    weights,
+)
 from armscope.files import write_json
 from armscope.inputs import InputError, validate
 from armscope.physics.model import Base
@@ -35,7 +45,8 @@ class ErrorModel:
     Attributes:
         arm: the nominal arm (with the fitted tool offset, where frames were registered).
         features: the model's terms.
-        coefficients: (3, n) mm per unit of the terms.
+        coefficients: (regions, 3, n) mm per unit of the terms.
+        cut: the borders of the regions; None for a single one.
         method: how they were found.
         rms_mm: (3,) residual on the identification rows.
         base: measurement frame from base frame.
@@ -49,6 +60,7 @@ class ErrorModel:
     rms_mm: Array
     base: Base
     domain: Domain
+    cut: Cut | None = None
 
     @property
     def name(self) -> str:
@@ -69,8 +81,10 @@ class ErrorModel:
         """
         cartesian = self.space == "cartesian"
         inputs = nominal * 1e3 if cartesian else angles
-        error = self.features.matrix(inputs) @ self.coefficients.T * 1e-3
-        slope = np.einsum("at,ntk->nak", self.coefficients, self.features.slopes(inputs))
+        # the blend's own slope is left out: models of neighbouring regions nearly agree where they are blended
+        coefficients = np.einsum("nr,rat->nat", weights(self.cut, inputs), self.coefficients)
+        error = np.einsum("nat,nt->na", coefficients, self.features.matrix(inputs)) * 1e-3
+        slope = np.einsum("nat,ntk->nak", coefficients, self.features.slopes(inputs))
         return error, slope if cartesian else slope * 1e-3
 
 
@@ -91,7 +105,7 @@ def error_model(arm: Arm, fit: Fit, angles: Array, seed: int | None = None, base
         number = fit.best_seeds if seed is None else np.full(len(axes), fit.seeds.index(seed))
         chosen, rms, method = fit.coefficients[number, axes], fit.fitness_mm[number, axes], fit.method
     domain = domain_of(arm, fit.features, angles)
-    return ErrorModel(arm, fit.features, chosen, method, rms, base or _same_frame(), domain)
+    return ErrorModel(arm, fit.features, chosen[None], method, rms, base or _same_frame(), domain)
 
 
 def fit_error_model(
@@ -101,6 +115,7 @@ def fit_error_model(
     method: str = "least squares",
     seed: int = 0,
     register: bool = False,
+    regions: int | None = 1,
 ) -> ErrorModel:
     """Fit one of the paper's models to recordings.
 
@@ -112,6 +127,7 @@ def fit_error_model(
         seed: of the swarm.
         register: fit the measurement frame and the tool offset with the nominal arm first; without, the measurements
             must stand in the arm's base frame, as in the paper, and the model holds the frames' errors, too.
+        regions: 1, 2, 4, ... models blended across the workspace, by least squares; None lets cross-validation choose.
 
     Raises:
         InputError: too few rows; several runs or targets; measurements that stand in another frame.
@@ -141,9 +157,20 @@ def fit_error_model(
         fit = fit_swarms([FitProblem(spec, inputs, errors, arm.name)], [seed])[0]
         return error_model(arm, fit, recordings.motor_angles, seed, base)
     features = spec.features(inputs)
-    coefficients, rms_mm = fit_least_squares(features, inputs, errors)
     domain = domain_of(arm, features, recordings.motor_angles)
-    return ErrorModel(arm, features, coefficients, "least squares", rms_mm, base, domain)
+    if regions is None:
+        regions = chosen_regions(compare_regions(spec, inputs, errors, np.random.default_rng(seed)))
+    if regions == 1:
+        coefficients, rms_mm = fit_least_squares(features, inputs, errors)
+        return ErrorModel(arm, features, coefficients[None], "least squares", rms_mm, base, domain)
+    try:
+        cut = divide(inputs, halvings_of(regions))
+        by_region = fit_regions(features, cut, inputs, errors)
+    except ValueError as error:
+        raise InputError(recordings.source, "regions", regions, str(error), "Use fewer regions.") from error
+    left = errors - blended(features, cut, by_region, inputs)
+    rms_mm = np.sqrt(np.mean(left**2, axis=0))
+    return ErrorModel(arm, features, by_region, "least squares", rms_mm, base, domain, cut)
 
 
 def domain_of(arm: Arm, features: FeatureSet, angles: Array) -> Domain:
@@ -203,6 +230,7 @@ def save_error_model(path: Path | str, model: ErrorModel) -> None:
             "features": model.features.to_dict(),
             "terms": list(model.features.term_names),
             "coefficients": model.coefficients,
+            "regions": None if model.cut is None else model.cut.to_dict(),
             "base": {"rotation": model.base.rotation, "translation_m": model.base.translation},
             "domain": model.domain.to_dict(),
         },
@@ -236,8 +264,10 @@ def load_error_model(path: Path | str) -> ErrorModel:
 def _from_content(content: dict[str, Any], path: Path | str) -> ErrorModel:
     features = FeatureSet.from_dict(content["features"])
     coefficients = np.array(content["coefficients"], dtype=float)
-    if coefficients.shape != (3, features.coefficients_per_axis) or not np.isfinite(coefficients).all():
-        expected = f"{features.spec.name} has 3 x {features.coefficients_per_axis} finite numbers"
+    cut = Cut.from_dict(content["regions"])
+    regions = weights(cut, np.zeros((1, len(features.inputs)))).shape[1]
+    if coefficients.shape != (regions, 3, features.coefficients_per_axis) or not np.isfinite(coefficients).all():
+        expected = f"{features.spec.name} has {regions} x 3 x {features.coefficients_per_axis} finite numbers"
         raise InputError(path, "coefficients", f"shape {coefficients.shape}", expected, "Was the file edited?")
     base = content["base"]
     return ErrorModel(
@@ -248,6 +278,7 @@ def _from_content(content: dict[str, Any], path: Path | str) -> ErrorModel:
         np.array(content["rms_mm"], dtype=float),
         Base(np.array(base["rotation"], dtype=float), np.array(base["translation_m"], dtype=float)),
         Domain.from_dict(content["domain"]),
+        cut,
     )
 
 

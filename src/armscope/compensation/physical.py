@@ -85,10 +85,10 @@ def identified_on(arm: Arm, recordings: Recordings) -> Identified:
         )
     names, units = [f"q{motor}" for motor in range(1, arm.n_motors + 1)], ["rad"] * arm.n_motors
     columns, payload = [recordings.motor_angles], None
+    names, units = [*names, "payload_kg"], [*units, "kg"]
+    columns.append(_payload(recordings)[:, None])  # what was never recorded was never carried
     if recordings.payload is not None:
         payload = (float(np.nanmin(recordings.payload)), float(np.nanmax(recordings.payload)))
-        names, units = [*names, "payload_kg"], [*units, "kg"]
-        columns.append(np.nan_to_num(recordings.payload)[:, None])
     temperature = recordings.temperature
     if temperature is not None and not np.isnan(temperature).all():
         names, units = [*names, "temperature_c"], [*units, "degC"]

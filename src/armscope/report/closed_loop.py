@@ -19,7 +19,8 @@ from armscope.compensation.closed_loop import (
 )
 from armscope.compensation.physical import identified_on
 from armscope.diagnosis import Settings, diagnose
-from armscope.errormodels import FittedModel
+from armscope.errormodels import FittedModel, ModelSpec
+from armscope.errormodels.regions import blended, compare_regions, divide, fit_regions, halvings_of
 from armscope.paper.measurements import Measurements, PoseSet
 from armscope.recordings.table import as_recordings
 from armscope.robot import Arm
@@ -71,3 +72,32 @@ def _diagnosed(arm: Arm, identification: PoseSet) -> Candidate:
     recordings = replace(as_recordings(pd.DataFrame(columns)), source="identification")
     verdict = diagnose(arm, recordings, Settings(0, False, 0, False))
     return physical_candidate(verdict.model, identified_on(arm, recordings))
+
+
+def paper_regions(
+    measurements: Measurements, specs: Sequence[ModelSpec], seed: int = 0, most_halvings: int = 4
+) -> pd.DataFrame:
+    """Error against the number of blended regions, for the first robot of a study.
+
+    Returns:
+        Columns model, regions, fit_rms_mm, held_out_rms_mm, stderr_mm, chosen (see `compare_regions`), and one per test
+        path: the RMS of the error vector that the blended model leaves there, mm.
+    """
+    identification = measurements.identification
+    errors, parts = identification.errors_mm[0], []
+    for spec in specs:
+        inputs = identification.inputs(spec)
+        table = compare_regions(spec, inputs, errors, np.random.default_rng(seed), most_halvings)
+        for path in measurements.held_out:
+            table[path.name] = [_left_by_regions(spec, identification, path, int(n)) for n in table["regions"]]
+        parts.append(table.assign(model=spec.name))
+    table = pd.concat(parts, ignore_index=True)
+    return table[["model", *table.columns.drop("model")]]
+
+
+def _left_by_regions(spec: ModelSpec, identification: PoseSet, path: PoseSet, regions: int) -> float:
+    inputs, features = identification.inputs(spec), spec.features(identification.inputs(spec))
+    cut = divide(inputs, halvings_of(regions))
+    coefficients = fit_regions(features, cut, inputs, identification.errors_mm[0])
+    left = path.errors_mm[0] - blended(features, cut, coefficients, path.inputs(spec))
+    return float(np.sqrt(np.mean(np.sum(left**2, axis=1))))

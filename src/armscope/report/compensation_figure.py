@@ -8,7 +8,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from armscope.compensation.closed_loop import NO_MODEL
-from armscope.report.style import BLUE, GREY, VERMILION, legend_above, styled
+from armscope.report.style import BLUE, GREEN, GREY, ORANGE, SKY, VERMILION, legend_above, styled
 
 
 def cross_table_figure(table: pd.DataFrame) -> Figure:
@@ -41,4 +41,42 @@ def cross_table_figure(table: pd.DataFrame) -> Figure:
         panels[0, 0].set_yticks(rows, models)
         panels[0, 0].set_ylim(-0.6, len(models) - 0.4)
         legend_above(figure, columns=2)
+    return figure
+
+
+def regions_figure(table: pd.DataFrame) -> Figure:
+    """One panel per model: error against the number of blended regions; the one that cross-validation chose is filled.
+
+    Args:
+        table: see `armscope.report.closed_loop.paper_regions`.
+    """
+    models = list(table["model"].unique())
+    paths = [name for name in table.columns if name.startswith("test") or name == "held out"]
+    colours = (GREEN, ORANGE, SKY)
+    with styled():
+        figure, panels = plt.subplots(
+            1, len(models), figsize=(2.6 * len(models) + 0.8, 3.2), squeeze=False, sharey=True
+        )
+        for panel, model in zip(panels[0], models, strict=True):
+            here = table[table["model"] == model]
+            regions, held_out = here["regions"], here["held_out_rms_mm"]
+            panel.plot(regions, here["fit_rms_mm"], "--", color=GREY, label="fit")
+            panel.errorbar(
+                regions, held_out, here["stderr_mm"], marker="o", color=BLUE, markerfacecolor="white", capsize=2,
+                label="held out (cross-validation)",
+            )  # fmt: skip
+            for path, colour in zip(paths, colours, strict=False):
+                panel.plot(regions, here[path], ".:", color=colour, label=path)
+            chosen = here["chosen"].astype(bool)
+            panel.plot(regions[chosen], held_out[chosen], "o", color=BLUE, label="chosen", zorder=5)
+            panel.set_xscale("log", base=2)
+            panel.set_yscale("log")
+            panel.set_xticks(regions, [str(count) for count in regions])
+            panel.minorticks_off()
+            panel.yaxis.set_major_formatter("{x:g}")
+            panel.set_title(model)
+            panel.set_xlabel("regions")
+        panels[0, 0].set_ylabel("error left (mm, 3D RMS)")
+        handles, labels = panels[0, 0].get_legend_handles_labels()
+        legend_above(figure, handles, labels, columns=len(labels))
     return figure
