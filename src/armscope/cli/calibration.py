@@ -38,9 +38,7 @@ def check(
 def calibrate(
     recordings: Annotated[Path, typer.Argument(help="recordings.csv")],
     robot: Annotated[Path, typer.Option("--robot", "-r", help="robot.yaml: the nominal arm")],
-    output: Annotated[
-        Path, typer.Option("--output", "-o", help="folder for robot.yaml, URDF and frames")
-    ],
+    output: Annotated[Path, typer.Option("--output", "-o", help="folder for robot.yaml, URDF and frames")],
     level: Annotated[
         Literal["nominal", "offsets", "geometric", "compliance"], typer.Option(help="what is free beyond the frames")
     ] = "geometric",

@@ -34,9 +34,7 @@ COMMON_KINDS = (
 )  # fmt: skip
 """What real arms have together, the usual suspects twice."""
 
-Category = Literal[
-    "clean", "single", "multiple", "outside", "misleading", "inseparable", "real", "bad_shots", "faint"
-]
+Category = Literal["clean", "single", "multiple", "outside", "misleading", "inseparable", "real", "bad_shots", "faint"]
 
 
 class Wish(Strict):
