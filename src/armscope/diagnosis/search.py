@@ -30,6 +30,7 @@ from armscope.diagnosis.evidence import (
 )
 from armscope.diagnosis.problem import Pool
 from armscope.physics.effect import Placed, region
+from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
 
 BEAM = 3
 BRANCHES = 3
@@ -50,6 +51,7 @@ NAMED_AT_ONCE = 3
 LARGE = 150
 """A hypothesis of more columns than this (several free curves) is polished less."""
 POLISHES, POLISHES_OF_LARGE = 6, 2
+DRIVE = JOINT_COMPLIANCE.name
 GAIN = 1e-3
 """Nats by which a move must better a hypothesis."""
 
@@ -199,7 +201,27 @@ class Search:
             rest = self.without(hypothesis, removed)
             least = hypothesis.value - rest.value - SLACK_NATS
             moves += self.additions(rest, self.branches, without=removed, least=least)
-        return [*moves, *self._from_background(hypothesis)]
+        return [*moves, *self._from_background(hypothesis), *self._trusting(hypothesis)]
+
+    def _trusting(self, hypothesis: Hypothesis) -> list[Hypothesis]:
+        """Stated masses and one wrong payload in place of masses that are unknown to every joint by itself."""
+        doubting = [c for c in hypothesis.chosen if self.placed(c.candidate).variant == UNKNOWN_MASSES]
+        resting = self.problem.pool.resting
+        if not doubting or not resting:
+            return []
+        stated = {p.key: n for n, p in enumerate(self.problem.pool.candidates) if p.name == DRIVE and not p.variant}
+        trusting = [Chosen(stated[key], c.size) for c in doubting if (key := self.placed(c.candidate).key) in stated]
+        kept = [c for c in hypothesis.chosen if c not in doubting and c.candidate not in resting]
+        return [
+            weigh(
+                self.problem,
+                (*kept, *trusting, Chosen(payload, size)),
+                hypothesis.background,
+                hypothesis.noise,
+            )
+            for payload in resting
+            for size in range(1, len(self.problem.sizes) - 1)
+        ]
 
     def _from_background(self, hypothesis: Hypothesis) -> list[Hypothesis]:
         """Smaller geometric tolerances everywhere, and names for what then stands out."""

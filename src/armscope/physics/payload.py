@@ -24,9 +24,8 @@ def payload_errors(recordings: Recordings, elastic: Sequence[Part]) -> Iterator[
     measured = recordings.torque is not None
     known = [part for part in elastic if part.placed.variant != UNKNOWN_MASSES]
     givings = [g for part in known for g in _givings(part) if not (measured and g.driver.kind == "torque")]
-    # with unknown masses a constant extra mass is one of them, but a load off its place is not
     absolute = [g for part in elastic if part.placed.variant == UNKNOWN_MASSES for g in _absolute_giving(part)]
-    mass = _term("mass", "kg", 1.0, givings, lambda load: Driver("heavier", (load,)))
+    mass = _term("mass", "kg", 1.0, [*givings, *absolute], lambda load: Driver("heavier", (load,)))
     if mass.products:
         yield Placed(PAYLOAD_ERROR, "payload", (mass,), (1.0,), "payload", variant="mass")
     centre = tuple(
