@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from armscope.proof.definitions import judged
-from armscope.proof.rates import rate
+from armscope.proof.rates import evidence_table, rate
 
 
 def test_intervals_are_those_of_clopper_and_pearson():
@@ -28,6 +28,20 @@ def test_intervals_are_those_of_clopper_and_pearson():
 )
 def test_an_aim_is_met_open_or_not_met_and_never_without_evidence(cases, estimate, low, high, verdict):
     assert judged(cases, estimate, low, high, (0.95, 1.0)) == verdict
+
+
+def test_names_are_counted_by_their_evidence():
+    names = pd.DataFrame(
+        {
+            "effect": ["backlash", "backlash", "gear_ratio", "unknown"],
+            "evidence_nats": [0.4, 50.0, 60.0, 70.0],
+            "right": [False, True, True, False],
+            "fresh": True,
+        }
+    )
+    table = evidence_table(names).set_index(["seeds", "evidence_nats"])
+    assert table.loc[("fresh", "below 1"), "right"] == 0
+    assert table.loc[("fresh", "above 30"), "right"] == table.loc[("fresh", "above 30"), "cases"] == 2
 
 
 def test_too_much_coverage_misses_the_aim_as_too_little_does():

@@ -19,12 +19,14 @@ from armscope.proof.definitions import (
     THRESHOLD_AIM,
     judged,
 )
+from armscope.proof.matching import UNKNOWN
 from armscope.proof.oracle import Threshold, threshold
 from armscope.proof.scoring import Cases
 
 Row = dict[str, object]
 THRESHOLD_TEXT = "detection threshold (90 %) in multiples of the oracle's"
 POWER_BINS = (0.0, 0.6, 0.9, 1.15, 1.45, 1.9, 2.6, 5.0, 12.0, 40.0, np.inf)
+EVIDENCE_BINS = (-np.inf, 1.0, 3.0, 10.0, 30.0, np.inf)
 POWER_CATEGORIES = ("single", "faint")
 OUTCOMES = ("exact", "exact_story", "silent", "held_out_close")
 
@@ -158,6 +160,24 @@ def _per_effect(cases: Cases, seeds: str) -> Iterator[tuple[str, str, pd.Series]
             yield score, str(effect), group[column]
 
 
+def evidence_table(names: pd.DataFrame) -> pd.DataFrame:
+    """How often a name is right, by the evidence that the verdict gives it (names of the library, not `unknown`)."""
+    named = names[names["effect"] != UNKNOWN]
+    bins = pd.cut(named["evidence_nats"].astype(float), EVIDENCE_BINS)
+    rows: list[Row] = []
+    for seeds in SEEDS:
+        chosen = of_seeds(named, seeds)
+        for span, group in chosen.groupby(bins.loc[chosen.index], observed=True):
+            rows.append({"seeds": seeds, "evidence_nats": _span(span), **vars(rate(group["right"]))})
+    return pd.DataFrame(rows, columns=["seeds", "evidence_nats", *RATE])
+
+
+def _span(nats: pd.Interval) -> str:
+    if nats.left < 0:
+        return f"below {nats.right:g}"
+    return f"above {nats.left:g}" if np.isinf(nats.right) else f"{nats.left:g} to {nats.right:g}"
+
+
 def outcomes_table(cases: Cases) -> pd.DataFrame:
     """What became of each category: category, seeds, score, cases, right, estimate, low, high."""
     rows: list[Row] = []
@@ -237,7 +257,9 @@ def false_alarms(cases: Cases) -> pd.DataFrame:
 def wrong_worlds(cases: Cases) -> pd.DataFrame:
     """Worlds that are not as they should be: what was concealed and what was said."""
     worlds = cases.worlds
-    wrong = worlds[~worlds["exact"].astype(bool) | (worlds["failed"] != "")]
+    # a faint effect that nobody names is no failure
+    silent = (worlds["category"] == "faint") & (worlds["wrong_names"] == 0) & (worlds["failed"] == "")
+    wrong = worlds[~worlds["exact"].astype(bool) & ~silent]
     columns = [
         "world",
         "category",
@@ -266,6 +288,7 @@ def tables(cases: Cases, seed: int = 0) -> dict[str, pd.DataFrame]:
     return cases.tables() | {
         "aims": aims_table(cases, rng),
         "per_effect": per_effect_table(cases),
+        "evidence": evidence_table(cases.names),
         "power": power_table(cases.effects),
         "strength": strength_table(cases.effects),
         "thresholds": thresholds_table(cases.effects, rng),

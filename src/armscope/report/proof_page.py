@@ -47,6 +47,7 @@ def write_proof_page(path: Path, tables: Path, figures: Path, seed: dict[str, An
         outcomes=_wide(read["outcomes"], "category"),
         thresholds=read["thresholds"],
         held_out=read["held_out"],
+        evidence=read["evidence"],
         false_alarms=read["false_alarms"],
         wrong=_wrong(read["wrong_worlds"]),
         significant=significant,
