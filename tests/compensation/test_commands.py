@@ -160,3 +160,16 @@ def test_blended_regions_compensate_too(recordings, tmp_path):
     assert load_error_model(model).coefficients.shape == (1, 3, 4)  # one law everywhere needs no regions
     assert isinstance(run(*call, 3).exception, InputError)
     assert isinstance(run(*call, 64).exception, InputError)
+
+
+def test_products_compensate_too(recordings, tmp_path):
+    model = tmp_path / "errormodel.json"
+    call = ("fit-error-model", recordings, "-r", SK120, "-m", "Fourier 3 (AI)", "-o", model, "--products")
+    assert run(*call).exit_code == 0
+    fitted = load_error_model(model)
+    assert fitted.name == "Fourier 3 (AI) with products"
+    result = compensate_black_box(fitted, as_path(table_of(wanted_points(30)), "path", sk120()))
+    assert result.reached.all()
+    nominal = forward_kinematics(sk120(), result.commands) * 1e3
+    assert np.abs(nominal + [1.0, -2.0, 0.5] + nominal * 1e-3 - wanted_points(30) * 1e3).max() < 0.1
+    assert isinstance(run(*call, "--regions", 2).exception, InputError)

@@ -1,4 +1,4 @@
-"""Commands of the compensation: compensate, fit-error-model, closed-loop, regions."""
+"""Commands of the compensation: compensate, fit-error-model, closed-loop, regions, products."""
 
 from __future__ import annotations
 
@@ -98,6 +98,7 @@ def fit_error_model(
     run: Annotated[str | None, typer.Option(help="only this run")] = None,
     target: Annotated[str | None, typer.Option(help="only this target")] = None,
     register: Annotated[bool, typer.Option(help="fit measurement frame and tool offset with the nominal arm")] = False,
+    products: Annotated[bool, typer.Option(help="choose among products of the inputs' terms, too")] = False,
     regions: Annotated[str, typer.Option(help="1, 2, 4, ... blended models, or auto: by cross-validation")] = "1",
 ) -> None:
     """Fit one of the paper's error models to recordings, ready for `armscope compensate`."""
@@ -112,6 +113,8 @@ def fit_error_model(
         raise InputError("--method", "", method, "least-squares or swarm")
     if regions != "auto" and (not regions.isdecimal() or (method != "least-squares" and regions != "1")):
         raise InputError("--regions", "", regions, "auto or 1, 2, 4, ...; more than one by least squares only")
+    if products and (method != "least-squares" or regions != "1"):
+        raise InputError("--products", "", f"--method {method} --regions {regions}", "least squares, one region")
     arm = load_arm(robot)
     table = read_recordings(recordings, arm.n_motors)
     for column, wanted, values in (("run", run, table.run), ("target", target, table.target)):
@@ -121,7 +124,9 @@ def fit_error_model(
     for name, wanted in (("run", run), ("target", target)):
         if wanted is not None:
             table = table.rows(getattr(table, name) == wanted)
-    fitted = fit(arm, table, _spec(model), methods[method], seed, register, None if regions == "auto" else int(regions))
+    fitted = fit(
+        arm, table, _spec(model), methods[method], seed, register, None if regions == "auto" else int(regions), products
+    )
     save_error_model(output, fitted)
     left = ", ".join(f"{value:.4g}" for value in fitted.rms_mm)
     print(f"{fitted.name} by {fitted.method} on {len(table)} rows leaves ({left}) mm RMS along x, y, z")
@@ -139,6 +144,7 @@ def closed_loop(
     fits: Annotated[Path, typer.Option(help="fits.json.gz: the models, fitted")],
     output: Annotated[Path, typer.Option("--output", "-o", help="table: model, trajectory, stage, axis, rms_mm")],
     figure: Annotated[Path | None, typer.Option(help="picture of the table")] = None,
+    products: Annotated[list[str] | None, typer.Option(help="models to fit with products, too")] = None,
     diagnosed: Annotated[bool, typer.Option(help="diagnose the identification rows, too")] = True,
 ) -> None:
     """Compensate the paper's test paths with every model and let the virtual arm follow the commands."""
@@ -150,7 +156,8 @@ def closed_loop(
     from armscope.robot import load_arm
 
     measurements = read_measurements(poses, errors)
-    table = paper_closed_loop(load_arm(robot), measurements, read_fits(fits), _true_errors(robots), diagnosed)
+    specs = [_spec(name) for name in products or ()]
+    table = paper_closed_loop(load_arm(robot), measurements, read_fits(fits), _true_errors(robots), specs, diagnosed)
     write_table(output, table)
     if figure is not None:
         save_figure(cross_table_figure(table), figure)
@@ -168,8 +175,8 @@ def regions_(
     """Error against the number of blended sub-volumes, chosen by cross-validation on the identification rows."""
     from armscope.cli.studies import read_measurements
     from armscope.files import write_table
-    from armscope.report.closed_loop import paper_regions
     from armscope.report.compensation_figure import regions_figure
+    from armscope.report.outlook import paper_regions
     from armscope.report.style import save_figure
 
     specs = [_spec(name) for name in model or ("FDP(CI)", "SDP(CI)", "FDP(AI)", "SDP(AI)")]
@@ -177,6 +184,24 @@ def regions_(
     write_table(output, table)
     if figure is not None:
         save_figure(regions_figure(table), figure)
+
+
+@app.command("products")
+def products_(
+    poses: Annotated[Path, typer.Option(help="poses.csv of `armscope paper measure`")],
+    errors: Annotated[Path, typer.Option(help="errors.csv")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="table: model, kind, terms, held_out_rms_mm, ...")],
+    model: Annotated[list[str] | None, typer.Option(help="models; may be given several times")] = None,
+    seed: Annotated[int, typer.Option(help="of the folds")] = 0,
+) -> None:
+    """Sums of one-input terms against a sparse choice of their products, on held-out rows and the test paths."""
+    from armscope.cli.studies import read_measurements
+    from armscope.files import write_table
+    from armscope.report.outlook import paper_products
+
+    names = model or ("SDP(CI)", "SDP(AI)", "4th-degree polynomial (AI)", "Fourier 2 (AI)", "Fourier 3 (AI)")
+    specs = [_spec(name) for name in names]
+    write_table(output, paper_products(read_measurements(poses, errors), specs, seed))
 
 
 def _true_errors(robots: Path) -> NDArray[np.float64]:

@@ -7,10 +7,11 @@ from armscope.compensation.black_box import (
     load_error_model,
     save_error_model,
 )
-from armscope.compensation.compensate import Compensated, Options, compensate_black_box, compensate_physical
+from armscope.compensation.compensate import Options, compensate_black_box, compensate_physical
 from armscope.compensation.domain import Domain
 from armscope.compensation.path import WantedPath, as_path, read_path
 from armscope.compensation.physical import Identified, identified_on, load_identified, save_identified
+from armscope.compensation.result import Compensated
 
 __all__ = [
     "Compensated",

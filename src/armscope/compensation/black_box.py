@@ -14,6 +14,7 @@ from scipy.spatial.transform import Rotation
 from armscope.compensation.domain import Domain
 from armscope.errormodels import FeatureSet, FitProblem, ModelSpec, fit_least_squares, fit_swarms
 from armscope.errormodels import FittedModel as Fit
+from armscope.errormodels.products import ProductFeatures, fit_products
 from armscope.errormodels.regions import (
     Cut,
     blended,
@@ -54,7 +55,7 @@ class ErrorModel:
     """
 
     arm: Arm
-    features: FeatureSet
+    features: FeatureSet | ProductFeatures
     coefficients: Array
     method: str
     rms_mm: Array
@@ -65,6 +66,8 @@ class ErrorModel:
     @property
     def name(self) -> str:
         """The model's name: "FDP(CI)"."""
+        if isinstance(self.features, ProductFeatures):
+            return self.features.name
         return self.features.spec.name
 
     @property
@@ -104,7 +107,7 @@ def error_model(arm: Arm, fit: Fit, angles: Array, seed: int | None = None, base
     else:
         number = fit.best_seeds if seed is None else np.full(len(axes), fit.seeds.index(seed))
         chosen, rms, method = fit.coefficients[number, axes], fit.fitness_mm[number, axes], fit.method
-    domain = domain_of(arm, fit.features, angles)
+    domain = domain_of(arm, fit.features.spec, angles)
     return ErrorModel(arm, fit.features, chosen[None], method, rms, base or _same_frame(), domain)
 
 
@@ -116,6 +119,7 @@ def fit_error_model(
     seed: int = 0,
     register: bool = False,
     regions: int | None = 1,
+    products: bool = False,
 ) -> ErrorModel:
     """Fit one of the paper's models to recordings.
 
@@ -128,6 +132,7 @@ def fit_error_model(
         register: fit the measurement frame and the tool offset with the nominal arm first; without, the measurements
             must stand in the arm's base frame, as in the paper, and the model holds the frames' errors, too.
         regions: 1, 2, 4, ... models blended across the workspace, by least squares; None lets cross-validation choose.
+        products: choose sparsely among products of the inputs' terms, by least squares, in one region.
 
     Raises:
         InputError: too few rows; several runs or targets; measurements that stand in another frame.
@@ -157,7 +162,11 @@ def fit_error_model(
         fit = fit_swarms([FitProblem(spec, inputs, errors, arm.name)], [seed])[0]
         return error_model(arm, fit, recordings.motor_angles, seed, base)
     features = spec.features(inputs)
-    domain = domain_of(arm, features, recordings.motor_angles)
+    domain = domain_of(arm, spec, recordings.motor_angles)
+    if products:
+        chosen, coefficients, _ = fit_products(spec, inputs, errors, np.random.default_rng(seed))
+        rms_mm = np.sqrt(np.mean((errors - chosen.matrix(inputs) @ coefficients.T) ** 2, axis=0))
+        return ErrorModel(arm, chosen, coefficients[None], "least squares", rms_mm, base, domain)
     if regions is None:
         regions = chosen_regions(compare_regions(spec, inputs, errors, np.random.default_rng(seed)))
     if regions == 1:
@@ -173,10 +182,10 @@ def fit_error_model(
     return ErrorModel(arm, features, by_region, "least squares", rms_mm, base, domain, cut)
 
 
-def domain_of(arm: Arm, features: FeatureSet, angles: Array) -> Domain:
+def domain_of(arm: Arm, spec: ModelSpec, angles: Array) -> Domain:
     """Where a black-box model holds: the range of its own inputs, and motors that stood still stay where they were."""
     names = [f"q{motor}" for motor in range(1, arm.n_motors + 1)]
-    if features.spec.space == "angular":
+    if spec.space == "angular":
         return Domain.of(angles, names, ["rad"] * len(names))
     still = np.flatnonzero(np.ptp(angles, axis=0) <= 0.02)
     inputs = np.column_stack([chain(arm, angles).tool * 1e3, angles[:, still]])
@@ -262,7 +271,8 @@ def load_error_model(path: Path | str) -> ErrorModel:
 
 
 def _from_content(content: dict[str, Any], path: Path | str) -> ErrorModel:
-    features = FeatureSet.from_dict(content["features"])
+    kind = ProductFeatures if "products" in content["features"] else FeatureSet
+    features = kind.from_dict(content["features"])
     coefficients = np.array(content["coefficients"], dtype=float)
     cut = Cut.from_dict(content["regions"])
     regions = weights(cut, np.zeros((1, len(features.inputs)))).shape[1]

@@ -10,9 +10,10 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from armscope.compensation.black_box import ErrorModel
-from armscope.compensation.compensate import Compensated, Options, compensate_black_box, compensate_physical
+from armscope.compensation.compensate import Options, compensate_black_box, compensate_physical
 from armscope.compensation.path import WantedPath, as_path
 from armscope.compensation.physical import Identified
+from armscope.compensation.result import Compensated
 from armscope.physics.model import FittedModel, predict
 from armscope.recordings.table import as_recordings
 from armscope.robot import Arm, chain

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from armscope.compensation.compensate import Compensated
 from armscope.compensation.rapid import write_rapid
+from armscope.compensation.result import Compensated
 from armscope.files import write_json, write_table
 from armscope.inputs import InputError
 

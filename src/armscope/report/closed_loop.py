@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from armscope.compensation.black_box import error_model
+from armscope.compensation.black_box import ErrorModel, domain_of, error_model
 from armscope.compensation.closed_loop import (
     Candidate,
     MeasuredPath,
@@ -20,8 +20,9 @@ from armscope.compensation.closed_loop import (
 from armscope.compensation.physical import identified_on
 from armscope.diagnosis import Settings, diagnose
 from armscope.errormodels import FittedModel, ModelSpec
-from armscope.errormodels.regions import blended, compare_regions, divide, fit_regions, halvings_of
+from armscope.errormodels.products import fit_products
 from armscope.paper.measurements import Measurements, PoseSet
+from armscope.physics.model import Base
 from armscope.recordings.table import as_recordings
 from armscope.robot import Arm
 from armscope.world.tolerances import geometric_errors
@@ -32,7 +33,12 @@ DIAGNOSED = "Diagnosed physics"
 
 
 def paper_closed_loop(
-    arm: Arm, measurements: Measurements, fits: Sequence[FittedModel], errors: Array, diagnosed: bool = True
+    arm: Arm,
+    measurements: Measurements,
+    fits: Sequence[FittedModel],
+    errors: Array,
+    products: Sequence[ModelSpec] = (),
+    diagnosed: bool = True,
 ) -> pd.DataFrame:
     """The cross-table model by trajectory by stage for the first robot of a study; see `cross_table`.
 
@@ -41,6 +47,7 @@ def paper_closed_loop(
         measurements: of the virtual robots.
         fits: of the first robot; of each model the swarm with the smallest residual counts.
         errors: (K,) its true geometric errors, m and rad, in the order of `geometric_errors`.
+        products: add models with a sparse choice of products, by least squares.
         diagnosed: add physics diagnosed from the identification rows.
     """
     truth = geometric_errors(arm)
@@ -50,6 +57,9 @@ def paper_closed_loop(
         for fit in fits
         if fit.label == measurements.robots[0]
     }
+    for spec in products:
+        model = _with_products(arm, spec, identification)
+        candidates[model.name] = black_box_candidate(model)
     if diagnosed:
         candidates[DIAGNOSED] = _diagnosed(arm, identification)
     return cross_table(
@@ -65,6 +75,15 @@ def _measured(poses: PoseSet) -> MeasuredPath:
     return MeasuredPath(poses.motor_angles, poses.nominal_mm, poses.errors_mm[0])
 
 
+def _with_products(arm: Arm, spec: ModelSpec, identification: PoseSet) -> ErrorModel:
+    inputs, errors = identification.inputs(spec), identification.errors_mm[0]
+    features, coefficients, _ = fit_products(spec, inputs, errors, np.random.default_rng(0))
+    rms_mm = np.sqrt(np.mean((errors - features.matrix(inputs) @ coefficients.T) ** 2, axis=0))
+    base = Base(np.eye(3), np.zeros(3))
+    domain = domain_of(arm, spec, identification.motor_angles)
+    return ErrorModel(arm, features, coefficients[None], "least squares", rms_mm, base, domain)
+
+
 def _diagnosed(arm: Arm, identification: PoseSet) -> Candidate:
     columns = {f"q{motor}_rad": angles for motor, angles in enumerate(identification.motor_angles.T, start=1)}
     measured = identification.nominal_mm + identification.errors_mm[0]
@@ -72,32 +91,3 @@ def _diagnosed(arm: Arm, identification: PoseSet) -> Candidate:
     recordings = replace(as_recordings(pd.DataFrame(columns)), source="identification")
     verdict = diagnose(arm, recordings, Settings(0, False, 0, False))
     return physical_candidate(verdict.model, identified_on(arm, recordings))
-
-
-def paper_regions(
-    measurements: Measurements, specs: Sequence[ModelSpec], seed: int = 0, most_halvings: int = 4
-) -> pd.DataFrame:
-    """Error against the number of blended regions, for the first robot of a study.
-
-    Returns:
-        Columns model, regions, fit_rms_mm, held_out_rms_mm, stderr_mm, chosen (see `compare_regions`), and one per test
-        path: the RMS of the error vector that the blended model leaves there, mm.
-    """
-    identification = measurements.identification
-    errors, parts = identification.errors_mm[0], []
-    for spec in specs:
-        inputs = identification.inputs(spec)
-        table = compare_regions(spec, inputs, errors, np.random.default_rng(seed), most_halvings)
-        for path in measurements.held_out:
-            table[path.name] = [_left_by_regions(spec, identification, path, int(n)) for n in table["regions"]]
-        parts.append(table.assign(model=spec.name))
-    table = pd.concat(parts, ignore_index=True)
-    return table[["model", *table.columns.drop("model")]]
-
-
-def _left_by_regions(spec: ModelSpec, identification: PoseSet, path: PoseSet, regions: int) -> float:
-    inputs, features = identification.inputs(spec), spec.features(identification.inputs(spec))
-    cut = divide(inputs, halvings_of(regions))
-    coefficients = fit_regions(features, cut, inputs, identification.errors_mm[0])
-    left = path.errors_mm[0] - blended(features, cut, coefficients, path.inputs(spec))
-    return float(np.sqrt(np.mean(np.sum(left**2, axis=1))))

@@ -1,0 +1,105 @@
+"""What compensation gives: a command for every row of a path, or the reason why there is none."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from armscope.compensation.path import Frame
+from armscope.inputs import InputError
+from armscope.robot import Arm
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Compensated:
+    """Commands for N rows of a path; NaN in rows that are refused.
+
+    Attributes:
+        arm: the nominal arm.
+        id, run: (N,) of the path's rows.
+        reasons: (N,) why a row is refused; "" where it is not.
+        commands: (N, m) motor angles, rad.
+        nominal: (N, m) motor angles without correction, rad; NaN where the nominal arm can't get there.
+        false_targets: (N, 3) nominal tool points at the commands, base frame, m: what a controller is given.
+        false_rotations: (N, 3, 3) nominal orientations at the commands.
+        wanted, predicted: (N, 3) m, in ``frame``.
+        residual: (N,) distance of the predicted from the wanted point, m.
+        uncorrected: (N,) the same without correction, m.
+        outside, nearest: (N,) distance of the commands from the identified range, and from the nearest identification
+            row (root mean square over the inputs), in standard deviations.
+        frame: of wanted and predicted points.
+        pose: whether the orientation was kept.
+        iterations: Newton steps of the row that took most.
+        notes: what a user should know.
+    """
+
+    arm: Arm
+    id: NDArray[np.str_]
+    run: NDArray[np.str_]
+    reasons: NDArray[np.str_]
+    commands: Array
+    nominal: Array
+    false_targets: Array
+    false_rotations: Array
+    wanted: Array
+    predicted: Array
+    residual: Array
+    uncorrected: Array
+    outside: Array
+    nearest: Array
+    frame: Frame
+    pose: bool
+    iterations: int
+    notes: tuple[str, ...] = ()
+
+    @property
+    def reached(self) -> NDArray[np.bool_]:
+        """(N,) rows that have commands."""
+        reached: NDArray[np.bool_] = self.reasons == ""
+        return reached
+
+    def to_table(self) -> pd.DataFrame:
+        """One row per row of the path, refused ones with their reason and without commands."""
+        table = pd.DataFrame({"id": self.id, "run": self.run})
+        table["status"] = np.where(self.reached, "ok", "refused")
+        table["reason"] = self.reasons
+        for motor, angles in enumerate(self.commands.T, start=1):
+            table[f"q{motor}_rad"] = angles
+        quaternions = np.full((len(table), 4), np.nan)
+        if self.reached.any():
+            turned = Rotation.from_matrix(self.false_rotations[self.reached]).as_quat(canonical=True)
+            quaternions[self.reached] = turned[:, [3, 0, 1, 2]]
+        for prefix, points in (("command", self.false_targets), ("wanted", self.wanted), ("predicted", self.predicted)):
+            for n, axis in enumerate("xyz"):
+                table[f"{prefix}_{axis}_mm"] = points[:, n] * 1e3
+            if prefix == "command":
+                for n, name in enumerate("wxyz"):
+                    table[f"command_q{name}"] = quaternions[:, n]
+        table["uncorrected_mm"] = self.uncorrected * 1e3
+        table["residual_mm"] = self.residual * 1e3
+        table["outside_sd"] = self.outside
+        table["nearest_sd"] = self.nearest
+        return table
+
+    def require_all(self, source: object) -> Array:
+        """The commands, if every row has one.
+
+        Raises:
+            InputError: names the first refused row and why.
+        """
+        refused = np.flatnonzero(~self.reached)
+        if len(refused):
+            raise InputError(
+                source,
+                f"row {refused[0] + 1} of the path",
+                str(self.reasons[refused[0]]),
+                f"every row must be possible, {len(refused)} of {len(self.reasons)} are refused",
+                "The table of commands says why for each row; mend the path or leave these rows out yourself.",
+            )
+        return self.commands

@@ -1,0 +1,80 @@
+"""The paper's outlook (sections 6.3 and 8) on its own virtual robot: sub-volumes, and products between inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from armscope.errormodels import ModelSpec
+from armscope.errormodels.products import candidate_terms, fit_products
+from armscope.errormodels.regions import blended, compare_regions, divide, fit_regions, halvings_of
+from armscope.paper.measurements import Measurements, PoseSet
+
+Array = NDArray[np.float64]
+
+
+def paper_regions(
+    measurements: Measurements, specs: Sequence[ModelSpec], seed: int = 0, most_halvings: int = 4
+) -> pd.DataFrame:
+    """Error against the number of blended regions, for the first robot of a study.
+
+    Returns:
+        Columns model, regions, fit_rms_mm, held_out_rms_mm, stderr_mm, chosen (see `compare_regions`), and one per test
+        path: the RMS of the error vector that the blended model leaves there, mm.
+    """
+    identification = measurements.identification
+    errors, parts = identification.errors_mm[0], []
+    for spec in specs:
+        inputs = identification.inputs(spec)
+        table = compare_regions(spec, inputs, errors, np.random.default_rng(seed), most_halvings)
+        for path in measurements.held_out:
+            table[path.name] = [_left_by_regions(spec, identification, path, int(n)) for n in table["regions"]]
+        parts.append(table.assign(model=spec.name))
+    table = pd.concat(parts, ignore_index=True)
+    return table[["model", *table.columns.drop("model")]]
+
+
+def _left_by_regions(spec: ModelSpec, identification: PoseSet, path: PoseSet, regions: int) -> float:
+    inputs, features = identification.inputs(spec), spec.features(identification.inputs(spec))
+    cut = divide(inputs, halvings_of(regions))
+    coefficients = fit_regions(features, cut, inputs, identification.errors_mm[0])
+    return _length(path.errors_mm[0] - blended(features, cut, coefficients, path.inputs(spec)))
+
+
+def _length(left: Array) -> float:
+    """RMS of vectors (N, 3)."""
+    return float(np.sqrt(np.mean(np.sum(left**2, axis=1))))
+
+
+def paper_products(measurements: Measurements, specs: Sequence[ModelSpec], seed: int = 0) -> pd.DataFrame:
+    """Sums of one-input terms against a sparse choice of their products, for the first robot of a study.
+
+    Returns:
+        Columns model, kind ("sums", "products"), candidates, terms, fit_rms_mm, held_out_rms_mm, stderr_mm
+        (cross-validation on the identification rows), and one per test path: RMS of the error vector left there, mm.
+        All by least squares.
+    """
+    identification = measurements.identification
+    errors, rows = identification.errors_mm[0], []
+    for spec in specs:
+        inputs = identification.inputs(spec)
+        sums = spec.features(inputs)
+        one = compare_regions(spec, inputs, errors, np.random.default_rng(seed), most_halvings=0)
+        products, coefficients, compared = fit_products(spec, inputs, errors, np.random.default_rng(seed))
+        chosen = compared[compared["chosen"]]
+        by_kind = (
+            ("sums", sums, fit_regions(sums, None, inputs, errors)[0], one, sums.coefficients_per_axis),
+            ("products", products, coefficients, chosen, len(candidate_terms(spec, products.half_range))),
+        )
+        for kind, features, fitted, scores, candidates in by_kind:
+            left = {
+                path.name: _length(path.errors_mm[0] - features.matrix(path.inputs(spec)) @ fitted.T)
+                for path in measurements.held_out
+            }
+            numbers = {name: float(scores[name].iloc[0]) for name in ("fit_rms_mm", "held_out_rms_mm", "stderr_mm")}
+            counts = {"candidates": candidates, "terms": features.coefficients_per_axis}
+            rows.append({"model": spec.name, "kind": kind, **counts, **numbers, **left})
+    return pd.DataFrame(rows)
