@@ -46,6 +46,8 @@ Progress = Callable[[str, float], None]
 MINOR_SHARE, MINOR_SHARE_OF_PERFECT_ARM = 0.025, 0.001
 """Effects worth less of the residual variance are apart from the story: in an arm with small errors everywhere, and in
 one that is perfect but for what is named."""
+UNPLACED_SHARE = 0.3
+"""A background that is worth more than this is not small: its members stand in for each other."""
 FAINT_SHARE, FAINT_NATS = 0.05, 3.0
 """A small effect that the evidence hardly asks for is apart from the story, too."""
 NOISE_EXCESS = 1.15
@@ -361,9 +363,11 @@ def headline(verdict: Verdict) -> str:
     parts = [f"{e.title} ({e.rms_at_tool_mm:.2g} mm, {100 * e.share:.0f} %)" for e in story]
     for family in verdict.background_families:
         if family.present:
-            parts.append(
-                f"small {family.family} errors everywhere ({family.rms_at_tool_mm:.2g} mm, {100 * family.share:.0f} %)"
-            )
+            size = f"({family.rms_at_tool_mm:.2g} mm, {100 * family.share:.0f} %)"
+            if family.share < UNPLACED_SHARE:
+                parts.append(f"small {family.family} errors everywhere {size}")
+            else:
+                parts.append(f"{family.family} errors whose places cannot be told apart {size}")
     rest = f"; {verdict.residual_before_mm:.3g} mm become {verdict.residual_after_mm:.3g} mm"
     return ("; ".join(parts) or "Minor effects only") + rest + "."
 

@@ -118,8 +118,8 @@ def _context(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
                 term(f"at_{n}", "rad", (motor(j), Driver("spline", (driver, centre, width))))
                 for n, (centre, width) in enumerate(knots)
             )
-            offset = offsets.get(f"joint {j}", ())
-            yield _curve(f"joint {j}", (*offset, *terms), [1.0] * len(terms), name, name, trends=len(offset))
+            trend = (*offsets.get(f"joint {j}", ()), term("trend", "rad per driver", (motor(j), driver)))
+            yield _curve(f"joint {j}", (*trend, *terms), [1.0] * len(terms), name, name, trends=len(trend))
 
 
 def _curve(
