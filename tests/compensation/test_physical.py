@@ -1,0 +1,75 @@
+"""What physics needs beside its parameters: joint torques where they were recorded, and speed on long paths."""
+
+import time
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from armscope.compensation import Options, as_path, compensate_black_box, compensate_physical, identified_on
+from armscope.compensation.physical import drivers_of, missing_context, with_torques
+from armscope.physics.effect import Driver
+from armscope.physics.model import Base, FittedModel
+from armscope.physics.registry import library
+from armscope.physics.scene import Part
+from armscope.robot import chain
+from armscope.robot.gravity import gravity_torques
+from tests.physics.scenes import arm_named, full_table
+
+from .arms import CONTEXT, MIDDLE, black_box, physical, physical_path, sk120, table_of, wanted_points
+
+
+def test_torques_of_a_path_come_from_those_recorded_not_from_wrong_masses():
+    arm = arm_named("six-axis")
+    rows = full_table(arm, 150, 2)
+
+    def true_torque(table):
+        """The arm is really heavier than its description says, by half."""
+        heavier = replace(arm, masses=1.5 * arm.masses)
+        return gravity_torques(heavier, chain(arm, table.motor_angles), table.payload)
+
+    recorded = replace(rows, torque=true_torque(rows))
+    placed = next(p for p in library(arm, recorded) if p.key == ("joint_compliance", "joint 2") and p.driver)
+    model = FittedModel(arm, {"": Base(np.eye(3), np.zeros(3))}, (), (Part(placed, np.array([1e-6])),))
+    assert "torque" in drivers_of(model)
+    fresh = full_table(arm, 40, 9)
+    filled, note = with_torques(model, identified_on(arm, recorded), fresh, fresh.motor_angles)
+    assert "fitted to the recorded ones" in note
+    np.testing.assert_allclose(filled.torque, true_torque(fresh), atol=1e-6 * np.abs(filled.torque).max())
+    none_recorded, silent = with_torques(model, identified_on(arm, rows), fresh, fresh.motor_angles)
+    assert (none_recorded.torque, silent) == (None, "")
+
+
+@pytest.mark.parametrize(
+    ("kind", "column"),
+    [("warmth", "temperature_c"), ("approach", "approach"), ("speed", "dq_rad_s"), ("hours", "time_s"),
+     ("moment", "payload_kg")],
+)  # fmt: skip
+def test_every_kind_of_context_is_asked_for_by_the_effects_that_follow_it(kind, column):
+    model, identified = physical()
+    part = model.parts[0]
+    term = part.placed.terms[0]
+    driver = Driver(
+        "spline", (Driver(kind, ("joint 2", 0)[: 1 + (kind == "moment")]), 0.0, 1.0)
+    )  # nested: a free curve
+    terms = (replace(term, products=(replace(term.products[0], driver=driver),)),)
+    only = replace(model, parts=(Part(replace(part.placed, terms=terms), part.values[:1]),), tools=())
+    bare = as_path(table_of(physical_path(6)[0]), "path", model.arm).table
+    assert list(missing_context(only, identified, bare)) == [column]
+
+
+def test_ten_thousand_points_take_less_than_a_second_of_one_core():
+    model, identified = physical()
+    points, middle = physical_path(10_000)
+    path = as_path(table_of(points, **CONTEXT), "path", model.arm)
+    ours = as_path(table_of(wanted_points(10_000)), "path", sk120())
+    used = []
+    for _ in range(3):
+        begin = time.process_time()
+        assert compensate_physical(model, identified, path, Options(start=middle)).reached.all()
+        between = time.process_time()
+        assert compensate_black_box(black_box(), ours, Options(start=MIDDLE)).reached.all()
+        used.append((between - begin, time.process_time() - between))
+    physics, polynomial = np.min(used, axis=0)
+    assert physics < 1.0
+    assert polynomial < 1.0
