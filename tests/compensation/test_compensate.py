@@ -175,3 +175,14 @@ def test_a_table_of_commands_has_every_row_of_the_path_and_no_command_where_refu
     assert table[table["status"] == "ok"].filter(regex="^q._rad$").notna().all(axis=None)
     with pytest.raises(InputError, match=r"row 8.*beyond reach"):
         result.require_all("job.mod")
+
+
+def test_given_angles_choose_the_branch_they_need_not_be_exact():
+    model, wanted = black_box(), wanted_points(20)
+    alone = compensate_black_box(model, as_path(table_of(wanted), "path", sk120()))
+    rough = {f"q{j}_rad": alone.commands[:, j - 1].round(1) for j in (1, 2, 3, 6)} | {"q4_rad": 0.0, "q5_rad": 0.0}
+    result = compensate_black_box(model, as_path(table_of(wanted, **rough), "path", sk120()))
+    assert result.reached.all(), set(result.reasons)
+    real = forward_kinematics(sk120(), result.commands) * 1e3 + error_mm(model, result.commands)
+    np.testing.assert_allclose(real, wanted * 1e3, atol=1e-5)
+    np.testing.assert_allclose(result.uncorrected, alone.uncorrected, rtol=0.05)

@@ -224,7 +224,7 @@ class _Task:
         if self.path.has_angles:
             angles = self.path.table.motor_angles.copy()
             self._refuse_beyond_limits(refused, angles)
-            return angles
+            return angles if self.path.points is None else self._nearest(wanted, angles, held, refused)
         start = self.options.start
         if start is None:
             middle = [self.domain.value(f"q{j}") if f"q{j}" in self.domain.names else np.nan for j in self._motors]
@@ -237,6 +237,19 @@ class _Task:
                 refused, np.flatnonzero(branch.reasons == reason), str(reason) + (doubt if "reach" in reason else "")
             )
         return branch.motor_angles
+
+    def _nearest(self, wanted: Wanted, angles: Array, held: dict[int, float], refused: NDArray[np.object_]) -> Array:
+        """(N, m) nominal postures at the wanted points nearest to given ones."""
+        free = np.array([motor not in held for motor in self._motors])
+        rows = np.flatnonzero(np.isfinite(wanted.points.sum(axis=1)) & np.equal(refused, ""))
+        if not len(rows):
+            return angles
+        solution = solve(NominalArm(self.arm), wanted.rows(rows), angles[rows], free, rows)
+        angles[rows] = solution.angles
+        for motor in np.unique(solution.limit[solution.limit > 0]):
+            _refuse(refused, rows[solution.limit == motor], f"limit of joint {motor}")
+        _refuse(refused, rows[~solution.converged], "beyond reach on the branch of the given angles")
+        return angles
 
     @property
     def _motors(self) -> range:
