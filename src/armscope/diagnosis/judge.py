@@ -12,6 +12,7 @@ from armscope.diagnosis import certainty
 from armscope.diagnosis.atlas import atlas
 from armscope.diagnosis.curves import curve_of
 from armscope.diagnosis.evidence import Hypothesis, Problem, background_sizes, pinned_losses
+from armscope.diagnosis.headline import headline
 from armscope.diagnosis.nextposes import next_poses
 from armscope.diagnosis.noise import Noise
 from armscope.diagnosis.parameters import parameters
@@ -46,8 +47,6 @@ Progress = Callable[[str, float], None]
 MINOR_SHARE, MINOR_SHARE_OF_PERFECT_ARM = 0.025, 0.001
 """Effects worth less of the residual variance are apart from the story: in an arm with small errors everywhere, and in
 one that is perfect but for what is named."""
-UNPLACED_SHARE = 0.3
-"""A background that is worth more than this is not small: its members stand in for each other."""
 FAINT_SHARE, FAINT_NATS = 0.05, 3.0
 """A small effect that the evidence hardly asks for is apart from the story, too."""
 NOISE_EXCESS = 1.15
@@ -351,25 +350,6 @@ def _carefully(evidence: Evidence) -> list[Notice]:
         text = f"The residual ({fitted:.3g} mm) is well below the stated noise ({stated:.3g} mm): is that number right?"
         notices.append(Notice("stated noise", text))
     return notices
-
-
-def headline(verdict: Verdict) -> str:
-    """The first sentence of the report."""
-    if verdict.answer == "nothing missing":
-        return f"Nothing is missing: the residual of {verdict.residual_after_mm:.3g} mm is noise."
-    if verdict.answer == "cannot tell":
-        return "There is more than noise, but nothing in the table explains it: it cannot be told what is missing."
-    story = [effect for effect in verdict.effects if not effect.minor][:3]
-    parts = [f"{e.title} ({e.rms_at_tool_mm:.2g} mm, {100 * e.share:.0f} %)" for e in story]
-    for family in verdict.background_families:
-        if family.present:
-            size = f"({family.rms_at_tool_mm:.2g} mm, {100 * family.share:.0f} %)"
-            if family.share < UNPLACED_SHARE:
-                parts.append(f"small {family.family} errors everywhere {size}")
-            else:
-                parts.append(f"{family.family} errors whose places cannot be told apart {size}")
-    rest = f"; {verdict.residual_before_mm:.3g} mm become {verdict.residual_after_mm:.3g} mm"
-    return ("; ".join(parts) or "Minor effects only") + rest + "."
 
 
 def undecided(
