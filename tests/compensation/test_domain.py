@@ -61,3 +61,9 @@ def test_a_domain_comes_back_from_its_plain_values():
     probe = rows(20, 5) * 1.5
     np.testing.assert_allclose(again.outside(probe)[0], domain.outside(probe)[0], atol=1e-12)
     np.testing.assert_allclose(again.nearest(probe), domain.nearest(probe), atol=1e-3)
+
+
+def test_inputs_of_different_kinds_need_not_stay_in_step():
+    together = np.linspace(-1, 1, 80)
+    warming = Domain.of(np.column_stack([together, 22 + 5 * together]), ["q1", "temperature_c"], ["rad", "degC"])
+    assert warming.outside(np.array([[0.9, 18.0]]))[0][0] == 0.0

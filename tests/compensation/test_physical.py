@@ -49,9 +49,7 @@ def test_every_kind_of_context_is_asked_for_by_the_effects_that_follow_it(kind, 
     model, identified = physical()
     part = model.parts[0]
     term = part.placed.terms[0]
-    driver = Driver(
-        "spline", (Driver(kind, ("joint 2", 0)[: 1 + (kind == "moment")]), 0.0, 1.0)
-    )  # nested: a free curve
+    driver = Driver("spline", (Driver(kind, ("joint 2", 0)[: 1 + (kind == "moment")]), 0.0, 1.0))
     terms = (replace(term, products=(replace(term.products[0], driver=driver),)),)
     only = replace(model, parts=(Part(replace(part.placed, terms=terms), part.values[:1]),), tools=())
     bare = as_path(table_of(physical_path(6)[0]), "path", model.arm).table
@@ -73,3 +71,19 @@ def test_ten_thousand_points_take_less_than_a_second_of_one_core():
     physics, polynomial = np.min(used, axis=0)
     assert physics < 1.0
     assert polynomial < 1.0
+
+
+def test_a_drift_is_not_continued_into_another_day():
+    model, identified = physical()
+    part = model.parts[0]
+    term = part.placed.terms[0]
+    drift = (replace(term, products=(replace(term.products[0], driver=Driver("hours", (0.0,))),)),)
+    drifting = replace(model, parts=(Part(replace(part.placed, terms=drift), part.values[:1]),))
+    points, middle = physical_path(4)
+    first, last = identified.time_s
+    table = table_of(points, **CONTEXT, time_s=[first, last, last + 0.05 * (last - first), last + 86400])
+    path = as_path(table, "path", model.arm)
+    said = compensate_physical(drifting, identified, path, Options(start=middle)).reasons
+    assert said[:3].tolist() == [""] * 3
+    assert "time_s" in said[3]
+    assert set(compensate_physical(model, identified, path, Options(start=middle)).reasons) == {""}

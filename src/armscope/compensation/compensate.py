@@ -15,7 +15,7 @@ from armscope.compensation.domain import ALLOWED, Domain
 from armscope.compensation.forward import BlackBoxArm, Forward, NominalArm, PhysicalArm
 from armscope.compensation.newton import POLE, Solution, Wanted, lever, solve, weakest
 from armscope.compensation.path import Frame, WantedPath, unit_doubt
-from armscope.compensation.physical import Identified, missing_context, with_empty_context, with_torques
+from armscope.compensation.physical import Identified, beyond_time, missing_context, with_empty_context, with_torques
 from armscope.compensation.result import Compensated
 from armscope.inputs import InputError
 from armscope.physics.model import FittedModel
@@ -95,6 +95,9 @@ def compensate_physical(
     rows, refused, notes = _named(model, path.table)
     for column, missing in missing_context(model, identified, rows).items():
         _refuse(refused, missing, f"no {column}, which the model follows")
+    _refuse(
+        refused, beyond_time(model, identified, rows), "outside the identified range: time_s, which a drift follows"
+    )
     rows = with_empty_context(rows)
     measured = options.frame == "measurement"
 

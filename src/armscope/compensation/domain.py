@@ -1,11 +1,11 @@
 """Where a model holds: the range of the data it was identified from, and how far outside a point lies.
 
 Every input (motor angles, nominal positions, payload, temperature) is standardised: minus its mean, over its standard
-deviation. The domain is the intersection of all slabs "lowest <= direction . z <= highest" over the axes and, for every
-two inputs that move, the directions (e_i +- e_j) / sqrt 2: an outer bound of the data's convex hull with the hull's
-exact extent in these directions. It catches what single ranges miss (joints that moved in lockstep), costs one matrix
-product, and suits designs that sit in the corners of the workspace, where the distance to the nearest recorded row says
-little; that distance is stated beside it.
+deviation. The domain is the intersection of all slabs "lowest <= direction . z <= highest" over the axes and, for
+every two inputs of one kind that move, the directions (e_i +- e_j) / sqrt 2: an outer bound of the data's convex hull
+with the hull's exact extent in these directions. It catches what single ranges miss (joints that moved in lockstep),
+costs one matrix product, and suits designs that sit in the corners of the workspace, where the distance to the nearest
+recorded row says little; that distance is stated beside it.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ class Domain:
         scale = np.where(moving, table.std(axis=0), tolerances / ALLOWED)
         mean = table.mean(axis=0)
         z = (table - mean) / scale
-        extent = z @ _directions(moving).T
+        extent = z @ _directions(moving, units).T
         thin = z[:: -(-len(z) // MOST_NEIGHBOURS)]
         return Domain(
             tuple(names), tuple(units), mean, scale, moving, extent.min(axis=0), extent.max(axis=0), thin, len(table)
@@ -71,10 +71,10 @@ class Domain:
     def outside(self, inputs: ArrayLike) -> tuple[Array, NDArray[np.str_]]:
         """How far (N,) rows (N, k) lie outside, in standard deviations (0 inside), and what does most ("" inside)."""
         z = (np.asarray(inputs, dtype=float) - self.mean) / self.scale
-        extent = z @ _directions(self.moving).T
+        extent = z @ _directions(self.moving, self.units).T
         excess = np.maximum(np.maximum(self.low - extent, extent - self.high), 0.0)
         distance = excess.max(axis=1)
-        labels = np.array(_labels(self.names, self.moving))
+        labels = np.array(_labels(self.names, self.moving, self.units))
         return distance, np.where(distance > 0, labels[np.argmax(excess, axis=1)], "")
 
     def nearest(self, inputs: ArrayLike) -> Array:
@@ -127,16 +127,17 @@ class Domain:
         )
 
 
-def _pairs(moving: NDArray[np.bool_]) -> list[tuple[int, int]]:
-    return list(combinations(np.flatnonzero(moving).tolist(), 2))
+def _pairs(moving: NDArray[np.bool_], units: Sequence[str]) -> list[tuple[int, int]]:
+    """Inputs of one kind: that the hall warmed up while joint 1 turned to the right need not hold on another day."""
+    return [(i, j) for i, j in combinations(np.flatnonzero(moving).tolist(), 2) if units[i] == units[j]]
 
 
-def _directions(moving: NDArray[np.bool_]) -> Array:
-    """(d, k) unit directions: the axes, then sum and difference of every two inputs that move."""
+def _directions(moving: NDArray[np.bool_], units: Sequence[str]) -> Array:
+    """(d, k) unit directions: the axes, then sum and difference of every two inputs of one kind that move."""
     axes = np.eye(len(moving))
-    pairs = [(axes[i] + sign * axes[j]) / np.sqrt(2) for i, j in _pairs(moving) for sign in (1, -1)]
+    pairs = [(axes[i] + sign * axes[j]) / np.sqrt(2) for i, j in _pairs(moving, units) for sign in (1, -1)]
     return np.array([*axes, *pairs])
 
 
-def _labels(names: Sequence[str], moving: NDArray[np.bool_]) -> list[str]:
-    return [*names, *(f"{names[i]} together with {names[j]}" for i, j in _pairs(moving) for _ in (1, -1))]
+def _labels(names: Sequence[str], moving: NDArray[np.bool_], units: Sequence[str]) -> list[str]:
+    return [*names, *(f"{names[i]} together with {names[j]}" for i, j in _pairs(moving, units) for _ in (1, -1))]

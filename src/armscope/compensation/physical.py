@@ -48,12 +48,14 @@ class Identified:
         arm: the arm's name.
         domain: range of motor angles, and of payload and temperature where recorded.
         payload_kg: whether rows carried a payload, and which one where it never changed: None for no column.
+        time_s: first and last, where recorded.
         torque_weights: (m, p) recorded torque of each motor by the static torque regressor, where recorded.
     """
 
     arm: str
     domain: Domain
     payload_kg: tuple[float, float] | None
+    time_s: tuple[float, float] | None = None
     torque_weights: Array | None = None
 
     def inputs(self, angles: Array, rows: Recordings) -> Array:
@@ -72,6 +74,7 @@ class Identified:
             "format": FORMAT,
             "robot": self.arm,
             "payload_kg": None if self.payload_kg is None else list(self.payload_kg),
+            "time_s": None if self.time_s is None else list(self.time_s),
             "torque_weights": None if self.torque_weights is None else self.torque_weights.tolist(),
             "domain": self.domain.to_dict(),
         }
@@ -94,7 +97,9 @@ def identified_on(arm: Arm, recordings: Recordings) -> Identified:
         names, units = [*names, "temperature_c"], [*units, "degC"]
         columns.append(np.where(np.isnan(temperature), np.nanmean(temperature), temperature)[:, None])
     weights = _torque_weights(arm, recordings)
-    return Identified(arm.name, Domain.of(np.concatenate(columns, axis=1), names, units), payload, weights)
+    times = recordings.time
+    time = None if times is None else (float(np.nanmin(times)), float(np.nanmax(times)))
+    return Identified(arm.name, Domain.of(np.concatenate(columns, axis=1), names, units), payload, time, weights)
 
 
 def save_identified(path: Path | str, identified: Identified) -> None:
@@ -110,11 +115,12 @@ def load_identified(path: Path | str) -> Identified:
     """
     try:
         content = json.loads(Path(path).read_text(encoding="utf-8"))
-        payload, weights = content["payload_kg"], content["torque_weights"]
+        payload, weights, time = content["payload_kg"], content["torque_weights"], content["time_s"]
         return Identified(
             content["robot"],
             Domain.from_dict(content["domain"]),
             None if payload is None else (float(payload[0]), float(payload[1])),
+            None if time is None else (float(time[0]), float(time[1])),
             None if weights is None else np.array(weights, dtype=float),
         )
     except (OSError, ValueError, KeyError, TypeError) as error:
@@ -155,6 +161,15 @@ def missing_context(model: FittedModel, identified: Identified, rows: Recordings
         if missing.any():
             lacks[column] = missing
     return lacks
+
+
+def beyond_time(model: FittedModel, identified: Identified, rows: Recordings) -> NDArray[np.bool_]:
+    """(N,) rows at times to which a drift of the model would have to be continued: a tenth beyond what was recorded."""
+    if "hours" not in drivers_of(model) or identified.time_s is None or rows.time is None:
+        return np.zeros(len(rows), dtype=bool)
+    first, last = identified.time_s
+    slack = 0.1 * (last - first)
+    return np.asarray((rows.time < first - slack) | (rows.time > last + slack))
 
 
 def with_empty_context(rows: Recordings) -> Recordings:
