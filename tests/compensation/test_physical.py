@@ -62,7 +62,7 @@ def test_ten_thousand_points_take_less_than_a_second_of_one_core():
     path = as_path(table_of(points, **CONTEXT), "path", model.arm)
     ours = as_path(table_of(wanted_points(10_000)), "path", sk120())
     used = []
-    for _ in range(3):
+    for _ in range(2):
         begin = time.process_time()
         assert compensate_physical(model, identified, path, Options(start=middle)).reached.all()
         between = time.process_time()
