@@ -28,6 +28,8 @@ def diagnose(
     Raises:
         InputError: something that can't be used; it says what, where, and how to mend it.
     """
+    from threadpoolctl import threadpool_limits
+
     from armscope.diagnosis import diagnose as diagnose_arm
     from armscope.recordings import Recordings, as_recordings, read_recordings
     from armscope.robot import Arm, load_arm
@@ -37,4 +39,5 @@ def diagnose(
         recordings = read_recordings(recordings, arm.n_motors)
     elif not isinstance(recordings, Recordings):
         recordings = as_recordings(recordings, "data frame", arm.n_motors)
-    return diagnose_arm(arm, recordings, settings)
+    with threadpool_limits(1):  # small matrices: threads of BLAS would only wait for each other
+        return diagnose_arm(arm, recordings, settings)
