@@ -28,6 +28,7 @@ test: .venv/installed-test
 # the packages compared with need older versions of ours, so they live in environments of their own
 benchmark: .venv/installed .venv-peers/installed .venv-figaroh/installed
 	$(BIN)/python -m benchmarks.kinematics
+	$(BIN)/python -m benchmarks.diagnosis
 	.venv-peers/bin/python -m benchmarks.swarm
 	$(BIN)/python -m benchmarks.calibration --pybotics .venv-peers/bin/python --figaroh .venv-figaroh/bin/python
 

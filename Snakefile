@@ -8,6 +8,7 @@ include: "workflow/rules/real.smk"
 include: "workflow/rules/recordings.smk"
 include: "workflow/rules/sweep.smk"
 include: "workflow/rules/proof.smk"
+include: "workflow/rules/compensation.smk"
 include: "workflow/rules/readme.smk"
 
 
