@@ -24,15 +24,18 @@ rule readme:
     input:
         claims=f"{PAPER}/claims.csv",
         table2=f"{PAPER}/table2.csv",
+        aims=f"{PROOF}/full/tables/aims.csv",
+        worlds=f"{PROOF}/full/tables/worlds.csv",
         arm=f"{RESULTS}/examples/five-effects/figures/arm.png",
     output:
         touch(f"{RESULTS}/readme.done"),
     params:
         folder=subpath(input.claims, parent=True),
+        proof=subpath(input.aims, parent=True),
         code=code("armscope.cli.paper:readme_"),
     log:
         f"{RESULTS}/logs/readme.log",
     conda:
         "../envs/armscope.yaml"
     shell:
-        "(armscope paper readme README.md {params.folder} && cp {input.arm} docs/figures/five-effects.png) > {log} 2>&1"
+        "(armscope paper readme README.md {params.folder} {params.proof} && cp {input.arm} docs/figures/five-effects.png) > {log} 2>&1"

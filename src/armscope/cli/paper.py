@@ -290,11 +290,12 @@ def report(
 def readme_(
     readme: Annotated[Path, typer.Argument(help="README.md; its numbers are replaced")],
     results: Annotated[Path, typer.Argument(help="folder with the study's tables")],
+    proof: Annotated[Path, typer.Argument(help="folder with the tables of the full proof")],
 ) -> None:
     """Fill the README's numbers from results."""
     from armscope.report.readme import fill_readme
 
-    fill_readme(readme, results)
+    fill_readme(readme, results, proof)
 
 
 def _observability(choice: Any) -> Any:

@@ -15,12 +15,13 @@ from armscope.report.page import significant
 BEGIN, END = "<!-- results: begin", "<!-- results: end -->"
 
 
-def fill_readme(readme: Path, results: Path) -> None:
+def fill_readme(readme: Path, results: Path, proof: Path) -> None:
     """Replace what stands between the two marks of a README by the numbers of a finished run.
 
     Args:
         readme: the file; it keeps everything outside the marks.
         results: folder with claims.csv and table2.csv.
+        proof: folder with the tables of the full proof.
 
     Raises:
         InputError: the marks are missing.
@@ -32,8 +33,29 @@ def fill_readme(readme: Path, results: Path) -> None:
     mark, _, rest = rest.partition("\n")
     _, _, after = rest.partition(END)
     claims, table = pd.read_csv(results / "claims.csv"), pd.read_csv(results / "table2.csv")
-    block = "\n".join(["", *_claim_lines(claims), "", *_table_lines(table), "", ""])
+    aims, worlds = pd.read_csv(proof / "aims.csv"), pd.read_csv(proof / "worlds.csv")
+    block = "\n".join(
+        ["", *_proof_lines(aims, len(worlds)), "", *_claim_lines(claims), "", *_table_lines(table), "", ""]
+    )
     write_text(readme, f"{before}{BEGIN}{mark}\n{block}{END}{after}")
+
+
+def _proof_lines(aims: pd.DataFrame, worlds: int) -> list[str]:
+    """The proof's aims on seeds that were drawn when it ran."""
+    lines = [
+        f"The diagnosis on {worlds} virtual arms whose concealed effects it could not see, simulated by another engine; "
+        "the half whose seeds were drawn when the proof ran, with 95 % intervals:",
+        "",
+        "| aim | cases | found | |",
+        "|---|---|---|---|",
+    ]
+    for row in aims[aims["seeds"] == "fresh"].to_dict("records"):
+        if row["aim"].startswith("detection"):
+            found = f"{row['estimate']:.1f} ({row['low']:.1f}–{row['high']:.1f})"
+        else:
+            found = f"{100 * row['estimate']:.0f} % ({100 * row['low']:.0f}–{100 * row['high']:.0f})"
+        lines.append(f"| {row['aim']} | {row['cases']} | {found} | {row['verdict']} |")
+    return lines
 
 
 def _claim_lines(claims: pd.DataFrame) -> list[str]:

@@ -1,0 +1,66 @@
+"""The README's numbers come from files, and nothing else of it changes."""
+
+import pandas as pd
+import pytest
+
+from armscope.inputs import InputError
+from armscope.report.readme import fill_readme
+
+TEXT = "# before\n<!-- results: begin (by a rule) -->\nold numbers\n<!-- results: end -->\nafter\n"
+
+
+@pytest.fixture
+def results(tmp_path):
+    claim = {"claim": "It works", "verdict": "holds", "share_of_robots": 0.97, "robots": 101}
+    pd.DataFrame([claim]).to_csv(tmp_path / "claims.csv", index=False)
+    names = ("identification", "test 1", "test 2", "test 3")
+    rows = [
+        ("FDP(CI)", name, axis, 3.0 if axis != "3D" else None, 6.0) for name in names for axis in ("x", "y", "z", "3D")
+    ]
+    columns = ["model", "trajectory", "axis", "printed", "rss_median"]
+    pd.DataFrame(rows, columns=columns).to_csv(tmp_path / "table2.csv", index=False)
+    aim = {
+        "aim": "no name on clean arms",
+        "seeds": "fresh",
+        "cases": 24,
+        "estimate": 1.0,
+        "low": 0.86,
+        "high": 1.0,
+        "verdict": "met",
+    }
+    pd.DataFrame([aim, aim | {"seeds": "fixed", "verdict": "NOT TO BE SHOWN"}]).to_csv(
+        tmp_path / "aims.csv", index=False
+    )
+    pd.DataFrame({"world": range(439)}).to_csv(tmp_path / "worlds.csv", index=False)
+    return tmp_path
+
+
+def test_numbers_between_the_marks_are_replaced_by_those_of_the_results(results):
+    readme = results / "README.md"
+    readme.write_text(TEXT)
+    fill_readme(readme, results, results)
+    text = readme.read_text()
+    assert text.startswith("# before\n<!-- results: begin (by a rule) -->\n")
+    assert text.endswith("<!-- results: end -->\nafter\n")
+    assert "old numbers" not in text
+    assert "| It works | holds | 97 % |" in text
+    assert "| FDP(CI) | 6.0 / 5.2 |" in text  # 5.2 = sqrt(3) * 3, the length of the printed x, y, z
+    assert "| no name on clean arms | 24 | 100 % (86–100) | met |" in text
+    assert "NOT TO BE SHOWN" not in text
+
+
+def test_filling_twice_gives_the_same_file(results):
+    readme = results / "README.md"
+    readme.write_text(TEXT)
+    fill_readme(readme, results, results)
+    once = readme.read_bytes()
+    fill_readme(readme, results, results)
+    assert readme.read_bytes() == once
+
+
+def test_a_readme_without_marks_is_left_alone(results):
+    readme = results / "README.md"
+    readme.write_text("nothing here")
+    with pytest.raises(InputError, match="no marks"):
+        fill_readme(readme, results, results)
+    assert readme.read_text() == "nothing here"
