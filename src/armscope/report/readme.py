@@ -43,7 +43,7 @@ def fill_readme(readme: Path, results: Path, proof: Path) -> None:
 def _proof_lines(aims: pd.DataFrame, worlds: int) -> list[str]:
     """The proof's aims on seeds that were drawn when it ran."""
     lines = [
-        f"The diagnosis on {worlds} virtual arms whose concealed effects it could not see, simulated by another engine; "
+        f"The diagnosis on {worlds} virtual arms with effects concealed from it, simulated by another engine; "
         "the half whose seeds were drawn when the proof ran, with 95 % intervals:",
         "",
         "| aim | cases | found | |",
