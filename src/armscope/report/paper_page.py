@@ -136,6 +136,7 @@ def write_paper_page(path: Path, paper: Paper, seed: int, results: Path, proof: 
         tags=TAGS,
         verdicts=claims["verdict"].value_counts().to_dict(),
         significant=significant,
+        points=table.groupby("trajectory")["points"].first().to_dict(),
         blocks=table2_blocks(table),
         trajectories=TRAJECTORIES,
         coefficients=pd.read_csv(results / "coefficients.csv").astype({"equation": "Int64"}),
