@@ -20,7 +20,7 @@ from armscope.diagnosis.problem import Gram, accumulate, contribution
 from armscope.diagnosis.refit import Refit
 from armscope.diagnosis.scatter import Scattered, levers
 from armscope.diagnosis.search import Search
-from armscope.diagnosis.validation import Blocks, carry_over, cross_validate
+from armscope.diagnosis.validation import Blocks, Rows, carry_over, cross_validate
 from armscope.diagnosis.verdict import (
     Answer,
     Background,
@@ -61,7 +61,7 @@ LISTED_SUSPECTS = 200
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """Everything that the rounds of selection leave behind."""
+    """Everything that the rounds of selection leave behind; ``point`` is where ``blocks`` were linearised."""
 
     start: FittedModel
     recordings: Recordings
@@ -71,6 +71,7 @@ class Evidence:
     layout: Blocks
     problem: Problem
     blocks: list[Gram]
+    point: FittedModel
     best: Hypothesis
     fit: Refit
     scatter: tuple[Scattered, ...]
@@ -97,9 +98,8 @@ def judge(
     waterfall: tuple[WaterfallStep, ...] = ()
     if cross_validation:
         tell("validating on held-out rows", 0.75)
-        held_out, waterfall = cross_validate(
-            problem, evidence.blocks, _plain_blocks(evidence), evidence.layout, best, order
-        )
+        rows = Rows(evidence.point, evidence.recordings, fit.weights.row)
+        held_out, waterfall = cross_validate(problem, evidence.blocks, evidence.layout, best, order, rows)
     tell("drawing the atlas", 0.9)
     background = _backgrounds(evidence, search, gram, variance)
     named = [_with_weight(found[c], background) for c in order]
@@ -136,15 +136,6 @@ def judge(
         model=fit.model,
     )
     return replace(draft, headline=headline(draft))
-
-
-def _plain_blocks(evidence: Evidence) -> list[Gram]:
-    """The blocks without the whitening of scatter, so that errors come out in millimetres as measured."""
-    weights = evidence.fit.weights
-    if weights.turn is None:
-        return evidence.blocks
-    pool, model = evidence.problem.pool, evidence.fit.model
-    return accumulate(pool, model, evidence.recordings, RowWeights(weights.row), evidence.layout.of_row)
 
 
 def _plain_gram(evidence: Evidence) -> Gram:

@@ -81,6 +81,7 @@ def diagnose(
             layout,
             found.problem,
             found.blocks,
+            found.point,
             found.best,
             found.fit,
             found.scatter,

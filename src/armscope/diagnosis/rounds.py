@@ -48,10 +48,11 @@ PROMISING = 60
 
 @dataclass(frozen=True, eq=False)
 class Selected:
-    """Where the rounds ended."""
+    """Where the rounds ended; ``point`` is where the blocks were linearised."""
 
     problem: Problem
     blocks: list[Gram]
+    point: FittedModel
     best: Hypothesis
     fit: Refit
     scatter: tuple[Scattered, ...]
@@ -169,6 +170,7 @@ class Rounds:
         """One round; returns new candidates that scanning found. Without starts it goes on from the last round."""
         model, payload = _payload(self.model, self.recordings)
         self.pool = pool(self.frames, self.families, [*self.candidates, *payload])
+        self.point = model
         self.blocks = accumulate(self.pool, model, self.recordings, self.weights, self.block_of_row)
         self.problem = problem(self.pool, total(self.blocks), self.noise.least_mm)
         search = Search.on(self.problem)
@@ -190,7 +192,7 @@ class Rounds:
 
     def selected(self) -> Selected:
         """Where the rounds stand."""
-        return Selected(self.problem, self.blocks, self.best, self.fit, tuple(self.scatter))
+        return Selected(self.problem, self.blocks, self.point, self.best, self.fit, tuple(self.scatter))
 
     def _state(self) -> State:
         """What must not change any more: the effects and the rows that do not count."""

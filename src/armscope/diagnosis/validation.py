@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,9 +10,12 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from armscope.diagnosis.evidence import PERFECT, Chosen, Hypothesis, Problem, weigh
-from armscope.diagnosis.problem import Gram, total
+from armscope.diagnosis.problem import COUNTS, Gram, Pool, chunks, columns, pool_values, total
 from armscope.diagnosis.search import LARGE, Search
 from armscope.diagnosis.verdict import HeldOut, WaterfallStep
+from armscope.diagnosis.weights import RowWeights
+from armscope.physics.effect import Term
+from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 
 Array = NDArray[np.float64]
@@ -56,57 +59,159 @@ def split(recordings: Recordings, rng: np.random.Generator) -> Blocks:
 def cross_validate(
     problem: Problem,
     blocks: Sequence[Gram],
-    plain: Sequence[Gram],
     split: Blocks,
     best: Hypothesis,
     order: Sequence[int],
+    rows: Rows,
 ) -> tuple[HeldOut, tuple[WaterfallStep, ...]]:
     """Held-out RMS before and after, selection repeated per fold; and the waterfall of the chosen effects.
 
-    The linearisation point and the weights of suspect rows come from all rows; a whole held-out run's own base is
-    fitted on its rows, as it always is.
+    Every fold's search starts from nothing and sees only its own rows' sums. What comes from all rows: the point of
+    linearisation, the weights of rows, the scanned numbers that compete (periods, times of jumps) and, for a hypothesis
+    of many columns, the backgrounds' sizes from which the search starts. A whole held-out run's own base is fitted on
+    its rows, as it always is.
 
     Args:
         blocks: sums over the rows as they were fitted.
-        plain: the same without the whitening of scatter: errors are told in millimetres as measured.
         order: candidates of ``best`` in the order in which the waterfall adds them.
+        rows: the rows at the point of linearisation of ``blocks``.
     """
-    whole = total(blocks)
     folds = [int(k) for k in np.unique(split.fold) if 0 < np.count_nonzero(split.fold == k) < len(blocks)]
-    before = after = rows = 0.0
-    sets = _steps(best, order)
-    steps = np.zeros(len(sets))
-    empty = Search.on(problem).empty()
-    for fold in folds:
-        inside = [int(k) for k in np.flatnonzero(split.fold == fold)]
-        trained = problem.with_gram(whole - total([blocks[k] for k in inside]))
-        scaled = total([plain[k] for k in inside]).scaled(problem.scale)
-        held = scaled
-        free = split.grouped_by == "run"
-        starts = {best.background} if len(best.columns) > LARGE else {best.background, PERFECT}
-        search = Search.on(trained, beam=2 if len(starts) > 1 else 1, branches=2)
-        chosen = search.refined(search.best(starts=tuple(sorted(starts))))
-        rows += held.n
-        before += _held_out(trained, weigh(trained, (), PERFECT, empty.noise), scaled, free)
-        after += _held_out(trained, chosen, scaled, free)
-        for number, subset in enumerate(sets):
-            background = best.background if number == len(sets) - 1 else PERFECT
-            steps[number] += _held_out(trained, weigh(trained, subset, background, best.noise), scaled, free)
-    if rows == 0:
+    if not folds:
         return HeldOut(float("nan"), float("nan")), ()
-    fitted = [
-        _rms(
-            total(plain).scaled(problem.scale),
-            weigh(problem, subset, best.background if n == len(sets) - 1 else PERFECT, best.noise),
-        )
-        for n, subset in enumerate(sets)
-    ]
+    whole, noise = total(blocks), Search.on(problem).empty().noise
+    sets = _steps(best, order)
+    fitted = _readings(problem, sets, best, noise)
+    values = {}
+    for fold in folds:
+        trained = problem.with_gram(whole - total([blocks[int(k)] for k in np.flatnonzero(split.fold == fold)]))
+        chosen = _chosen_again(trained, best)
+        readings = [*_readings(trained, sets, best, noise), chosen]
+        values[fold] = np.array([h.coefficients(len(problem.scale)) / problem.scale for h in readings])
+    errors = _held_out_errors(problem, blocks, split, rows, values)
+    own = left_over(rows, problem.pool, np.array([h.coefficients(len(problem.scale)) / problem.scale for h in fitted]))
+    fold_of = split.fold[split.of_row]
+    told = np.isin(fold_of, folds) & rows.trusted
+    per_fold = np.array(
+        [_rms(errors[:, told & (fold_of == fold)]) for fold in folds if (told & (fold_of == fold)).any()]
+    )
+    held, held_all = _rms(errors[:, told]), _rms(errors[:, np.isin(fold_of, folds)])
+    spread = per_fold.std(axis=0, ddof=1) if len(per_fold) > 1 else np.full(len(held), np.nan)
     labels = ["free frames", *[str(problem.pool.candidates[c]) for c in order], "tolerances everywhere"]
     waterfall = tuple(
-        WaterfallStep(label, float(f), float(np.sqrt(s / rows)))
-        for label, f, s in zip(labels, fitted, steps, strict=True)
+        WaterfallStep(label, float(f), float(h), float(s))
+        for label, f, h, s in zip(labels, _rms(own[:, rows.trusted]), held[:-1], spread[:-1], strict=True)
     )
-    return HeldOut(float(np.sqrt(before / rows)), float(np.sqrt(after / rows)), len(folds), split.grouped_by), waterfall
+    return (
+        HeldOut(
+            before=float(held[0]),
+            after=float(held[-1]),
+            folds=len(folds),
+            grouped_by=split.grouped_by,
+            before_all_rows=float(held_all[0]),
+            after_all_rows=float(held_all[-1]),
+            spread=float(spread[-1]),
+        ),
+        waterfall,
+    )
+
+
+def _chosen_again(trained: Problem, best: Hypothesis) -> Hypothesis:
+    """The selection repeated on a fold's own rows."""
+    starts = {best.background} if len(best.columns) > LARGE else {best.background, PERFECT}
+    search = Search.on(trained, beam=2 if len(starts) > 1 else 1, branches=2)
+    return search.refined(search.best(starts=tuple(sorted(starts))))
+
+
+def _readings(
+    problem: Problem, sets: Sequence[tuple[Chosen, ...]], best: Hypothesis, first_noise: float
+) -> list[Hypothesis]:
+    """The waterfall's hypotheses: nothing, growing sets of effects, all of them with the background."""
+    noises = [first_noise, *[best.noise] * (len(sets) - 1)]
+    backgrounds = [*[PERFECT] * (len(sets) - 1), best.background]
+    return [weigh(problem, *each) for each in zip(sets, backgrounds, noises, strict=True)]
+
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """Rows at a point of linearisation.
+
+    Attributes:
+        point: the model at which columns were taken.
+        recordings: the rows.
+        weight: (N,) of the fit.
+    """
+
+    point: FittedModel
+    recordings: Recordings
+    weight: Array
+
+    @property
+    def trusted(self) -> NDArray[np.bool_]:
+        """(N,) rows that do not look like bad shots."""
+        return np.asarray(self.weight > COUNTS * np.median(self.weight))
+
+
+def left_over(rows: Rows, pool: Pool, values: Array, number: Indices | None = None) -> Array:
+    """(K, N, 3) what K readings leave of every row, base axes, mm.
+
+    Args:
+        values: (K, p) values of the pool's terms, SI units; or (F, K, p): each row takes those of its ``number``.
+        number: (N,) 0 ... F - 1.
+    """
+    values = values if number is not None else values[None]
+    number = np.zeros(len(rows.recordings), dtype=np.intp) if number is None else number
+    current = pool_values(pool, rows.point)
+    left = np.empty((values.shape[1], len(rows.recordings), 3))
+    for part, posture in chunks(rows.point, rows.recordings):
+        X = columns(posture, pool.terms)
+        y = rows.point.to_base(rows.recordings.positions[part], rows.recordings.run[part]) - posture.tool
+        for f in np.unique(number[part]):
+            inside = number[part] == f
+            modelled = X[np.repeat(inside, 3)] @ (values[f] - current).T
+            left[:, part[inside]] = y[inside] * 1e3 - np.moveaxis(modelled.reshape(-1, 3, len(left)), 2, 0)
+    return left
+
+
+def _held_out_errors(
+    problem: Problem, blocks: Sequence[Gram], split: Blocks, rows: Rows, values: Mapping[int, Array]
+) -> Array:
+    """(K, N, 3) errors, mm, of every row under the readings of the fold that it took no part in.
+
+    Where whole runs are held out, the frames that only they have are refitted on them.
+    """
+    folds = sorted(values)
+    fold_of = split.fold[split.of_row]
+    number = np.searchsorted(folds, np.where(np.isin(fold_of, folds), fold_of, folds[0]))
+    errors = left_over(rows, problem.pool, np.array([values[f] for f in folds]), number)
+    if split.grouped_by != "run":
+        return errors
+    whole = total(blocks)
+    for fold in folds:
+        held = total([blocks[int(k)] for k in np.flatnonzero(split.fold == fold)])
+        frames = problem.pool.frames
+        seen = np.diag(whole.G)[frames]
+        own = frames[seen - np.diag(held.G)[frames] < 1e-9 * np.maximum(seen, 1e-12)]
+        if len(own):
+            at = np.flatnonzero(fold_of == fold)
+            errors[:, at] = _refitted(rows, [problem.pool.terms[k] for k in own], at, errors[:, at])
+    return errors
+
+
+def _refitted(rows: Rows, terms: Sequence[Term], at: Indices, errors: Array) -> Array:
+    """Errors (K, n, 3) of rows ``at`` once their own frames are fitted to them."""
+    table = rows.recordings.rows(at)
+    weights = RowWeights(rows.weight[at])
+    X = np.concatenate([columns(posture, terms) for _, posture in chunks(rows.point, table)])
+    y = np.moveaxis(errors, 0, 2).reshape(len(X), -1)
+    each = np.arange(len(at))
+    values = np.linalg.lstsq(weights.times(each, X), weights.times(each, y), rcond=1e-12)[0]
+    return np.asarray(np.moveaxis((y - X @ values).reshape(len(at), 3, -1), 2, 0))
+
+
+def _rms(errors: Array) -> Array:
+    """(K,) RMS per axis of errors (K, n, 3)."""
+    return np.asarray(np.sqrt(np.mean(errors**2, axis=(1, 2))))
 
 
 def carry_over(problem: Problem, blocks: Sequence[Gram], split: Blocks, best: Hypothesis) -> dict[int, str]:
@@ -152,19 +257,3 @@ def _steps(best: Hypothesis, order: Sequence[int]) -> list[tuple[Chosen, ...]]:
     chosen = {c.candidate: c for c in best.chosen}
     sets = [tuple(chosen[c] for c in order[:n]) for n in range(len(order) + 1)]
     return [*sets, sets[-1]]
-
-
-def _held_out(problem: Problem, hypothesis: Hypothesis, held: Gram, free_base: bool) -> float:
-    """Residual sum of squares on held-out rows, mm^2; ``free_base`` refits the frames that only they have."""
-    values = hypothesis.coefficients(len(held.b))
-    if free_base:
-        frames = problem.pool.frames
-        own = frames[np.diag(problem.gram.G)[frames] < 1e-9 * np.maximum(np.diag(held.G)[frames], 1e-12)]
-        if len(own):
-            left = held.b[own] - held.G[own] @ values
-            values[own] += np.linalg.lstsq(held.G[np.ix_(own, own)], left, rcond=1e-12)[0]
-    return max(held.rss(values), 0.0)
-
-
-def _rms(gram: Gram, hypothesis: Hypothesis) -> float:
-    return float(np.sqrt(max(gram.rss(hypothesis.coefficients(len(gram.b))), 0.0) / gram.n))

@@ -133,21 +133,32 @@ class Background:
 
 @dataclass(frozen=True)
 class WaterfallStep:
-    """RMS per axis with one effect more than in the step before: on the fitted rows and on held-out rows, mm."""
+    """RMS per axis with one effect more than in the step before: on the fitted rows and on held-out rows, mm.
+
+    ``spread_mm``: standard deviation of the held-out RMS from fold to fold; NaN with a single fold.
+    """
 
     label: str
     fitted_mm: float
     held_out_mm: float
+    spread_mm: float = float("nan")
 
 
 @dataclass(frozen=True)
 class HeldOut:
-    """Cross-validation of the whole procedure; RMS per axis on rows that took no part, mm. NaN: it was not possible."""
+    """Cross-validation of the whole procedure; RMS per axis on rows that took no part, mm. NaN: it was not possible.
+
+    ``before`` and ``after`` leave out the rows that look like bad shots; the same of all rows stands beside them.
+    ``spread``: standard deviation of ``after`` from fold to fold.
+    """
 
     before: float
     after: float
     folds: int = 0
     grouped_by: str = ""
+    before_all_rows: float = float("nan")
+    after_all_rows: float = float("nan")
+    spread: float = float("nan")
 
 
 @dataclass(frozen=True, eq=False)
@@ -262,6 +273,9 @@ class Verdict:
             "held_out_rms_mm": {
                 "before": self.held_out.before,
                 "after": self.held_out.after,
+                "before_all_rows": self.held_out.before_all_rows,
+                "after_all_rows": self.held_out.after_all_rows,
+                "spread": self.held_out.spread,
                 "folds": self.held_out.folds,
                 "grouped_by": self.held_out.grouped_by,
             },

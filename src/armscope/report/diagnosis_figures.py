@@ -64,10 +64,12 @@ def save_all(
     if verdict.atlas is not None and np.isfinite(verdict.atlas.share).any():
         shares, left, marked = atlas_tables(verdict.atlas, verdict.effects)
         keep("atlas", draw_atlas(shares, marked, left), "Map of the share of the mismatch by location and driver")
-    steps = [(step.label, step.held_out_mm) for step in waterfall_steps(verdict) if np.isfinite(step.held_out_mm)]
-    if steps:
+    known = [step for step in waterfall_steps(verdict) if np.isfinite(step.held_out_mm)]
+    if known:
         noise = verdict.noise_mm if np.isfinite(verdict.noise_mm) else None
-        keep("waterfall", draw_waterfall(steps, noise, references), "Held-out error as effects enter the model")
+        steps, spreads = [(step.label, step.held_out_mm) for step in known], [step.spread_mm for step in known]
+        drawn = draw_waterfall(steps, noise, references, spreads)
+        keep("waterfall", drawn, "Held-out error as effects enter the model, with its spread from fold to fold")
     residuals = verdict.residuals
     keep(
         "vectors",

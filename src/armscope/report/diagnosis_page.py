@@ -159,14 +159,18 @@ def improvement(verdict: Verdict) -> str:
     start = f"On rows that took no part in search or fit (whole diagnosis repeated, {folds}{by}), the error "
     if after < 0.98 * before:
         noise = f"; the noise is {millimetres(verdict.noise_mm)}" if math.isfinite(verdict.noise_mm) else ""
-        return f"{start}falls from {millimetres(before)} to {millimetres(after)} RMS per axis{noise}."
+        spread, everything = verdict.held_out.spread, verdict.held_out.after_all_rows
+        apart = f" (± {millimetres(spread)} from part to part)" if math.isfinite(spread) else ""
+        shots = f" With the suspected bad shots it is {millimetres(everything)}." if everything > 1.05 * after else ""
+        return f"{start}falls from {millimetres(before)} to {millimetres(after)} RMS per axis{apart}{noise}.{shots}"
     return f"{start}stays where it is: {millimetres(before)} before, {millimetres(after)} after."
 
 
 def _steps(verdict: Verdict, references: Sequence[tuple[str, float]]) -> pd.DataFrame:
-    rows = [(step.label, step.held_out_mm, step.fitted_mm) for step in waterfall_steps(verdict)]
-    rows += [(f"for comparison: {name}", rms, np.nan) for name, rms in references]
-    return pd.DataFrame(rows, columns=["model", "held-out RMS (mm)", "RMS on the fitted rows (mm)"])
+    rows = [(step.label, step.held_out_mm, step.spread_mm, step.fitted_mm) for step in waterfall_steps(verdict)]
+    rows += [(f"for comparison: {name}", rms, np.nan, np.nan) for name, rms in references]
+    names = ["model", "held-out RMS (mm)", "its spread over the folds (mm)", "RMS on the fitted rows (mm)"]
+    return pd.DataFrame(rows, columns=names)
 
 
 def _concerns(poses: NextPoses | None, effects: Sequence[FoundEffect]) -> bool:

@@ -26,7 +26,7 @@ def draw_waterfall(
         steps: (what entered, held-out RMS in mm with it), the first without any effect.
         noise_mm: the noise per axis, None where unknown.
         references: (model, held-out RMS in mm), for comparison.
-        spreads: standard error of each step's RMS over the folds, mm.
+        spreads: standard deviation of each step's RMS from fold to fold, mm: drawn as whiskers.
     """
     heights = [rms for _, rms in steps]
     largest = max(heights)
@@ -71,7 +71,8 @@ def draw_waterfall(
         axes.set_yticks(ticks, [name for name, _ in steps] + [name for name, _ in shown])
         axes.set_ylim(start + len(shown) - 0.3 if shown else len(steps) - 0.4, -0.6)
         axes.set_xlim(0, limit)
-        axes.set_xlabel("RMS on held-out rows, per axis (mm)")
+        whiskers = "; whiskers: standard deviation from fold to fold" if _any(spreads) else ""
+        axes.set_xlabel(f"RMS on held-out rows, per axis (mm){whiskers}")
         axes.tick_params(axis="y", length=0)
         axes.spines["left"].set_visible(False)
         axes.grid(axis="y", visible=False)
@@ -88,6 +89,10 @@ def _drop(axes: plt.Axes, place: int, before: float, after: float) -> None:
 def _gain(axes: plt.Axes, place: int, before: float, after: float) -> None:
     """What the last step took away, beside the bar of what is left."""
     axes.barh(place, before - after, left=after, height=0.62, color=SKY if after <= before else ORANGE, zorder=3)
+
+
+def _any(spreads: Sequence[float] | None) -> bool:
+    return spreads is not None and bool(np.isfinite(spreads).any())
 
 
 def _millimetres(value: float) -> str:
