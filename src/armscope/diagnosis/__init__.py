@@ -2,6 +2,7 @@
 
 from armscope.diagnosis.output import write_verdict
 from armscope.diagnosis.pipeline import Settings, diagnose
+from armscope.diagnosis.transfer import Transferred, transfer
 from armscope.diagnosis.verdict import Verdict
 
-__all__ = ["Settings", "Verdict", "diagnose", "write_verdict"]
+__all__ = ["Settings", "Transferred", "Verdict", "diagnose", "transfer", "write_verdict"]

@@ -37,6 +37,7 @@ from armscope.diagnosis.verdict import (
 from armscope.diagnosis.weights import RowWeights
 from armscope.physics.backgrounds import FAMILIES
 from armscope.physics.effect import Placed
+from armscope.physics.freeform import held
 from armscope.physics.model import FittedModel
 from armscope.physics.scene import Part, Scene
 from armscope.recordings import Recordings
@@ -133,9 +134,14 @@ def judge(
         suspects=_suspects(evidence),
         next_poses=separating,
         notices=(*evidence.notices, *_carefully(evidence)),
-        model=fit.model,
+        model=_held(fit.model, evidence.recordings),
     )
     return replace(draft, headline=headline(draft))
+
+
+def _held(model: FittedModel, recordings: Recordings) -> FittedModel:
+    """The model to predict with: its free curves go no farther than they were learned."""
+    return replace(model, parts=tuple(replace(p, placed=held(p.placed, recordings)) for p in model.parts))
 
 
 def _plain_gram(evidence: Evidence) -> Gram:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -160,19 +160,25 @@ def _updated(
     def new(placed: Placed) -> Array:
         return values[[index[term] for term in placed.terms]]
 
-    bases = dict(model.bases)
-    for term, number in index.items():
-        product = term.products[0]
-        if product.driver.kind == "in run":
-            run = str(product.driver.arguments[0])
-            twist = np.zeros(6)
-            twist[AXES.index(product.direction.axis)] = values[number]
-            bases[run] = moved_base(bases[run], twist)
-    tools = tuple(Part(part.placed, part.values + new(part.placed)) for part in model.tools)
+    moved = moved_frames(model, dict(zip(parts.terms, values, strict=True)))
     return replace(
-        model,
-        bases=bases,
-        tools=tools,
+        moved,
         background=tuple(Part(p, new(p)) for p in background),
         parts=tuple(Part(placed, new(placed)) for placed, _ in effects),
     )
+
+
+def moved_frames(model: FittedModel, steps: Mapping[Term, float]) -> FittedModel:
+    """The model with its bases and tools moved by steps (SI units) of the free frames' terms; others don't count."""
+    twists: dict[str, Array] = {}
+    for term, value in steps.items():
+        product = term.products[0]
+        if product.driver.kind == "in run":
+            twist = twists.setdefault(str(product.driver.arguments[0]), np.zeros(6))
+            twist[AXES.index(product.direction.axis)] = value
+    bases = {run: moved_base(base, twists.get(run, np.zeros(6))) for run, base in model.bases.items()}
+    tools = tuple(
+        Part(part.placed, part.values + np.array([steps.get(term, 0.0) for term in part.placed.terms]))
+        for part in model.tools
+    )
+    return replace(model, bases=bases, tools=tools)

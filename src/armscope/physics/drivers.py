@@ -40,16 +40,22 @@ def _one(scene: Scene) -> Array:
     return np.ones(len(scene))
 
 
-def _angle(scene: Scene, j: int) -> Array:
-    return scene.recordings.motor_angles[:, j - 1]
+def _angle(scene: Scene, j: int, low: float = -np.inf, high: float = np.inf) -> Array:
+    """Motor angle j, rad; held at the ends of a range where one is given (a full turn away is the same place)."""
+    angle = scene.recordings.motor_angles[:, j - 1]
+    if np.isinf(low) and np.isinf(high):
+        return angle
+    beyond = (angle < low) | (angle > high)
+    turned = (low + high) / 2 + np.remainder(angle - (low + high) / 2 + np.pi, 2 * np.pi) - np.pi
+    return np.clip(np.where(beyond, turned, angle), low, high)
 
 
-def _sine(scene: Scene, j: int, periods: float) -> Array:
-    return np.sin(periods * _angle(scene, j))
+def _sine(scene: Scene, j: int, periods: float, *ends: float) -> Array:
+    return np.sin(periods * _angle(scene, j, *ends))
 
 
-def _cosine(scene: Scene, j: int, periods: float) -> Array:
-    return np.cos(periods * _angle(scene, j))
+def _cosine(scene: Scene, j: int, periods: float, *ends: float) -> Array:
+    return np.cos(periods * _angle(scene, j, *ends))
 
 
 def _chain_sine(scene: Scene, j: int, periods: int) -> Array:

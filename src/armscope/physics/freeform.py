@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.physics.drift import six_terms
-from armscope.physics.effect import Direction, Driver, Effect, Placed, Product, Term, motor, term
+from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.elastic import has_load
 from armscope.physics.geometric import JOINT_OFFSET
 from armscope.physics.placing import moving_joints, varies, varying_columns
@@ -25,6 +25,8 @@ SMOOTH_WAVES, SMOOTH_FINE_WAVES = 6.0, 24.0
 KNOTS = 8
 ROWS_PER_WAVE, ROWS_PER_FINE_WAVE = 7, 20
 FEWEST_WAVES, MOST_WAVES, MOST_FINE_WAVES = 8, 20, 72
+ISOLATED = 0.1
+"""A row this share of a joint's range away from all others tells nothing about what lies between."""
 SLACK = 1.25
 """The longest wave spans this many times the range that a joint covers, so that its ends are free; a turn at most."""
 
@@ -41,6 +43,36 @@ def refined(arm: Arm, recordings: Recordings, curve: Placed) -> Placed | None:
         return None
     j = int(curve.location.split()[1])
     return replace(_angle_curve(arm, recordings, j, count, SMOOTH_FINE_WAVES), fine=True)
+
+
+def held(curve: Placed, recordings: Recordings) -> Placed:
+    """A free curve of a joint's own angle, held at its end values beyond the range on which it was learned.
+
+    There its waves would only repeat, and its trend run on. Single rows far out (a home pose) are no part of the range.
+    """
+    if curve.reading != "curve" or curve.variant != "angle":
+        return curve
+    low, high = _range(recordings.motor_angles[:, int(curve.location.split()[1]) - 1])
+
+    def bounded(product: Product) -> Product:
+        driver = product.driver
+        return (
+            product if driver == ONE else replace(product, driver=Driver(driver.kind, (*driver.arguments, low, high)))
+        )
+
+    terms = tuple(replace(t, products=tuple(bounded(product) for product in t.products)) for t in curve.terms)
+    return replace(curve, terms=terms)
+
+
+def _range(values: Array) -> tuple[float, float]:
+    """Smallest and largest value, isolated ones left out."""
+    inside = np.sort(values)
+    wide = ISOLATED * (inside[-1] - inside[0])
+    while len(inside) > 2 and inside[1] - inside[0] > wide:
+        inside = inside[1:]
+    while len(inside) > 2 and inside[-1] - inside[-2] > wide:
+        inside = inside[:-1]
+    return float(inside[0]), float(inside[-1])
 
 
 def _place(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
