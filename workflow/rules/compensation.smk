@@ -12,6 +12,7 @@ rule closed_loop:
         fits=f"{PAPER}/fits.json.gz",
     output:
         table=f"{OUTLOOK}/closed_loop.csv",
+        points=f"{OUTLOOK}/closed_loop_points.csv",
         figure=f"{OUTLOOK}/closed_loop.png",
     params:
         code=code("armscope.cli.compensation:closed_loop"),
@@ -21,7 +22,7 @@ rule closed_loop:
         "../envs/armscope.yaml"
     shell:
         "armscope closed-loop {input.robot} --poses {input.poses} --errors {input.errors} --robots {input.robots} "
-        "--fits {input.fits} --products 'Fourier 3 (AI)' -o {output.table} --figure {output.figure} > {log} 2>&1"
+        "--fits {input.fits} --products 'Fourier 3 (AI)' -o {output.table} --points {output.points} --figure {output.figure} > {log} 2>&1"
 
 
 rule regions:

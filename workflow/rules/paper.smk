@@ -280,6 +280,8 @@ rule figures:
 
 rule paper_report:
     input:
+        robot=CONFIG.paper.robot.value,
+        left_over=f"{RESULTS}/compensation/closed_loop_points.csv",
         figures=rules.figures.input,
         tables=expand(
             f"{PAPER}/{{table}}.csv",
@@ -309,7 +311,7 @@ rule paper_report:
     conda:
         "../envs/armscope.yaml"
     shell:
-        "armscope paper report {params.folder} {params.proof} --settings {params.settings:q} -o {output.page} > {log} 2>&1"
+        "armscope paper report {params.folder} {params.proof} --robot {input.robot} --left-over {input.left_over} --settings {params.settings:q} -o {output.page} > {log} 2>&1"
 
 
 rule paper:

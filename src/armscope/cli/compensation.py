@@ -143,12 +143,14 @@ def closed_loop(
     robots: Annotated[Path, typer.Option(help="robots.csv: the anchored robot's geometric errors")],
     fits: Annotated[Path, typer.Option(help="fits.json.gz: the models, fitted")],
     output: Annotated[Path, typer.Option("--output", "-o", help="table: model, trajectory, stage, axis, rms_mm")],
+    points: Annotated[Path | None, typer.Option(help="table of the error left at every point")] = None,
     figure: Annotated[Path | None, typer.Option(help="picture of the table")] = None,
     products: Annotated[list[str] | None, typer.Option(help="models to fit with products, too")] = None,
     diagnosed: Annotated[bool, typer.Option(help="diagnose the identification rows, too")] = True,
 ) -> None:
     """Compensate the paper's test paths with every model and let the virtual arm follow the commands."""
     from armscope.cli.studies import read_fits, read_measurements
+    from armscope.compensation.closed_loop import cross_table
     from armscope.files import write_table
     from armscope.report.closed_loop import paper_closed_loop
     from armscope.report.compensation_figure import cross_table_figure
@@ -157,8 +159,11 @@ def closed_loop(
 
     measurements = read_measurements(poses, errors)
     specs = [_spec(name) for name in products or ()]
-    table = paper_closed_loop(load_arm(robot), measurements, read_fits(fits), _true_errors(robots), specs, diagnosed)
+    left = paper_closed_loop(load_arm(robot), measurements, read_fits(fits), _true_errors(robots), specs, diagnosed)
+    table = cross_table(left)
     write_table(output, table)
+    if points is not None:
+        write_table(points, left, digits=6)
     if figure is not None:
         save_figure(cross_table_figure(table), figure)
 

@@ -271,6 +271,8 @@ def convergence_figure(
 def report(
     results: Annotated[Path, typer.Argument(help="folder with the study's tables and figures")],
     proof: Annotated[Path, typer.Argument(help="folder of the small proof of the diagnosis")],
+    robot: Annotated[Path, typer.Option(help="robot.yaml")],
+    left_over: Annotated[Path, typer.Option(help="closed_loop_points.csv: what models leave at every point")],
     settings: Settings,
     output: Annotated[Path, typer.Option("--output", "-o", help="report.html; table2.html is written beside it")],
 ) -> None:
@@ -278,12 +280,14 @@ def report(
     import pandas as pd
 
     from armscope.cli.paper_settings import ReportSettings
-    from armscope.report.paper_page import RealArm, write_paper_page, write_table2
+    from armscope.report.paper_page import RealArm, error_field, write_paper_page, write_table2
+    from armscope.robot import load_arm
 
     chosen = parsed(ReportSettings, settings)
     arms = [RealArm(arm.title, Path(arm.folder) if arm.folder else None, arm.reason) for arm in chosen.real]
     write_table2(output.with_name("table2.html"), pd.read_csv(results / "table2.csv"))
-    write_paper_page(output, chosen.paper, chosen.seed, results, proof, arms)
+    field = error_field(load_arm(robot), pd.read_csv(results / "poses.csv"), pd.read_csv(left_over))
+    write_paper_page(output, chosen.paper, chosen.seed, results, proof, arms, field)
 
 
 @app.command("readme")

@@ -21,6 +21,7 @@ from armscope.robot import Arm, chain
 Array = NDArray[np.float64]
 
 STAGES = ("fit", "prediction", "closed loop")
+ERROR_COLUMNS = ["dx_mm", "dy_mm", "dz_mm"]
 NO_MODEL = "Uncompensated"
 """The negative control: the nominal commands."""
 
@@ -75,14 +76,14 @@ def physical_candidate(model: FittedModel, identified: Identified) -> Candidate:
     return Candidate(points, lambda path: compensate_physical(model, identified, path, options))
 
 
-def cross_table(
+def left_over(
     arm: Arm,
     candidates: Mapping[str, Candidate],
     identification: MeasuredPath,
     trajectories: Mapping[str, MeasuredPath],
     true_points: Callable[[Array], Array],
 ) -> pd.DataFrame:
-    """Model by trajectory by stage: what is left of the error.
+    """What is left of the error at every point, by model, trajectory and stage.
 
     Args:
         arm: the nominal arm.
@@ -92,23 +93,39 @@ def cross_table(
         true_points: where the real arm's tool is, (N, 3) m, at commands (N, m) rad; without measurement noise.
 
     Returns:
-        Columns model, trajectory, stage, axis ("x", "y", "z", "3D"), points, refused, rms_mm, rss_mm. Stages: "fit"
-        (measured minus predicted on the identification rows), "prediction" (the same on a test path), "closed loop"
-        (true points at the corrected commands minus wanted points; refused rows are counted and left out). The model
-        "Uncompensated" gives the errors themselves; its closed loop is the true arm at the nominal commands.
+        Columns model, trajectory, stage, point (from 1), dx_mm, dy_mm, dz_mm. Stages: "fit" (measured minus predicted
+        on the identification rows), "prediction" (the same on a test path), "closed loop" (true points at the corrected
+        commands minus wanted points; empty where the command was refused). The model "Uncompensated" gives the errors
+        themselves; its closed loop is the true arm at the nominal commands.
     """
-    rows = [*_rows(NO_MODEL, "identification", "fit", identification.errors_mm)]
+    parts = [_vectors(NO_MODEL, "identification", "fit", identification.errors_mm)]
     for name, path in trajectories.items():
-        rows += _rows(NO_MODEL, name, "prediction", path.errors_mm)
-        rows += _rows(NO_MODEL, name, "closed loop", true_points(path.motor_angles) * 1e3 - path.wanted_mm)
+        parts.append(_vectors(NO_MODEL, name, "prediction", path.errors_mm))
+        parts.append(_vectors(NO_MODEL, name, "closed loop", true_points(path.motor_angles) * 1e3 - path.wanted_mm))
     for model, candidate in candidates.items():
-        rows += _rows(model, "identification", "fit", _left(candidate, identification))
+        parts.append(_vectors(model, "identification", "fit", _left(candidate, identification)))
         for name, path in trajectories.items():
-            rows += _rows(model, name, "prediction", _left(candidate, path))
+            parts.append(_vectors(model, name, "prediction", _left(candidate, path)))
             result = candidate.compensate(_as_wanted(arm, path, name))
             error = np.full_like(path.wanted_mm, np.nan)
             error[result.reached] = true_points(result.commands[result.reached]) * 1e3 - path.wanted_mm[result.reached]
-            rows += _rows(model, name, "closed loop", error)
+            parts.append(_vectors(model, name, "closed loop", error))
+    return pd.concat(parts, ignore_index=True)
+
+
+def cross_table(vectors: pd.DataFrame) -> pd.DataFrame:
+    """Model by trajectory by stage: the RMS of what is left of the error.
+
+    Args:
+        vectors: see `left_over`.
+
+    Returns:
+        Columns model, trajectory, stage, axis ("x", "y", "z", "3D"), points, refused, rms_mm, rss_mm; points without a
+        number are counted as refused and left out.
+    """
+    rows = []
+    for (model, trajectory, stage), part in vectors.groupby(["model", "trajectory", "stage"], sort=False):
+        rows += _rows(str(model), str(trajectory), str(stage), part[ERROR_COLUMNS].to_numpy())
     return pd.DataFrame(rows)
 
 
@@ -121,6 +138,11 @@ def _as_wanted(arm: Arm, path: MeasuredPath, name: str) -> WantedPath:
 
 def _left(candidate: Candidate, path: MeasuredPath) -> Array:
     return path.wanted_mm + path.errors_mm - candidate.predict(path.motor_angles) * 1e3
+
+
+def _vectors(model: str, trajectory: str, stage: str, error_mm: Array) -> pd.DataFrame:
+    keys = {"model": model, "trajectory": trajectory, "stage": stage, "point": np.arange(1, len(error_mm) + 1)}
+    return pd.DataFrame(keys | dict(zip(ERROR_COLUMNS, error_mm.T, strict=True)))
 
 
 def _rows(model: str, trajectory: str, stage: str, error_mm: Array) -> list[dict[str, object]]:

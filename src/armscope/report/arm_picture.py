@@ -48,7 +48,7 @@ def draw_arm(arm: Arm, motor_angles: Array, shares: Mapping[str, float]) -> Figu
     row, view = typical_pose(arm, motor_angles)
     shape = arm_shape(arm, motor_angles[row])
     by_place = shares_by_place(shares)
-    top = _round_up(max([0.0, *by_place.values()]))
+    top = round_up(max([0.0, *by_place.values()]))
     norm, colours = Normalize(0, top), share_colours()
 
     def colour(place: str) -> Any:
@@ -92,7 +92,7 @@ def shares_by_place(shares: Mapping[str, float]) -> dict[str, float]:
     return total
 
 
-def _round_up(share: float) -> float:
+def round_up(share: float) -> float:
     """The end of the colour bar: the next of 5, 10, 20, 40, 60, 80, 100 %."""
     if share <= 0:
         return 0.0

@@ -14,7 +14,7 @@ from armscope.compensation.closed_loop import (
     Candidate,
     MeasuredPath,
     black_box_candidate,
-    cross_table,
+    left_over,
     physical_candidate,
 )
 from armscope.compensation.physical import identified_on
@@ -40,7 +40,7 @@ def paper_closed_loop(
     products: Sequence[ModelSpec] = (),
     diagnosed: bool = True,
 ) -> pd.DataFrame:
-    """The cross-table model by trajectory by stage for the first robot of a study; see `cross_table`.
+    """What is left at every point by model, trajectory and stage, for the first robot of a study; see `left_over`.
 
     Args:
         arm: the nominal arm.
@@ -62,7 +62,7 @@ def paper_closed_loop(
         candidates[model.name] = black_box_candidate(model)
     if diagnosed:
         candidates[DIAGNOSED] = _diagnosed(arm, identification)
-    return cross_table(
+    return left_over(
         arm,
         candidates,
         _measured(identification),

@@ -15,8 +15,9 @@ from armscope.diagnosis.checks import check_table
 from armscope.diagnosis.verdict import FoundEffect, NextPoses, SuspectRow, Verdict
 from armscope.files import write_text
 from armscope.recordings import Recordings
-from armscope.report.diagnosis_figures import SavedFigure, save_all, waterfall_steps
+from armscope.report.diagnosis_figures import SavedFigure, location_shares, save_all, waterfall_steps
 from armscope.report.effect_cards import Card, card
+from armscope.report.error_field import MOST_ROWS, ErrorField, turnable
 from armscope.report.headline import headline
 from armscope.report.page import render_page
 from armscope.report.reference_models import held_out_rms
@@ -99,6 +100,8 @@ def _content(
         "tiles": _tiles(verdict),
         "improvement": improvement(verdict),
         "figures": figures,
+        "field": turnable(arm, _field(verdict, recordings)),
+        "field_rows": MOST_ROWS,
         "cards": [as_card(effect) for effect in main],
         "minor": [as_card(effect) for effect in minor],
         "minor_share": percent(sum(effect.share for effect in minor)),
@@ -121,6 +124,28 @@ def _content(
             columns=["setting", "value"],
         ),
     }
+
+
+def _field(verdict: Verdict, recordings: Recordings) -> ErrorField:
+    """The residuals in the workspace, to be turned."""
+    rows = verdict.residuals
+    bad = {(row.id, row.run): f"fits badly, {row.weight:.2g} of its weight kept" for row in verdict.suspects}
+    keys = enumerate(zip(rows.id.tolist(), rows.run.tolist(), strict=True))
+    return ErrorField(
+        points_mm=rows.points,
+        motor_angles=recordings.motor_angles,
+        ids=rows.id.tolist(),
+        groups=rows.run.tolist(),
+        group_word="run",
+        row_word="row",
+        stages=(
+            ("before", "measured minus nominal, base and tool placed"),
+            ("after", "measured minus the fitted model"),
+        ),
+        errors_mm={"fitted model": (rows.before, rows.after)},
+        suspects={row: bad[key] for row, key in keys if key in bad},
+        shares=location_shares(verdict),
+    )
 
 
 def _tiles(verdict: Verdict) -> list[tuple[str, str, str]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import importlib.resources
 import re
 import zlib
 from pathlib import Path
@@ -36,12 +37,17 @@ _TEMPLATES.filters["plain"] = plain
 
 def render_page(template: str, **content: Any) -> str:
     """The HTML of ``templates/<template>`` filled with ``content``."""
-    return _TEMPLATES.get_template(template).render(embed=embed, table=html_table, **content)
+    return _TEMPLATES.get_template(template).render(embed=embed, beside=beside, table=html_table, **content)
 
 
 def write_page(path: Path | str, template: str, **content: Any) -> None:
     """Render a page and write it, whole or not at all."""
     write_text(path, render_page(template, **content))
+
+
+def beside(name: str) -> Markup:
+    """A script or style sheet that lies beside the templates, as it is."""
+    return Markup(importlib.resources.files("armscope.report").joinpath("templates", name).read_text())
 
 
 def embed(figure: Path | str, alt: str = "") -> Markup:

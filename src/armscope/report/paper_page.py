@@ -7,12 +7,19 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
+from markupsafe import Markup
+from numpy.typing import NDArray
 
+from armscope.compensation.closed_loop import NO_MODEL
 from armscope.config import Paper, stated_numbers
 from armscope.paper.convergence import iterations_needed
-from armscope.paper.printed import AXES, TRAJECTORIES, UNCOMPENSATED
+from armscope.paper.measurements import ERROR_COLUMNS, pose_arrays
+from armscope.paper.printed import AXES, IDENTIFICATION, TRAJECTORIES, UNCOMPENSATED
+from armscope.report.error_field import ErrorField, turnable
 from armscope.report.page import significant, write_page
+from armscope.robot import Arm
 
 TAGS = {"holds": "holds", "does not hold": "fails", "depends": "depends"}
 
@@ -97,6 +104,15 @@ def _ranges(cells: list[Any], low: str, high: str) -> tuple[str, ...]:
     return tuple(first if first == second else f"{first}–{second}" for first, second in pairs)
 
 
+def _claimed(claim: dict[str, Any]) -> str:
+    """A claim's number with its range over the robots; what is nothing in practice is not spelled out."""
+    unit = "" if pd.isna(claim["unit"]) else f" {claim['unit']}"
+    if unit == " %" and abs(claim["number_high"]) < 0.01:
+        return "under 0.01 %"
+    number, low, high = (significant(claim[name]) for name in ("number", "number_low", "number_high"))
+    return f"{number}{unit} ({low}–{high})"
+
+
 def _needed(history: pd.DataFrame) -> pd.DataFrame:
     """By model and rule, the iterations after which 90 % of the swarms are within 1 % of least squares."""
     table = iterations_needed(history)
@@ -111,7 +127,50 @@ def write_table2(path: Path, table: pd.DataFrame) -> None:
     write_page(path, "table2.html.j2", blocks=table2_blocks(table), trajectories=TRAJECTORIES)
 
 
-def write_paper_page(path: Path, paper: Paper, seed: int, results: Path, proof: Path, real: list[RealArm]) -> None:
+def error_field(arm: Arm, poses: pd.DataFrame, left_over: pd.DataFrame) -> Markup:
+    """The errors of the first robot before and after, to be turned.
+
+    Args:
+        arm: the nominal arm.
+        poses: see `armscope.paper.measurements.pose_table`.
+        left_over: see `armscope.compensation.closed_loop.left_over`.
+    """
+    left_over = left_over.assign(stage=left_over["stage"].replace("fit", "prediction"))
+    vectors = left_over.set_index(["model", "stage", "trajectory", "point"])[ERROR_COLUMNS]
+    rows = list(zip(poses["trajectory"], poses["point"], strict=True))
+
+    def errors(model: str, stage: str) -> NDArray[np.float64]:
+        keys = [(model, stage, trajectory, point) for trajectory, point in rows]
+        return vectors.reindex(keys).to_numpy(dtype=np.float64)
+
+    before = errors(NO_MODEL, "prediction")
+    angles, nominal_mm = pose_arrays(poses)
+    shown = ErrorField(
+        points_mm=nominal_mm,
+        motor_angles=angles,
+        ids=poses["point"].astype(str).tolist(),
+        groups=poses["trajectory"].tolist(),
+        group_word="trajectory",
+        row_word="point",
+        stages=(
+            ("before", "measured minus nominal"),
+            ("after prediction", "measured minus predicted"),
+            ("compensated", "where the arm really goes under the corrected commands, minus where it should"),
+        ),
+        errors_mm={
+            model: (before, errors(model, "prediction"), errors(model, "closed loop"))
+            for model in dict.fromkeys(left_over["model"])
+            if model != NO_MODEL
+        },
+        missing="only the test paths were compensated, and a command may be refused",
+        paths=[name for name in dict.fromkeys(poses["trajectory"]) if name != IDENTIFICATION],
+    )
+    return turnable(arm, shown)
+
+
+def write_paper_page(
+    path: Path, paper: Paper, seed: int, results: Path, proof: Path, real: list[RealArm], field: Markup
+) -> None:
     """The report of the reproduction.
 
     Args:
@@ -121,6 +180,7 @@ def write_paper_page(path: Path, paper: Paper, seed: int, results: Path, proof: 
         results: the folder with its tables and figures (SVG).
         proof: the folder of the small proof of the diagnosis.
         real: real arms.
+        field: see `error_field`.
     """
     table = pd.read_csv(results / "table2.csv")
     claims = pd.read_csv(results / "claims.csv")
@@ -136,6 +196,7 @@ def write_paper_page(path: Path, paper: Paper, seed: int, results: Path, proof: 
         tags=TAGS,
         verdicts=claims["verdict"].value_counts().to_dict(),
         significant=significant,
+        claimed=_claimed,
         points=table.groupby("trajectory")["points"].first().to_dict(),
         blocks=table2_blocks(table),
         trajectories=TRAJECTORIES,
@@ -149,6 +210,7 @@ def write_paper_page(path: Path, paper: Paper, seed: int, results: Path, proof: 
         anchored=pd.read_csv(results / "robots.csv"),
         assumptions=pd.DataFrame(stated_numbers(paper)),
         figures=results / "figures",
+        field=field,
         proof=proof / "figures" / "aims.svg",
         proof_page=os.path.relpath(proof / "report.html", path.parent),
         real=real,
