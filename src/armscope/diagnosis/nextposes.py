@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.design.separation import separating
 from armscope.diagnosis.certainty import TELLS_APART_NATS, apart
 from armscope.diagnosis.evidence import FRAME_PRIOR_MM, Hypothesis
 from armscope.diagnosis.problem import columns
@@ -66,7 +67,7 @@ def next_poses(
     with_base[:k, :k] = covariance
     with_base[k:, k:] = np.eye(6) * (FRAME_PRIOR_MM * 1e-3) ** 2
     adapting = np.concatenate([X[:, :, other.columns], new_base], axis=2)
-    chosen, separation = _greedy(adapting, between, with_base, other.noise)
+    chosen, separation = separating(adapting, between, with_base, other.noise, ASKED)
     nats = float(np.sum(separation**2)) / (2 * other.noise**2)
     repeats = float(np.ceil(DECISIVE_NATS / nats)) if nats > 1e-6 else float("inf")
     payload = np.zeros(len(chosen)) if table.payload is None else table.payload[chosen]
@@ -101,21 +102,3 @@ def _reachable(fit: Refit, recordings: Recordings, rng: np.random.Generator) -> 
         time=None if recordings.time is None else np.full(TRIED, np.nanmax(recordings.time)),
         temperature=None if recordings.temperature is None else np.full(TRIED, np.nanmedian(recordings.temperature)),
     )
-
-
-def _greedy(X: Array, apart: Array, covariance: Array, noise: float) -> tuple[NDArray[np.intp], Array]:
-    """Numbers of the poses and how far apart the predictions are there, mm."""
-    chosen: list[int] = []
-    separation: list[float] = []
-    left = apart.copy()
-    for _ in range(ASKED):
-        blocks = X @ covariance @ np.swapaxes(X, 1, 2) + noise**2 * np.eye(3)
-        score = np.einsum("ni,ni->n", left, np.linalg.solve(blocks, left[:, :, None])[:, :, 0])
-        score[chosen] = -1
-        pose = int(np.argmax(score))
-        chosen.append(pose)
-        separation.append(float(np.linalg.norm(left[pose])))
-        gain = covariance @ X[pose].T @ np.linalg.inv(blocks[pose])
-        left = left - X @ (gain @ left[pose])
-        covariance = covariance - gain @ X[pose] @ covariance
-    return np.array(chosen), np.array(separation)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.robot import Arm, Chain, chain
+from armscope.robot.centre_line import centre_lines
 
 Array = NDArray[np.float64]
 
@@ -73,7 +74,7 @@ def arm_shape(arm: Arm, motor_angles: Array) -> ArmShape:
     frames = chain(arm, np.reshape(motor_angles, (1, -1)))
     turn = upright(arm.gravity)
     axes = frames.joint_rotation[0, :, :, 2]
-    parts = _centre_lines(arm, frames)
+    parts = [(location, line[0]) for location, line in centre_lines(arm, frames)]
     rod = _linkage(arm, frames)
     return ArmShape(
         parts=tuple((location, line @ turn.T) for location, line in parts),
@@ -133,32 +134,6 @@ def _legibility(nodes: Array) -> Array:
     pairs = near[:, first, second]
     scores: Array = pairs.mean(axis=1) + pairs.min(axis=1)
     return scores
-
-
-def _centre_lines(arm: Arm, frames: Chain) -> list[tuple[str, Array]]:
-    """Each link's line bends once, so that offsets along an axis and across it both show."""
-    origins, axes = frames.joint_origin[0], frames.joint_rotation[0, :, :, 2]
-    tool = frames.tool[0]
-    flange = tool - frames.tool_rotation[0] @ arm.tool
-    n_joints = len(origins)
-    if arm.is_modified_dh:
-        starts = np.vstack([np.zeros(3), origins[:-1]])
-        lines = [(f"link {j + 1}", _bent_before(starts[j], origins[j], axes[j])) for j in range(n_joints)]
-        return [*lines, ("tool", np.vstack([origins[-1], flange, tool]))]
-    ends = np.vstack([origins[1:], flange])
-    base = [("base", np.vstack([np.zeros(3), origins[0]]))]
-    lines = [(f"link {j + 1}", _bent_behind(origins[j], ends[j], axes[j])) for j in range(n_joints)]
-    return [*base, *lines, ("tool", np.vstack([flange, tool]))]
-
-
-def _bent_behind(start: Array, end: Array, axis: Array) -> Array:
-    """First along the axis of the joint at the start."""
-    return np.vstack([start, start + axis * (axis @ (end - start)), end])
-
-
-def _bent_before(start: Array, end: Array, axis: Array) -> Array:
-    """Last along the axis of the joint at the end."""
-    return np.vstack([start, end - axis * (axis @ (end - start)), end])
 
 
 def _disc_centres(origins: Array, axes: Array, lines: list[Array]) -> Array:

@@ -1,0 +1,107 @@
+"""Poses to choose from: spread evenly over the joints' ranges, possible and visible, with the context they are tried in."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import qmc
+
+from armscope.inputs import InputError
+from armscope.poses.obstacles import REASONS, Surroundings, refusals
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+
+Array = NDArray[np.float64]
+
+UNSTATED_RAD = np.pi
+"""A motor without stated limits is assumed to turn half a turn to either side."""
+MOST_DRAWN = 40
+"""At most this many poses are drawn per candidate wanted."""
+LARGEST_GRID = 500_000
+
+
+@dataclass(frozen=True, eq=False)
+class Candidates:
+    """Possible poses.
+
+    Attributes:
+        table: N rows: motor angles, side of approach, payload.
+        drawn: how many poses were drawn.
+        refused: how many of those for each of `REASONS`.
+    """
+
+    table: Recordings
+    drawn: int
+    refused: Mapping[str, int]
+
+    def __len__(self) -> int:
+        return len(self.table)
+
+
+def ranges(arm: Arm) -> tuple[Array, Array]:
+    """(low, high) of each motor, rad."""
+    low, high = arm.limits.T
+    return np.where(np.isfinite(low), low, -UNSTATED_RAD), np.where(np.isfinite(high), high, UNSTATED_RAD)
+
+
+def candidates(arm: Arm, count: int, around: Surroundings, seed: int, payload_kg: float = 0.0) -> Candidates:
+    """``count`` possible poses: a scrambled Halton sequence over the ranges, without those that are refused.
+
+    Each is tried from a random side of every joint, and every other one (at random) with the payload.
+
+    Raises:
+        InputError: hardly any pose is possible.
+    """
+    low, high = ranges(arm)
+    sequence = qmc.Halton(arm.n_motors, rng=np.random.default_rng(seed))
+    kept: list[Array] = []
+    refused, drawn, found = dict.fromkeys(REASONS, 0), 0, 0
+    while found < count and drawn < MOST_DRAWN * count:
+        angles = low + sequence.random(count) * (high - low)
+        reasons = refusals(arm, angles, around)
+        possible = angles[reasons == ""]
+        for reason in REASONS:
+            refused[reason] += int(np.sum(reasons == reason))
+        kept, drawn, found = [*kept, possible], drawn + count, found + len(possible)
+    poses = np.concatenate(kept)[:count]
+    if len(poses) < count:
+        most = max(refused, key=lambda reason: refused[reason])
+        raise InputError(
+            "--candidates", "", f"{len(poses)} possible poses of {drawn} drawn", f"{count} are wanted; most: {most}",
+            "Check --tracker, --floor-mm and --radius-mm (mm in the arm's base frame) and the joint limits.",
+        )  # fmt: skip
+    return Candidates(pose_rows(poses, np.random.default_rng(seed + 1), payload_kg), drawn, refused)
+
+
+def pose_rows(angles: Array, rng: np.random.Generator, payload_kg: float = 0.0) -> Recordings:
+    """Rows to be measured, with the context that effects may follow: side of approach and payload."""
+    count, none = len(angles), np.full(len(angles), "")
+    approach = rng.choice([-1.0, 1.0], angles.shape)
+    payload = np.where(rng.random(count) < 0.5, payload_kg, 0.0) if payload_kg > 0 else None
+    return Recordings(
+        angles, np.full((count, 3), np.nan), none, none, np.arange(1, count + 1).astype(str),
+        approach=approach, payload=payload, source="poses",
+    )  # fmt: skip
+
+
+def grid(arm: Arm, count: int, around: Surroundings, rng: np.random.Generator, payload_kg: float = 0.0) -> Recordings:
+    """``count`` possible poses of a regular grid over the ranges, the coarsest that has so many, drawn from it."""
+    low, high = ranges(arm)
+    levels = 2
+    while levels**arm.n_motors <= LARGEST_GRID:
+        steps = np.indices((levels,) * arm.n_motors).reshape(arm.n_motors, -1).T
+        angles = low + (steps + 0.5) / levels * (high - low)
+        possible = angles[refusals(arm, angles, around) == ""]
+        if len(possible) >= count:
+            order = rng.permutation(len(possible))[:count]
+            return pose_rows(possible[np.sort(order)], rng, payload_kg)
+        levels += 1
+    raise InputError("--poses", "", count, f"a grid of {levels - 1} steps per joint has fewer possible poses")
+
+
+def subset(table: Recordings, rows: NDArray[np.intp]) -> Recordings:
+    """Some rows, numbered anew from 1."""
+    return replace(table.rows(rows), id=np.arange(1, len(rows) + 1).astype(str))

@@ -1,0 +1,114 @@
+"""The choice: candidates, what they show, the poses that show it best, in an order with short ways."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.design.exchange import optimal
+from armscope.design.indices import all_indices
+from armscope.inputs import InputError
+from armscope.poses.candidates import Candidates, candidates, grid, subset
+from armscope.poses.obstacles import Surroundings
+from armscope.poses.shown import GEOMETRY, Shown, shown
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Choice:
+    """Poses chosen from candidates.
+
+    Attributes:
+        index: what was made large, "O1" to "O5".
+        rows: (n,) of the candidates, in the order to measure.
+        candidates: what they were chosen from.
+        shown: what they show.
+        jacobian: (N, 3, p) of all candidates.
+        around: floor, tracker, radius of the links.
+    """
+
+    index: str
+    rows: NDArray[np.intp]
+    candidates: Candidates
+    shown: Shown
+    jacobian: Array
+    around: Surroundings
+
+    @property
+    def table(self) -> Recordings:
+        """The chosen poses, in the order to measure."""
+        return subset(self.candidates.table, self.rows)
+
+    @property
+    def indices(self) -> dict[str, float]:
+        """O1 to O5 of the choice."""
+        return all_indices(self.jacobian[self.rows])
+
+
+def choose(
+    arm: Arm,
+    count: int,
+    around: Surroundings | None = None,
+    effects: Sequence[str] = (GEOMETRY,),
+    index: str = "O1",
+    n_candidates: int = 5000,
+    payload_kg: float = 0.0,
+    seed: int = 0,
+    starts: int = 3,
+) -> Choice:
+    """The ``count`` possible poses that show some effects best, by an observability index (O1 is D-optimality).
+
+    Raises:
+        InputError: too few possible poses, too few poses for the parameters, or effects that poses cannot show.
+    """
+    around = around or Surroundings()
+    pool = candidates(arm, n_candidates, around, seed, payload_kg)
+    seen = shown(arm, pool.table, effects)
+    jacobian = seen.jacobian(pool.table)
+    try:
+        rows = optimal(index, jacobian, count, np.random.default_rng(seed), starts)
+    except ValueError as error:
+        raise InputError("--poses", "", count, str(error)) from error
+    return Choice(index, short_way(pool.table.motor_angles, rows), pool, seen, jacobian, around)
+
+
+def random_choice(choice: Choice, rng: np.random.Generator) -> Recordings:
+    """As many of the candidates, drawn at random."""
+    rows = rng.choice(len(choice.candidates), len(choice.rows), replace=False)
+    return subset(choice.candidates.table, rows)
+
+
+def grid_choice(choice: Choice, rng: np.random.Generator, payload_kg: float = 0.0) -> Recordings:
+    """As many possible poses of a grid."""
+    return grid(choice.shown.arm, len(choice.rows), choice.around, rng, payload_kg)
+
+
+def short_way(motor_angles: Array, rows: NDArray[np.intp]) -> NDArray[np.intp]:
+    """The rows in an order with short ways: nearest neighbours, then 2-opt (Croes 1958).
+
+    A way counts as the largest turn of any motor, as all move at once.
+    """
+    poses = motor_angles[rows]
+    ways = np.abs(poses[:, None] - poses[None]).max(axis=2)
+    order, left = [0], set(range(1, len(rows)))
+    while left:
+        here = order[-1]
+        order.append(min(left, key=lambda each: (ways[here, each], each)))
+        left.remove(order[-1])
+    tour = np.array(order)
+    for _ in range(20 * len(rows)):
+        before, after = tour[:-1], tour[1:]
+        saved = (ways[before, after][:, None] + ways[before, after][None]) - (
+            ways[before[:, None], before[None]] + ways[after[:, None], after[None]]
+        )
+        i, j = np.unravel_index(int(np.argmax(np.triu(saved, 1))), saved.shape)
+        if saved[i, j] < 1e-9:
+            break
+        tour[i + 1 : j + 1] = tour[i + 1 : j + 1][::-1].copy()
+    return np.asarray(rows[tour])

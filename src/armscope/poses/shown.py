@@ -1,0 +1,144 @@
+"""What poses shall show: the parameters of chosen effects, and of the two frames that every recording leaves free."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import scipy.linalg
+from numpy.typing import NDArray
+
+from armscope.inputs import InputError, nearest
+from armscope.physics.drift import six_terms
+from armscope.physics.effect import AXES, ONE, Placed, Term
+from armscope.physics.frames import BASE_FRAME, TOOL_FRAME
+from armscope.physics.geometric import background
+from armscope.physics.registry import EFFECTS, library
+from armscope.physics.scene import Part, Scene
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+
+Array = NDArray[np.float64]
+
+GEOMETRY = "geometry"
+"""The default set of effects: constant errors of all D-H rows and all motors' zeros."""
+INDEPENDENT = 1e-3
+"""A parameter is told apart from the others if this share of its displacement is beyond their imitation."""
+SIZE_M = 1e-3
+"""Parameters are counted in units that move the tool by this much (RMS over the candidates), so that they compare."""
+
+
+@dataclass(frozen=True, eq=False)
+class Shown:
+    """Parameters that poses can tell apart.
+
+    Attributes:
+        arm: the arm.
+        placed: frames first, then the effects.
+        terms: (effect number in ``placed``, term) of each parameter kept, p of them.
+        sizes: (p,) SI size of each that moves the tool by `SIZE_M`.
+        hidden: names of parameters that the others imitate, or that move nothing.
+    """
+
+    arm: Arm
+    placed: tuple[Placed, ...]
+    terms: tuple[tuple[int, Term], ...]
+    sizes: Array
+    hidden: tuple[str, ...]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the parameters: "link 2 a", "joint 3 offset"."""
+        return tuple(_name(self.placed[number], term) for number, term in self.terms)
+
+    @cached_property
+    def is_frame(self) -> NDArray[np.bool_]:
+        """(p,) which parameters belong to base and tool frame."""
+        return np.array([self.placed[number].family == "frame" for number, _ in self.terms])
+
+    def jacobian(self, table: Recordings) -> Array:
+        """(N, 3, p) displacement of the tool, m, by each parameter's `size`."""
+        posture = Scene(self.arm, table).posture()
+        return np.stack(
+            [posture.column(term) * size for (_, term), size in zip(self.terms, self.sizes, strict=True)], 2
+        )
+
+    def parts(self, values: Array) -> list[Part]:
+        """The effects with values (p,) in units of the sizes; parameters that are not kept are zero."""
+        by_effect = [np.zeros(len(each.terms)) for each in self.placed]
+        for value, size, (number, term) in zip(values, self.sizes, self.terms, strict=True):
+            by_effect[number][self.placed[number].terms.index(term)] = value * size
+        return [Part(each, si) for each, si in zip(self.placed, by_effect, strict=True)]
+
+    def tool(self, table: Recordings, values: Array) -> Array:
+        """(N, 3) the tool with all effects in place, exactly, m."""
+        return Scene(self.arm, table).posture(self.parts(values)).tool
+
+
+def shown(arm: Arm, table: Recordings, effects: Sequence[str] = (GEOMETRY,)) -> Shown:
+    """The parameters of some effects, wherever they can stand, that the poses of a table tell apart.
+
+    Args:
+        arm: the arm.
+        table: candidate poses with the context that effects follow.
+        effects: names of the vocabulary, or `GEOMETRY`.
+
+    Raises:
+        InputError: an unknown name, or an effect that poses alone cannot show.
+    """
+    frames = [
+        Placed(BASE_FRAME, "base", six_terms("base", ONE), (1.0,) * 6, "constant"),
+        Placed(TOOL_FRAME, "tool", six_terms("tool", ONE, axes=AXES[:3]), (1.0,) * 3, "constant"),
+    ]
+    placed = tuple([*frames, *_placed(arm, table, effects)])
+    posture = Scene(arm, table).posture()
+    terms = [(number, term) for number, each in enumerate(placed) for term in each.terms]
+    columns = np.stack([posture.column(term).reshape(-1) for _, term in terms], axis=1)
+    rms = np.sqrt(np.mean(columns**2, axis=0) * 3)
+    moves = rms > 1e-12
+    sizes = np.where(moves, SIZE_M / np.where(moves, rms, 1.0), 1.0)
+    frame = np.array([placed[number].family == "frame" for number, _ in terms])
+    kept = _told_apart(columns * sizes, frame) & moves
+    hidden = tuple(_name(placed[number], term) for (number, term), keep in zip(terms, kept, strict=True) if not keep)
+    chosen = tuple(each for each, keep in zip(terms, kept, strict=True) if keep)
+    return Shown(arm, placed, chosen, sizes[kept], hidden)
+
+
+def _placed(arm: Arm, table: Recordings, effects: Sequence[str]) -> list[Placed]:
+    known = {effect.name: effect for effect in EFFECTS}
+    found, everywhere = list[Placed](), library(arm, table)
+    for name in dict.fromkeys(effects):
+        if name == GEOMETRY:
+            found += background(arm)
+            continue
+        if name not in known:
+            raise InputError("--effects", "", name, "no effect of this name", nearest(name, {*known, GEOMETRY}))
+        here = [each for each in everywhere if each.name == name and not each.fine]
+        first = {each.location: each for each in reversed(here)}  # one form of it per location
+        if not here:
+            needs = f"it follows {', '.join(known[name].needs)}" if known[name].needs else "it is found by scanning"
+            rule = f"poses alone cannot show it on {arm.name}: {needs}"
+            raise InputError(
+                "--effects", "", name, rule, "Leave it out, or give the context it follows (--payload-kg)."
+            )
+        found += list(first.values())[::-1]
+    return found
+
+
+def _told_apart(columns: Array, first: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Columns chosen by QR with pivoting (Golub 1965): the frames first, then the effects, until little is left."""
+    triangular = np.linalg.qr(columns, mode="r")
+    left = triangular / np.maximum(np.linalg.norm(triangular, axis=0), 1e-300)
+    kept = np.zeros(len(first), dtype=bool)
+    for members in (np.flatnonzero(first), np.flatnonzero(~first)):
+        basis, factor, order = scipy.linalg.qr(left[:, members], mode="economic", pivoting=True)
+        rank = int(np.sum(np.abs(np.diag(factor)) > INDEPENDENT))
+        kept[members[order[:rank]]] = True
+        left = left - basis[:, :rank] @ (basis[:, :rank].T @ left)
+    return kept
+
+
+def _name(placed: Placed, term: Term) -> str:
+    return f"{placed.location} {term.name}" if placed.family in ("frame", "geometric") else f"{placed} {term.name}"
