@@ -9,6 +9,7 @@ include: "workflow/rules/recordings.smk"
 include: "workflow/rules/sweep.smk"
 include: "workflow/rules/proof.smk"
 include: "workflow/rules/compensation.smk"
+include: "workflow/rules/poses.smk"
 include: "workflow/rules/readme.smk"
 
 

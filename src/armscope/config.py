@@ -136,6 +136,17 @@ class Proof(Strict):
     parts: Count = Field(4, description="jobs per half of the full proof's worlds")
 
 
+class PoseStudy(Strict):
+    """Identification poses chosen for some arms, beside random ones and a grid."""
+
+    robots: dict[str, str] = Field(description="robot.yaml by name")
+    poses: Stated[Count]
+    candidates: Stated[Count]
+    seeds: Count = Field(200, description="arms with drawn errors, measured at each set of poses")
+    tracker_mm: Stated[Point]
+    floor_mm: Stated[float]
+
+
 class Config(Strict):
     """The whole configuration."""
 
@@ -145,6 +156,7 @@ class Config(Strict):
     paper: Paper
     real: dict[str, RealSet] = Field(default_factory=dict)
     sweep: str = "config/sweeps/default.csv"
+    poses: PoseStudy
     proof: Proof = Proof()
     proof_seed: Annotated[int, Field(ge=0)] | None = Field(
         None, description="from which half of the proof's worlds are drawn; null: drawn when the proof runs"

@@ -10,7 +10,7 @@ import sys
 
 import typer
 
-from armscope.cli import calibration, compensation, diagnosis, paper, proof, recordings, sweep
+from armscope.cli import calibration, compensation, diagnosis, paper, poses, proof, recordings, sweep
 from armscope.inputs import InputError
 
 app = typer.Typer(
@@ -22,6 +22,7 @@ app = typer.Typer(
 )
 app.add_typer(diagnosis.app)
 app.add_typer(compensation.app)
+app.add_typer(poses.app)
 app.add_typer(calibration.app)
 app.add_typer(recordings.app)
 app.add_typer(paper.app, name="paper", help="The 2006 paper, step by step; the workflow calls these.")

@@ -98,7 +98,7 @@ class _Information:
 
     @staticmethod
     def of(whitened: Array, information: Array) -> _Information:
-        inverse = np.linalg.inv(information)
+        inverse = np.asarray(np.linalg.inv(information), dtype=float)
         return _Information(whitened, inverse, _inner(whitened @ np.linalg.cholesky(inverse)))
 
     def variance_of(self, row: int) -> Array:

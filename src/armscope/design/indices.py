@@ -71,7 +71,7 @@ def observability_slopes(index: str, singular: Array) -> Array:
 
 def all_indices(jacobian: Array) -> dict[str, float]:
     """O1 to O5 of poses (n, 3, p)."""
-    singular = np.linalg.svd(jacobian.reshape(-1, jacobian.shape[2]), compute_uv=False)
+    singular = np.asarray(np.linalg.svd(jacobian.reshape(-1, jacobian.shape[2]), compute_uv=False), dtype=float)
     if len(singular) < jacobian.shape[2]:
         return dict.fromkeys(SOURCES, 0.0)
     return {index: float(observability(index, singular, len(jacobian))) for index in SOURCES}

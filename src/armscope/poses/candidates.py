@@ -1,4 +1,4 @@
-"""Poses to choose from: spread evenly over the joints' ranges, possible and visible, with the context they are tried in."""
+"""Poses to choose from: spread evenly over the joints' ranges, possible and visible, with the context they have."""
 
 from __future__ import annotations
 
@@ -88,9 +88,12 @@ def pose_rows(angles: Array, rng: np.random.Generator, payload_kg: float = 0.0) 
 
 
 def grid(arm: Arm, count: int, around: Surroundings, rng: np.random.Generator, payload_kg: float = 0.0) -> Recordings:
-    """``count`` possible poses of a regular grid over the ranges, the coarsest that has so many, drawn from it."""
+    """``count`` possible poses of a regular grid over the ranges, the coarsest that has so many, drawn from it.
+
+    Three steps per joint at least: two cannot tell a turn from a shift of the link beyond.
+    """
     low, high = ranges(arm)
-    levels = 2
+    levels = 3
     while levels**arm.n_motors <= LARGEST_GRID:
         steps = np.indices((levels,) * arm.n_motors).reshape(arm.n_motors, -1).T
         angles = low + (steps + 0.5) / levels * (high - low)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.design.exchange import optimal
-from armscope.design.indices import all_indices
+from armscope.design.indices import SOURCES, all_indices
 from armscope.inputs import InputError
 from armscope.poses.candidates import Candidates, candidates, grid, subset
 from armscope.poses.obstacles import Surroundings
@@ -25,6 +25,7 @@ class Choice:
     """Poses chosen from candidates.
 
     Attributes:
+        effects: what is to be shown, as asked for.
         index: what was made large, "O1" to "O5".
         rows: (n,) of the candidates, in the order to measure.
         candidates: what they were chosen from.
@@ -33,6 +34,7 @@ class Choice:
         around: floor, tracker, radius of the links.
     """
 
+    effects: tuple[str, ...]
     index: str
     rows: NDArray[np.intp]
     candidates: Candidates
@@ -75,7 +77,18 @@ def choose(
         rows = optimal(index, jacobian, count, np.random.default_rng(seed), starts)
     except ValueError as error:
         raise InputError("--poses", "", count, str(error)) from error
-    return Choice(index, short_way(pool.table.motor_angles, rows), pool, seen, jacobian, around)
+    return Choice(tuple(effects), index, short_way(pool.table.motor_angles, rows), pool, seen, jacobian, around)
+
+
+def by_other_criteria(choice: Choice, seed: int = 0, starts: int = 3) -> dict[str, Recordings]:
+    """As many of the same candidates chosen by each of the other indices: name of the index -> poses."""
+    table = choice.candidates.table
+    rows = {
+        index: optimal(index, choice.jacobian, len(choice.rows), np.random.default_rng(seed), starts)
+        for index in SOURCES
+        if index != choice.index
+    }
+    return {index: subset(table, chosen) for index, chosen in rows.items()}
 
 
 def random_choice(choice: Choice, rng: np.random.Generator) -> Recordings:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from armscope.design.indices import all_indices
 from armscope.poses.candidates import candidates
-from armscope.poses.choose import Choice, choose, grid_choice, random_choice
+from armscope.poses.choose import Choice, grid_choice, random_choice
 from armscope.poses.shown import Shown
 from armscope.recordings import Recordings
 
@@ -20,10 +20,17 @@ HELD_OUT = 300
 """Possible poses, of another sequence, at which the fitted arm is asked."""
 STEPS = 4
 """Gauss-Newton steps of a fit: errors of a millimetre leave less than a nanometre after three."""
-KINDS = ("chosen", "random", "grid")
+RIVALS = ("random", "grid")
 
 
-def compare(choice: Choice, noise: float, seeds: int, seed: int = 0, payload_kg: float = 0.0) -> pd.DataFrame:
+def compare(
+    choice: Choice,
+    noise: float,
+    seeds: int,
+    seed: int = 0,
+    payload_kg: float = 0.0,
+    others: Mapping[str, Recordings] | None = None,
+) -> pd.DataFrame:
     """The chosen poses against random ones and a grid of equal number, over seeds.
 
     For each seed an arm is drawn (each parameter moves the tool by a millimetre RMS, 1-sigma), measured with noise at
@@ -35,16 +42,18 @@ def compare(choice: Choice, noise: float, seeds: int, seed: int = 0, payload_kg:
         seeds: how many arms.
         seed: of the arms, the noise and the other sets.
         payload_kg: as for the choice.
+        others: further sets of poses by name.
 
     Returns:
-        One row per seed and set: seed, set ("chosen", "random", "grid"), O1 ... O5, parameter_rms_mm and
+        One row per seed and set: seed, set ("chosen", others, "random", "grid"), O1 ... O5, parameter_rms_mm and
         parameter_worst_mm (errors of the effects' parameters, in millimetres that they move the tool by),
         held_out_rms_mm (3D) and held_out_worst_mm (predicted minus true at poses that took no part).
     """
     seen = choice.shown
     elsewhere = candidates(seen.arm, HELD_OUT, choice.around, seed + 104729, payload_kg).table
-    draw: Mapping[str, Callable[[np.random.Generator], Recordings]] = {
-        "chosen": lambda rng: choice.table,
+    fixed = {"chosen": choice.table, **(others or {})}
+    draw: dict[str, Callable[[np.random.Generator], Recordings]] = {
+        **{name: _always(table) for name, table in fixed.items()},
         "random": lambda rng: random_choice(choice, rng),
         "grid": lambda rng: grid_choice(choice, rng, payload_kg),
     }
@@ -53,8 +62,8 @@ def compare(choice: Choice, noise: float, seeds: int, seed: int = 0, payload_kg:
         for_arm, for_poses, for_noise = (np.random.default_rng([seed, number, k]) for k in range(3))
         truth = for_arm.normal(size=len(seen.terms))
         held_out = seen.tool(elsewhere, truth)
-        for kind in KINDS:
-            poses = draw[kind](for_poses)
+        for kind, drawn in draw.items():
+            poses = drawn(for_poses)
             measured = seen.tool(poses, truth) + for_noise.normal(0, noise, (len(poses), 3))
             found = _fitted(seen, poses, measured)
             wrong = np.abs(found - truth)[~seen.is_frame]
@@ -71,6 +80,22 @@ def compare(choice: Choice, noise: float, seeds: int, seed: int = 0, payload_kg:
                 }
             )
     return pd.DataFrame(rows)
+
+
+def _always(table: Recordings) -> Callable[[np.random.Generator], Recordings]:
+    return lambda rng: table
+
+
+def summary(table: pd.DataFrame) -> dict[str, dict[str, float]]:
+    """By set: medians over the seeds of everything that `compare` tabulates."""
+    medians = table.drop(columns="seed").groupby("set", sort=False).median()
+    return {str(kind): {str(name): float(value) for name, value in row.items()} for kind, row in medians.iterrows()}
+
+
+def share_won(table: pd.DataFrame, column: str, against: str) -> float:
+    """The share of seeds in which the chosen poses' error is the smaller one; the arm and its noise are the same."""
+    by_seed = table.pivot(index="seed", columns="set", values=column)
+    return float(np.mean(by_seed["chosen"] < by_seed[against]))
 
 
 def _fitted(seen: Shown, poses: Recordings, measured: Array) -> Array:
@@ -91,17 +116,3 @@ def predicted_errors(choice: Choice, noise: float, sets: Mapping[str, Recordings
         spread = np.sqrt(np.diag(np.linalg.inv(columns.T @ columns))) * noise * seen.sizes
         table[f"sd_{kind}"] = spread / [term.si for _, term in seen.terms]
     return table[~seen.is_frame].reset_index(drop=True)
-
-
-def compare_over_choices(
-    first: Choice, noise: float, seeds: int, choices: int, seed: int, payload_kg: float = 0.0
-) -> pd.DataFrame:
-    """`compare` for several choices, each from candidates of another sequence: the choice itself varies, too."""
-    tables = [compare(first, noise, seeds, seed, payload_kg).assign(choice=0)]
-    for number in range(1, choices):
-        again = choose(
-            first.shown.arm, len(first.rows), first.around, first.effects, first.index, len(first.candidates),
-            payload_kg, seed + number,
-        )  # fmt: skip
-        tables.append(compare(again, noise, seeds, seed + number, payload_kg).assign(choice=number))
-    return pd.concat(tables, ignore_index=True)

@@ -21,11 +21,11 @@ Array = NDArray[np.float64]
 RADIUS_SHARE = 0.04
 """Radius of a link as a share of the arm's reach: 100 mm for a reach of 2.5 m."""
 ALWAYS_SHARE = 0.9
-"""A pair of pieces that touches in a larger share of random poses is a matter of the assumed radius, not of the pose."""
+"""A pair of pieces that touches in a larger share of poses does so by the assumed radius, not by the pose."""
 SHORTEST_SHARE = 0.5
 """Pieces of the centre line shorter than this share of the radius count as part of their neighbours."""
 CLEAR_OF_TOOL = 2.0
-"""The line of sight starts this many radii from the tool point: nearer by, the reflector's holder is seen, not the arm."""
+"""The line of sight starts this many radii from the tool point: nearer by is the reflector's holder."""
 
 
 @dataclass(frozen=True, eq=False)

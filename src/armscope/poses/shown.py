@@ -92,7 +92,7 @@ def shown(arm: Arm, table: Recordings, effects: Sequence[str] = (GEOMETRY,)) -> 
         Placed(BASE_FRAME, "base", six_terms("base", ONE), (1.0,) * 6, "constant"),
         Placed(TOOL_FRAME, "tool", six_terms("tool", ONE, axes=AXES[:3]), (1.0,) * 3, "constant"),
     ]
-    placed = tuple([*frames, *_placed(arm, table, effects)])
+    placed = (*frames, *_placed(arm, table, effects))
     posture = Scene(arm, table).posture()
     terms = [(number, term) for number, each in enumerate(placed) for term in each.terms]
     columns = np.stack([posture.column(term).reshape(-1) for _, term in terms], axis=1)
@@ -118,7 +118,8 @@ def _placed(arm: Arm, table: Recordings, effects: Sequence[str]) -> list[Placed]
         here = [each for each in everywhere if each.name == name and not each.fine]
         first = {each.location: each for each in reversed(here)}  # one form of it per location
         if not here:
-            needs = f"it follows {', '.join(known[name].needs)}" if known[name].needs else "it is found by scanning"
+            needs = ", ".join(known[name].needs)
+            needs = f"it follows {needs}" if needs else "nothing here drives it, or it is found by scanning only"
             rule = f"poses alone cannot show it on {arm.name}: {needs}"
             raise InputError(
                 "--effects", "", name, rule, "Leave it out, or give the context it follows (--payload-kg)."

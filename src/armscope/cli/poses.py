@@ -1,0 +1,116 @@
+"""The command that chooses identification poses."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from armscope.inputs import InputError
+
+if TYPE_CHECKING:
+    from armscope.poses.choose import Choice
+    from armscope.poses.obstacles import Surroundings
+
+app = typer.Typer()
+
+ASSUMED_NOISE_MM = 0.05
+"""Tracker and repeatability of a good industrial arm together, 1-sigma per axis, where robot.yaml states none."""
+
+
+@app.command()
+def poses(
+    robot: Annotated[Path, typer.Option("--robot", "-r", help="robot.yaml: the nominal arm")],
+    count: Annotated[int, typer.Option("--poses", "-n", min=1, help="how many to measure")] = 85,
+    output: Annotated[Path, typer.Option("--output", "-o", help="poses to measure; .json and .png beside it")] = Path(
+        "poses.csv"
+    ),
+    effects: Annotated[
+        str, typer.Option(help="what they shall show: geometry, or names such as joint_compliance,backlash")
+    ] = "geometry",
+    criterion: Annotated[str, typer.Option(help="O1 (D-optimal), O2, O3, O4 or O5")] = "O1",
+    tracker: Annotated[str | None, typer.Option(help="x,y,z in mm, base frame: poses must be in its sight")] = None,
+    floor_mm: Annotated[float | None, typer.Option(help="height of the floor in the base frame")] = None,
+    radius_mm: Annotated[float | None, typer.Option(min=0, help="of the links; else 4 % of the reach")] = None,
+    payload_kg: Annotated[float, typer.Option(min=0, help="half of the poses may carry it")] = 0.0,
+    candidates: Annotated[int, typer.Option(min=1, help="possible poses to choose from")] = 5000,
+    starts: Annotated[int, typer.Option(min=1, help="of the exchange")] = 3,
+    noise_mm: Annotated[float | None, typer.Option(min=0, help="1-sigma per axis; else robot.yaml's")] = None,
+    seeds: Annotated[int, typer.Option(min=0, help="arms in the comparison with random poses and a grid")] = 40,
+    all_criteria: Annotated[
+        bool, typer.Option(help="compare with the choices by the other four criteria, too")
+    ] = False,
+    seed: Annotated[int, typer.Option(min=0, help="of candidates, starts and comparison")] = 0,
+) -> None:
+    """Choose the poses that show a set of effects best, and say what they are worth beside random ones and a grid."""
+    from armscope.design.indices import SOURCES
+    from armscope.files import write_table
+    from armscope.inputs import nearest
+    from armscope.poses.choose import by_other_criteria, choose
+    from armscope.poses.compare import compare
+    from armscope.poses.output import write_choice
+    from armscope.report.choice_figure import choice_figure
+    from armscope.report.style import save_figure
+    from armscope.robot import load_arm
+
+    if criterion not in SOURCES:
+        raise InputError("--criterion", "", criterion, "O1, O2, O3, O4 or O5", nearest(criterion, SOURCES))
+    if output.suffix != ".csv":
+        raise InputError("--output", "", str(output), "a table that ends in .csv")
+    arm = load_arm(robot)
+    names = tuple(name.strip() for name in effects.split(",") if name.strip())
+    around = _surroundings(tracker, floor_mm, radius_mm)
+    choice = choose(arm, count, around, names, criterion, candidates, payload_kg, seed, starts)
+    noise, source = _noise(noise_mm, arm.sigma)
+    others = by_other_criteria(choice, seed, starts) if all_criteria and seeds else {}
+    compared = compare(choice, noise, seeds, seed, payload_kg, others) if seeds else None
+    write_choice(output, choice, compared, noise, source)
+    if compared is not None:
+        write_table(output.with_name(f"{output.stem}_compared.csv"), compared)
+        title = f"{arm.name}: {count} poses for {', '.join(names)} by {criterion}"
+        save_figure(choice_figure(compared, title), output.with_suffix(".png"), formats=("png", "svg"))
+    _tell(choice, source, noise)
+    print(output)
+
+
+def _surroundings(tracker: str | None, floor_mm: float | None, radius_mm: float | None) -> Surroundings:
+    import numpy as np
+
+    from armscope.poses.obstacles import Surroundings
+
+    place = None
+    if tracker is not None:
+        try:
+            place = np.array([float(part) for part in tracker.split(",")]) * 1e-3
+        except ValueError as error:
+            raise InputError("--tracker", "", tracker, "x,y,z in mm: three numbers") from error
+        if place.shape != (3,) or not np.isfinite(place).all():
+            raise InputError("--tracker", "", tracker, "x,y,z in mm: three numbers")
+    radius = None if radius_mm is None else radius_mm * 1e-3
+    return Surroundings(radius, None if floor_mm is None else floor_mm * 1e-3, place)
+
+
+def _noise(noise_mm: float | None, sigma: float | None) -> tuple[float, str]:
+    if noise_mm is not None:
+        return noise_mm * 1e-3, "stated by --noise-mm"
+    if sigma is not None:
+        return sigma, "stated by robot.yaml"
+    return ASSUMED_NOISE_MM * 1e-3, "assumed"
+
+
+def _tell(choice: Choice, source: str, noise: float) -> None:
+    pool, arm = choice.candidates, choice.shown.arm
+    refused = ", ".join(f"{count} {reason}" for reason, count in pool.refused.items() if count)
+    print(f"chosen from {len(pool)} possible poses" + (f"; of {pool.drawn} drawn {refused}" if refused else ""))
+    print(", ".join(f"{name} {value:.4g}" for name, value in choice.indices.items()))
+    if choice.shown.hidden:
+        print(f"not told apart from the others: {', '.join(choice.shown.hidden)}")
+    radius = choice.around.radius_of(arm) * 1e3
+    notes = [f"links count as capsules of {radius:.0f} mm radius around the lines between their joints"]
+    notes += ["no --tracker: every pose counts as visible"] if choice.around.tracker is None else []
+    notes += ["no --floor-mm: the arm may reach below its base"] if choice.around.floor is None else []
+    notes += [f"noise {noise * 1e3:g} mm per axis, assumed"] if source == "assumed" else []
+    for note in notes:
+        print(f"note: {note}", file=sys.stderr)

@@ -1,0 +1,88 @@
+"""A choice of poses as files: poses.csv to measure (columns of the recordings contract), poses.json to judge it by."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from armscope.design.indices import SOURCES
+from armscope.files import write_json, write_table
+from armscope.physics.effect import Driver
+from armscope.poses.candidates import UNSTATED_RAD
+from armscope.poses.choose import Choice
+from armscope.poses.compare import RIVALS, predicted_errors, share_won, summary
+
+FOLLOW_APPROACH = {"approach", "lost motion"}
+
+
+def poses_table(choice: Choice) -> pd.DataFrame:
+    """The poses in the order to measure: id, q1_rad, ..., and the context that the effects follow."""
+    table = choice.table
+    columns: dict[str, Any] = {"id": table.id}
+    columns |= {f"q{motor}_rad": angles for motor, angles in enumerate(table.motor_angles.T, start=1)}
+    if table.payload is not None:
+        columns["payload_kg"] = table.payload
+    if table.approach is not None and _follows_approach(choice):
+        columns |= {f"approach{motor}": sides for motor, sides in enumerate(table.approach.T, start=1)}
+    return pd.DataFrame(columns)
+
+
+def write_choice(path: Path, choice: Choice, compared: pd.DataFrame | None, noise: float, noise_source: str) -> None:
+    """Write poses.csv, and poses.json beside it.
+
+    Args:
+        path: of the table.
+        choice: the poses.
+        compared: see `compare`; None leaves the comparison out.
+        noise: 1-sigma per axis, m, and where it comes from.
+        noise_source: "stated" or "assumed".
+    """
+    write_table(path, poses_table(choice))
+    write_json(path.with_suffix(".json"), _content(choice, compared, noise, noise_source))
+
+
+def _content(choice: Choice, compared: pd.DataFrame | None, noise: float, noise_source: str) -> dict[str, Any]:
+    seen, pool, around = choice.shown, choice.candidates, choice.around
+    stated = np.isfinite(seen.arm.limits).all(axis=1)
+    content: dict[str, Any] = {
+        "robot": seen.arm.name,
+        "poses": len(choice.rows),
+        "criterion": choice.index,
+        "criterion_is": SOURCES[choice.index],
+        "effects": list(choice.effects),
+        "indices": {name: {"value": value, "source": SOURCES[name]} for name, value in choice.indices.items()},
+        "units_of_parameters": "each such that it moves the tool by 1 mm RMS over the candidates; lengths in m",
+        "parameters": predicted_errors(choice, noise, {"chosen": choice.table}).to_dict("records"),
+        "noise_mm": noise * 1e3,
+        "noise_is": noise_source,
+        "not_told_apart": list(seen.hidden),
+        "candidates": {"possible": len(pool), "drawn": pool.drawn, "refused": dict(pool.refused)},
+        "assumed": {
+            "link_radius_mm": around.radius_of(seen.arm) * 1e3,
+            "floor_mm": None if around.floor is None else around.floor * 1e3,
+            "tracker_mm": None if around.tracker is None else (around.tracker * 1e3).tolist(),
+            "motors_without_limits": [f"q{j + 1}: +-{np.degrees(UNSTATED_RAD):g} deg" for j in np.flatnonzero(~stated)],
+        },
+    }
+    if compared is not None:
+        content["compared"] = {
+            "seeds": int(compared["seed"].nunique()),
+            "medians": summary(compared),
+            "share_of_seeds_in_which_chosen_is_better": {
+                f"{column} than {other}": share_won(compared, column, other)
+                for column in ("parameter_rms_mm", "held_out_rms_mm")
+                for other in RIVALS
+            },
+        }
+    return content
+
+
+def _follows_approach(choice: Choice) -> bool:
+    def follows(driver: Driver) -> bool:
+        nested = any(follows(each) for each in driver.arguments if isinstance(each, Driver))
+        return driver.kind in FOLLOW_APPROACH or nested
+
+    return any(follows(product.driver) for _, term in choice.shown.terms for product in term.products)
