@@ -22,6 +22,7 @@ rule all:
     input:
         rules.paper.input,
         rules.proof_small.input,
+        rules.poses.input,
 
 
 onsuccess:

@@ -18,6 +18,7 @@ from armscope.diagnosis.verdict import NextPoses
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import ONE, Placed
 from armscope.physics.scene import Scene
+from armscope.poses.obstacles import Surroundings, refusals
 from armscope.recordings import Recordings
 
 Array = NDArray[np.float64]
@@ -76,7 +77,10 @@ def next_poses(
 
 
 def _reachable(fit: Refit, recordings: Recordings, rng: np.random.Generator) -> Recordings:
-    """Random poses within the joint limits (where none are stated: the recorded range), with and without payload."""
+    """Random poses within the joint limits (where none are stated: the recorded range), with and without payload.
+
+    Poses in which the arm would hit itself are left out, as far as its body is known (`armscope.poses.obstacles`).
+    """
     arm = fit.model.arm
     low, high = recordings.motor_angles.min(axis=0), recordings.motor_angles.max(axis=0)
     stated = np.isfinite(arm.limits).all(axis=1)
@@ -85,7 +89,7 @@ def _reachable(fit: Refit, recordings: Recordings, rng: np.random.Generator) -> 
     heaviest = np.nanmax(recordings.payload) if recordings.payload is not None else 0.0
     run = np.full(TRIED, "next")
     shape = (TRIED, arm.n_motors)
-    return replace(
+    table = replace(
         recordings,
         motor_angles=angles,
         positions=np.full((TRIED, 3), np.nan),
@@ -102,3 +106,5 @@ def _reachable(fit: Refit, recordings: Recordings, rng: np.random.Generator) -> 
         time=None if recordings.time is None else np.full(TRIED, np.nanmax(recordings.time)),
         temperature=None if recordings.temperature is None else np.full(TRIED, np.nanmedian(recordings.temperature)),
     )
+    possible = refusals(arm, angles, Surroundings()) == ""
+    return table.rows(possible) if np.sum(possible) >= ASKED else table
