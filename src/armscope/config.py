@@ -126,6 +126,8 @@ class RealSet(Strict):
     run: str | None = None
     first_id: int | None = Field(None, description="leave out the rows of that run before this id")
     title: str
+    reference: str | None = Field(None, description="reference.yaml: the protocol and figures of others")
+    diagnosed_splits: Count | None = Field(None, description="splits on which the diagnosis is repeated; null: all")
 
 
 class Proof(Strict):

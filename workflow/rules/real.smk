@@ -49,6 +49,32 @@ rule diagnose_real:
         "armscope diagnose {input.recordings} --robot {input.robot} {params.run} {params.first} -o {params.folder} > {log} 2>&1"
 
 
+rule protocol_real:
+    # the reference protocol: same splits, 3D distance on rows that took no part, beside the figures of others
+    input:
+        recordings=lambda wildcards: f"{RECORDINGS}/{CONFIG.real[wildcards.set].recordings}",
+        robot=lambda wildcards: f"{RECORDINGS}/{CONFIG.real[wildcards.set].robot}",
+        reference=lambda wildcards: CONFIG.real[wildcards.set].reference,
+    output:
+        expand(f"{RESULTS}/real/{{{{set}}}}/{{table}}.csv", table=("protocol", "splits", "names", "transfer")),
+    params:
+        folder=subpath(output[0], parent=True),
+        splits=lambda wildcards: (
+            f"--diagnosed-splits {CONFIG.real[wildcards.set].diagnosed_splits}"
+            if CONFIG.real[wildcards.set].diagnosed_splits
+            else ""
+        ),
+        code=code("armscope.cli.real:protocol"),
+    log:
+        f"{RESULTS}/logs/real/{{set}}/protocol.log",
+    conda:
+        "../envs/armscope.yaml"
+    shell:
+        "armscope real protocol {input.recordings} {input.robot} {input.reference} {params.splits} -o {params.folder} "
+        "> {log} 2>&1"
+
+
 rule real:
     input:
         expand(f"{RESULTS}/real/{{set}}/report.html", set=REAL),
+        expand(f"{RESULTS}/real/{{set}}/protocol.csv", set=[name for name in REAL if CONFIG.real[name].reference]),

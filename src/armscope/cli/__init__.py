@@ -10,7 +10,7 @@ import sys
 
 import typer
 
-from armscope.cli import calibration, compensation, diagnosis, paper, poses, proof, recordings, sweep
+from armscope.cli import calibration, compensation, diagnosis, paper, poses, proof, real, recordings, sweep
 from armscope.inputs import InputError
 
 app = typer.Typer(
@@ -27,6 +27,7 @@ app.add_typer(calibration.app)
 app.add_typer(recordings.app)
 app.add_typer(paper.app, name="paper", help="The 2006 paper, step by step; the workflow calls these.")
 app.add_typer(proof.app, name="proof", help="The diagnosis on worlds with concealed effects, step by step.")
+app.add_typer(real.app, name="real", help="Real arms in the reference protocol; the workflow calls these.")
 app.add_typer(sweep.app, name="sweep", help="Variants of swarm and model; the workflow calls these.")
 
 

@@ -1,0 +1,1 @@
+"""Real arms: held-out numbers in the reference protocol, models carried over between runs, concealment on real data."""

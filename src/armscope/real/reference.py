@@ -1,0 +1,101 @@
+"""What others reached on public recordings, and how they split them: config/recordings/<set>/reference.yaml."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from armscope.inputs import InputError, Strict, load, nearest
+from armscope.recordings import Recordings
+
+Millimetres = Annotated[float, Field(gt=0)]
+Count = Annotated[int, Field(ge=1)]
+
+
+class Best(Strict):
+    """The best figure known for a run, or what was aimed at, and by what it was reached."""
+
+    mm: Millimetres
+    what: str
+
+
+class ReferenceRun(Strict):
+    """One run in the protocol: which rows, how many random splits, and the figures reached on it.
+
+    Attributes:
+        name: how tables call it.
+        run, first_id: which rows.
+        splits: random splits (seeds 0, 1, ...) into 70 % to train on and 30 % to test on, by configuration.
+        most_rows: of the training rows for the plain calibrations, where the reference used no more.
+        figures_mm: test RMS of the 3D distance by level, (mean, standard deviation) over the splits.
+        best: further fits; None where those by level are all there is.
+    """
+
+    name: str
+    run: str
+    first_id: int | None = None
+    splits: Count = 5
+    most_rows: Count | None = None
+    figures_mm: dict[Literal["nominal", "offsets", "geometric", "compliance"], tuple[Millimetres, Millimetres]]
+    best: Best | None = None
+
+    @property
+    def lowest(self) -> Best:
+        """The figure to be reached: the best one known."""
+        level = min(self.figures_mm, key=lambda name: self.figures_mm[name][0])
+        return self.best or Best(mm=self.figures_mm[level][0], what=level)
+
+
+class ReferenceTransfer(Strict):
+    """A model learned on all rows of one run and applied to another, where only frames are fitted again.
+
+    Attributes:
+        learned, applied: runs.
+        refitted: which frames are fitted again on the other run; the rest is carried over.
+        figures_mm: RMS of the 3D distance there by model; "compliances": these alone carried over.
+    """
+
+    learned: str
+    applied: str
+    refitted: tuple[Literal["base", "tool"], ...]
+    figures_mm: dict[str, Millimetres] = Field(default_factory=dict)
+
+    @property
+    def lowest(self) -> float | None:
+        """The figure to be reached, mm."""
+        return min(self.figures_mm.values(), default=None)
+
+
+class Reference(Strict):
+    """reference.yaml."""
+
+    source: str
+    runs: tuple[ReferenceRun, ...] = Field(min_length=1)
+    transfers: tuple[ReferenceTransfer, ...] = ()
+
+
+def load_reference(path: Path | str) -> Reference:
+    """Read reference.yaml.
+
+    Raises:
+        InputError: it says something that can't be.
+    """
+    return load(Reference, path)
+
+
+def rows_of_run(recordings: Recordings, run: str, first_id: int | None = None) -> Recordings:
+    """The rows of a run, from an id on.
+
+    Raises:
+        InputError: there are none.
+    """
+    kept = recordings.run == run
+    if not kept.any():
+        raise InputError(recordings.source, "column run", run, "no row has it", nearest(run, set(recordings.run)))
+    if first_id is not None:
+        kept &= [text.isdecimal() and int(text) >= first_id for text in recordings.id]
+        if not kept.any():
+            raise InputError(recordings.source, "column id", first_id, "no row has this id or a later one")
+    return recordings.rows(kept)

@@ -1,0 +1,85 @@
+"""Models learned on one run and applied to another, where only frames are fitted again: physics carries over."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+
+from armscope.calibration.fit import least_squares, placed, rms_distance
+from armscope.calibration.model import LEVELS, Level, SetUp, State, set_up
+from armscope.calibration.solve import Priors, solve
+from armscope.real.reference import ReferenceTransfer, rows_of_run
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+
+COMPLIANCES = "compliances"
+"""Compliances alone are carried over; the rest of the arm stays nominal."""
+
+
+def calibrated_transfer(arm: Arm, recordings: Recordings, transfer: ReferenceTransfer) -> dict[str, float]:
+    """RMS of the 3D distance (mm) on all rows of another run, by what was learned: a level, or compliances alone."""
+    learned = set_up(arm, rows_of_run(recordings, transfer.learned))
+    applied = _of_kind(learned, set_up(arm, rows_of_run(recordings, transfer.applied)))
+    start = placed(learned)
+    own = placed(applied) if "base" in transfer.refitted else None
+    found = {}
+    for level in (*LEVELS, COMPLIANCES):
+        if level in ("compliance", COMPLIANCES) and (learned.loads is None or applied.loads is None):
+            continue
+        known = solve(learned, _learned_at(level), "priors", Priors(), start=start).fitted.state
+        if level == COMPLIANCES:
+            known = replace(known, constants=np.zeros_like(known.constants))
+        found[level] = 1e3 * rms_distance(applied.residuals(_refitted(applied, known, own, transfer)))
+    return found
+
+
+def measure_transfer(
+    arm: Arm, recordings: Recordings, transfer: ReferenceTransfer, tell: Callable[[str], None] = lambda text: None
+) -> dict[str, float]:
+    """RMS of the 3D distance (mm) on all rows of the other run, by model."""
+    found = calibrated_transfer(arm, recordings, transfer)
+    tell(f"{transfer.learned} to {transfer.applied}: " + ", ".join(f"{k} {v:.3f}" for k, v in found.items()))
+    return found
+
+
+def _learned_at(level: str) -> Level:
+    return "compliance" if level == COMPLIANCES else level  # type: ignore[return-value]
+
+
+def _of_kind(learned: SetUp, applied: SetUp) -> SetUp:
+    """The other run's rows, its tool counted as the first tool of the learned run."""
+    return replace(applied, tool=np.zeros_like(applied.tool), tool_names=applied.tool_names[:1])
+
+
+def _refitted(applied: SetUp, known: State, own: State | None, transfer: ReferenceTransfer) -> State:
+    """What was learned, in frames that are fitted again where the transfer says so."""
+    state = replace(known, tools=known.tools[:1], tool_rotations=known.tool_rotations[:1])
+    if own is not None:
+        state = replace(state, rotations=own.rotations, translations=own.translations)
+    free = np.zeros(len(applied.names), dtype=bool)
+    n_bases = 6 * len(applied.base_names)
+    free[:n_bases] = "base" in transfer.refitted
+    free[n_bases : n_bases + 3] = "tool" in transfer.refitted
+    if not free.any():
+        return state
+    return least_squares(applied, state, free).state
+
+
+def transfer_table(found: list[tuple[ReferenceTransfer, dict[str, float]]]) -> pd.DataFrame:
+    """One row per transfer and model: learned, applied, refitted, model, rms_mm, reference_mm."""
+    rows = [
+        {
+            "learned": transfer.learned,
+            "applied": transfer.applied,
+            "refitted": " and ".join(transfer.refitted) or "nothing",
+            "model": model,
+            "rms_mm": value,
+            "reference_mm": transfer.figures_mm.get(model, np.nan),
+        }
+        for transfer, values in found
+        for model, value in values.items()
+    ]
+    return pd.DataFrame(rows, columns=["learned", "applied", "refitted", "model", "rms_mm", "reference_mm"])
