@@ -127,6 +127,7 @@ class RealSet(Strict):
     first_id: int | None = Field(None, description="leave out the rows of that run before this id")
     title: str
     reference: str | None = Field(None, description="reference.yaml: the protocol and figures of others")
+    loads_recorded: bool = Field(False, description="torques or payloads were recorded, and can be withheld")
     diagnosed_splits: Count | None = Field(None, description="splits on which the diagnosis is repeated; null: all")
 
 
@@ -149,6 +150,20 @@ class PoseStudy(Strict):
     floor_mm: Stated[float]
 
 
+class ProofReal(Strict):
+    """Known effects concealed in real recordings: which, how large, in which arms."""
+
+    effects: tuple[str, ...] = (
+        "backlash", "joint_compliance", "gear_mesh", "joint_coupling", "thermal_expansion", "base_shift",
+        "instrument_scale",
+    )  # fmt: skip
+    sizes: tuple[Annotated[float, Field(gt=0)], ...] = Field(
+        (0.5, 1.0, 3.0), description="RMS at the tool in multiples of what the arm's own diagnosis leaves"
+    )
+    most_rows: Count = Field(600, description="longer runs are thinned to this")
+    sets: tuple[str, ...] | None = Field(None, description="real arms; null: all whose recordings are there")
+
+
 class Config(Strict):
     """The whole configuration."""
 
@@ -160,6 +175,7 @@ class Config(Strict):
     sweep: str = "config/sweeps/default.csv"
     poses: PoseStudy
     proof: Proof = Proof()
+    proof_real: ProofReal = ProofReal()
     proof_seed: Annotated[int, Field(ge=0)] | None = Field(
         None, description="from which half of the proof's worlds are drawn; null: drawn when the proof runs"
     )

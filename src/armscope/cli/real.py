@@ -8,6 +8,9 @@ from typing import Annotated
 
 import typer
 
+from armscope.cli.studies import Settings, parsed
+from armscope.inputs import InputError
+
 app = typer.Typer(no_args_is_help=True)
 
 Output = Annotated[Path, typer.Option("--output", "-o", help="where to write")]
@@ -44,3 +47,82 @@ def protocol(
 
 def _tell(text: str) -> None:
     print(text, file=sys.stderr, flush=True)
+
+
+@app.command()
+def plant(
+    recordings: Annotated[Path, typer.Argument(help="recordings of a real arm, all runs")],
+    robot: Annotated[Path, typer.Argument(help="its robot.yaml")],
+    settings: Settings,
+    part: Annotated[str, typer.Option(help="original, fixed, fresh or withheld")],
+    visible: Annotated[Path, typer.Option(help="folder for what may be seen")],
+    sealed: Annotated[Path, typer.Option(help="archive for the truth")],
+    verdict: Annotated[Path | None, typer.Option(help="verdict.json of the original: sizes are relative to it")] = None,
+    seed_file: Annotated[Path | None, typer.Option(help="as `armscope proof seed` writes it; for fresh places")] = None,
+) -> None:
+    """Conceal known effects in real recordings: what may be seen, and the truth in an archive of its own."""
+    import json
+
+    from armscope.real.making import Places, make_altered, make_original, make_withheld
+    from armscope.real.settings import PlantSettings
+    from armscope.real.staging import of_run, stage, with_payload
+    from armscope.recordings.table import read_text_table
+    from armscope.robot import load_arm
+
+    chosen = parsed(PlantSettings, settings)
+    arm, table, places = load_arm(robot), read_text_table(recordings), Places(robot, visible, sealed)
+    mine = stage(arm, of_run(table, chosen.run, chosen.first_id), chosen.most_rows, str(recordings))
+    if part == "original":
+        make_original(mine, places)
+    elif part == "withheld":
+        loaded = with_payload(table)
+        stages = {"run": mine} | ({"payloads": stage(arm, loaded, chosen.most_rows)} if len(loaded) else {})
+        make_withheld(stages, places)
+    else:
+        if verdict is None:
+            raise InputError("--verdict", "", "nothing", "effects are sized by what the original's verdict leaves")
+        level = json.loads(verdict.read_text(encoding="utf-8"))["fitted_rms_mm"]["after"] * 1e-3
+        drawn = json.loads(seed_file.read_text(encoding="utf-8"))["proof_seed"] if seed_file else 0
+        seed = [chosen.seed, drawn, *chosen.title.encode()]
+        make_altered(mine, chosen.effects, chosen.sizes, level, seed, places)
+
+
+@app.command()
+def score(
+    folder: Annotated[Path, typer.Argument(help="folder with visible, sealed, verdicts and seen")],
+    output: Output,
+) -> None:
+    """Unseal what was concealed in real recordings, compare it with the verdicts, and write tables."""
+    from armscope.files import write_table
+    from armscope.real.rates import tables
+    from armscope.real.scoring import read_sealed
+    from armscope.real.scoring import score as score_worlds
+
+    for name, table in tables(score_worlds(list(read_sealed(folder)))).items():
+        write_table(output / f"{name}.csv", table, digits=6)
+
+
+@app.command()
+def report(
+    folder: Annotated[Path, typer.Argument(help="folder of the tables that `armscope real score` writes")],
+    seed_file: Annotated[Path, typer.Argument(help="as `armscope proof seed` writes it")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="folder for report.html and figures")],
+    titles: Annotated[str, typer.Option(help="JSON: what to call each set")] = "{}",
+) -> None:
+    """One page with figures: are known effects found on top of all that real arms do?"""
+    import json
+
+    import pandas as pd
+
+    from armscope.report.real_proof_figures import draw_all
+    from armscope.report.real_proof_page import write_real_proof_page
+    from armscope.report.style import save_figure
+
+    named = json.loads(titles)
+    tables = {
+        file.stem: pd.read_csv(file) if file.stat().st_size > 1 else pd.DataFrame() for file in folder.glob("*.csv")
+    }
+    for name, figure in draw_all(tables, named).items():
+        save_figure(figure, output / "figures" / name, formats=("png", "svg"))
+    seed = json.loads(seed_file.read_text(encoding="utf-8"))
+    write_real_proof_page(output / "report.html", tables, output / "figures", seed, named)

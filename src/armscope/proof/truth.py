@@ -95,6 +95,15 @@ def unseal(archive: Path) -> dict[str, Truth]:
     Raises:
         InputError: it holds something else.
     """
+    return {world: _truth(world, content, test) for world, (content, test) in unsealed(archive).items()}
+
+
+def unsealed(archive: Path) -> dict[str, tuple[dict[str, Any], pd.DataFrame]]:
+    """What an archive holds: truth.yaml and test.csv by world.
+
+    Raises:
+        InputError: it holds something else.
+    """
     found: dict[str, dict[str, bytes]] = {}
     with tarfile.open(archive) as tar:
         for entry in tar.getmembers():
@@ -102,12 +111,13 @@ def unseal(archive: Path) -> dict[str, Truth]:
             stream = tar.extractfile(entry)
             if stream is not None:
                 found.setdefault(world, {})[name] = stream.read()
-    truths = {}
     for world, files in found.items():
         if set(files) != {"truth.yaml", "test.csv"}:
             raise InputError(archive, world, sorted(files), "a sealed world is a truth.yaml and a test.csv")
-        truths[world] = _truth(world, yaml.safe_load(files["truth.yaml"]), pd.read_csv(io.BytesIO(files["test.csv"])))
-    return truths
+    return {
+        world: (yaml.safe_load(files["truth.yaml"]), pd.read_csv(io.BytesIO(files["test.csv"])))
+        for world, files in found.items()
+    }
 
 
 def _truth(world: str, content: dict[str, Any], test: pd.DataFrame) -> Truth:

@@ -1,0 +1,130 @@
+"""Real recordings with something concealed in them: what may be seen in one tree, the truth sealed in an archive.
+
+A batch is one arm's original (`original`), or it altered by every effect at every size (`fixed`, `fresh`: places drawn
+from a seed that stays or one that nobody knows beforehand), or the original without columns (`withheld`). Folders'
+names say nothing about what is inside.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+import shutil
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from armscope.files import write_table, write_yaml
+from armscope.proof.making import TEST_POSES
+from armscope.proof.truth import seal
+from armscope.real.planting import CannotPlantError, Planted, Theatre, plant, truth_of
+from armscope.real.staging import AXES_MM, Stage
+
+
+@dataclass(frozen=True)
+class Places:
+    """The nominal robot.yaml, the folder for what may be seen, and the archive for the truth."""
+
+    robot: Path
+    visible: Path
+    sealed: Path
+
+
+LEFT_MM = ["left_x_mm", "left_y_mm", "left_z_mm"]
+WITHHELD: dict[str, tuple[str, ...]] = {
+    "all columns": (),
+    "payload withheld": ("payload_kg",),
+    "torques withheld": ("tau",),
+    "payload and torques withheld": ("payload_kg", "tau"),
+}
+
+
+def _write_world(
+    home: Path, places: Places, stage: Stage, table: pd.DataFrame, truth: dict[str, Any], planted: Planted | None = None
+) -> None:
+    """One world: its visible files in the visible tree, its truth below ``home``."""
+    visible = places.visible / home.name
+    visible.mkdir(parents=True)
+    shutil.copy(places.robot, visible / "robot.yaml")
+    write_table(visible / "recordings.csv", table.iloc[stage.train])
+    test = table.iloc[stage.test]
+    write_table(visible / TEST_POSES, test.drop(columns=AXES_MM))
+    left = np.zeros((len(test), 3)) if planted is None else planted.left[stage.test] * 1e3
+    readings = pd.concat([test[AXES_MM].reset_index(drop=True), pd.DataFrame(left, columns=LEFT_MM)], axis=1)
+    write_table(home / "sealed" / "test.csv", readings)
+    write_yaml(home / "sealed" / "truth.yaml", truth)
+
+
+@contextlib.contextmanager
+def _sealing(places: Places) -> Iterator[Path]:
+    """A folder whose sealed files go into the archive; the visible tree starts empty."""
+    shutil.rmtree(places.visible, ignore_errors=True)
+    with tempfile.TemporaryDirectory() as made:
+        yield Path(made)
+        seal(Path(made), places.sealed)
+
+
+def make_original(stage: Stage, places: Places) -> None:
+    """The recordings as they are, with the columns that all altered ones have, too."""
+    with _sealing(places) as made:
+        _write_world(made / "original", places, stage, stage.table, {"kind": "original"})
+
+
+def make_altered(
+    stage: Stage,
+    effects: Sequence[str],
+    sizes: Sequence[float],
+    level: float,
+    seed: Sequence[int],
+    places: Places,
+) -> None:
+    """Every effect at every size.
+
+    Args:
+        stage: the arm's rows.
+        effects: keys of the worlds' catalogue.
+        sizes: RMS at the tool in multiples of the level.
+        level: what the diagnosis of the original leaves, RMS per axis, m.
+        seed: places and numbers follow from it.
+        places: where everything goes.
+    """
+    theatre = Theatre(stage)
+    judge = theatre.judge()
+    made: list[tuple[dict[str, Any], Planted]] = []
+    skipped = []
+    for number, name in enumerate(effects):
+        rng = np.random.default_rng([*seed, number])
+        try:
+            made += [(truth_of(theatre, each), each) for each in plant(theatre, judge, name, sizes, level, rng)]
+        except CannotPlantError as error:
+            skipped.append({"effect": name, "reason": str(error)})
+    with _sealing(places) as folder:
+        order = np.random.default_rng([*seed, len(effects)]).permutation(len(made))
+        for place, (truth, planted) in zip(order.tolist(), made, strict=True):
+            content = {"kind": "altered", **truth, "level_mm": level * 1e3, "skipped": skipped}
+            home = folder / f"world-{place:03d}"
+            _write_world(home, places, stage, moved_table(stage, planted), content, planted)
+
+
+def moved_table(stage: Stage, planted: Planted) -> pd.DataFrame:
+    """The recordings with every measured point moved by what the effect does there."""
+    points = stage.table[AXES_MM].to_numpy(dtype=float) + planted.moved * 1e3
+    return stage.table.assign(**{name: points[:, axis].round(5) for axis, name in enumerate(AXES_MM)})
+
+
+def make_withheld(stages: Mapping[str, Stage], places: Places) -> None:
+    """Recordings without the columns that say how loaded the arm was; ``stages`` by what to call their rows."""
+    with _sealing(places) as folder:
+        for name, stage in stages.items():
+            for number, (what, prefixes) in enumerate(WITHHELD.items()):
+                gone = [[c for c in map(str, stage.table) if c.startswith(prefix)] for prefix in prefixes]
+                if not all(gone):
+                    continue  # not recorded: nothing to withhold
+                table = stage.table.drop(columns=list(itertools.chain.from_iterable(gone)))
+                truth = {"kind": "withheld", "rows": name, "withheld": what}
+                _write_world(folder / f"{name}-{number}", places, stage, table, truth)
