@@ -74,6 +74,41 @@ rule protocol_real:
         "> {log} 2>&1"
 
 
+# docs/real-arms.md, which is under version control and therefore no part of `real`
+PAGED = [name for name in REAL if CONFIG.real[name].reference]
+
+
+rule real_arms:
+    input:
+        expand(f"{RESULTS}/real/{{set}}/verdict.json", set=PAGED),
+        expand(f"{RESULTS}/real/{{set}}/protocol.csv", set=PAGED),
+        proof=f"{RESULTS}/proof_real/tables/rates.csv",
+    output:
+        touch(f"{RESULTS}/real_arms.done"),
+    params:
+        settings=settings(
+            arms=[
+                {
+                    "name": name,
+                    "title": CONFIG.real[name].title,
+                    "folder": f"{RESULTS}/real/{name}",
+                    "reference": CONFIG.real[name].reference,
+                    "run": CONFIG.real[name].run,
+                    "first_id": CONFIG.real[name].first_id,
+                }
+                for name in PAGED
+            ],
+            proof=f"{RESULTS}/proof_real/tables",
+        ),
+        code=code("armscope.cli.real:page"),
+    log:
+        f"{RESULTS}/logs/real_arms.log",
+    conda:
+        "../envs/armscope.yaml"
+    shell:
+        "armscope real page docs/real-arms.md --settings {params.settings:q} > {log} 2>&1"
+
+
 rule real:
     input:
         expand(f"{RESULTS}/real/{{set}}/report.html", set=REAL),

@@ -30,7 +30,7 @@ def protocol(
     from armscope.files import write_table
     from armscope.real.protocol import measure_run, protocol_table
     from armscope.real.reference import load_reference
-    from armscope.real.transfer import measure_transfer, transfer_table
+    from armscope.real.transfer import measure_transfers, transfer_table
     from armscope.recordings import read_recordings
     from armscope.robot import load_arm
 
@@ -41,7 +41,7 @@ def protocol(
     write_table(output / "splits.csv", splits, digits=6)
     write_table(output / "names.csv", pd.concat([each.names for each in found], ignore_index=True), digits=6)
     write_table(output / "protocol.csv", pd.concat([protocol_table(splits, run) for run in stated.runs]), digits=6)
-    carried = [(transfer, measure_transfer(arm, table, transfer, _tell)) for transfer in stated.transfers]
+    carried = measure_transfers(arm, table, stated.transfers, _tell)
     write_table(output / "transfer.csv", transfer_table(carried), digits=6)
 
 
@@ -126,3 +126,22 @@ def report(
         save_figure(figure, output / "figures" / name, formats=("png", "svg"))
     seed = json.loads(seed_file.read_text(encoding="utf-8"))
     write_real_proof_page(output / "report.html", tables, output / "figures", seed, named)
+
+
+@app.command()
+def page(
+    output: Annotated[Path, typer.Argument(help="the page, docs/real-arms.md; its figures go to figures/ beside it")],
+    settings: Settings,
+) -> None:
+    """Write what is wrong with each real arm, from results, with one figure each."""
+    import shutil
+
+    from armscope.real.settings import PageSettings
+    from armscope.report.real_arms import RealArm, write_real_arms
+
+    chosen = parsed(PageSettings, settings)
+    arms = [RealArm(a.name, a.title, Path(a.folder), Path(a.reference), (a.run, a.first_id)) for a in chosen.arms]
+    figures = output.parent / "figures"
+    for arm in arms:
+        shutil.copy(arm.folder / "figures" / "arm.png", figures / f"real-{arm.name}.png")
+    write_real_arms(output, arms, figures.name, None if chosen.proof is None else Path(chosen.proof))

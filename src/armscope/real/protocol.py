@@ -37,7 +37,7 @@ class Measured:
     Attributes:
         splits: one row per model and split: run, model, split, train, test (rows), rms_mm, seconds.
         names: one row per effect that a split's verdict names: run, split, effect, location, named_as, minor,
-            rms_at_tool_mm, title.
+            rms_at_tool_mm, title, row (of a jump of base or tool: the first id after it).
     """
 
     splits: pd.DataFrame
@@ -78,7 +78,7 @@ def measure_run(
         rows.append({"run": reference.name, "model": ARMSCOPE, "split": seed, "rms_mm": found, **sizes})
         names += [{"run": reference.name, "split": seed, **effect} for effect in named(verdict)]
     rows += [{"run": reference.name, **row} for row in paper_models(arm, table)]
-    columns = ["run", "split", "effect", "location", "named_as", "minor", "rms_at_tool_mm", "title"]
+    columns = ["run", "split", "effect", "location", "named_as", "minor", "rms_at_tool_mm", "title", "row"]
     return Measured(pd.DataFrame(rows), pd.DataFrame(names, columns=columns))
 
 
@@ -98,6 +98,7 @@ def named(verdict: Verdict) -> list[dict[str, object]]:
             "minor": effect.minor,
             "rms_at_tool_mm": effect.rms_at_tool_mm,
             "title": effect.title,
+            "row": next((p.value for p in effect.parameters if p.name == "row"), np.nan),
         }
         for effect in verdict.effects
     ]

@@ -15,3 +15,21 @@ class PlantSettings(Strict):
     most_rows: int
     effects: tuple[str, ...]
     sizes: tuple[float, ...]
+
+
+class PagedArm(Strict):
+    """A set on the page of real arms."""
+
+    name: str
+    title: str
+    folder: str
+    reference: str
+    run: str | None
+    first_id: int | None
+
+
+class PageSettings(Strict):
+    """`armscope real page`: which arms, and the tables of the concealment in their recordings."""
+
+    arms: tuple[PagedArm, ...]
+    proof: str | None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,12 +11,16 @@ import pandas as pd
 from armscope.calibration.fit import least_squares, placed, rms_distance
 from armscope.calibration.model import LEVELS, Level, SetUp, State, set_up
 from armscope.calibration.solve import Priors, solve
+from armscope.diagnosis import Settings, Verdict, diagnose
+from armscope.diagnosis import transfer as carry_over
+from armscope.real.protocol import ARMSCOPE
 from armscope.real.reference import ReferenceTransfer, rows_of_run
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
 COMPLIANCES = "compliances"
 """Compliances alone are carried over; the rest of the arm stays nominal."""
+ARMSCOPE_ELASTIC = "armscope, elastic part alone"
 
 
 def calibrated_transfer(arm: Arm, recordings: Recordings, transfer: ReferenceTransfer) -> dict[str, float]:
@@ -36,12 +40,34 @@ def calibrated_transfer(arm: Arm, recordings: Recordings, transfer: ReferenceTra
     return found
 
 
-def measure_transfer(
-    arm: Arm, recordings: Recordings, transfer: ReferenceTransfer, tell: Callable[[str], None] = lambda text: None
-) -> dict[str, float]:
-    """RMS of the 3D distance (mm) on all rows of the other run, by model."""
-    found = calibrated_transfer(arm, recordings, transfer)
-    tell(f"{transfer.learned} to {transfer.applied}: " + ", ".join(f"{k} {v:.3f}" for k, v in found.items()))
+def diagnosed_transfer(learned: Verdict, rows: Recordings, transfer: ReferenceTransfer) -> dict[str, float]:
+    """RMS of the 3D distance (mm) on the other run of a whole verdict's model, and of its elastic part alone."""
+    if "tool" not in transfer.refitted:
+        known = [part.placed.variant for part in learned.model.tools]
+        rows = replace(rows, target=np.where(np.isin(rows.target, known), rows.target, known[0]))
+    found = {ARMSCOPE: carry_over(learned.model, rows, refitted=transfer.refitted).with_mm}
+    parts = (*learned.model.parts, *learned.model.background)
+    if any(part.placed.effect.family == "elastic" for part in parts) and "base" in transfer.refitted:
+        found[ARMSCOPE_ELASTIC] = carry_over(learned.model, rows, ["elastic"], transfer.refitted).with_mm
+    return found
+
+
+def measure_transfers(
+    arm: Arm,
+    recordings: Recordings,
+    transfers: Sequence[ReferenceTransfer],
+    tell: Callable[[str], None] = lambda text: None,
+) -> list[tuple[ReferenceTransfer, dict[str, float]]]:
+    """RMS of the 3D distance (mm) on all rows of the other run, by model; each run is diagnosed once."""
+    settings = Settings(resamples=0, cross_validation=False)
+    verdicts = {run: diagnose(arm, rows_of_run(recordings, run), settings) for run in {t.learned for t in transfers}}
+    found = []
+    for transfer in transfers:
+        rows = rows_of_run(recordings, transfer.applied)
+        by_model = calibrated_transfer(arm, recordings, transfer)
+        by_model |= diagnosed_transfer(verdicts[transfer.learned], rows, transfer)
+        tell(f"{transfer.learned} to {transfer.applied}: " + ", ".join(f"{k} {v:.3f}" for k, v in by_model.items()))
+        found.append((transfer, by_model))
     return found
 
 

@@ -1,0 +1,247 @@
+"""docs/real-arms.md: what is wrong with each real arm and how well it is predicted where nobody fitted."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from armscope.files import write_text
+from armscope.real.protocol import ARMSCOPE, UNCORRECTED
+from armscope.real.reference import Reference, ReferenceRun, load_reference
+from armscope.report.page import significant
+
+LEVELS = ("nominal", "offsets", "geometric", "compliance")
+TOLD = 3
+AGREED = 0.6
+"""Share of the splits in which a name must be given to be listed."""
+INTRODUCTION = """\
+What armscope says about public recordings of real arms, in the protocol of the figures that stand beside it:
+configurations split at random (70 % to learn from), RMS of the 3D distance in mm on the rest, mean ± standard deviation
+over the splits; in brackets what others reached. *nominal* fits base and tool only, *offsets* every joint's zero,
+*geometric* every D-H value, *+ compliance* one spring per joint. *armscope* is the whole diagnosis, repeated from the
+beginning on the rows of every split; nothing was chosen with the test rows. The recordings are not part of this
+repository: `snakemake -j2 fetch_recordings`."""
+PAPER = "The paper's models at 85 identification rows (chosen as in the paper, least squares; the rest tests them):"
+CONCEALMENT = """\
+One known effect at a time, added to the recordings behind a seal at 0.5, 1 and 3 times what each arm's own diagnosis
+leaves, on top of all the arm does (`snakemake -j2 proof_real`; definitions and figures in its report):"""
+JUMPS = ("base_shift", "tool_shift")
+
+
+@dataclass(frozen=True)
+class RealArm:
+    """One set: what it is called, where its results are, and what others reached on it.
+
+    ``diagnosed``: the run, and its first id, that the verdict in the folder is about.
+    """
+
+    name: str
+    title: str
+    folder: Path
+    reference: Path
+    diagnosed: tuple[str | None, int | None] = (None, None)
+
+
+def write_real_arms(path: Path, arms: Sequence[RealArm], figures: str, proof: Path | None = None) -> None:
+    """Write the page.
+
+    Args:
+        path: where to.
+        arms: in their order on the page.
+        figures: folder of the figures as the page names it; real-<name>.png in it.
+        proof: folder of the tables of `armscope real score`; None leaves the concealment out.
+    """
+    sections = [_section(arm, figures) for arm in arms]
+    text = "\n\n".join([_head(arms), *sections, *([] if proof is None else [_concealment(proof, arms)])])
+    write_text(path, text + "\n")
+
+
+def _head(arms: Sequence[RealArm]) -> str:
+    lines = [
+        "# Real arms",
+        "",
+        "<!-- written by `snakemake -j1 real_arms` from results; edits here are lost -->",
+        "",
+        INTRODUCTION,
+        "",
+        "| arm | run | armscope | best figure of others | |",
+        "|---|---|---|---|---|",
+    ]
+    for arm in arms:
+        table, reference = _read(arm)
+        for run in reference.runs:
+            ours = _row(table, run.name, ARMSCOPE)
+            others = run.lowest
+            verdict = "at or below" if ours["mean_mm"] <= others.mm else "**above**"
+            lines.append(f"| {arm.title} | {run.name} | {_spread(ours)} | {others.mm:g} ({others.what}) | {verdict} |")
+    return "\n".join(lines)
+
+
+def _section(arm: RealArm, figures: str) -> str:
+    table, reference = _read(arm)
+    run = next((each for each in reference.runs if (each.run, each.first_id) == arm.diagnosed), reference.runs[0])
+    verdict = json.loads((arm.folder / "verdict.json").read_text(encoding="utf-8"))
+    parts = [
+        f"## {arm.title}",
+        _what_is_wrong(verdict) + " " + _how_well(table, run),
+        f"![{arm.title}: the arm coloured by share of the mismatch]({figures}/real-{arm.name}.png)",
+        _levels(table, reference.runs),
+        _agreement(arm, reference.runs),
+        PAPER,
+        _paper(table, reference.runs),
+    ]
+    transfers = pd.read_csv(arm.folder / "transfer.csv")
+    if len(transfers):
+        parts += ["Learned on one run, applied to another, where only the frames named are fitted again:"]
+        parts += [_transfers(transfers)]
+    return "\n\n".join(part for part in parts if part)
+
+
+def _read(arm: RealArm) -> tuple[pd.DataFrame, Reference]:
+    return pd.read_csv(arm.folder / "protocol.csv"), load_reference(arm.reference)
+
+
+def _row(table: pd.DataFrame, run: str, model: str) -> Any:
+    found = table[(table["run"].astype(str) == run) & (table["model"] == model)]
+    return found.iloc[0] if len(found) else None
+
+
+def _spread(row: Any) -> str:
+    if row is None:
+        return "–"
+    return f"{significant(row['mean_mm'])} ± {significant(row['std_mm'], 2)}"
+
+
+def _what_is_wrong(verdict: dict[str, Any]) -> str:
+    """The largest effects of the verdict, in one sentence."""
+    main = [effect for effect in verdict["effects"] if not effect["minor"]]
+    if not main:
+        return verdict["headline"].rstrip(".").capitalize() + "."
+    told = [f"{e['title']} ({e['rms_at_tool_mm']:.2g} mm, {100 * e['share']:.0f} %)" for e in main[:TOLD]]
+    if len(main) > TOLD:
+        told.append(f"{len(main) - TOLD} smaller effect{'s' if len(main) > TOLD + 1 else ''}")
+    if verdict["background"]["present"]:
+        share = 100 * verdict["background"]["share"]
+        told.append(f"small errors allowed for everywhere in the arm ({share:.0f} %)")
+    before = f"{verdict['fitted_rms_mm']['before']:.2g} mm per axis, base and tool fitted"
+    return f"What the nominal arm misses ({before}) is, the largest first: {'; '.join(told)}."
+
+
+def _how_well(table: pd.DataFrame, run: ReferenceRun) -> str:
+    before, after = (_row(table, run.name, model) for model in ("nominal", ARMSCOPE))
+    become = f"{significant(before['mean_mm'])} mm become {significant(after['mean_mm'])} mm"
+    return f"On configurations that took no part, {become} (3D, {run.name}, {after['splits']:.0f} splits)."
+
+
+def _levels(table: pd.DataFrame, runs: Sequence[ReferenceRun]) -> str:
+    lines = [
+        "| run | nominal | offsets | geometric | + compliance | armscope | best of others |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    for run in runs:
+        cells = []
+        for level in LEVELS:
+            row = _row(table, run.name, level)
+            known = run.figures_mm.get(level)  # type: ignore[call-overload]
+            cells.append(_spread(row) + (f" ({known[0]:g} ± {known[1]:g})" if known and row is not None else ""))
+        cells.append(f"**{_spread(_row(table, run.name, ARMSCOPE))}**")
+        lines.append(f"| {run.name} | {' | '.join(cells)} | {run.lowest.mm:g} |")
+    return "\n".join(lines)
+
+
+def _agreement(arm: RealArm, runs: Sequence[ReferenceRun]) -> str:
+    """Which names the splits agree on, and where set-ups changed."""
+    names = pd.read_csv(arm.folder / "names.csv")
+    splits = pd.read_csv(arm.folder / "splits.csv")
+    sentences = []
+    for run in runs:
+        count = int(((splits["run"].astype(str) == run.name) & (splits["model"] == ARMSCOPE)).sum())
+        mine = names[names["run"].astype(str) == run.name]
+        name = mine["effect"].str.replace("_", " ") + " " + mine["location"]
+        steady = mine[~mine["effect"].isin(JUMPS)].groupby(name)["split"].nunique()
+        steady = steady[steady >= AGREED * count].sort_values(ascending=False, kind="stable")
+        told = [f"{name} ({times}/{count})" for name, times in steady.items()]
+        jumps = mine[mine["effect"].isin(JUMPS) & mine["row"].notna()]
+        text = f"- {run.name}: " + (", ".join(told) if told else "no name in most splits")
+        if len(jumps):
+            text += "; set-up changes: " + ", ".join(_jumps(jumps, count))
+        sentences.append(text)
+    return "Named in most splits (how often):\n\n" + "\n".join(sentences)
+
+
+def _jumps(jumps: pd.DataFrame, count: int) -> list[str]:
+    """Rows at which base or tool jumped, those of different splits within ten rows of each other together."""
+    ordered = jumps.sort_values("row")
+    cluster = (ordered["row"].diff() > 10).cumsum()
+    found = []
+    for _, group in ordered.groupby(cluster):
+        times = group["split"].nunique()
+        if times >= AGREED * count:
+            low, high = group["row"].min(), group["row"].max()
+            span = f"{low:.0f}" if low == high else f"{low:.0f}–{high:.0f}"
+            what = " and ".join(sorted({name.partition("_")[0] for name in group["effect"]}))
+            found.append(f"{what} at id {span} ({times}/{count})")
+    return found or ["none in most splits"]
+
+
+def _paper(table: pd.DataFrame, runs: Sequence[ReferenceRun]) -> str:
+    models = [m for m in table["model"].unique() if m not in (*LEVELS, ARMSCOPE)]
+    names = {UNCORRECTED: "none (frames only)"}
+    lines = ["| run | " + " | ".join(names.get(m, m) for m in models) + " |", "|---|" + "---|" * len(models)]
+    for run in runs:
+        found = [_row(table, run.name, model) for model in models]
+        cells = ["–" if row is None else significant(row["mean_mm"]) for row in found]
+        lines.append(f"| {run.name} | {' | '.join(cells)} |")
+    return "\n".join(lines)
+
+
+def _transfers(table: pd.DataFrame) -> str:
+    keys = ["learned", "applied", "refitted"]
+    models = list(dict.fromkeys(table["model"]))
+    lines = [
+        "| learned on | applied to | refitted | " + " | ".join(models) + " |",
+        "|---|---|---|" + "---|" * len(models),
+    ]
+    for key, group in table.groupby(keys, sort=False):
+        cells = []
+        for model in models:
+            row = group[group["model"] == model]
+            if row.empty:
+                cells.append("–")
+                continue
+            known = row["reference_mm"].iloc[0]
+            cells.append(significant(row["rms_mm"].iloc[0]) + (f" ({known:g})" if np.isfinite(known) else ""))
+        lines.append(f"| {' | '.join(map(str, key))} | {' | '.join(cells)} |")
+    return "\n".join(lines)
+
+
+def _concealment(proof: Path, arms: Sequence[RealArm]) -> str:
+    """How often known effects that were added to these recordings were found."""
+    rates, titles = pd.read_csv(proof / "rates.csv"), {arm.name: arm.title.partition(",")[0] for arm in arms}
+    rates = rates[rates["half"] == "both"]
+    scores = {"found": "found", "right_place": "right place", "covered": "interval holds", "quiet": "no new name"}
+    lines = [
+        "## Known effects concealed in these recordings",
+        "",
+        CONCEALMENT,
+        "",
+        "| arm | size | " + " | ".join(scores.values()) + " |",
+        "|---|---|" + "---|" * len(scores),
+    ]
+    for by, of in [("all", "all"), *(("arm", name) for name in titles)]:
+        mine = rates[(rates["by"] == by) & (rates["of"] == of)]
+        for size, group in mine.groupby("size"):
+            cells = group.set_index("score")
+            shown = [_rate(cells.loc[score]) if score in cells.index else "–" for score in scores]
+            lines.append(f"| {titles.get(of, of)} | {size:g} | {' | '.join(shown)} |")
+    return "\n".join(lines)
+
+
+def _rate(row: Any) -> str:
+    return f"{100 * row['estimate']:.0f} % ({row['right']:.0f}/{row['cases']:.0f})"
