@@ -1,0 +1,137 @@
+"""What is planted in recordings is exactly the stated effect at the recorded angles, in the measurement frame."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from armscope.real.planting import CannotPlantError, Theatre, plant, truth_of
+from armscope.real.staging import AXES_MM, stage
+from armscope.robot import forward_kinematics
+from armscope.robot.arm import build_arm
+from armscope.world.strength import rms
+from tests.real.recorded import BASE, arm, table
+
+LEVEL = 1e-4
+
+
+def torque(angles):
+    return np.column_stack([np.zeros(len(angles)), 50 * np.sin(angles[:, 1]), 20 * np.cos(angles[:, 2])] + [angles[:, 0]] * 3)
+
+
+@pytest.fixture(scope="module")
+def theatre():
+    return Theatre(stage(arm(), table(torque=torque), 1000))
+
+
+def planted(theatre, name, sizes=(1.0,), seed=3):
+    return list(plant(theatre, theatre.judge(), name, sizes, LEVEL, np.random.default_rng(seed)))
+
+
+def turned(theatre, joint, amount):
+    """Displacement in the measurement frame, m, of a motor's turn: forward kinematics of another engine."""
+    angles = theatre.stage.recordings.motor_angles
+    moved = angles.copy()
+    moved[:, joint] += amount
+    return BASE.apply(forward_kinematics(arm(), moved) - forward_kinematics(arm(), angles))
+
+
+def test_the_fitted_frames_are_those_of_the_recordings(theatre):
+    assert np.allclose(theatre.stage.rotations, BASE.as_matrix(), atol=1e-7)
+    assert np.allclose(theatre.nominal, forward_kinematics(arm(), theatre.stage.recordings.motor_angles), atol=1e-6)
+
+
+def test_a_coupled_joint_turns_with_the_other_motor(theatre):
+    (found,) = planted(theatre, "joint_coupling")
+    joint, other = (int(found.effect.location.split()[k]) - 1 for k in (1, -1))
+    amount = found.effect.values["coupling"] * theatre.stage.recordings.motor_angles[:, other]
+    assert np.abs(found.moved - turned(theatre, joint, amount)).max() < 1e-8
+
+
+def test_backlash_follows_the_order_of_recording(theatre):
+    (found,) = planted(theatre, "backlash")
+    joint = int(found.effect.location.split()[1]) - 1
+    angles = theatre.stage.recordings.motor_angles[:, joint]
+    side = np.sign(np.diff(angles, prepend=np.nan))
+    side[0] = 1
+    expected = turned(theatre, joint, -side * found.effect.values["gap"] / 2)
+    assert np.abs(found.moved - expected).max() < 1e-8
+
+
+def test_a_compliant_joint_gives_way_under_the_torque_that_was_recorded(theatre):
+    (found,) = planted(theatre, "joint_compliance")
+    joint = int(found.effect.location.split()[1]) - 1
+    amount = found.effect.values["compliance"] * theatre.stage.recordings.torque[:, joint]
+    assert np.abs(found.moved - turned(theatre, joint, amount)).max() < 1e-8
+
+
+def test_without_recorded_torques_gravity_of_the_mass_table_turns_it(theatre):
+    by_mass = Theatre(stage(arm(), table(), 1000))
+    (found,) = planted(by_mass, "joint_compliance")
+    joint = int(found.effect.location.split()[1]) - 1
+    load = by_mass.scenes[0].torque[:, joint]
+    expected = turned(by_mass, joint, found.effect.values["compliance"] * load)
+    # equilibrium: the load is that of the turned arm
+    assert np.abs(found.moved - expected).max() < 0.01 * np.abs(expected).max()
+
+
+def test_a_shift_moves_nothing_before_and_everything_rigidly_after(theatre):
+    (found,) = planted(theatre, "base_shift")
+    low, high = truth_of(theatre, found)["jump_between_ids"]
+    number = theatre.stage.recordings.id.astype(float)
+    assert np.abs(found.moved[number <= low]).max() == 0
+    after = number >= high
+    points = forward_kinematics(arm(), theatre.stage.recordings.motor_angles)[after]
+    moved = points + found.moved[after] @ BASE.as_matrix()
+    distances = [np.linalg.norm(each[:, None] - each, axis=2) for each in (points, moved)]
+    assert np.abs(distances[0] - distances[1]).max() < 1e-6
+
+
+def test_a_longer_scale_moves_points_in_proportion(theatre):
+    (found,) = planted(theatre, "instrument_scale")
+    points = forward_kinematics(arm(), theatre.stage.recordings.motor_angles)
+    assert np.abs(found.moved - found.effect.values["scale"] * BASE.apply(points)).max() < 1e-8
+
+
+@pytest.mark.parametrize("name", ["gear_mesh", "thermal_expansion", "base_shift"])
+def test_sizes_are_what_the_frames_leave_in_multiples_of_the_level(theatre, name):
+    rows = theatre.stage.train
+    for each in planted(theatre, name, (0.5, 1.0, 3.0)):
+        assert each.rms == pytest.approx(each.size * LEVEL, rel=0.01)
+        assert rms(each.left[rows]) == pytest.approx(each.rms)
+    locations = {each.effect.location for each in planted(theatre, name, (0.5, 1.0, 3.0))}
+    assert len(locations) == 1
+
+
+def test_frames_take_all_of_a_rigid_motion_and_of_a_moved_tool(theatre):
+    rigid = np.tile([1e-3, -2e-3, 5e-4], (len(theatre.nominal), 1)) + 1e-4 * np.cross([0, 0, 1], theatre.nominal)
+    tool = np.einsum("nij,j->ni", theatre.turns, [1e-3, 0, 2e-3])
+    assert np.abs(theatre.left(rigid + tool)).max() < 1e-9
+
+
+def test_without_masses_and_torques_nothing_gives_way():
+    bare = build_arm(arm().description.model_copy(update={"links": None, "tool_load": None}))
+    theatre = Theatre(stage(bare, table(), 1000))
+    with pytest.raises(CannotPlantError, match="nothing to give way under"):
+        planted(theatre, "joint_compliance")
+
+
+def test_a_joint_that_stands_still_conceals_nothing_that_follows_its_angle():
+    rows = table()
+    rows["q4_rad"] = 0.3
+    theatre = Theatre(stage(arm(), rows, 1000))
+    for seed in range(6):
+        for each in planted(theatre, "gear_mesh", seed=seed):
+            assert each.effect.location != "joint 4"
+
+
+def test_a_thinned_stage_keeps_order_and_the_side_of_approach_of_the_whole():
+    rows = table(200)
+    small = stage(arm(), rows, 50)
+    assert len(small.table) == 50
+    kept = small.table["id"].astype(int).to_numpy()
+    assert (np.diff(kept) > 0).all()
+    steps = np.sign(np.diff(rows["q2_rad"], prepend=rows["q2_rad"].iloc[0]))[kept - 1]
+    steps[kept == 1] = 1
+    assert (small.table["approach2"] == steps).all()
+    assert np.isfinite(small.table[AXES_MM].to_numpy()).all()
