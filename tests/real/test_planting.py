@@ -16,7 +16,9 @@ LEVEL = 1e-4
 
 
 def torque(angles):
-    return np.column_stack([np.zeros(len(angles)), 50 * np.sin(angles[:, 1]), 20 * np.cos(angles[:, 2])] + [angles[:, 0]] * 3)
+    return np.column_stack(
+        [np.zeros(len(angles)), 50 * np.sin(angles[:, 1]), 20 * np.cos(angles[:, 2])] + [angles[:, 0]] * 3
+    )
 
 
 @pytest.fixture(scope="module")

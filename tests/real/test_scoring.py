@@ -105,11 +105,18 @@ def test_a_jump_is_right_if_no_seen_row_lies_between():
 
 def test_waves_of_the_arm_and_planted_ones_of_the_same_count_add_as_waves():
     def wave(amplitude, phase):
-        numbers = {"amplitude": (amplitude, 1e-6, "rad"), "phase": (phase, 0.01, "rad"), "per_turn": (9.0, np.nan, "1/turn")}
+        numbers = {
+            "amplitude": (amplitude, 1e-6, "rad"),
+            "phase": (phase, 0.01, "rad"),
+            "per_turn": (9.0, np.nan, "1/turn"),
+        }
         return claim("gear_mesh", "joint 2", parameters=numbers, rms=amplitude)
 
     planted = [("amplitude", 3e-4, "rad"), ("phase", np.pi / 2, "rad"), ("per_turn", 9.0, "1/turn")]
-    truth = {"effect": "gear_mesh", "parameters": [dict(zip(("name", "value", "unit"), p, strict=True)) for p in planted]}
+    truth = {
+        "effect": "gear_mesh",
+        "parameters": [dict(zip(("name", "value", "unit"), p, strict=True)) for p in planted],
+    }
     scores = score([original(wave(4e-4, 0.0)), altered(wave(5e-4, np.arctan2(3, 4)), truth=truth | {"rms_mm": 1e-5})])
     expected = scores.numbers.set_index("parameter")["true"]
     assert expected["amplitude"] == pytest.approx(5e-4)
@@ -143,6 +150,8 @@ def test_what_follows_a_load_is_told_where_columns_are_withheld():
     truth = {"kind": "withheld", "rows": "run", "withheld": "torques withheld"}
     loaded = claim("joint_compliance", "joint 2")
     loaded = replace(loaded, driver="load of joint 2")
-    scores = score([original(), sealed(truth, [loaded], part="withheld"), sealed(truth, [claim("joint_offset", "joint 1")])])
+    scores = score(
+        [original(), sealed(truth, [loaded], part="withheld"), sealed(truth, [claim("joint_offset", "joint 1")])]
+    )
     assert scores.withheld["load_found"].tolist() == [True, False]
     assert scores.withheld["compliance_found"].tolist() == [True, False]
