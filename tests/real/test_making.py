@@ -88,4 +88,4 @@ def test_the_diagnosing_rule_sees_the_visible_folder_only_in_a_folder_of_its_own
 
 def test_the_diagnosis_knows_nothing_of_planting():
     used = {path.as_posix() for path in sources("armscope.proof.diagnosing")}
-    assert not [path for path in used if "/real/" in path or "/world/" in path]
+    assert not [path for path in used if "armscope/real/" in path or "armscope/world/" in path]
