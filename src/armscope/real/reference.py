@@ -93,7 +93,7 @@ def rows_of_run(recordings: Recordings, run: str, first_id: int | None = None) -
     """
     kept = recordings.run == run
     if not kept.any():
-        raise InputError(recordings.source, "column run", run, "no row has it", nearest(run, set(recordings.run)))
+        raise InputError(recordings.source, "column run", run, "no row has it", nearest(run, recordings.run.tolist()))
     if first_id is not None:
         kept &= [text.isdecimal() and int(text) >= first_id for text in recordings.id]
         if not kept.any():

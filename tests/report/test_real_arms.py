@@ -1,0 +1,79 @@
+"""docs/real-arms.md says what the tables say: which figure is above, which at or below, and where set-ups changed."""
+
+from __future__ import annotations
+
+import json
+
+import pandas as pd
+import pytest
+
+from armscope.files import write_table, write_yaml
+from armscope.report.real_arms import RealArm, write_real_arms
+
+
+@pytest.fixture
+def arm_(tmp_path):
+    folder = tmp_path / "results"
+    rows = [
+        ("run a", "nominal", 1.2, 0.04), ("run a", "armscope", 0.25, 0.01), ("run a", "FDP(CI)", 0.9, 0.0),
+        ("run b", "nominal", 3.0, 0.1), ("run b", "armscope", 2.0, 0.2), ("run b", "FDP(CI)", 2.9, 0.0),
+    ]  # fmt: skip
+    table = pd.DataFrame(rows, columns=["run", "model", "mean_mm", "std_mm"]).assign(splits=5)
+    write_table(folder / "protocol.csv", table)
+    splits = pd.DataFrame([{"run": "run a", "model": "armscope", "split": k, "rms_mm": 0.25} for k in range(5)])
+    write_table(folder / "splits.csv", splits)
+    named = [("run a", k, "joint_compliance", "joint 2", None) for k in range(4)]
+    named += [("run a", k, "base_shift", "base", 86 + k) for k in range(5)]
+    named += [("run a", 0, "gear_ratio", "joint 3", None)]
+    write_table(folder / "names.csv", pd.DataFrame(named, columns=["run", "split", "effect", "location", "row"]))
+    columns = ["learned", "applied", "refitted", "model", "rms_mm", "reference_mm"]
+    carried = [("run a", "run b", "base and tool", "armscope", 0.38, 0.41)]
+    write_table(folder / "transfer.csv", pd.DataFrame(carried, columns=columns))
+    effect = {"title": "joint compliance at joint 2", "rms_at_tool_mm": 0.5, "share": 0.8, "minor": False}
+    verdict = {
+        "headline": "x", "effects": [effect], "background": {"present": True, "share": 0.1},
+        "fitted_rms_mm": {"before": 0.7, "after": 0.1},
+    }  # fmt: skip
+    (folder / "verdict.json").write_text(json.dumps(verdict))
+    reference = {
+        "source": "here",
+        "runs": [
+            {
+                "name": "run a",
+                "run": "a",
+                "figures_mm": {"nominal": [1.22, 0.05]},
+                "best": {"mm": 0.27, "what": "one split"},
+            },
+            {"name": "run b", "run": "b", "figures_mm": {"nominal": [1.9, 0.1]}},
+        ],
+    }
+    write_yaml(tmp_path / "reference.yaml", reference)
+    return RealArm("arm", "An arm, a tracker", folder, tmp_path / "reference.yaml", ("a", None))
+
+
+def page(arm_, tmp_path):
+    write_real_arms(tmp_path / "page.md", [arm_], "figures")
+    return (tmp_path / "page.md").read_text(encoding="utf-8")
+
+
+def test_every_run_stands_beside_the_best_figure_of_others(arm_, tmp_path):
+    text = page(arm_, tmp_path)
+    assert "| An arm, a tracker | run a | 0.250 ± 0.010 | 0.27 (one split) | at or below |" in text
+    assert "| An arm, a tracker | run b | 2.00 ± 0.20 | 1.9 (nominal) | **above** |" in text
+
+
+def test_the_largest_effect_and_what_becomes_of_the_error_are_told(arm_, tmp_path):
+    text = page(arm_, tmp_path)
+    assert "joint compliance at joint 2 (0.5 mm, 80 %)" in text
+    assert "1.20 mm become 0.250 mm (3D, run a, 5 splits)" in text
+
+
+def test_names_of_most_splits_and_jumps_within_some_rows_of_each_other_are_told(arm_, tmp_path):
+    text = page(arm_, tmp_path)
+    assert "joint compliance joint 2 (4/5)" in text
+    assert "gear ratio" not in text
+    assert "base at id 86–90 (5/5)" in text
+
+
+def test_transfers_stand_beside_their_references(arm_, tmp_path):
+    assert "| run a | run b | base and tool | 0.380 (0.41) |" in page(arm_, tmp_path)
