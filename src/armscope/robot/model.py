@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import xml.etree.ElementTree as ET
+
 import numpy as np
 import pinocchio as pin
 
@@ -69,8 +71,11 @@ def _from_urdf(description: RobotDescription) -> pin.Model:
         if not full.existJointName(name):
             raise InputError(description.urdf, "hold_joints", name, "no joint of that name", nearest(name, full.names))
         joint = full.getJointId(name)
-        neutral[full.joints[joint].idx_q] = value
+        held = full.joints[joint]
+        # a joint without limits is stored as cosine and sine of its angle
+        neutral[held.idx_q : held.idx_q + held.nq] = value if held.nq == 1 else [np.cos(value), np.sin(value)]
         on_chain.discard(joint)
+    _refuse_followers(description, full, on_chain)
     locked = [joint for joint in range(1, full.njoints) if joint not in on_chain]
     model = pin.buildReducedModel(full, locked, neutral)
     for joint in range(1, model.njoints):
@@ -88,6 +93,24 @@ def _from_urdf(description: RobotDescription) -> pin.Model:
     _append_tool_load(model, description)
     model.gravity.linear = np.array(description.gravity_m_s2)
     return model
+
+
+def _refuse_followers(description: RobotDescription, full: pin.Model, on_chain: set[int]) -> None:
+    """A joint that mimics another has no motor of its own.
+
+    Raises:
+        InputError: the chain has one.
+    """
+    for joint in ET.parse(str(description.urdf)).getroot().iter("joint"):
+        mimic, name = joint.find("mimic"), joint.get("name", "")
+        if mimic is not None and full.existJointName(name) and full.getJointId(name) in on_chain:
+            raise InputError(
+                description.urdf,
+                f"joint {name}",
+                f"mimic of {mimic.get('joint')}",
+                "every joint of the chain needs a motor of its own",
+                f"Hold it (`hold_joints: {{{name}: 0}}`), or describe the arm by D-H rows with `actuation`.",
+            )
 
 
 def _append_tool_load(model: pin.Model, description: RobotDescription) -> None:

@@ -1,0 +1,110 @@
+"""Any chain of hinges as Denavit-Hartenberg rows: an arm that came from a URDF, for whoever needs rows."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.robot.arm import Arm
+from armscope.robot.description import DH, DHRow, LinkMass, RobotDescription
+
+Array = NDArray[np.float64]
+
+PARALLEL = 1e-6
+"""Sine of the angle between two axes below which they count as parallel: the rows of nearly parallel axes run away."""
+MM = 1e3
+
+
+def as_dh(arm: Arm) -> tuple[RobotDescription, Array]:
+    """The same arm as standard D-H rows, tool and loads included.
+
+    Every chain of hinges has such rows (Denavit & Hartenberg 1955), once the base frame may stand on the first axis.
+
+    Returns:
+        the description, and (4, 4) its base frame in the arm's own.
+    """
+    axes = _axes_at_zero(arm)
+    frames = [axes[0]]
+    rows = []
+    for axis in axes[1:]:
+        row, frame = _row(frames[-1], axis)
+        rows.append(row)
+        frames.append(frame)
+    # the last frame may be any on the last axis: the one that turns with it
+    rows.append(DHRow(a_mm=0, alpha_deg=0, d_mm=0))
+    links = [
+        _in_frame(frame, axis, mass, centre)
+        for frame, axis, mass, centre in zip([*frames[1:], frames[-1]], axes, arm.masses, arm.centres, strict=True)
+    ]
+    tip = axes[-1] @ arm.tip @ np.append(arm.tool, 1.0)
+    base = frames[0]
+    description = arm.description.model_copy(
+        update={
+            "dh": DH(joints=tuple(rows)),
+            "urdf": None,
+            "tip": None,
+            "hold_joints": {},
+            "tool_mm": _triple((np.linalg.inv(frames[-1]) @ tip)[:3] * MM),
+            "links": tuple(links) if arm.has_masses else None,
+            "tool_load": None,
+            "gravity_m_s2": _triple(base[:3, :3].T @ arm.gravity),
+            "joint_limits_deg": _limits(arm),
+        }
+    )
+    return description, base
+
+
+def _axes_at_zero(arm: Arm) -> list[Array]:
+    """Frames of the joints with all angles zero, in the arm's base; z is the axis."""
+    frames, frame = [], np.eye(4)
+    for step in arm.before:
+        frame = frame @ step
+        frames.append(frame)
+    return frames
+
+
+def _row(frame: Array, axis: Array) -> tuple[DHRow, Array]:
+    """The row from a frame on one axis to the frame that it leads to on the next axis."""
+    origin, z, x = frame[:3, 3], frame[:3, 2], frame[:3, 0]
+    point, next_z = axis[:3, 3], axis[:3, 2]
+    normal = np.cross(z, next_z)
+    sine = np.linalg.norm(normal)
+    if sine < PARALLEL:
+        away = point - origin - ((point - origin) @ z) * z
+        length = np.linalg.norm(away)
+        next_x = away / length if length > PARALLEL else x
+        d = 0.0
+        next_origin = origin + away
+    else:
+        next_x = normal / sine
+        # z d + next_x a - next_z s = point - origin
+        d, a = np.linalg.solve(np.column_stack([z, next_x, -next_z]), point - origin)[:2]
+        if a < -PARALLEL:
+            next_x, a = -next_x, -a
+        next_origin = origin + d * z + a * next_x
+    a = (next_origin - origin - d * z) @ next_x
+    next_y = np.cross(next_z, next_x)
+    reached = np.eye(4)
+    reached[:3, :3], reached[:3, 3] = np.column_stack([next_x, next_y, next_z]), next_origin
+    theta = np.degrees(np.arctan2(np.cross(x, next_x) @ z, x @ next_x))
+    alpha = np.degrees(np.arctan2(np.cross(z, next_z) @ next_x, z @ next_z))
+    row = DHRow(a_mm=float(a * MM), alpha_deg=float(alpha), d_mm=float(d * MM), theta_offset_deg=float(theta))
+    return row, reached
+
+
+def _in_frame(frame: Array, axis: Array, mass: float, centre: Array) -> LinkMass:
+    """A link's mass with its centre in a D-H frame instead of the joint's."""
+    moved = np.linalg.inv(frame) @ axis @ np.append(centre, 1.0)
+    return LinkMass(mass_kg=float(mass), com_mm=_triple(moved[:3] * MM))
+
+
+def _limits(arm: Arm) -> tuple[tuple[float, float], ...] | None:
+    if not np.isfinite(arm.limits).all():
+        return None
+    low, high = np.degrees(arm.limits).T
+    return tuple((float(a), float(b)) for a, b in zip(low, high, strict=True))
+
+
+def _triple(values: Array) -> tuple[float, float, float]:
+    x, y, z = (float(value) for value in values)
+    return x, y, z
