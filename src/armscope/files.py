@@ -7,7 +7,7 @@ import gzip
 import json
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -15,12 +15,79 @@ import numpy as np
 import pandas as pd
 import yaml
 
+from armscope.inputs import InputError, nearest
+
+
+def writable(folder: Path | str) -> Path:
+    """A folder for output, made if need be; long work asks first, so that it does not end in vain.
+
+    Raises:
+        InputError: nothing can be written there.
+    """
+    folder = Path(folder)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return folder
+    except OSError as error:
+        rule = f"output goes into this folder ({error.strerror})"
+        raise InputError(folder, "", "no folder that can be written to", rule) from error
+
+
+def read_table(path: Path | str, columns: Iterable[str] = (), what: str = "a table (CSV)") -> pd.DataFrame:
+    """A CSV table that armscope wrote, gzipped or not.
+
+    Args:
+        path: the file.
+        columns: what it must have.
+        what: what it is, for the error.
+
+    Raises:
+        InputError: no such file, no table, a column is missing.
+    """
+    try:
+        table = pd.read_csv(path)
+    except OSError as error:
+        raise _unreadable(path, what, error) from error
+    except (pd.errors.EmptyDataError, pd.errors.ParserError, UnicodeDecodeError, EOFError) as error:
+        raise InputError(path, "", "no table", f"{what} is needed here", f"{error}") from error
+    for column in columns:
+        if column not in table:
+            raise InputError(
+                path,
+                "line 1",
+                f"no column {column}",
+                f"{what} is needed here",
+                nearest(column, map(str, table.columns)),
+            )
+    return table
+
+
+def read_json(path: Path | str, what: str) -> Any:
+    """The content of a JSON file, gzipped or not; ``what`` it is, for the error.
+
+    Raises:
+        InputError: no such file, no JSON.
+    """
+    path = Path(path)
+    try:
+        content = path.read_bytes()
+        return json.loads(gzip.decompress(content) if path.suffix == ".gz" else content)
+    except OSError as error:
+        raise _unreadable(path, what, error) from error
+    except (ValueError, EOFError) as error:
+        raise InputError(path, "", "no readable JSON", f"{what} is needed here", str(error)) from error
+
+
+def _unreadable(path: Path | str, what: str, error: OSError) -> InputError:
+    return InputError(path, "", "no readable file", f"{what} is needed here", error.strerror or str(error))
+
 
 @contextlib.contextmanager
 def replacing(path: Path | str) -> Iterator[Path]:
     """A temporary path beside ``path`` that takes its name when the block ends well, and vanishes when it doesn't."""
     path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
+    writable(path.parent)
     handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=path.parent)
     os.close(handle)
     beside = Path(name)

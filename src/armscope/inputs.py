@@ -31,6 +31,8 @@ class InputError(ValueError):
 
 
 def _quote(value: object) -> str:
+    if type(value).__module__ == "numpy" and hasattr(value, "item"):  # a number, not "np.float64(...)"
+        value = value.item()
     text = value if isinstance(value, str) and value.startswith(("no ", "nothing")) else repr(value)
     return text if len(text) <= 120 else text[:117] + "..."
 
@@ -96,7 +98,18 @@ def validate(model: type[Model], content: Any, file: object) -> Model:
 
 def load(model: type[Model], path: Path | str) -> Model:
     """Read a YAML file and validate it against ``model``."""
-    return validate(model, read_yaml(path), path)
+    content = read_yaml(path)
+    if not isinstance(content, dict):
+        raise InputError(path, "", content or "nothing", "this file has lines of the form `key: value`")
+    return validate(model, content, path)
+
+
+def folder_of(path: Path | str, what: str) -> Path:
+    """A folder that must be there: of ``what``, for the error."""
+    path = Path(path)
+    if not path.is_dir():
+        raise InputError(path, "", "no folder", f"the folder of {what} is needed here")
+    return path
 
 
 def _dotted(location: tuple[int | str, ...]) -> str:

@@ -207,7 +207,7 @@ def _best_explanation(arm: Arm, table: Recordings, share: float, spread: float) 
         return Suspicion("problem", best.statement, best.cure)
     return Suspicion(
         "problem",
-        f"the arm does not explain the points: {100 * share:.0f} % of their spread of {spread * 1e3:.3g} mm are left "
+        f"the arm does not explain the points: {100 * share:.0f} % of their spread of {spread * 1e3:.0f} mm are left "
         "after base and tool are fitted",
         "Is it another robot, are angles and points of different rows, or is a joint's zero far off?",
     )

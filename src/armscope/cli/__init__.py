@@ -7,15 +7,16 @@ from __future__ import annotations
 
 import os
 import sys
+from typing import Annotated
 
 import typer
 
 from armscope.cli import calibration, compensation, diagnosis, paper, poses, proof, real, recordings, sweep
+from armscope.cli.panels import EXPERIMENTS
 from armscope.inputs import InputError
 
 app = typer.Typer(
     name="armscope",
-    help="See where a robot arm misses its target, and why.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     add_completion=False,
@@ -25,13 +26,38 @@ app.add_typer(compensation.app)
 app.add_typer(poses.app)
 app.add_typer(calibration.app)
 app.add_typer(recordings.app)
-app.add_typer(paper.app, name="paper", help="The 2006 paper, step by step; the workflow calls these.")
-app.add_typer(proof.app, name="proof", help="The diagnosis on worlds with concealed effects, step by step.")
-app.add_typer(real.app, name="real", help="Real arms in the reference protocol; the workflow calls these.")
-app.add_typer(sweep.app, name="sweep", help="Variants of swarm and model; the workflow calls these.")
+app.add_typer(paper.app, name="paper", help="The 2006 paper, step by step.", rich_help_panel=EXPERIMENTS)
+app.add_typer(
+    proof.app,
+    name="proof",
+    help="The diagnosis on worlds with concealed effects, step by step.",
+    rich_help_panel=EXPERIMENTS,
+)
+app.add_typer(real.app, name="real", help="Real arms in the reference protocol.", rich_help_panel=EXPERIMENTS)
+app.add_typer(sweep.app, name="sweep", help="Variants of swarm and model.", rich_help_panel=EXPERIMENTS)
 
 
-@app.command("schema")
+def _tell_version(wanted: bool) -> None:
+    if wanted:
+        import importlib.metadata
+
+        print(f"armscope {importlib.metadata.version('armscope')}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool, typer.Option("--version", help="print the version", callback=_tell_version, is_eager=True)
+    ] = False,
+) -> None:
+    """See where a robot arm misses its target, and why.
+
+    Start with: armscope diagnose recordings.csv --robot robot.yaml -o out/
+    """
+
+
+@app.command("schema", rich_help_panel=EXPERIMENTS)
 def print_schema() -> None:
     """Print the JSON schema of config.yaml."""
     import json
@@ -50,4 +76,9 @@ def main() -> None:
         app()
     except InputError as error:
         print(f"armscope: {error}", file=sys.stderr)
+        sys.exit(2)
+    except OSError as error:  # a disk that is full, a file that vanished
+        if error.filename is None:
+            raise
+        print(f"armscope: {error.filename}: {error.strerror}", file=sys.stderr)
         sys.exit(2)

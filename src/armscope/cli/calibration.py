@@ -49,12 +49,13 @@ def calibrate(
     """Calibrate the arm's geometry and export it as robot.yaml and URDF."""
     from armscope.calibration import calibrate as calibrated
     from armscope.calibration.export import export
-    from armscope.files import write_table
+    from armscope.files import writable, write_table
     from armscope.recordings import read_recordings
     from armscope.robot import load_arm
 
     arm = load_arm(robot)
     table = read_recordings(recordings, arm.n_motors)
+    writable(output)
     calibration = calibrated(arm, table, level, robust=robust, one_base=one_base, tool_per_run=tool_per_run)
     write_table(output / "calibration.csv", calibration.table)
     paths = export(calibration, output)

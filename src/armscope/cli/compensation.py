@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from armscope.cli.panels import EXPERIMENTS
 from armscope.inputs import InputError
 
 if TYPE_CHECKING:
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 
     from armscope.compensation import Compensated, Identified
     from armscope.errormodels import ModelSpec
+    from armscope.paper.measurements import Measurements
     from armscope.physics.model import FittedModel
     from armscope.robot import Arm
 
@@ -135,7 +137,7 @@ def fit_error_model(
     print(output)
 
 
-@app.command("closed-loop")
+@app.command("closed-loop", rich_help_panel=EXPERIMENTS)
 def closed_loop(
     robot: Annotated[Path, typer.Argument(help="robot.yaml")],
     poses: Annotated[Path, typer.Option(help="poses.csv of `armscope paper measure`")],
@@ -159,7 +161,9 @@ def closed_loop(
 
     measurements = read_measurements(poses, errors)
     specs = [_spec(name) for name in products or ()]
-    left = paper_closed_loop(load_arm(robot), measurements, read_fits(fits), _true_errors(robots), specs, diagnosed)
+    arm = load_arm(robot)
+    _check_nominal(robot, arm, poses, measurements)
+    left = paper_closed_loop(arm, measurements, read_fits(fits), _true_errors(robots), specs, diagnosed)
     table = cross_table(left)
     write_table(output, table)
     if points is not None:
@@ -168,7 +172,7 @@ def closed_loop(
         save_figure(cross_table_figure(table), figure)
 
 
-@app.command("regions")
+@app.command("regions", rich_help_panel=EXPERIMENTS)
 def regions_(
     poses: Annotated[Path, typer.Option(help="poses.csv of `armscope paper measure`")],
     errors: Annotated[Path, typer.Option(help="errors.csv")],
@@ -191,7 +195,7 @@ def regions_(
         save_figure(regions_figure(table), figure)
 
 
-@app.command("products")
+@app.command("products", rich_help_panel=EXPERIMENTS)
 def products_(
     poses: Annotated[Path, typer.Option(help="poses.csv of `armscope paper measure`")],
     errors: Annotated[Path, typer.Option(help="errors.csv")],
@@ -209,14 +213,28 @@ def products_(
     write_table(output, paper_products(read_measurements(poses, errors), specs, seed))
 
 
+def _check_nominal(robot: Path, arm: Arm, poses: Path, measurements: Measurements) -> None:
+    """The study's nominal points must be the arm's own."""
+    import numpy as np
+
+    from armscope.robot import forward_kinematics
+
+    rows = measurements.identification
+    if rows.motor_angles.shape[1] != arm.n_motors:
+        raise InputError(robot, "", f"{arm.n_motors} motors", f"{poses} has {rows.motor_angles.shape[1]}")
+    apart = np.abs(forward_kinematics(arm, rows.motor_angles) * 1e3 - rows.nominal_mm).max()
+    if apart > 0.1:
+        rule = f"its tool points lie up to {apart:.0f} mm from the nominal ones of {poses}"
+        raise InputError(robot, "", arm.name, rule, "Is it the robot of this study?")
+
+
 def _true_errors(robots: Path) -> NDArray[np.float64]:
     """Geometric errors of the anchored robot, m and rad."""
     import numpy as np
-    import pandas as pd
 
-    table = pd.read_csv(robots)
-    if "anchored" not in table:
-        raise InputError(robots, "line 1", "no column anchored", "`armscope paper measure` writes this table")
+    from armscope.files import read_table
+
+    table = read_table(robots, ["anchored"], "the table robots.csv of `armscope paper measure`")
     return np.asarray(table["anchored"], dtype=float) * 1e-3  # mm and mrad
 
 

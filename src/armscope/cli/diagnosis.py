@@ -37,12 +37,14 @@ def diagnose(
     from armscope.compensation.physical import identified_on, save_identified
     from armscope.diagnosis import Settings, write_verdict
     from armscope.diagnosis import diagnose as diagnose_arm
+    from armscope.files import writable
     from armscope.recordings import read_recordings
     from armscope.report.headline import headline
     from armscope.robot import load_arm
 
     arm = load_arm(robot)
     table = read_recordings(recordings, arm.n_motors)
+    writable(output)
     for note in table.notes:
         print(f"note: {note}", file=sys.stderr)
     if run:

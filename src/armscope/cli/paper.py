@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -23,6 +23,9 @@ from armscope.cli.studies import (
     write_fits,
 )
 from armscope.inputs import InputError
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 app = typer.Typer(no_args_is_help=True)
 
@@ -113,6 +116,12 @@ def measure_real(
     write_table(output / "observability.csv", _observability(study.choice))
 
 
+def _residuals(paths: list[Path]) -> pd.DataFrame:
+    from armscope.paper.residuals import COLUMNS
+
+    return read_tables(paths, COLUMNS, "the table residuals.csv of a study")
+
+
 @app.command()
 def fit(poses: Poses, errors: Errors, settings: Settings, output: Output) -> None:
     """Fit the error models to every robot of a table by particle swarm, with many seeds."""
@@ -144,7 +153,7 @@ def table2_(
     from armscope.files import write_table
     from armscope.paper.table2 import table2
 
-    table = table2(read_tables(residuals))
+    table = table2(_residuals(residuals))
     write_table(
         output, table if beside_printed else table.drop(columns=["printed", "rss_ratio", "rms_ratio"]), digits=6
     )
@@ -165,7 +174,7 @@ def cross_check_(residuals: Residuals, fits: ManyFits, output: Output) -> None:
     from armscope.files import write_table
     from armscope.paper.cross_check import cross_check
 
-    write_table(output, cross_check(read_tables(residuals), read_fits(*fits)), digits=5)
+    write_table(output, cross_check(_residuals(residuals), read_fits(*fits)), digits=5)
 
 
 @app.command("sub-volumes")
@@ -186,12 +195,10 @@ def claims_(
     output: Output,
 ) -> None:
     """Whether each claim of the paper holds: for the anchored robot and for which share of the ensemble."""
-    import pandas as pd
-
-    from armscope.files import write_table
+    from armscope.files import read_table, write_table
     from armscope.paper.claims import claims
 
-    judged = claims(read_tables(residuals), read_fits(*fits), pd.read_csv(sub_volumes), read_fits(as_printed))
+    judged = claims(_residuals(residuals), read_fits(*fits), read_table(sub_volumes), read_fits(as_printed))
     write_table(output, judged, digits=4)
 
 
@@ -211,12 +218,10 @@ def audit_(
 @app.command("reading")
 def reading_(poses: Poses, output: Output) -> None:
     """Read the printed Eqs. (15)-(17) as a rigid motion, a scale and a rest."""
-    import pandas as pd
-
-    from armscope.files import write_table
+    from armscope.files import read_table, write_table
     from armscope.paper.reading import reading
 
-    table = pd.read_csv(poses)
+    table = read_table(poses, ["trajectory", "x_mm", "y_mm", "z_mm"], "the table poses.csv of a study")
     identification = table[table["trajectory"] == "identification"]
     write_table(output, reading(identification[["x_mm", "y_mm", "z_mm"]].to_numpy()), digits=5)
 
@@ -259,12 +264,11 @@ def convergence_figure(
     output: Annotated[Path, typer.Option("--output", "-o", help="a path; PNG, SVG and PDF are written there")],
 ) -> None:
     """Draw how the swarms converge."""
-    import pandas as pd
-
+    from armscope.files import read_table
     from armscope.report.paper_figures import convergence
     from armscope.report.style import save_figure
 
-    save_figure(convergence(pd.read_csv(history)), output)
+    save_figure(convergence(read_table(history, ["model", "rule"], "the table convergence.csv of a study")), output)
 
 
 @app.command()
@@ -277,16 +281,15 @@ def report(
     output: Annotated[Path, typer.Option("--output", "-o", help="report.html; table2.html is written beside it")],
 ) -> None:
     """One page that shows what the paper claimed, what holds, and what is assumed."""
-    import pandas as pd
-
     from armscope.cli.paper_settings import ReportSettings
+    from armscope.files import read_table
     from armscope.report.paper_page import RealArm, error_field, write_paper_page, write_table2
     from armscope.robot import load_arm
 
     chosen = parsed(ReportSettings, settings)
     arms = [RealArm(arm.title, Path(arm.folder) if arm.folder else None, arm.reason) for arm in chosen.real]
-    write_table2(output.with_name("table2.html"), pd.read_csv(results / "table2.csv"))
-    field = error_field(load_arm(robot), pd.read_csv(results / "poses.csv"), pd.read_csv(left_over))
+    write_table2(output.with_name("table2.html"), read_table(results / "table2.csv"))
+    field = error_field(load_arm(robot), read_table(results / "poses.csv"), read_table(left_over))
     write_paper_page(output, chosen.paper, chosen.seed, results, proof, arms, field)
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import typer
+
+from armscope.inputs import InputError, folder_of, nearest
 
 app = typer.Typer(no_args_is_help=True)
 
@@ -41,7 +42,11 @@ def worlds(
     from armscope.proof.making import batch, make
 
     number, _, parts = part.partition("/")
-    drawn = json.loads(seed_file.read_text(encoding="utf-8"))["proof_seed"] if seed_file else 0
+    if not (number.isdecimal() and parts.isdecimal() and int(number) < int(parts)):
+        raise InputError("--part", "", part, "a number from 0, a slash and how many parts there are: 0/4 ... 3/4")
+    if half not in ("fixed", "fresh"):
+        raise InputError("--half", "", half, "fixed or fresh")
+    drawn = _seed(seed_file)["proof_seed"] if seed_file else 0
     chosen = batch(drawn, _size(size), half == "fresh", int(number), int(parts))
     make(chosen, robots, visible, sealed)
 
@@ -58,7 +63,8 @@ def diagnose(
     from armscope.proof.diagnosing import diagnose_worlds
 
     settings = Settings(resamples=resamples, cross_validation=cross_validation)
-    diagnose_worlds(sorted(path for path in visible.iterdir() if path.is_dir()), output, settings)
+    found = sorted(path for path in folder_of(visible, "worlds").iterdir() if path.is_dir())
+    diagnose_worlds(found, output, settings)
 
 
 @app.command()
@@ -72,6 +78,8 @@ def score(
     from armscope.proof.reading import read_worlds
     from armscope.proof.scoring import score as score_worlds
 
+    for part in ("visible", "sealed", "verdicts", "seen"):
+        folder_of(folder / part, f"the proof's {part}")
     for name, table in tables(score_worlds(read_worlds(folder))).items():
         write_table(output / f"{name}.csv", table, digits=6)
 
@@ -85,7 +93,7 @@ def figures(
     from armscope.report.proof_figures import draw_all
     from armscope.report.style import save_figure
 
-    for name, figure in draw_all(tables).items():
+    for name, figure in draw_all(_scored(tables)).items():
         save_figure(figure, output / name, formats=("png", "svg"))
 
 
@@ -100,12 +108,26 @@ def report(
     """One page: what the diagnosis finds, what it misses, and what it gets wrong."""
     from armscope.report.proof_page import write_proof_page
 
-    write_proof_page(output, tables, drawn, json.loads(seed_file.read_text(encoding="utf-8")), _size(size))
+    write_proof_page(output, _scored(tables), folder_of(drawn, "the proof's figures"), _seed(seed_file), _size(size))
+
+
+def _scored(tables: Path) -> Path:
+    from armscope.files import read_table
+
+    read_table(folder_of(tables, "the proof's tables") / "aims.csv", what="a table of `armscope proof score`")
+    return tables
+
+
+def _seed(path: Path) -> dict[str, Any]:
+    from armscope.files import read_json
+
+    content = read_json(path, "the file of `armscope proof seed`")
+    if not isinstance(content, dict) or not {"proof_seed", "drawn"} <= set(content):
+        raise InputError(path, "", "no proof_seed", "`armscope proof seed` writes this file")
+    return content
 
 
 def _size(text: str) -> Literal["small", "full"]:
-    from armscope.inputs import InputError, nearest
-
     if text == "small":
         return "small"
     if text == "full":

@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from armscope.cli.panels import EXPERIMENTS
+
 app = typer.Typer()
 
 
@@ -22,7 +24,7 @@ def import_(
     print(import_recordings(files, mapping, output).text())
 
 
-@app.command()
+@app.command(rich_help_panel=EXPERIMENTS)
 def fetch(
     source: Annotated[Path, typer.Argument(help="source.yaml of a public data set")],
     output: Annotated[Path, typer.Option("--output", "-o", help="folder for the raw files")],

@@ -43,18 +43,27 @@ def parsed(model: type[Model], settings: str) -> Model:
 
 def read_measurements(poses: Path, *errors: Path) -> Measurements:
     """The measurements of a study; several tables of errors follow each other."""
-    import pandas as pd
+    from armscope.files import read_table
+    from armscope.paper.measurements import ERROR_COLUMNS, POSITION_COLUMNS, Measurements
 
-    from armscope.paper.measurements import Measurements
+    at = read_table(poses, ["trajectory", "point", "q1_rad", *POSITION_COLUMNS], "the table poses.csv of a study")
+    left = read_tables(errors, ["robot", "trajectory", "point", *ERROR_COLUMNS], "the table errors.csv of a study")
+    robots = left["robot"].nunique()
+    if not len(at) or len(left) != robots * len(at):
+        rule = f"it has one row for each of the {len(at)} rows of {poses} and each of its {robots} robots"
+        raise InputError(errors[0], "", f"{len(left)} rows", rule, "Are both of the same study?")
+    return Measurements.from_tables(at, left)
 
-    return Measurements.from_tables(pd.read_csv(poses), read_tables(errors))
 
-
-def read_tables(paths: Sequence[Path]) -> pd.DataFrame:
+def read_tables(
+    paths: Sequence[Path], columns: Sequence[str] = (), what: str = "a table of a study (CSV)"
+) -> pd.DataFrame:
     """Tables of the same columns, one after the other."""
     import pandas as pd
 
-    return pd.concat([pd.read_csv(path) for path in paths], ignore_index=True)
+    from armscope.files import read_table
+
+    return pd.concat([read_table(path, columns, what) for path in paths], ignore_index=True)
 
 
 def write_fits(path: Path, fits: Sequence[FittedModel]) -> None:
@@ -68,6 +77,12 @@ def write_fits(path: Path, fits: Sequence[FittedModel]) -> None:
 def read_fits(*paths: Path) -> list[FittedModel]:
     """Fitted models that `write_fits` wrote, file by file."""
     from armscope.errormodels import FittedModel
+    from armscope.files import read_json
 
-    contents = [content for path in paths for content in json.loads(gzip.decompress(path.read_bytes()))]
-    return [FittedModel.from_dict(content) for content in contents]
+    fits = []
+    for path in paths:
+        try:
+            fits += [FittedModel.from_dict(content) for content in read_json(path, "the file fits.json.gz of a study")]
+        except (KeyError, TypeError) as error:
+            raise InputError(path, "", f"no {error}", "`armscope paper fit` writes the fits of a study") from error
+    return fits

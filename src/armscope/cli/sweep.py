@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from armscope.cli.studies import Errors, Output, Poses, Settings, parsed, read_measurements
+from armscope.cli.studies import Errors, Output, Poses, Settings, parsed, read_measurements, read_tables
 
 app = typer.Typer(no_args_is_help=True)
 
@@ -30,12 +30,10 @@ def draw(
     output: Annotated[Path, typer.Option("--output", "-o", help="sweep.csv; figures are written beside it")],
 ) -> None:
     """Join the variants' tables and draw them as curves with spread."""
-    import pandas as pd
-
     from armscope.files import write_table
     from armscope.report.style import save_figure
     from armscope.report.sweep_figure import sweeps
 
-    table = pd.concat([pd.read_csv(path) for path in tables], ignore_index=True)
+    table = read_tables(tables, ["sweep", "model"], "the table of a sweep's variant")
     write_table(output, table, digits=6)
     save_figure(sweeps(table), output.with_suffix(".png"))

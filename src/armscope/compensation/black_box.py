@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -25,7 +24,7 @@ from armscope.errormodels.regions import (
     halvings_of,
     weights,
 )
-from armscope.files import write_json
+from armscope.files import read_json, write_json
 from armscope.inputs import InputError, validate
 from armscope.physics.model import Base
 from armscope.recordings import Recordings
@@ -252,10 +251,7 @@ def load_error_model(path: Path | str) -> ErrorModel:
     Raises:
         InputError: it is no model of this format.
     """
-    try:
-        content = json.loads(Path(path).read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise InputError(path, "", "no readable JSON", "an error model is needed here", str(error)) from error
+    content = read_json(path, "an error model")
     found = content.get("format", "no key format") if isinstance(content, dict) else "no mapping"
     if found != FORMAT:
         cure = "`armscope fit-error-model` writes one."

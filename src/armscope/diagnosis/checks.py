@@ -138,17 +138,21 @@ def too_far(arm: Arm, recordings: Recordings, residuals: Array) -> Notice | None
     start = f"After fitting base and tool the residual is still {size:.3g} m"
     stretch = _spread(recordings.positions) / _spread(points)
     if not 0.5 < stretch < 2:
-        cure = (
-            f"the measured points are spread {stretch:.3g} times as far as the arm's: are the lengths in another unit?"
+        text = (
+            f"{start}: the measured points are spread {stretch:.3g} times as far as the arm's, so the lengths seem to "
         )
-        return Notice("units", f"{start}; {cure}")
+        return Notice("units", f"{text}stand in another unit than their columns' names say.")
     shift = _row_shift(points, recordings.positions)
     if shift:
         text = f"{start}, and nearly vanishes when the positions move by {shift} rows: they are out of step."
         return Notice("rows out of step", text)
     if _distance_misfit(points * [1, 1, -1], recordings.positions) < 0.1 * _spread(points):
-        return Notice("left-handed frame", f"{start}, and nearly vanishes with one axis turned round.")
-    text = f"{start}: this is not the robot of these recordings, or rows and positions do not belong together."
+        text = f"{start}, and nearly vanishes in the mirror: two of x, y, z are exchanged, or one has the wrong sign."
+        return Notice("left-handed frame", text)
+    text = (
+        f"{start}: this is not the robot of these recordings, two angle columns are exchanged, or rows and positions "
+        "do not belong together."
+    )
     return Notice("wrong robot", text)
 
 

@@ -159,7 +159,8 @@ def read_text_table(path: Path) -> pd.DataFrame:
             header = next(rows, None)
             counts = [len(row) for row in rows]
     except (OSError, EOFError, zlib.error) as error:
-        raise InputError(path, "", "no readable file", "a recordings table (CSV) is needed here", str(error)) from error
+        cure = getattr(error, "strerror", None) or str(error)
+        raise InputError(path, "", "no readable file", "a recordings table (CSV) is needed here", cure) from error
     except UnicodeDecodeError as error:
         raise InputError(
             path, f"byte {error.start}", "no UTF-8 text", "tables are UTF-8", "Save it as UTF-8."

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from armscope.compensation.closed_loop import NO_MODEL
 from armscope.config import Paper, stated_numbers
+from armscope.files import read_table
 from armscope.paper.convergence import iterations_needed
 from armscope.paper.measurements import ERROR_COLUMNS, pose_arrays
 from armscope.paper.printed import AXES, IDENTIFICATION, TRAJECTORIES, UNCOMPENSATED
@@ -51,7 +52,7 @@ class RealArm:
     def table(self) -> pd.DataFrame:
         """In the form of Table 2: one row per model, RMS (mean) per axis and 3D in mm, identification and held out."""
         assert self.folder is not None
-        table = pd.read_csv(self.folder / "table2.csv")
+        table = read_table(self.folder / "table2.csv")
         wide = table.pivot_table(index="model", columns=["trajectory", "axis"], values="rms_median", sort=False)
         trajectories, axes = (wide.columns.get_level_values(level) for level in (0, 1))
         short = {"identification": "fitted"}
@@ -62,7 +63,7 @@ class RealArm:
     def rows(self) -> dict[str, int]:
         """How many rows were fitted ("identification") and held out."""
         assert self.folder is not None
-        points = pd.read_csv(self.folder / "table2.csv").groupby("trajectory")["points"].first()
+        points = read_table(self.folder / "table2.csv").groupby("trajectory")["points"].first()
         return {str(name): int(count) for name, count in points.items()}
 
 
@@ -182,9 +183,9 @@ def write_paper_page(
         real: real arms.
         field: see `error_field`.
     """
-    table = pd.read_csv(results / "table2.csv")
-    claims = pd.read_csv(results / "claims.csv")
-    audit = pd.read_csv(results / "audit.csv")
+    table = read_table(results / "table2.csv")
+    claims = read_table(results / "claims.csv")
+    audit = read_table(results / "audit.csv")
     write_page(
         path,
         "paper.html.j2",
@@ -200,14 +201,14 @@ def write_paper_page(
         points=table.groupby("trajectory")["points"].first().to_dict(),
         blocks=table2_blocks(table),
         trajectories=TRAJECTORIES,
-        coefficients=pd.read_csv(results / "coefficients.csv").astype({"equation": "Int64"}),
-        needed=_needed(pd.read_csv(results / "convergence.csv")),
+        coefficients=read_table(results / "coefficients.csv").astype({"equation": "Int64"}),
+        needed=_needed(read_table(results / "convergence.csv")),
         audit=audit,
         audited=audit[audit["check"] == "all together"],
-        untold=pd.read_csv(results / "cross_check.csv"),
-        reading=pd.read_csv(results / "reading.csv"),
-        observability=pd.read_csv(results / "observability.csv"),
-        anchored=pd.read_csv(results / "robots.csv"),
+        untold=read_table(results / "cross_check.csv"),
+        reading=read_table(results / "reading.csv"),
+        observability=read_table(results / "observability.csv"),
+        anchored=read_table(results / "robots.csv"),
         assumptions=pd.DataFrame(stated_numbers(paper)),
         figures=results / "figures",
         field=field,

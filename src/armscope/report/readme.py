@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from armscope.files import write_text
+from armscope.files import read_table, write_text
 from armscope.inputs import InputError
 from armscope.paper.printed import AXES, TRAJECTORIES
 from armscope.paper.residuals import SPATIAL
@@ -32,8 +32,8 @@ def fill_readme(readme: Path, results: Path, proof: Path) -> None:
     before, _, rest = text.partition(BEGIN)
     mark, _, rest = rest.partition("\n")
     _, _, after = rest.partition(END)
-    claims, table = pd.read_csv(results / "claims.csv"), pd.read_csv(results / "table2.csv")
-    aims, worlds = pd.read_csv(proof / "aims.csv"), pd.read_csv(proof / "worlds.csv")
+    claims, table = read_table(results / "claims.csv"), read_table(results / "table2.csv")
+    aims, worlds = read_table(proof / "aims.csv"), read_table(proof / "worlds.csv")
     block = "\n".join(
         ["", *_proof_lines(aims, len(worlds)), "", *_claim_lines(claims), "", *_table_lines(table), "", ""]
     )

@@ -1,0 +1,116 @@
+"""Whatever is given to a command in place of a file, the answer is one clear sentence, never a traceback."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from armscope.cli import app
+from armscope.inputs import InputError
+
+EXAMPLE = Path(__file__).parents[1] / "examples" / "five-effects"
+ROBOT, RECORDINGS = EXAMPLE / "robot.yaml", EXAMPLE / "recordings.csv"
+
+READERS = [
+    "diagnose BAD -r ROBOT -o OUT",
+    "diagnose RECORDINGS -r BAD -o OUT",
+    "predict BAD RECORDINGS -o OUT",
+    "compensate BAD RECORDINGS -o OUT.csv",
+    "fit-error-model BAD -r ROBOT -o OUT",
+    "fit-error-model RECORDINGS -r BAD -o OUT",
+    "check BAD",
+    "check RECORDINGS -r BAD",
+    "calibrate BAD -r ROBOT -o OUT",
+    "import RECORDINGS -m BAD -o OUT",
+    "fetch BAD -o OUT",
+    "closed-loop ROBOT --poses BAD --errors BAD --robots BAD --fits BAD -o OUT",
+    "regions --poses BAD --errors BAD -o OUT",
+    "products --poses BAD --errors BAD -o OUT",
+    "paper residuals BAD BAD BAD -o OUT",
+    "paper table2 BAD -o OUT",
+    "paper coefficients BAD -o OUT",
+    "paper cross-check BAD --fits BAD -o OUT",
+    "paper sub-volumes BAD --errors BAD -o OUT",
+    "paper claims BAD --fits BAD --as-printed BAD --sub-volumes BAD -o OUT",
+    "paper reading BAD -o OUT",
+    "paper figure fig04 BAD BAD BAD -o OUT",
+    "paper convergence-figure BAD -o OUT",
+    "sweep draw BAD -o OUT",
+    "proof worlds ROBOT --size small --half fresh --part 0/1 --seed-file BAD --visible OUT --sealed OUT",
+    "proof report OUT OUT BAD -o OUT",
+]
+FOLDER_READERS = ["proof diagnose BAD -o OUT", "proof score BAD -o OUT", "proof figures BAD -o OUT"]
+
+
+def error_of(line, **places):
+    """The exception that ends a command; words of ``line`` in capitals stand for files."""
+    for name, place in (places | {"ROBOT": ROBOT, "RECORDINGS": RECORDINGS}).items():
+        line = line.replace(name, str(place))
+    return CliRunner().invoke(app, line.split()).exception
+
+
+def bad_file(kind, tmp_path):
+    path = tmp_path / f"bad-{kind}.csv"
+    if kind == "folder":
+        path.mkdir()
+    elif kind == "empty":
+        path.touch()
+    elif kind == "binary":
+        path.write_bytes(bytes(range(128, 256)) * 9)
+    elif kind == "other":
+        path.write_text("a,b\n1,2\n")
+    return path
+
+
+@pytest.mark.parametrize("kind", ["missing", "folder", "empty", "binary", "other"])
+@pytest.mark.parametrize("line", READERS)
+def test_a_file_that_is_none_is_named(line, kind, tmp_path):
+    bad = bad_file(kind, tmp_path)
+    error = error_of(line, BAD=bad, OUT=tmp_path / "out")
+    assert isinstance(error, InputError), repr(error)
+    assert str(bad) in str(error) or (line.startswith("proof report") and "folder" in str(error))
+    assert "np." not in str(error)
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("line", FOLDER_READERS)
+def test_a_folder_that_is_none_is_named(line, tmp_path):
+    error = error_of(line, BAD=tmp_path / "nowhere", OUT=tmp_path / "out")
+    assert isinstance(error, InputError), repr(error)
+    assert "nowhere" in str(error)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "diagnose RECORDINGS -r ROBOT -o BAD",
+        "calibrate RECORDINGS -r ROBOT -o BAD",
+        "fit-error-model RECORDINGS -r ROBOT -o BAD/m.json",
+    ],
+)
+def test_an_output_that_cannot_be_written_is_said(line, tmp_path):
+    taken = tmp_path / "taken"
+    taken.write_text("a file where a folder should be")
+    error = error_of(line, BAD=taken)
+    assert isinstance(error, InputError), repr(error)
+    assert str(taken) in str(error)
+
+
+def test_bad_input_is_one_line_and_exit_code_2(tmp_path):
+    done = subprocess.run(
+        [sys.executable, "-c", "from armscope.cli import main; main()", "diagnose", "no.csv", "-r", ROBOT, "-o", "out"],
+        capture_output=True, text=True, cwd=tmp_path, check=False,
+    )  # fmt: skip
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert done.stderr.startswith("armscope: no.csv: found no readable file")
+    assert done.stderr.count("\n") == 1
+
+
+def test_help_says_how_to_start():
+    text = CliRunner().invoke(app, ["--help"]).output
+    assert "armscope diagnose recordings.csv --robot robot.yaml" in text
+    assert text.index("diagnose ") < text.index("Experiments") < text.index("closed-loop")
+    assert CliRunner().invoke(app, ["--version"]).output.startswith("armscope ")
