@@ -23,19 +23,22 @@ FRAME_PRIOR_MM = 50.0
 """Frames are free: their prior is wide, and the same in all hypotheses."""
 TOLERANCE = 1.0e-3
 """Geometric tolerance of an industrial arm: 1 mm and 1 mrad per D-H value."""
-BACKGROUND_SIZES = (0.003, 0.03, 0.1, 0.3, 1.0)
-"""Shares of the tolerance among which the background's size is averaged: from a perfect arm to an ordinary one."""
+BACKGROUND_SIZES = (0.0, 0.03, 0.1, 0.3, 1.0)
+"""Shares of the tolerance that the geometric background may have: from a perfect arm to an ordinary one. None at all
+is among them: two dozen free values, however small, would take up any single one that is barely large enough to be
+seen."""
 FAMILY_SIZES = 4
 """Sizes of an elastic or transmission background: none, then the smallest of the effects' sizes."""
 CROWDED_NATS = 15.0
 """What a third effect in one joint's transmission costs more: one unknown cause is likelier than three known ones."""
-BACKGROUND_CAUTION_NATS = 2.0
-"""What an elastic or transmission background costs."""
 PERFECT = (0, 0, 0)
 SIZES = 5
-"""How many effect sizes are averaged, evenly in the logarithm between the noise and the mismatch."""
-CAUTION_NATS = 1.5
-"""What any name costs on top of its share of the library."""
+"""How many effect sizes compete, evenly in the logarithm between what is barely seen and the mismatch."""
+BARELY_SEEN = 4.0
+"""The smallest size: what all residuals together show at this many standard errors. A larger one pays for a prior that
+is wider than any effect near the threshold."""
+SURE_NATS = 3.0
+"""What any name costs on top of its share of the library: it must be 20 times as likely as nothing in its place."""
 NOISE_STEPS = 3
 NOISE_SETTLED = 3e-3
 
@@ -62,6 +65,7 @@ class Problem:
         least_noise: mm; the noise is never taken to be below (stated, or seen in repeats).
         sizes: (SIZES,) effect sizes that compete, mm at the tool.
         costs: (candidates,) log prior odds against each candidate, nats.
+        background_cost: of an elastic or transmission background: one kind of error among the others, of some size.
         mismatch: RMS per axis after the free frames, mm.
     """
 
@@ -71,6 +75,7 @@ class Problem:
     least_noise: float
     sizes: Array
     costs: Array
+    background_cost: float
     mismatch: float
 
     @property
@@ -88,9 +93,10 @@ def problem(pool: Pool, gram: Gram, least_noise: float) -> Problem:
     scale = scales(gram, pool.frames)
     scaled = gram.scaled(scale)
     mismatch = _rms_after_frames(scaled, pool.frames)
-    low = max(least_noise, 0.02 * mismatch) / 2
+    low = max(least_noise * min(BARELY_SEEN / np.sqrt(max(gram.n, 1.0)), 0.5), 0.01 * mismatch)
     sizes = np.geomspace(low, max(2 * mismatch, 4 * low), SIZES)
-    return Problem(pool, scaled, scale, least_noise, sizes, costs(pool), mismatch)
+    spread = float(np.log(kinds(pool)) + np.log(FAMILY_SIZES - 1))
+    return Problem(pool, scaled, scale, least_noise, sizes, costs(pool), spread, mismatch)
 
 
 def _rms_after_frames(gram: Gram, frames: Indices) -> float:
@@ -98,6 +104,11 @@ def _rms_after_frames(gram: Gram, frames: Indices) -> float:
     explained = gram.b[frames] @ np.linalg.lstsq(Gf, gram.b[frames], rcond=1e-12)[0]
     left = float(gram.yy - explained)
     return float(np.sqrt(max(left, 0.0) / max(gram.n - len(frames), 1.0)))
+
+
+def kinds(pool: Pool) -> int:
+    """How many types of effects compete."""
+    return len({placed.name for placed in pool.candidates})
 
 
 def costs(pool: Pool) -> Array:
@@ -108,11 +119,10 @@ def costs(pool: Pool) -> Array:
         locations.setdefault(placed.name, set()).add(placed.location)
         if placed.tried == 1:
             variants[placed.key] = variants.get(placed.key, 0) + 1
-    kinds = float(len(locations))
     return np.array(
         [
-            CAUTION_NATS
-            + np.log(kinds)
+            SURE_NATS
+            + np.log(kinds(pool))
             + np.log(len(locations[placed.name]))
             + np.log(placed.tried if placed.tried > 1 else variants[placed.key])
             for placed in pool.candidates
@@ -184,7 +194,7 @@ def weigh(problem: Problem, chosen: tuple[Chosen, ...], background: Background, 
     logdet = 2 * np.sum(np.log(np.diag(factor))) + np.sum(np.log(variance)) - 2 * len(columns) * np.log(noise)
     evidence = -problem.n * np.log(noise) - 0.5 * logdet - 0.5 * rss / noise**2
     paid = sum(problem.costs[c.candidate] + np.log(len(problem.sizes)) for c in chosen)
-    paid += BACKGROUND_CAUTION_NATS * np.count_nonzero(background[1:])
+    paid += problem.background_cost * np.count_nonzero(background[1:])
     names = frozenset(c.candidate for c in chosen)
     paid += CROWDED_NATS * max(problem.pool.crowding(names), 0)
     if not problem.pool.stands(names):
@@ -291,7 +301,13 @@ def group(pool: Pool) -> Groups:
 
 
 def gains(problem: Problem, groups: Groups, hypothesis: Hypothesis) -> tuple[Array, Indices]:
-    """What each candidate would add to a hypothesis' value, nats, and the best size index for each.
+    """What each candidate would add to a hypothesis' value at its best size, nats, and the index of that size."""
+    by_size = gains_by_size(problem, groups, hypothesis)
+    return by_size.max(axis=0), by_size.argmax(axis=0)
+
+
+def gains_by_size(problem: Problem, groups: Groups, hypothesis: Hypothesis) -> Array:
+    """(SIZES, candidates) what each candidate would add to a hypothesis' value at each size, nats.
 
     The posterior of the hypothesis is conditioned on (Schur complement), so the gain is exact up to the noise's
     re-estimation, for which the profile of the likelihood over the noise is used.
@@ -301,8 +317,7 @@ def gains(problem: Problem, groups: Groups, hypothesis: Hypothesis) -> tuple[Arr
     V = hypothesis.inverse @ G[S]
     half = hypothesis.inverse @ b[S]
     r_all = (b - half @ V) / noise**2
-    best = np.full(len(problem.costs), -np.inf)
-    which = np.zeros(len(problem.costs), dtype=np.intp)
+    by_size = np.full((len(problem.sizes), len(problem.costs)), -np.inf)
     s2 = problem.sizes**2
     chi2 = hypothesis.rss / noise**2
     for members, columns, shapes in zip(groups.members, groups.columns, groups.shapes, strict=True):
@@ -316,10 +331,8 @@ def gains(problem: Problem, groups: Groups, hypothesis: Hypothesis) -> tuple[Arr
         shrunk = s2[:, None, None] / (1 + s2[:, None, None] * eigenvalues)
         quadratic = np.sum(u2 * shrunk, axis=2)
         logdet = np.sum(np.log1p(s2[:, None, None] * eigenvalues), axis=2)
-        gain = _profiled(quadratic, chi2, problem.n, noise, problem.least_noise) - 0.5 * logdet
-        which[members] = np.argmax(gain, axis=0)
-        best[members] = np.max(gain, axis=0)
-    return best - problem.costs - np.log(len(problem.sizes)), which
+        by_size[:, members] = _profiled(quadratic, chi2, problem.n, noise, problem.least_noise) - 0.5 * logdet
+    return by_size - problem.costs - np.log(len(problem.sizes))
 
 
 def joint_gains(problem: Problem, rest: Hypothesis, sets: Sequence[tuple[Chosen, ...]]) -> Array:

@@ -12,7 +12,9 @@ def headline(verdict: Verdict) -> str:
     """The first sentence of the report."""
     if verdict.answer == "nothing missing":
         return f"Nothing is missing: the residual of {verdict.residual_after_mm:.3g} mm is noise."
-    if verdict.answer == "cannot tell":
+    if verdict.answer == "cannot tell" and not verdict.effects:
+        if verdict.unexplained.description:
+            return f"It cannot be told what is missing: {verdict.unexplained.description}."
         return "There is more than noise, but nothing in the table explains it: it cannot be told what is missing."
     story = [effect for effect in verdict.effects if not effect.minor][:3]
     parts = [f"{e.title} ({e.rms_at_tool_mm:.2g} mm, {100 * e.share:.0f} %)" for e in story]

@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 from armscope.diagnosis import certainty
 from armscope.diagnosis.atlas import atlas
 from armscope.diagnosis.curves import curve_of
-from armscope.diagnosis.evidence import Hypothesis, Problem, background_sizes, pinned_losses
+from armscope.diagnosis.evidence import Hypothesis, Problem, background_sizes
 from armscope.diagnosis.headline import headline
 from armscope.diagnosis.nextposes import next_poses
 from armscope.diagnosis.noise import Noise
 from armscope.diagnosis.parameters import parameters
+from armscope.diagnosis.presence import Presence, presence
 from armscope.diagnosis.problem import Gram, accumulate, contribution
 from armscope.diagnosis.refit import Refit
 from armscope.diagnosis.scatter import Scattered, levers
@@ -48,8 +49,6 @@ Progress = Callable[[str, float], None]
 MINOR_SHARE, MINOR_SHARE_OF_PERFECT_ARM = 0.025, 0.001
 """Effects worth less of the residual variance are apart from the story: in an arm with small errors everywhere, and in
 one that is perfect but for what is named."""
-FAINT_SHARE, FAINT_NATS = 0.05, 3.0
-"""A small effect that the evidence hardly asks for is apart from the story, too."""
 NOISE_EXCESS = 1.15
 """A residual this many times the stated noise is more than the noise."""
 BACKGROUND_SEEN_NATS = 5.0
@@ -108,7 +107,10 @@ def judge(
     over = carry_over(problem, evidence.blocks, evidence.layout, best)
     named = [replace(e, carries_over=over.get(c, "")) for c, e in zip(order, named, strict=True)]
     effects = tuple(sorted([*named, *scattered], key=lambda effect: -effect.rms_at_tool_mm))
+    named_or_spread = bool(effects) or any(family.present for family in background)
     unexplained = _unexplained(effects, evidence)
+    if not named_or_spread and not unexplained.present:
+        unexplained = _too_faint(presence(search))
     answer, mismatch = _answer(effects, background, unexplained, evidence)
     separating = next_poses(search, best, rivals, fit, evidence.recordings, rng)
     draft = Verdict(
@@ -174,7 +176,6 @@ def _found(
     apart = [certainty.apart(evidence.best, other, placed, rival) for _, rival, other in rivals]
     close = [rival for nats, (_, rival, _) in zip(apart, rivals, strict=True) if nats < certainty.TELLS_APART_NATS]
     named_as, title = certainty.name(placed, close)
-    worth = _worth(evidence, search, candidate)
     return FoundEffect(
         effect=placed.name,
         location=placed.location,
@@ -186,7 +187,7 @@ def _found(
         parameters=parameters(placed, part.values, covariance),
         rms_at_tool_mm=rms,
         share=share,
-        evidence_nats=float(worth),
+        evidence_nats=search.worth(evidence.best, candidate),
         alternatives=certainty.listed(rivals),
         inclusion=often.get(candidate),
         curve=curve_of(placed, part.values, covariance, scene),
@@ -204,17 +205,6 @@ def _rest_of_a_curve(scatter: FoundEffect, named: Sequence[FoundEffect]) -> bool
         and effect.rms_at_tool_mm > REST_OF_A_CURVE * scatter.rms_at_tool_mm
         for effect in named
     )
-
-
-def _worth(evidence: Evidence, search: Search, candidate: int) -> float:
-    """Evidence that is lost without an effect, nats; where a background holds it, too, without both."""
-    problem, best = evidence.problem, evidence.best
-    columns = problem.pool.columns[candidate]
-    if not search.held(best, candidate):
-        return best.value - search.without(best, [candidate]).value
-    lost = float(pinned_losses(problem, best, [columns])[0])
-    # the noise would grow to take it up
-    return problem.n / 2 * float(np.log1p(2 * max(lost, 0.0) / problem.n)) - float(problem.costs[candidate])
 
 
 def _scattered(evidence: Evidence, variance: float) -> Iterator[FoundEffect]:
@@ -248,8 +238,7 @@ def _with_weight(found: FoundEffect, background: Sequence[Background]) -> FoundE
     """Minor or not: in an arm with small errors everywhere, a small effect is one of them."""
     ordinary = any(family.present for family in background)
     small = found.share < (MINOR_SHARE if ordinary else MINOR_SHARE_OF_PERFECT_ARM)
-    faint = found.share < FAINT_SHARE and found.evidence_nats < FAINT_NATS
-    return replace(found, minor=small or faint)
+    return replace(found, minor=small)
 
 
 def _variance_after_frames(gram: Gram, frames: NDArray[np.intp]) -> float:
@@ -300,6 +289,15 @@ def _unexplained(effects: Sequence[FoundEffect], evidence: Evidence) -> Unexplai
         extra = float(np.sqrt(evidence.fit.noise**2 - stated**2))
         return Unexplained(True, None, None, extra, "residual above the stated noise that follows nothing in the table")
     return Unexplained(False)
+
+
+def _too_faint(found: Presence) -> Unexplained:
+    """Something that is there although no single name is sure."""
+    if not found.something:
+        return Unexplained(False)
+    names = ", ".join(f"{placed.name.replace('_', ' ')} at {placed.location}" for placed in found.likeliest)
+    words = f"something is missing, but it is too faint for a name; likeliest: {names}"
+    return Unexplained(True, found.location, None, found.size_mm, words)
 
 
 def _significant(evidence: Evidence) -> bool:

@@ -178,7 +178,7 @@ class Rounds:
         if starts is None:
             starts = STARTS if warm is None else (warm.background,)
         found = search.best(starts, warm)
-        self.best, self.last = search.promoted(search.refined(found)), (found, self.pool)
+        self.best, self.last = search.paying(search.promoted(search.refined(found))), (found, self.pool)
         effects = [(self.pool.candidates[c.candidate], float(self.problem.sizes[c.size])) for c in self.best.chosen]
         small = list(zip(self.families, background_sizes(self.problem, self.best), strict=True))
         turn = self.weights.turn

@@ -16,6 +16,7 @@ from armscope.diagnosis.evidence import (
     BACKGROUND_SIZES,
     FAMILY_SIZES,
     PERFECT,
+    SURE_NATS,
     Background,
     Chosen,
     Groups,
@@ -90,7 +91,11 @@ class Search:
 
     def empty(self) -> Hypothesis:
         """The best hypothesis without any named effect."""
-        return self._resized(self._empty(PERFECT))
+        return self._resized(self.perfect())
+
+    def perfect(self) -> Hypothesis:
+        """Nothing but frames and noise."""
+        return self._empty(PERFECT)
 
     def _empty(self, background: Background) -> Hypothesis:
         start = max(self.problem.least_noise, float(np.sqrt(self.problem.gram.yy / self.problem.n)) * 1e-2)
@@ -308,6 +313,25 @@ class Search:
             if nats > STANDS_OUT_NATS and rms > STANDS_OUT * self.problem.mismatch:
                 added.append(Chosen(number, int(np.argmin(np.abs(np.log(self.problem.sizes / rms))))))
         return weigh(self.problem, (*hypothesis.chosen, *added), hypothesis.background, hypothesis.noise)
+
+    def worth(self, hypothesis: Hypothesis, candidate: int) -> float:
+        """Log odds, nats, of an effect against nothing in its place; a background that holds it too goes with it."""
+        if not self.held(hypothesis, candidate):
+            return hypothesis.value - self.without(hypothesis, [candidate]).value + SURE_NATS
+        columns = self.problem.pool.columns[candidate]
+        lost = float(pinned_losses(self.problem, hypothesis, [columns])[0])
+        # the noise would grow to take it up
+        n = self.problem.n
+        return n / 2 * float(np.log1p(2 * max(lost, 0.0) / n)) - float(self.problem.costs[candidate]) + SURE_NATS
+
+    def paying(self, hypothesis: Hypothesis) -> Hypothesis:
+        """Without the names that are not worth their price, the weakest first."""
+        while hypothesis.chosen:
+            worth, weakest = min((self.worth(hypothesis, c.candidate), c.candidate) for c in hypothesis.chosen)
+            if worth >= SURE_NATS:
+                break
+            hypothesis = self.without(hypothesis, [weakest])
+        return hypothesis
 
     def placed(self, candidate: int) -> Placed:
         """The effect behind a candidate's number."""

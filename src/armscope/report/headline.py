@@ -21,6 +21,9 @@ from armscope.report.wording import (
 MOST_TOLD = 3
 """More effects than this are counted, not told."""
 
+FAINT = 0.7
+"""Something unexplained that is smaller than this share of the residual is hidden in the noise."""
+
 
 def headline(verdict: Verdict) -> str:
     """The answer in one sentence."""
@@ -73,6 +76,9 @@ def _of_what(position: int) -> str:
 
 
 def _cannot_tell(verdict: Verdict) -> str:
+    left = verdict.unexplained
+    if verdict.mismatch and left.description and left.rms_mm < FAINT * verdict.residual_after_mm:
+        return f"Cannot tell what is missing: {plain(left.description)}."
     if verdict.mismatch:
         remains = millimetres(verdict.residual_after_mm)
         return (
