@@ -4,6 +4,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pandas as pd
 import pytest
 from typer.testing import CliRunner
 
@@ -12,6 +13,7 @@ from armscope.inputs import InputError
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "five-effects"
 ROBOT, RECORDINGS = EXAMPLE / "robot.yaml", EXAMPLE / "recordings.csv"
+REFERENCE = Path(__file__).parents[1] / "config" / "recordings" / "ur10-ipa" / "reference.yaml"
 
 READERS = [
     "diagnose BAD -r ROBOT -o OUT",
@@ -40,13 +42,22 @@ READERS = [
     "sweep draw BAD -o OUT",
     "proof worlds ROBOT --size small --half fresh --part 0/1 --seed-file BAD --visible OUT --sealed OUT",
     "proof report OUT OUT BAD -o OUT",
+    "real protocol BAD ROBOT REFERENCE -o OUT",
+    "real protocol RECORDINGS BAD REFERENCE -o OUT",
+    "real protocol RECORDINGS ROBOT BAD -o OUT",
 ]
-FOLDER_READERS = ["proof diagnose BAD -o OUT", "proof score BAD -o OUT", "proof figures BAD -o OUT"]
+FOLDER_READERS = [
+    "proof diagnose BAD -o OUT",
+    "proof score BAD -o OUT",
+    "proof figures BAD -o OUT",
+    "real score BAD -o OUT",
+    "real report BAD BAD -o OUT",
+]
 
 
 def error_of(line, **places):
     """The exception that ends a command; words of ``line`` in capitals stand for files."""
-    for name, place in (places | {"ROBOT": ROBOT, "RECORDINGS": RECORDINGS}).items():
+    for name, place in (places | {"ROBOT": ROBOT, "RECORDINGS": RECORDINGS, "REFERENCE": REFERENCE}).items():
         line = line.replace(name, str(place))
     return CliRunner().invoke(app, line.split()).exception
 
@@ -114,3 +125,37 @@ def test_help_says_how_to_start():
     assert "armscope diagnose recordings.csv --robot robot.yaml" in text
     assert text.index("diagnose ") < text.index("Experiments") < text.index("closed-loop")
     assert CliRunner().invoke(app, ["--version"]).output.startswith("armscope ")
+
+
+@pytest.fixture(params=["left-handed", "metres", "reverse order"])
+def mistaken(request, tmp_path):
+    """The example's recordings with a mistake that the reader cannot see; its file and a word that names it."""
+    table = pd.read_csv(RECORDINGS)
+    angles = [f"q{j}_rad" for j in range(1, 7)]
+    if request.param == "left-handed":
+        table["y_mm"] *= -1
+    elif request.param == "metres":
+        table[["x_mm", "y_mm", "z_mm"]] /= 1e3
+    else:
+        table[angles] = table[angles[::-1]].to_numpy()
+    table.to_csv(tmp_path / "mistaken.csv", index=False)
+    return tmp_path / "mistaken.csv", request.param
+
+
+def test_an_arm_that_does_not_explain_the_points_is_not_calibrated_unless_asked_for(mistaken, tmp_path):
+    file, word = mistaken
+    error = error_of("calibrate BAD -r ROBOT -o OUT", BAD=file, OUT=tmp_path / "out")
+    assert isinstance(error, InputError)
+    assert word in str(error)
+    assert "--anyway" in str(error)
+    assert not (tmp_path / "out" / "robot.yaml").exists()
+    assert error_of("calibrate BAD -r ROBOT -o OUT --anyway", BAD=file, OUT=tmp_path / "out") is None
+    assert (tmp_path / "out" / "robot.yaml").exists()
+
+
+def test_a_diagnosis_of_mistaken_recordings_says_what_is_wrong_with_them(mistaken, tmp_path):
+    file, word = mistaken
+    line = f"diagnose {file} -r {ROBOT} -o {tmp_path / 'out'} --resamples 0 --no-cross-validation --no-report"
+    result = CliRunner().invoke(app, line.split())
+    assert word in result.stderr
+    assert "Cannot tell" in result.stdout

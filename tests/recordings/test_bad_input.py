@@ -58,7 +58,9 @@ def complaint(file, **options):
             table(*[row + ",0" for row in ROWS], header=HEADER + ",x_mm"), ["line 1", "x_mm", "twice"], id="same column"
         ),
         pytest.param(
-            table(ROWS[0], HEADER, ROWS[1]), ["row 3", "q1_rad", "number"], id="the header again in the middle"
+            table(ROWS[0], HEADER, ROWS[1]),
+            ["row 3", "q1_rad", "number", "second time"],
+            id="the header again in the middle",
         ),
         pytest.param(table(*ROWS).replace("x_mm", "X"), ["line 1", "no column x_mm"], id="missing position"),
         pytest.param(table(*ROWS).replace("q2_rad", "q3_rad"), ["line 1", "no column q2_rad"], id="missing angle"),
@@ -100,7 +102,9 @@ def test_optional_columns_are_checked_too(tmp_path, columns, words):
 
 
 def test_too_few_motors_for_the_arm(tmp_path):
-    assert "no column q3_rad" in complaint(write(tmp_path, table(*ROWS)), n_motors=3)
+    message = complaint(write(tmp_path, table(*ROWS)), n_motors=3)
+    assert "no column q3_rad" in message
+    assert "has 2 motor angles: is this the right robot" in message
 
 
 def test_a_missing_file_and_a_folder(tmp_path):

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Annotated, Literal
 
 import typer
+
+from armscope.inputs import InputError
 
 app = typer.Typer()
 
@@ -45,10 +48,12 @@ def calibrate(
     robust: Annotated[bool, typer.Option(help="bad shots weigh less")] = False,
     one_base: Annotated[bool, typer.Option(help="all runs share one base frame")] = False,
     tool_per_run: Annotated[bool, typer.Option(help="the tool was taken off between runs")] = False,
+    anyway: Annotated[bool, typer.Option(help="calibrate although the arm does not explain the points")] = False,
 ) -> None:
     """Calibrate the arm's geometry and export it as robot.yaml and URDF."""
     from armscope.calibration import calibrate as calibrated
     from armscope.calibration.export import export
+    from armscope.check import against_arm
     from armscope.files import writable, write_table
     from armscope.recordings import read_recordings
     from armscope.robot import load_arm
@@ -56,6 +61,11 @@ def calibrate(
     arm = load_arm(robot)
     table = read_recordings(recordings, arm.n_motors)
     writable(output)
+    for found in against_arm(arm, table).suspicions:
+        if found.weight == "problem" and not anyway:
+            cure = f"{found.cure} --anyway calibrates all the same.".strip()
+            raise InputError(recordings, "", "no match with the arm", found.statement, cure)
+        print(f"{found.weight}: {found.text()}", file=sys.stderr)
     calibration = calibrated(arm, table, level, robust=robust, one_base=one_base, tool_per_run=tool_per_run)
     write_table(output / "calibration.csv", calibration.table)
     paths = export(calibration, output)

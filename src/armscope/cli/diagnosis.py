@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from armscope.recordings import Recordings
+    from armscope.robot import Arm
 
 app = typer.Typer()
 
@@ -51,6 +52,7 @@ def diagnose(
         table = table.rows(_rows_of_runs(table, run))
     if first_id is not None:
         table = table.rows(_rows_from(table, first_id))
+    _tell_problems(arm, table)
     settings = Settings(seed, tool_per_run, resamples, cross_validation)
     with _progress("diagnosing") as tell:
         verdict = diagnose_arm(arm, table, settings, tell)
@@ -63,6 +65,15 @@ def diagnose(
             write_report(verdict, arm, table, output)
     print(headline(verdict))
     print(f"{output}/{'report.html' if report else 'verdict.json'}")
+
+
+def _tell_problems(arm: Arm, table: Recordings) -> None:
+    """What looks wrong with units, orders and frames, as `armscope check` finds it."""
+    from armscope.check import against_arm
+
+    for found in against_arm(arm, table).suspicions:
+        if found.weight == "problem":
+            print(f"note: {found.text()}", file=sys.stderr)
 
 
 def _rows_of_runs(table: Recordings, runs: list[str]) -> NDArray[np.bool_]:

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from armscope.cli.studies import Settings, parsed
-from armscope.inputs import InputError
+from armscope.inputs import InputError, folder_of
 
 app = typer.Typer(no_args_is_help=True)
 
@@ -61,8 +61,7 @@ def plant(
     seed_file: Annotated[Path | None, typer.Option(help="as `armscope proof seed` writes it; for fresh places")] = None,
 ) -> None:
     """Conceal known effects in real recordings: what may be seen, and the truth in an archive of its own."""
-    import json
-
+    from armscope.files import read_json
     from armscope.real.making import Places, make_altered, make_original, make_withheld
     from armscope.real.settings import PlantSettings
     from armscope.real.staging import of_run, stage, with_payload
@@ -81,8 +80,8 @@ def plant(
     else:
         if verdict is None:
             raise InputError("--verdict", "", "nothing", "effects are sized by what the original's verdict leaves")
-        level = json.loads(verdict.read_text(encoding="utf-8"))["fitted_rms_mm"]["after"] * 1e-3
-        drawn = json.loads(seed_file.read_text(encoding="utf-8"))["proof_seed"] if seed_file else 0
+        level = read_json(verdict, "verdict.json of a diagnosis")["fitted_rms_mm"]["after"] * 1e-3
+        drawn = read_json(seed_file, "the file of `armscope proof seed`")["proof_seed"] if seed_file else 0
         seed = [chosen.seed, drawn, *chosen.title.encode()]
         make_altered(mine, chosen.effects, chosen.sizes, level, seed, places)
 
@@ -98,6 +97,8 @@ def score(
     from armscope.real.scoring import read_sealed
     from armscope.real.scoring import score as score_worlds
 
+    for part in ("sealed", "verdicts", "seen"):
+        folder_of(folder / part, f"the concealment's {part}")
     for name, table in tables(score_worlds(list(read_sealed(folder)))).items():
         write_table(output / f"{name}.csv", table, digits=6)
 
@@ -114,17 +115,17 @@ def report(
 
     import pandas as pd
 
+    from armscope.files import read_json
     from armscope.report.real_proof_figures import draw_all
     from armscope.report.real_proof_page import write_real_proof_page
     from armscope.report.style import save_figure
 
     named = json.loads(titles)
-    tables = {
-        file.stem: pd.read_csv(file) if file.stat().st_size > 1 else pd.DataFrame() for file in folder.glob("*.csv")
-    }
+    files = folder_of(folder, "the tables of `armscope real score`").glob("*.csv")
+    tables = {file.stem: pd.read_csv(file) if file.stat().st_size > 1 else pd.DataFrame() for file in files}
     for name, figure in draw_all(tables, named).items():
         save_figure(figure, output / "figures" / name, formats=("png", "svg"))
-    seed = json.loads(seed_file.read_text(encoding="utf-8"))
+    seed = read_json(seed_file, "the file of `armscope proof seed`")
     write_real_proof_page(output / "report.html", tables, output / "figures", seed, named)
 
 

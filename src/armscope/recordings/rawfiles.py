@@ -64,7 +64,7 @@ class TextRows:
         if word in self.format.missing:
             return np.nan
         wrong_sign = "," if self.format.decimal == "." else "."
-        cure = ""
+        cure = "The header stands here a second time: remove this line." if word == str(column) else ""
         if wrong_sign in word:
             cure = (
                 f"The mapping declares decimal: {self.format.decimal!r} for the whole file, this number uses another."

@@ -228,6 +228,8 @@ class _Reader:
             if len(wrong):
                 found = values.iloc[wrong[0]]
                 cure = "Use a decimal point." if "," in str(found) else ""
+                if str(found).strip() == column:
+                    cure = "The header stands here a second time: remove this line."
                 raise self.error(int(wrong[0]), column, str(found), "this must be a number", cure)
             values = parsed
         numbers = values.to_numpy(dtype=float)
@@ -275,12 +277,14 @@ class _Reader:
         for motor in range(1, count + 1):
             self._check_one_unit(f"q{motor}_rad", f"q{motor}_deg")
             if motor not in found:
+                fewer = sorted(found) == list(range(1, motor))
+                cure = f"The table has {motor - 1} motor angles: is this the right robot for the recordings?"
                 raise InputError(
                     self.source,
                     "line 1",
                     f"no column q{motor}_rad",
                     f"the arm has motors q1 ... q{count}",
-                    nearest(f"q{motor}_rad", self.table.columns),
+                    cure if fewer and motor > 1 else nearest(f"q{motor}_rad", self.table.columns),
                 )
         if max(found) > count:
             raise InputError(
