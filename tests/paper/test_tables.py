@@ -4,9 +4,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from armscope.errormodels import FDP_AI, FDP_CI, fit_swarms
+from armscope.errormodels import FDP_AI, FDP_CI, FOURIER_2_AI, fit_swarms
 from armscope.paper.claims import claims
 from armscope.paper.cross_check import cross_check
+from armscope.paper.outlook import outlook
 from armscope.paper.residuals import residual_table
 from armscope.paper.sub_volumes import _region, _split, sub_volumes
 from armscope.paper.table2 import table2
@@ -119,8 +120,49 @@ def test_a_region_with_its_own_law_is_found(study):
     assert rms[2, "test 1"] < 1e-9
 
 
-def test_claims_say_what_the_numbers_say(study, fits, residuals):
-    table = claims(residuals, fits, sub_volumes(study.measurements)).set_index("claim")
+@pytest.fixture(scope="module")
+def extended(study):
+    return outlook(study.measurements)
+
+
+def test_plain_models_of_the_outlook_are_least_squares(residuals, extended):
+    found = cell(extended, robot="ensemble 2", model="SDP(CI)", kind="sums", trajectory="test 2")
+    keys = {"robot": "ensemble 2", "model": "SDP(CI)", "trajectory": "test 2", "axis": "3D"}
+    assert found["rms_mm"] == pytest.approx(cell(residuals, method="least squares", **keys)["rms_mm"])
+    assert found["size"] == 7
+
+
+def test_products_find_a_law_that_is_a_product_and_leave_sums_alone(study):
+    """Planted: an error that is a product of two angles; and one that is a sum, where products bring nothing."""
+    measurements, found = study.measurements, {}
+    for law in ("product", "sum"):
+        sets = []
+        for each in measurements.sets:
+            a, b = np.sin(each.motor_angles[:, 1]), np.cos(each.motor_angles[:, 2])
+            errors = np.outer(a * b if law == "product" else a + b, [1.0, -2.0, 0.5])
+            sets.append(type(each)(each.name, each.motor_angles, each.nominal_mm, errors[None]))
+        toy = type(measurements)(("toy",), tuple(sets))
+        table = outlook(toy, regions=(), products=(FOURIER_2_AI,))
+        found[law] = table[table["trajectory"] == "test 1"].set_index("kind")["rms_mm"]
+    assert found["product"]["products"] < 1e-6 < 1e-2 < found["product"]["sums"]
+    assert found["sum"]["sums"] < 1e-9
+    assert found["sum"]["products"] < 1e-6
+
+
+def test_the_verdict_on_products_and_chosen_regions_is_that_of_the_table(study, fits, residuals, extended):
+    table = claims(residuals, fits, sub_volumes(study.measurements), extended).set_index("claim")
+    row = table.loc["Products improve accuracy: two harmonics, angular input"]
+    rows = extended[(extended["robot"] == "anchored") & (extended["model"] == "Fourier 2 (AI)")]
+    tests = rows[rows["trajectory"] != "identification"]
+    by_kind = {kind: np.sqrt(np.mean(part["rms_mm"] ** 2)) for kind, part in tests.groupby("kind")}
+    assert row["number_anchored"] == pytest.approx(by_kind["sums"] / by_kind["products"])
+    chosen = table.loc["Sub-volumes are called for: cross-validation divides the workspace"]
+    sizes = extended[(extended["model"] == "FDP(CI)") & (extended["kind"] == "sub-volumes")].groupby("robot")["size"]
+    assert chosen["share_of_robots"] == pytest.approx(np.mean(sizes.first() > 1))
+
+
+def test_claims_say_what_the_numbers_say(study, fits, residuals, extended):
+    table = claims(residuals, fits, sub_volumes(study.measurements), extended).set_index("claim")
     assert table["verdict"].isin(["holds", "does not hold", "depends"]).all()
     assert (table["robots"] == 1 + ENSEMBLE).all()
     assert table["share_of_robots"].between(0, 1).all()
@@ -139,25 +181,25 @@ def test_claims_say_what_the_numbers_say(study, fits, residuals):
     assert first["number_printed"] == pytest.approx(1.03, abs=0.01)
 
 
-def test_the_update_as_printed_is_judged_by_its_own_fits(study, fits, residuals):
+def test_the_update_as_printed_is_judged_by_its_own_fits(study, fits, residuals, extended):
     problems = study.measurements.fit_problems((FDP_CI, FDP_AI), ["anchored"])
     settings = SwarmSettings(update="original", iterations=50)
     as_printed = fit_swarms(problems, seeds=[0, 1], settings=settings)
-    table = claims(residuals, fits, sub_volumes(study.measurements), as_printed).set_index("claim")
+    table = claims(residuals, fits, sub_volumes(study.measurements), extended, as_printed).set_index("claim")
     row = table.loc["200 iterations suffice with the velocity update as printed"]
     assert row["verdict"] == "does not hold"
     assert row["robots"] == 1
     assert row["number"] > 10
 
 
-def test_a_claim_turns_when_the_numbers_turn(study, fits, residuals):
+def test_a_claim_turns_when_the_numbers_turn(study, fits, residuals, extended):
     """Negative control: with angular and Cartesian rows exchanged, the verdict on 'Cartesian beats angular' turns."""
     swapped = residuals.copy()
     names = {"FDP(CI)": "FDP(AI)", "FDP(AI)": "FDP(CI)", "SDP(CI)": "SDP(AI)", "SDP(AI)": "SDP(CI)"}
     swapped["model"] = swapped["model"].map(lambda name: names.get(name, name))
     volumes = sub_volumes(study.measurements)
-    before = claims(residuals, fits, volumes).set_index("claim")
-    after = claims(swapped, fits, volumes).set_index("claim")
+    before = claims(residuals, fits, volumes, extended).set_index("claim")
+    after = claims(swapped, fits, volumes, extended).set_index("claim")
     name = "Cartesian input beats angular input on trajectory I"
     assert before.loc[name, "share_of_robots"] > 0.5
     assert after.loc[name, "share_of_robots"] < 0.5

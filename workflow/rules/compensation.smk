@@ -1,5 +1,10 @@
 # What the paper leaves for later, on the virtual SK120: corrected commands, sub-volumes, products of polynomials.
 OUTLOOK = f"{RESULTS}/compensation"
+# beside the models of the configuration: a sparse choice of products, and blended sub-volumes
+EXTENDED = (
+    "--products 'SDP(CI)' --products '4th-degree polynomial (AI)' --products 'Fourier 2 (AI)' --products 'Fourier 3 (AI)' "
+    "--regions 'FDP(CI)=2' --regions 'FDP(CI)=4'"
+)
 
 
 rule closed_loop:
@@ -13,8 +18,10 @@ rule closed_loop:
     output:
         table=f"{OUTLOOK}/closed_loop.csv",
         points=f"{OUTLOOK}/closed_loop_points.csv",
-        figure=f"{OUTLOOK}/closed_loop.png",
+        png=f"{OUTLOOK}/closed_loop.png",
+        svg=f"{OUTLOOK}/closed_loop.svg",
     params:
+        extended=EXTENDED,
         code=code("armscope.cli.compensation:closed_loop"),
     log:
         f"{RESULTS}/logs/closed_loop.log",
@@ -22,7 +29,7 @@ rule closed_loop:
         "../envs/armscope.yaml"
     shell:
         "armscope closed-loop {input.robot} --poses {input.poses} --errors {input.errors} --robots {input.robots} "
-        "--fits {input.fits} --products 'Fourier 3 (AI)' -o {output.table} --points {output.points} --figure {output.figure} > {log} 2>&1"
+        "--fits {input.fits} {params.extended} -o {output.table} --points {output.points} --figure {output.png} > {log} 2>&1"
 
 
 rule regions:
@@ -31,7 +38,8 @@ rule regions:
         errors=rules.measure.output.errors,
     output:
         table=f"{OUTLOOK}/regions.csv",
-        figure=f"{OUTLOOK}/regions.png",
+        png=f"{OUTLOOK}/regions.png",
+        svg=f"{OUTLOOK}/regions.svg",
     params:
         seed=CONFIG.seed,
         code=code("armscope.cli.compensation:regions_"),
@@ -41,7 +49,7 @@ rule regions:
         "../envs/armscope.yaml"
     shell:
         "armscope regions --poses {input.poses} --errors {input.errors} --seed {params.seed} -o {output.table} "
-        "--figure {output.figure} > {log} 2>&1"
+        "--figure {output.png} > {log} 2>&1"
 
 
 rule products:
@@ -61,8 +69,28 @@ rule products:
         "armscope products --poses {input.poses} --errors {input.errors} --seed {params.seed} -o {output} > {log} 2>&1"
 
 
+rule cross_table:
+    # real arms: their held-out rows by prediction
+    input:
+        virtual=rules.closed_loop.output.table,
+        real=expand(f"{RESULTS}/real/{{set}}/paper/{{file}}", set=REAL, file=("poses.csv", "errors.csv", "fits.json.gz")),
+    output:
+        f"{OUTLOOK}/cross_table.csv",
+    params:
+        folders=" ".join(f"--real {RESULTS}/real/{name}/paper" for name in REAL),
+        extended=EXTENDED,
+        code=code("armscope.cli.compensation:cross_table_"),
+    log:
+        f"{RESULTS}/logs/cross_table.log",
+    conda:
+        "../envs/armscope.yaml"
+    shell:
+        "armscope cross-table {input.virtual} {params.folders} {params.extended} -o {output} > {log} 2>&1"
+
+
 rule compensation:
     input:
         rules.closed_loop.output,
+        rules.cross_table.output,
         rules.regions.output,
         rules.products.output,

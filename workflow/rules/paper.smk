@@ -153,6 +153,25 @@ rule sub_volumes:
         "armscope paper sub-volumes {input.poses} --errors {input.errors} --errors {input.ensemble} -o {output} > {log} 2>&1"
 
 
+rule outlook:
+    input:
+        poses=rules.measure.output.poses,
+        errors=rules.measure.output.errors,
+        ensemble=rules.measure.output.ensemble,
+    output:
+        f"{PAPER}/outlook.csv",
+    params:
+        seed=CONFIG.seed,
+        code=code("armscope.cli.paper:outlook_"),
+    log:
+        f"{RESULTS}/logs/outlook.log",
+    conda:
+        "../envs/armscope.yaml"
+    shell:
+        "armscope paper outlook {input.poses} --errors {input.errors} --errors {input.ensemble} --seed {params.seed} "
+        "-o {output} > {log} 2>&1"
+
+
 rule claims:
     input:
         residuals=f"{PAPER}/residuals.csv.gz",
@@ -161,6 +180,7 @@ rule claims:
         ensemble_fits=rules.fit_ensemble.output,
         as_printed=rules.fit_as_printed.output,
         sub_volumes=rules.sub_volumes.output,
+        outlook=rules.outlook.output,
     output:
         f"{PAPER}/claims.csv",
     params:
@@ -171,7 +191,7 @@ rule claims:
         "../envs/armscope.yaml"
     shell:
         "armscope paper claims {input.residuals} {input.ensemble_residuals} --fits {input.fits} --fits {input.ensemble_fits} "
-        "--as-printed {input.as_printed} --sub-volumes {input.sub_volumes} -o {output} > {log} 2>&1"
+        "--as-printed {input.as_printed} --sub-volumes {input.sub_volumes} --outlook {input.outlook} -o {output} > {log} 2>&1"
 
 
 rule cross_check:
@@ -281,7 +301,10 @@ rule figures:
 rule paper_report:
     input:
         robot=CONFIG.paper.robot.value,
-        left_over=f"{RESULTS}/compensation/closed_loop_points.csv",
+        outlook=expand(
+            f"{RESULTS}/compensation/{{file}}",
+            file="closed_loop_points.csv cross_table.csv products.csv closed_loop.svg regions.svg".split(),
+        ),
         figures=rules.figures.input,
         tables=expand(
             f"{PAPER}/{{table}}.csv",
@@ -305,13 +328,14 @@ rule paper_report:
             ),
         ),
         proof=subpath(input.proof, parent=True),
+        compensation=f"{RESULTS}/compensation",
         code=code("armscope.cli.paper:report"),
     log:
         f"{RESULTS}/logs/paper_report.log",
     conda:
         "../envs/armscope.yaml"
     shell:
-        "armscope paper report {params.folder} {params.proof} --robot {input.robot} --left-over {input.left_over} --settings {params.settings:q} -o {output.page} > {log} 2>&1"
+        "armscope paper report {params.folder} {params.proof} --robot {input.robot} --compensation {params.compensation} --settings {params.settings:q} -o {output.page} > {log} 2>&1"
 
 
 rule paper:

@@ -1,4 +1,4 @@
-"""Commands of the compensation: compensate, fit-error-model, closed-loop, regions, products."""
+"""Commands of the compensation: compensate, fit-error-model, closed-loop, cross-table, regions, products."""
 
 from __future__ import annotations
 
@@ -148,6 +148,7 @@ def closed_loop(
     points: Annotated[Path | None, typer.Option(help="table of the error left at every point")] = None,
     figure: Annotated[Path | None, typer.Option(help="picture of the table")] = None,
     products: Annotated[list[str] | None, typer.Option(help="models to fit with products, too")] = None,
+    regions: Annotated[list[str] | None, typer.Option(help="models to divide: 'FDP(CI)=4', four regions")] = None,
     diagnosed: Annotated[bool, typer.Option(help="diagnose the identification rows, too")] = True,
 ) -> None:
     """Compensate the paper's test paths with every model and let the virtual arm follow the commands."""
@@ -161,15 +162,52 @@ def closed_loop(
 
     measurements = read_measurements(poses, errors)
     specs = [_spec(name) for name in products or ()]
-    arm = load_arm(robot)
+    arm, truth, divided = load_arm(robot), _true_errors(robots), _divided(regions)
     _check_nominal(robot, arm, poses, measurements)
-    left = paper_closed_loop(arm, measurements, read_fits(fits), _true_errors(robots), specs, diagnosed)
+    left = paper_closed_loop(arm, measurements, read_fits(fits), truth, specs, divided, diagnosed)
     table = cross_table(left)
     write_table(output, table)
     if points is not None:
         write_table(points, left, digits=6)
     if figure is not None:
         save_figure(cross_table_figure(table), figure)
+
+
+@app.command("cross-table", rich_help_panel=EXPERIMENTS)
+def cross_table_(
+    virtual: Annotated[Path, typer.Argument(help="closed_loop.csv of `armscope closed-loop`")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="table: arm, model, trajectory, stage, axis, rms_mm")],
+    real: Annotated[list[Path] | None, typer.Option(help="folders with poses.csv, errors.csv, fits.json.gz")] = None,
+    products: Annotated[list[str] | None, typer.Option(help="models to fit with products, too")] = None,
+    regions: Annotated[list[str] | None, typer.Option(help="models to divide: 'FDP(CI)=4', four regions")] = None,
+) -> None:
+    """Model by trajectory by stage for the virtual arm and for real ones, whose held-out rows stand in for paths."""
+    import pandas as pd
+
+    from armscope.cli.studies import read_fits, read_measurements
+    from armscope.compensation.closed_loop import cross_table
+    from armscope.files import read_table, write_table
+    from armscope.report.closed_loop import real_left_over
+
+    specs, divided = [_spec(name) for name in products or ()], _divided(regions)
+    tables = [read_table(virtual).assign(arm="virtual")]
+    for folder in real or ():
+        measurements = read_measurements(folder / "poses.csv", folder / "errors.csv")
+        left = real_left_over(measurements, read_fits(folder / "fits.json.gz"), specs, divided)
+        tables.append(cross_table(left).assign(arm=measurements.robots[0]))
+    table = pd.concat(tables, ignore_index=True)
+    write_table(output, table[["arm", *table.columns.drop("arm")]])
+
+
+def _divided(regions: list[str] | None) -> list[tuple[ModelSpec, int]]:
+    """Models and numbers of regions from "FDP(CI)=4"."""
+    found = []
+    for text in regions or ():
+        name, _, count = text.partition("=")
+        if not count.isdecimal() or int(count) < 1 or int(count) & (int(count) - 1):
+            raise InputError("--regions", "", text, "a model and 2, 4, 8, ... regions, like FDP(CI)=4")
+        found.append((_spec(name), int(count)))
+    return found
 
 
 @app.command("regions", rich_help_panel=EXPERIMENTS)
@@ -184,8 +222,8 @@ def regions_(
     """Error against the number of blended sub-volumes, chosen by cross-validation on the identification rows."""
     from armscope.cli.studies import read_measurements
     from armscope.files import write_table
+    from armscope.paper.outlook import paper_regions
     from armscope.report.compensation_figure import regions_figure
-    from armscope.report.outlook import paper_regions
     from armscope.report.style import save_figure
 
     specs = [_spec(name) for name in model or ("FDP(CI)", "SDP(CI)", "FDP(AI)", "SDP(AI)")]
@@ -206,7 +244,7 @@ def products_(
     """Sums of one-input terms against a sparse choice of their products, on held-out rows and the test paths."""
     from armscope.cli.studies import read_measurements
     from armscope.files import write_table
-    from armscope.report.outlook import paper_products
+    from armscope.paper.outlook import paper_products
 
     names = model or ("SDP(CI)", "SDP(AI)", "4th-degree polynomial (AI)", "Fourier 2 (AI)", "Fourier 3 (AI)")
     specs = [_spec(name) for name in names]

@@ -186,19 +186,35 @@ def sub_volumes_(poses: Poses, errors: ManyErrors, output: Output) -> None:
     write_table(output, sub_volumes(read_measurements(poses, *errors)), digits=6)
 
 
+@app.command("outlook")
+def outlook_(
+    poses: Poses,
+    errors: ManyErrors,
+    output: Output,
+    seed: Annotated[int, typer.Option(help="of the folds")] = 0,
+) -> None:
+    """What blended sub-volumes and products between inputs leave of the errors, chosen by cross-validation."""
+    from armscope.files import write_table
+    from armscope.paper.outlook import outlook
+
+    write_table(output, outlook(read_measurements(poses, *errors), seed=seed), digits=6)
+
+
 @app.command("claims")
 def claims_(
     residuals: Residuals,
     fits: ManyFits,
     as_printed: Annotated[Path, typer.Option(help="fits of swarms that move as the paper prints it")],
     sub_volumes: Annotated[Path, typer.Option(help="sub_volumes.csv")],
+    outlook: Annotated[Path, typer.Option(help="outlook.csv")],
     output: Output,
 ) -> None:
     """Whether each claim of the paper holds: for the anchored robot and for which share of the ensemble."""
     from armscope.files import read_table, write_table
     from armscope.paper.claims import claims
 
-    judged = claims(_residuals(residuals), read_fits(*fits), read_table(sub_volumes), read_fits(as_printed))
+    regions, products = read_table(sub_volumes), read_table(outlook)
+    judged = claims(_residuals(residuals), read_fits(*fits), regions, products, read_fits(as_printed))
     write_table(output, judged, digits=4)
 
 
@@ -276,21 +292,22 @@ def report(
     results: Annotated[Path, typer.Argument(help="folder with the study's tables and figures")],
     proof: Annotated[Path, typer.Argument(help="folder of the small proof of the diagnosis")],
     robot: Annotated[Path, typer.Option(help="robot.yaml")],
-    left_over: Annotated[Path, typer.Option(help="closed_loop_points.csv: what models leave at every point")],
+    compensation: Annotated[Path, typer.Option(help="folder with the closed loop's tables and figures")],
     settings: Settings,
     output: Annotated[Path, typer.Option("--output", "-o", help="report.html; table2.html is written beside it")],
 ) -> None:
     """One page that shows what the paper claimed, what holds, and what is assumed."""
     from armscope.cli.paper_settings import ReportSettings
     from armscope.files import read_table
-    from armscope.report.paper_page import RealArm, error_field, write_paper_page, write_table2
+    from armscope.report.paper_page import Outlook, RealArm, error_field, write_paper_page, write_table2
     from armscope.robot import load_arm
 
     chosen = parsed(ReportSettings, settings)
     arms = [RealArm(arm.title, Path(arm.folder) if arm.folder else None, arm.reason) for arm in chosen.real]
     write_table2(output.with_name("table2.html"), read_table(results / "table2.csv"))
-    field = error_field(load_arm(robot), read_table(results / "poses.csv"), read_table(left_over))
-    write_paper_page(output, chosen.paper, chosen.seed, results, proof, arms, field)
+    left_over = read_table(compensation / "closed_loop_points.csv")
+    field = error_field(load_arm(robot), read_table(results / "poses.csv"), left_over)
+    write_paper_page(output, chosen.paper, chosen.seed, results, proof, arms, field, Outlook(compensation))
 
 
 @app.command("readme")

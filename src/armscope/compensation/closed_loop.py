@@ -98,33 +98,33 @@ def left_over(
         commands minus wanted points; empty where the command was refused). The model "Uncompensated" gives the errors
         themselves; its closed loop is the true arm at the nominal commands.
     """
-    parts = [_vectors(NO_MODEL, "identification", "fit", identification.errors_mm)]
+    parts = [vectors(NO_MODEL, "identification", "fit", identification.errors_mm)]
     for name, path in trajectories.items():
-        parts.append(_vectors(NO_MODEL, name, "prediction", path.errors_mm))
-        parts.append(_vectors(NO_MODEL, name, "closed loop", true_points(path.motor_angles) * 1e3 - path.wanted_mm))
+        parts.append(vectors(NO_MODEL, name, "prediction", path.errors_mm))
+        parts.append(vectors(NO_MODEL, name, "closed loop", true_points(path.motor_angles) * 1e3 - path.wanted_mm))
     for model, candidate in candidates.items():
-        parts.append(_vectors(model, "identification", "fit", _left(candidate, identification)))
+        parts.append(vectors(model, "identification", "fit", _left(candidate, identification)))
         for name, path in trajectories.items():
-            parts.append(_vectors(model, name, "prediction", _left(candidate, path)))
+            parts.append(vectors(model, name, "prediction", _left(candidate, path)))
             result = candidate.compensate(_as_wanted(arm, path, name))
             error = np.full_like(path.wanted_mm, np.nan)
             error[result.reached] = true_points(result.commands[result.reached]) * 1e3 - path.wanted_mm[result.reached]
-            parts.append(_vectors(model, name, "closed loop", error))
+            parts.append(vectors(model, name, "closed loop", error))
     return pd.concat(parts, ignore_index=True)
 
 
-def cross_table(vectors: pd.DataFrame) -> pd.DataFrame:
+def cross_table(left: pd.DataFrame) -> pd.DataFrame:
     """Model by trajectory by stage: the RMS of what is left of the error.
 
     Args:
-        vectors: see `left_over`.
+        left: see `left_over`.
 
     Returns:
         Columns model, trajectory, stage, axis ("x", "y", "z", "3D"), points, refused, rms_mm, rss_mm; points without a
         number are counted as refused and left out.
     """
     rows = []
-    for (model, trajectory, stage), part in vectors.groupby(["model", "trajectory", "stage"], sort=False):
+    for (model, trajectory, stage), part in left.groupby(["model", "trajectory", "stage"], sort=False):
         rows += _rows(str(model), str(trajectory), str(stage), part[ERROR_COLUMNS].to_numpy())
     return pd.DataFrame(rows)
 
@@ -140,7 +140,8 @@ def _left(candidate: Candidate, path: MeasuredPath) -> Array:
     return path.wanted_mm + path.errors_mm - candidate.predict(path.motor_angles) * 1e3
 
 
-def _vectors(model: str, trajectory: str, stage: str, error_mm: Array) -> pd.DataFrame:
+def vectors(model: str, trajectory: str, stage: str, error_mm: Array) -> pd.DataFrame:
+    """One part of `left_over`'s table."""
     keys = {"model": model, "trajectory": trajectory, "stage": stage, "point": np.arange(1, len(error_mm) + 1)}
     return pd.DataFrame(keys | dict(zip(ERROR_COLUMNS, error_mm.T, strict=True)))
 

@@ -14,7 +14,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from armscope.errormodels import FOURIER_2_AI, POLYNOMIAL_4_AI, FittedModel
+from armscope.errormodels import FOURIER_2_AI, POLYNOMIAL_4_AI, SDP_CI, FittedModel
+from armscope.paper.outlook import PLAIN, PRODUCTS, SUB_VOLUMES
 from armscope.paper.printed import (
     AXES,
     IDENTIFICATION,
@@ -60,6 +61,7 @@ def claims(
     residuals: pd.DataFrame,
     fits: Sequence[FittedModel],
     sub_volume_residuals: pd.DataFrame,
+    outlook: pd.DataFrame,
     fits_as_printed: Sequence[FittedModel] = (),
 ) -> pd.DataFrame:
     """Each claim with its verdict.
@@ -68,6 +70,7 @@ def claims(
         residuals: of all robots and of the six models (see `residual_table`); the swarm's median seed counts.
         fits: of all robots.
         sub_volume_residuals: see `sub_volumes`.
+        outlook: see `armscope.paper.outlook.outlook`.
         fits_as_printed: swarms with the update rule as the paper prints it ("original"), for the claim about it.
 
     Returns:
@@ -76,7 +79,7 @@ def claims(
         the robots), number_anchored, number_low, number_high (5 and 95 % of the robots), number_printed (the same
         number from the printed Table 2, if it has one), unit, number_is.
     """
-    evidence = _Evidence(typical(residuals), list(fits), list(fits_as_printed), sub_volume_residuals)
+    evidence = _Evidence(typical(residuals), list(fits), list(fits_as_printed), sub_volume_residuals, outlook)
     judged = [(each, each.judge(evidence)) for each in CLAIMS]
     return pd.DataFrame([_row(each, outcome) for each, outcome in judged if outcome is not None])
 
@@ -110,12 +113,13 @@ def _quantiles(numbers: Array) -> tuple[float, float, float]:
 
 @dataclass(frozen=True, eq=False)
 class _Evidence:
-    """What verdicts rest on: RMS errors by robot (rows) and (model, trajectory, axis), fits, sub-volumes."""
+    """What verdicts rest on: RMS errors by robot (rows) and (model, trajectory, axis), fits, sub-volumes, products."""
 
     cells: pd.DataFrame
     fits: list[FittedModel]
     fits_as_printed: list[FittedModel]
     sub_volumes: pd.DataFrame
+    outlook: pd.DataFrame
 
     @cached_property
     def spatial(self) -> pd.DataFrame:
@@ -240,6 +244,44 @@ def _sub_volumes_help(evidence: _Evidence, regions: int, held_out: bool) -> _Jud
     return _Judged(ratios > 1, ratios)
 
 
+def _chosen_by_cross_validation(evidence: _Evidence) -> _Judged:
+    table = evidence.outlook
+    chosen = table[(table["model"] == "FDP(CI)") & (table["kind"] == SUB_VOLUMES)].groupby("robot")["size"].first()
+    numbers = chosen.reindex(evidence.cells.index).to_numpy(dtype=float)
+    return _Judged(numbers > 1, numbers)
+
+
+def _extension_helps(evidence: _Evidence, model: str, kind: str) -> _Judged:
+    table = evidence.outlook
+    tests = table[(table["model"] == model) & (table["trajectory"] != IDENTIFICATION)]
+    squares = tests.assign(square=tests["rms_mm"] ** 2).groupby(["robot", "kind"])["square"].mean()
+    rms = (squares.unstack("kind") ** 0.5).reindex(evidence.cells.index)
+    ratios = (rms[PLAIN] / rms[kind]).to_numpy()
+    return _Judged(ratios > 1, ratios)
+
+
+def _regions_claim(model: str, words: str) -> _Claim:
+    return _Claim(
+        f"Sub-volumes improve accuracy: as many as cross-validation chooses, {words}",
+        "p. 961, section 6.3; p. 965, section 8",
+        f"3D error of {model} with the chosen number of blended regions below that with one, over I-III together",
+        "",
+        "ratio one region / chosen number, 3D errors over trajectories I-III",
+        partial(_extension_helps, model=model, kind=SUB_VOLUMES),
+    )
+
+
+def _products_claim(model: str, words: str) -> _Claim:
+    return _Claim(
+        f"Products improve accuracy: {words}",
+        "p. 962, section 6.3 (outlook)",
+        f"3D error of {model} with products chosen sparsely by cross-validation below the sums', over I-III together",
+        "",
+        "ratio sums / products, 3D errors over trajectories I-III",
+        partial(_extension_helps, model=model, kind=PRODUCTS),
+    )
+
+
 CLAIMS = (
     _Claim(
         "The models predict the errors: what is left is smaller",
@@ -353,5 +395,18 @@ CLAIMS = (
         "ratio one region / several, 3D errors on the identification poses",
         partial(_sub_volumes_help, regions=4, held_out=False),
     ),
+    _Claim(
+        "Sub-volumes are called for: cross-validation divides the workspace",
+        "p. 961, section 6.3; p. 965, section 8",
+        "cross-validation on the identification poses takes more than one blended region for FDP(CI)",
+        "regions",
+        "chosen (the fewest within one standard error of the best)",
+        _chosen_by_cross_validation,
+    ),
+    _regions_claim("FDP(CI)", "first degree, Cartesian input"),
+    _regions_claim("SDP(AI)", "second degree, angular input"),
+    _products_claim(SDP_CI.name, "second degree, Cartesian input"),
+    _products_claim(FOURTH, "fourth degree, angular input"),
+    _products_claim(FOURIER, "two harmonics, angular input"),
 )
 """Each claim that is judged, in the order of the table."""

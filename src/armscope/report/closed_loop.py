@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,16 +11,19 @@ from numpy.typing import NDArray
 
 from armscope.compensation.black_box import ErrorModel, domain_of, error_model
 from armscope.compensation.closed_loop import (
+    NO_MODEL,
     Candidate,
     MeasuredPath,
     black_box_candidate,
     left_over,
     physical_candidate,
+    vectors,
 )
 from armscope.compensation.physical import identified_on
 from armscope.diagnosis import Settings, diagnose
-from armscope.errormodels import FittedModel, ModelSpec
-from armscope.errormodels.products import fit_products
+from armscope.errormodels import FeatureSet, FittedModel, ModelSpec
+from armscope.errormodels.products import ProductFeatures, fit_products
+from armscope.errormodels.regions import Cut, blended, divide, fit_regions, halvings_of, weights
 from armscope.paper.measurements import Measurements, PoseSet
 from armscope.physics.model import Base
 from armscope.recordings.table import as_recordings
@@ -38,6 +41,7 @@ def paper_closed_loop(
     fits: Sequence[FittedModel],
     errors: Array,
     products: Sequence[ModelSpec] = (),
+    regions: Sequence[tuple[ModelSpec, int]] = (),
     diagnosed: bool = True,
 ) -> pd.DataFrame:
     """What is left at every point by model, trajectory and stage, for the first robot of a study; see `left_over`.
@@ -48,6 +52,7 @@ def paper_closed_loop(
         fits: of the first robot; of each model the swarm with the smallest residual counts.
         errors: (K,) its true geometric errors, m and rad, in the order of `geometric_errors`.
         products: add models with a sparse choice of products, by least squares.
+        regions: add models of so many blended regions, by least squares.
         diagnosed: add physics diagnosed from the identification rows.
     """
     truth = geometric_errors(arm)
@@ -60,6 +65,10 @@ def paper_closed_loop(
     for spec in products:
         model = _with_products(arm, spec, identification)
         candidates[model.name] = black_box_candidate(model)
+    for spec, count in regions:
+        candidates[f"{spec.name}, {count} regions"] = black_box_candidate(
+            _with_regions(arm, spec, count, identification)
+        )
     if diagnosed:
         candidates[DIAGNOSED] = _diagnosed(arm, identification)
     return left_over(
@@ -82,6 +91,71 @@ def _with_products(arm: Arm, spec: ModelSpec, identification: PoseSet) -> ErrorM
     base = Base(np.eye(3), np.zeros(3))
     domain = domain_of(arm, spec, identification.motor_angles)
     return ErrorModel(arm, features, coefficients[None], "least squares", rms_mm, base, domain)
+
+
+def _with_regions(arm: Arm, spec: ModelSpec, count: int, identification: PoseSet) -> ErrorModel:
+    inputs, errors = identification.inputs(spec), identification.errors_mm[0]
+    features, cut = spec.features(inputs), divide(inputs, halvings_of(count))
+    coefficients = fit_regions(features, cut, inputs, errors)
+    rms_mm = np.sqrt(np.mean((errors - blended(features, cut, coefficients, inputs)) ** 2, axis=0))
+    base = Base(np.eye(3), np.zeros(3))
+    domain = domain_of(arm, spec, identification.motor_angles)
+    return ErrorModel(arm, features, coefficients, "least squares", rms_mm, base, domain, cut)
+
+
+def real_left_over(
+    measurements: Measurements,
+    fits: Sequence[FittedModel],
+    products: Sequence[ModelSpec] = (),
+    regions: Sequence[tuple[ModelSpec, int]] = (),
+) -> pd.DataFrame:
+    """What is left at every point of a real arm's recordings, by model: fitted rows and held-out rows, by prediction.
+
+    Such an arm can't be sent anywhere: what is left of its held-out errors is what a correction would leave, to first
+    order.
+
+    Returns:
+        As `left_over`, with the stages "fit" and "prediction" only.
+    """
+    rows = measurements.identification
+    found: dict[str, Callable[[PoseSet], Array]] = {NO_MODEL: lambda each: np.zeros_like(each.errors_mm[0])}
+    for fit in fits:
+        found[fit.name] = _best_of(fit)
+    for spec in products:
+        features, coefficients, _ = fit_products(spec, rows.inputs(spec), rows.errors_mm[0], np.random.default_rng(0))
+        found[features.name] = _predictor(spec, features, None, coefficients[None])
+    for spec, count in regions:
+        inputs = rows.inputs(spec)
+        sums, cut = spec.features(inputs), divide(inputs, halvings_of(count))
+        found[f"{spec.name}, {count} regions"] = _predictor(
+            spec, sums, cut, fit_regions(sums, cut, inputs, rows.errors_mm[0])
+        )
+    return pd.concat(
+        [
+            vectors(name, each.name, "fit" if each is rows else "prediction", each.errors_mm[0] - predict(each))
+            for name, predict in found.items()
+            for each in measurements.sets
+        ],
+        ignore_index=True,
+    )
+
+
+def _best_of(fit: FittedModel) -> Callable[[PoseSet], Array]:
+    """Of each axis the swarm with the smallest residual."""
+    coefficients = fit.coefficients[fit.best_seeds, np.arange(len(fit.axes))]
+    return _predictor(fit.features.spec, fit.features, None, coefficients[None])
+
+
+def _predictor(
+    spec: ModelSpec, features: FeatureSet | ProductFeatures, cut: Cut | None, coefficients: Array
+) -> Callable[[PoseSet], Array]:
+    def predict(poses: PoseSet) -> Array:
+        inputs = poses.inputs(spec)
+        shares = weights(cut, inputs)
+        predicted: Array = np.einsum("nr,nt,rat->na", shares, features.matrix(inputs), coefficients)
+        return predicted
+
+    return predict
 
 
 def _diagnosed(arm: Arm, identification: PoseSet) -> Candidate:

@@ -48,7 +48,7 @@ def regions_figure(table: pd.DataFrame) -> Figure:
     """One panel per model: error against the number of blended regions; the one that cross-validation chose is filled.
 
     Args:
-        table: see `armscope.report.outlook.paper_regions`.
+        table: see `armscope.paper.outlook.paper_regions`.
     """
     models = list(table["model"].unique())
     paths = [name for name in table.columns if name.startswith("test") or name == "held out"]

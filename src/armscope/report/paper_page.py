@@ -169,8 +169,55 @@ def error_field(arm: Arm, poses: pd.DataFrame, left_over: pd.DataFrame) -> Marku
     return turnable(arm, shown)
 
 
+@dataclass(frozen=True)
+class Outlook:
+    """What goes beyond the paper's models: the folder with the closed loop, sub-volumes and products."""
+
+    folder: Path
+
+    @property
+    def virtual(self) -> pd.DataFrame:
+        """3D RMS in mm by model, per trajectory and stage, of the virtual arm."""
+        table = self._spatial
+        wide = table[table["arm"] == "virtual"].pivot_table(
+            index="model", columns=["trajectory", "stage"], values="rms_mm", sort=False
+        )
+        names = {"identification": "", "prediction": "predicted"}
+        levels = (wide.columns.get_level_values(level) for level in (0, 1))
+        columns = [
+            f"{names.get(path, path)} {names.get(stage, stage)}".strip() for path, stage in zip(*levels, strict=True)
+        ]
+        return wide.set_axis(columns, axis=1).reset_index().rename(columns={"model": "3D RMS error in mm"})
+
+    @property
+    def real(self) -> pd.DataFrame:
+        """3D RMS in mm by model, held-out rows of every real arm."""
+        table = self._spatial
+        held_out = table[(table["arm"] != "virtual") & (table["stage"] == "prediction")]
+        wide = held_out.pivot_table(index="model", columns="arm", values="rms_mm", sort=False)
+        wide.columns = [str(name).partition(" (")[0] for name in wide.columns]
+        return wide.reset_index().rename(columns={"model": "held out, 3D RMS in mm"})
+
+    @property
+    def products(self) -> pd.DataFrame:
+        """Sums against products."""
+        return pd.read_csv(self.folder / "products.csv")
+
+    @property
+    def _spatial(self) -> pd.DataFrame:
+        table = pd.read_csv(self.folder / "cross_table.csv")
+        return table[table["axis"] == "3D"]
+
+
 def write_paper_page(
-    path: Path, paper: Paper, seed: int, results: Path, proof: Path, real: list[RealArm], field: Markup
+    path: Path,
+    paper: Paper,
+    seed: int,
+    results: Path,
+    proof: Path,
+    real: list[RealArm],
+    field: Markup,
+    outlook: Outlook,
 ) -> None:
     """The report of the reproduction.
 
@@ -182,6 +229,7 @@ def write_paper_page(
         proof: the folder of the small proof of the diagnosis.
         real: real arms.
         field: see `error_field`.
+        outlook: corrected commands, sub-volumes, products.
     """
     table = read_table(results / "table2.csv")
     claims = read_table(results / "claims.csv")
@@ -215,4 +263,5 @@ def write_paper_page(
         proof=proof / "figures" / "aims.svg",
         proof_page=os.path.relpath(proof / "report.html", path.parent),
         real=real,
+        outlook=outlook,
     )

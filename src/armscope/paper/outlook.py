@@ -1,16 +1,16 @@
-"""The paper's outlook (sections 6.3 and 8) on its own virtual robot: sub-volumes, and products between inputs."""
+"""The paper's outlook (sections 6.3 and 8) on its virtual robots: sub-volumes, and products between inputs."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from armscope.errormodels import ModelSpec
+from armscope.errormodels import FDP_CI, FOURIER_2_AI, POLYNOMIAL_4_AI, SDP_AI, SDP_CI, ModelSpec
 from armscope.errormodels.products import candidate_terms, fit_products
-from armscope.errormodels.regions import blended, compare_regions, divide, fit_regions, halvings_of
+from armscope.errormodels.regions import blended, chosen_regions, compare_regions, divide, fit_regions, halvings_of
 from armscope.paper.measurements import Measurements, PoseSet
 
 Array = NDArray[np.float64]
@@ -78,3 +78,62 @@ def paper_products(measurements: Measurements, specs: Sequence[ModelSpec], seed:
             counts = {"candidates": candidates, "terms": features.coefficients_per_axis}
             rows.append({"model": spec.name, "kind": kind, **counts, **numbers, **left})
     return pd.DataFrame(rows)
+
+
+PLAIN, SUB_VOLUMES, PRODUCTS = "sums", "sub-volumes", "products"
+"""What a model is extended by: nothing; regions or products, as many as cross-validation bears out."""
+
+
+def outlook(
+    measurements: Measurements,
+    regions: Sequence[ModelSpec] = (FDP_CI, SDP_AI),
+    products: Sequence[ModelSpec] = (SDP_CI, POLYNOMIAL_4_AI, FOURIER_2_AI),
+    seed: int = 0,
+) -> pd.DataFrame:
+    """What blended sub-volumes and products leave of the errors of every robot, each chosen by cross-validation.
+
+    Args:
+        measurements: identification and held-out sets of all robots.
+        regions: models to divide.
+        products: models to extend by products.
+        seed: of the folds.
+
+    Returns:
+        Columns robot, model, kind (`PLAIN`, `SUB_VOLUMES`, `PRODUCTS`), size (regions, or terms), trajectory, rms_mm
+        (of the error vector). All by least squares.
+    """
+    rows = []
+    for robot, name in enumerate(measurements.robots):
+        for spec in dict.fromkeys((*regions, *products)):
+            extended = _extended(measurements, robot, spec, spec in regions, spec in products, seed)
+            rows += [
+                {"robot": name, "model": spec.name, "kind": kind, "size": size, "trajectory": path, "rms_mm": rms}
+                for kind, size, left in extended
+                for path, rms in left.items()
+            ]
+    return pd.DataFrame(rows)
+
+
+def _extended(
+    measurements: Measurements, robot: int, spec: ModelSpec, divided: bool, multiplied: bool, seed: int
+) -> list[tuple[str, int, dict[str, float]]]:
+    """(kind, size, RMS by trajectory) of one model of one robot, plain and extended."""
+    rows, sums = measurements.identification, spec.features(measurements.identification.inputs(spec))
+    inputs, errors = rows.inputs(spec), rows.errors_mm[robot]
+
+    def left(predict: Callable[[Array], Array]) -> dict[str, float]:
+        return {each.name: _length(each.errors_mm[robot] - predict(each.inputs(spec))) for each in measurements.sets}
+
+    def by_regions(count: int) -> dict[str, float]:
+        cut = divide(inputs, halvings_of(count))
+        coefficients = fit_regions(sums, cut, inputs, errors)
+        return left(lambda at: blended(sums, cut, coefficients, at))
+
+    found = [(PLAIN, sums.coefficients_per_axis, by_regions(1))]
+    if divided:
+        count = chosen_regions(compare_regions(spec, inputs, errors, np.random.default_rng(seed)))
+        found.append((SUB_VOLUMES, count, by_regions(count)))
+    if multiplied:
+        features, fitted, _ = fit_products(spec, inputs, errors, np.random.default_rng(seed))
+        found.append((PRODUCTS, features.coefficients_per_axis, left(lambda at: features.matrix(at) @ fitted.T)))
+    return found
