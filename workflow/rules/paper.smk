@@ -303,8 +303,9 @@ rule paper_report:
         robot=CONFIG.paper.robot.value,
         outlook=expand(
             f"{RESULTS}/compensation/{{file}}",
-            file="closed_loop_points.csv cross_table.csv products.csv closed_loop.svg regions.svg".split(),
+            file="closed_loop_points.csv products.csv closed_loop.svg regions.svg".split(),
         ),
+        cross_table=f"{RESULTS}/compensation/cross_table.csv",
         figures=rules.figures.input,
         tables=expand(
             f"{PAPER}/{{table}}.csv",
@@ -328,7 +329,7 @@ rule paper_report:
             ),
         ),
         proof=subpath(input.proof, parent=True),
-        compensation=f"{RESULTS}/compensation",
+        compensation=subpath(input.cross_table, parent=True),
         code=code("armscope.cli.paper:report"),
     log:
         f"{RESULTS}/logs/paper_report.log",

@@ -201,11 +201,11 @@ class Outlook:
     @property
     def products(self) -> pd.DataFrame:
         """Sums against products."""
-        return pd.read_csv(self.folder / "products.csv")
+        return read_table(self.folder / "products.csv")
 
     @property
     def _spatial(self) -> pd.DataFrame:
-        table = pd.read_csv(self.folder / "cross_table.csv")
+        table = read_table(self.folder / "cross_table.csv")
         return table[table["axis"] == "3D"]
 
 
