@@ -1,6 +1,8 @@
 """What is exported loads back to the calibrated positions."""
 
+import mujoco
 import numpy as np
+import pinocchio as pin
 import pytest
 import yaml
 
@@ -31,6 +33,36 @@ def test_robot_yaml_and_urdf_load_back_to_the_calibrated_positions(arm, tmp_path
             np.testing.assert_allclose(forward_kinematics(again, angles), expected, atol=1e-8, err_msg=path.name)
             # a negative control: the nominal arm is elsewhere
             assert np.abs(forward_kinematics(arm, angles) - expected).max() > 1e-3
+
+
+@pytest.mark.parametrize("limited", [True, False])
+@pytest.mark.parametrize("weighed", [True, False])
+def test_other_engines_load_the_urdf_and_stand_at_the_calibrated_positions(limited, weighed, tmp_path):
+    """pinocchio by itself, and MuJoCo, which refuses bodies without mass or inertia unless told otherwise."""
+    from tests.robot.arms import random_masses
+
+    rng = np.random.default_rng(5)
+    nominal = ur_like(
+        links=random_masses(rng, 6) if weighed else None, joint_limits_deg=[[-170, 170]] * 6 if limited else None
+    )
+    tool = {"": [0.05, 0.1, 0.2]}
+    calibration = calibrate(nominal, measured(planted(nominal, rng), poses(rng, 60, 6), far_away(rng), tool))
+    export(calibration, tmp_path)
+    offset = np.array(yaml.safe_load((tmp_path / "robot.yaml").read_text())["tool_mm"]) * 1e-3
+    by_pinocchio = pin.buildModelFromUrdf(str(tmp_path / "robot.urdf"))
+    by_mujoco = mujoco.MjModel.from_xml_path(str(tmp_path / "robot.urdf"))
+    data, state = by_pinocchio.createData(), mujoco.MjData(by_mujoco)
+    flange = by_pinocchio.getFrameId("calibrated_flange")
+    angles = poses(rng, 20, 6)
+    for q, expected in zip(angles, forward_kinematics(load_arm(tmp_path / "robot.yaml"), angles), strict=True):
+        # pinocchio keeps a joint without limits as cosine and sine
+        stored = q if limited else np.column_stack([np.cos(q), np.sin(q)]).ravel()
+        pin.framesForwardKinematics(by_pinocchio, data, stored)
+        np.testing.assert_allclose(data.oMf[flange].act(offset), expected, atol=1e-9)
+        state.qpos[:] = q
+        mujoco.mj_kinematics(by_mujoco, state)
+        body = state.body("calibrated_flange")
+        np.testing.assert_allclose(body.xpos + body.xmat.reshape(3, 3) @ offset, expected, atol=1e-9)
 
 
 def test_base_and_tools_stand_in_frames_yaml_and_give_the_measured_points(tmp_path):

@@ -63,7 +63,7 @@ class Calibration:
 
     @functools.cached_property
     def arm(self) -> Arm:
-        """The corrected arm; its tool is that of the first target."""
+        """The corrected arm with the nominal tool; the fitted tools stand in `state.tools`."""
         return self.set_up.frames(self.state)[0]
 
     @functools.cached_property

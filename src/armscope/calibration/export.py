@@ -106,6 +106,9 @@ def _fresh_urdf(arm: Arm) -> str:
     """The arm's chain as a URDF: every link in the frame of its joint, whose z is the axis."""
     robot = ET.Element("robot", name=arm.name)
     robot.append(ET.Comment("effort and velocity limits are placeholders; masses are points, good for statics only"))
+    # MuJoCo takes no body without mass and inertia, and would melt the flange into the last link; others skip this
+    extension = ET.SubElement(robot, "mujoco")
+    ET.SubElement(extension, "compiler", boundmass="1e-9", boundinertia="1e-9", fusestatic="false")
     ET.SubElement(robot, "link", name="base")
     ends_at_motor = arm.description.actuation is None
     parent = "base"
