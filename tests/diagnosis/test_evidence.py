@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.stats import multivariate_normal
+from scipy.stats import multivariate_normal, norm
 
 from armscope.diagnosis import evidence
 from armscope.diagnosis.evidence import PERFECT, Chosen, Problem, gains, group, losses, pinned_losses, weigh
@@ -49,7 +49,10 @@ def test_blocks_add_up_to_the_sums_over_all_rows(setting: tuple[Problem, np.ndar
 def test_evidence_is_the_density_of_the_data(
     setting: tuple[Problem, np.ndarray, np.ndarray], background: evidence.Background
 ) -> None:
-    """Differences of evidence are differences of log N(y; 0, X P X' + noise^2 I), prices taken off."""
+    """Differences of evidence are differences of log N(y; 0, X P X' + noise^2 I), prices taken off.
+
+    A compliance is not negative: its prior is the normal's upper half, twice as dense.
+    """
     problem, X, y = setting
 
     def brute(chosen: tuple[Chosen, ...], noise: float) -> float:
@@ -57,10 +60,19 @@ def test_evidence_is_the_density_of_the_data(
         covariance = (X * prior) @ X.T + noise**2 * np.eye(len(y))
         return float(multivariate_normal(np.zeros(len(y)), covariance, allow_singular=False).logpdf(y))
 
+    def upper_half(chosen: tuple[Chosen, ...], noise: float) -> float:
+        prior = evidence.prior_variances(problem, chosen, background)
+        at = problem.pool.columns[chosen[0].candidate][0]
+        covariance = (X * prior) @ X.T + noise**2 * np.eye(len(y))
+        towards = prior[at] * np.linalg.solve(covariance, X[:, at])
+        variance = prior[at] - prior[at] * X[:, at] @ towards
+        return float(np.log(2) + norm.logcdf(towards @ y / np.sqrt(variance)))
+
     with_it = weigh(problem, numbers(problem, ("joint_compliance", "joint 2")), background, 0.03)
     without = weigh(problem, (), background, 0.1)
     price = problem.costs[with_it.chosen[0].candidate] + np.log(len(problem.sizes))
     expected = brute(with_it.chosen, with_it.noise) - brute((), without.noise)
+    expected += upper_half(with_it.chosen, with_it.noise)
     assert with_it.value - without.value + price == pytest.approx(expected, abs=1e-3)
 
 

@@ -6,11 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 
+from armscope.diagnosis import Settings, diagnose
 from armscope.diagnosis.frames import fit_frames
 from armscope.diagnosis.problem import residuals
+from armscope.recordings import Recordings
+from armscope.robot import Arm, chain
 
 from ..physics.scenes import arm_named, full_table
-from .planted import one_run, recorded
+from .planted import joined, one_run, recorded
+
+QUICK = Settings(resamples=0, cross_validation=False)
 
 
 def test_a_base_metres_away_is_found_from_nothing() -> None:
@@ -40,3 +45,34 @@ def test_a_few_wild_rows_do_not_drag_the_frames() -> None:
     wild = residuals(fit_frames(arm, table), table)
     others = np.arange(60) != 5
     assert np.sqrt(np.mean(wild[others] ** 2)) < 1.3 * np.sqrt(np.mean(clean[others] ** 2))
+
+
+def two_runs(shift_mm: list[float]) -> tuple[Arm, Recordings]:
+    """Two runs of one arm whose joint 2 gives way; in the second the tool point lies elsewhere."""
+    arm = arm_named("six-axis")
+    poses = [one_run(arm, 60, seed) for seed in (2, 3)]
+    tables = [recorded(arm, table, {("joint_compliance", "joint 2"): [4e-7]}, 0.02, seed=7) for table in poses]
+    turned = chain(arm, poses[1].motor_angles).tool_rotation
+    moved = tables[1].positions + 1e-3 * turned @ np.array(shift_mm)
+    return arm, joined(tables[0], replace(tables[1], positions=moved))
+
+
+def test_a_tool_that_was_exchanged_between_runs_is_free_in_each_and_hides_nothing() -> None:
+    verdict = diagnose(*two_runs([20.0, -5.0, 35.0]), QUICK)
+    assert [(e.effect, e.location, e.minor) for e in verdict.effects] == [("joint_compliance", "joint 2", False)]
+    assert "tool exchanged" in {notice.kind for notice in verdict.notices}
+
+
+def test_a_tool_point_that_moved_a_little_between_runs_is_found_at_the_run() -> None:
+    verdict = diagnose(*two_runs([0.0, 0.3, -0.2]), QUICK)
+    found = {effect.effect: effect for effect in verdict.effects}
+    assert set(found) == {"joint_compliance", "tool_shift"}
+    assert found["tool_shift"].driver == "run 2"
+    for parameter, true in zip(found["tool_shift"].parameters, [0.0, 0.3, -0.2], strict=True):
+        assert abs(parameter.value - true) < 3 * parameter.stderr < 0.1
+
+
+def test_points_with_names_of_their_own_are_no_shift() -> None:
+    arm, table = two_runs([0.0, 0.3, -0.2])
+    table = replace(table, target=np.where(table.run == "2", "p2", "p1"))
+    assert {effect.effect for effect in diagnose(arm, table, QUICK).effects} == {"joint_compliance"}

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from armscope.diagnosis.evidence import Hypothesis, Problem
+from armscope.diagnosis.naming import named, rest_of
 from armscope.diagnosis.problem import Gram
 from armscope.diagnosis.search import Search
 from armscope.diagnosis.verdict import Alternative, Specific
@@ -29,7 +30,8 @@ def alternatives(search: Search, best: Hypothesis, candidate: int) -> list[tuple
     """
     if search.held(best, candidate):
         return []
-    base = search.without(best, [candidate])
+    rest = rest_of(search.problem, best, candidate)
+    base = search.without(best, [candidate, *rest])
     taken = {search.placed(c).key for c in best.candidates}
     nearest: dict[tuple[str, str], tuple[float, Placed, Hypothesis]] = {}
     for other in search.additions(base, LOOKED_AT, without=[candidate]):
@@ -37,7 +39,8 @@ def alternatives(search: Search, best: Hypothesis, candidate: int) -> list[tuple
         gap = best.value - other.value
         curve = search.placed(candidate).reading == "curve"
         special = curve and other.chosen[-1].candidate in search.problem.pool.clashes[candidate]
-        if placed.key in taken or gap > (LISTED_NATS_OF_SPECIAL_CASES if special else LISTED_NATS):
+        same = bool(rest) and other.chosen[-1].candidate in search.problem.pool.clashes[candidate]
+        if same or placed.key in taken or gap > (LISTED_NATS_OF_SPECIAL_CASES if special else LISTED_NATS):
             continue
         if placed.key not in nearest or gap < nearest[placed.key][0]:
             nearest[placed.key] = (gap, placed, other)
@@ -94,9 +97,18 @@ def _words(effect: str) -> str:
 
 
 def inclusion(
-    problem: Problem, blocks: Sequence[Gram], best: Hypothesis, draws: int, rng: np.random.Generator
+    problem: Problem,
+    blocks: Sequence[Gram],
+    best: Hypothesis,
+    found: Hypothesis,
+    draws: int,
+    rng: np.random.Generator,
 ) -> dict[int, float]:
-    """How often each chosen effect's place is chosen again when blocks of rows are drawn with replacement."""
+    """How often each chosen effect's place is chosen again when blocks of rows are drawn with replacement.
+
+    Args:
+        found: the best hypothesis before names were given within its backgrounds and curves.
+    """
     if not blocks or not best.chosen:
         return {}
     places = {c: _place(problem.pool.candidates[c]) for c in best.candidates}
@@ -105,10 +117,10 @@ def inclusion(
         times = np.bincount(rng.integers(0, len(blocks), len(blocks)), minlength=len(blocks))
         gram = _weighted(blocks, times)
         search = Search.on(problem.with_gram(gram), beam=1, branches=2)
-        again = search.best(starts=(best.background,), also=best)
-        found = {_place(problem.pool.candidates[c]) for c in again.candidates}
+        again = named(search, search.best(starts=(best.background,), also=found))
+        places_again = {_place(problem.pool.candidates[c]) for c in again.candidates}
         for candidate, place in places.items():
-            hits[candidate] += place in found
+            hits[candidate] += place in places_again
     return {candidate: count / draws for candidate, count in hits.items()}
 
 

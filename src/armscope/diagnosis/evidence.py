@@ -14,6 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg.lapack import dpotrf, dtrtri, dtrtrs
+from scipy.special import log_ndtr
 
 from armscope.diagnosis.problem import Gram, Indices, Pool, scales
 
@@ -48,10 +49,14 @@ Background = tuple[int, ...]
 
 @dataclass(frozen=True)
 class Chosen:
-    """An effect in a hypothesis: which candidate, with which size (index into the problem's sizes)."""
+    """An effect in a hypothesis: which candidate, with which size (index into the problem's sizes).
+
+    One that stands ``within`` a background or a curve is a name for a part of it, and pays nothing for itself.
+    """
 
     candidate: int
     size: int
+    within: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,14 +122,14 @@ def costs(pool: Pool) -> Array:
     variants: dict[tuple[str, str], int] = {}
     for placed in pool.candidates:
         locations.setdefault(placed.name, set()).add(placed.location)
-        if placed.tried == 1:
+        if placed.tried == 1 and not placed.fine:
             variants[placed.key] = variants.get(placed.key, 0) + 1
     return np.array(
         [
             SURE_NATS
             + np.log(kinds(pool))
             + np.log(len(locations[placed.name]))
-            + np.log(placed.tried if placed.tried > 1 else variants[placed.key])
+            + np.log(placed.tried if placed.tried > 1 else variants.get(placed.key, 1))
             for placed in pool.candidates
         ]
     )
@@ -193,13 +198,21 @@ def weigh(problem: Problem, chosen: tuple[Chosen, ...], background: Background, 
         noise = updated
     logdet = 2 * np.sum(np.log(np.diag(factor))) + np.sum(np.log(variance)) - 2 * len(columns) * np.log(noise)
     evidence = -problem.n * np.log(noise) - 0.5 * logdet - 0.5 * rss / noise**2
-    paid = sum(problem.costs[c.candidate] + np.log(len(problem.sizes)) for c in chosen)
+    own = [c for c in chosen if not c.within]
+    paid = sum(problem.costs[c.candidate] + np.log(len(problem.sizes)) for c in own)
     paid += problem.background_cost * np.count_nonzero(background[1:])
-    names = frozenset(c.candidate for c in chosen)
-    paid += CROWDED_NATS * max(problem.pool.crowding(names), 0)
-    if not problem.pool.stands(names):
+    paid -= _along(problem, own, columns, mean, noise * np.sqrt(np.sum(inverse**2, axis=0)))
+    paid += CROWDED_NATS * max(problem.pool.crowding(frozenset(c.candidate for c in own)), 0)
+    if not problem.pool.stands(frozenset(c.candidate for c in chosen)):
         paid = np.inf
     return Hypothesis(chosen, background, noise, float(evidence - paid), columns, variance, factor, inverse, mean, rss)
+
+
+def _along(problem: Problem, chosen: Sequence[Chosen], columns: Indices, mean: Array, stderr: Array) -> float:
+    """Nats that values gain, which can't be negative, each by itself: half of the prior goes to the other half."""
+    values = [int(problem.pool.columns[c.candidate][0]) for c in chosen if problem.pool.along[c.candidate]]
+    at = np.searchsorted(columns, values)
+    return float(np.sum(np.log(2) + log_ndtr(mean[at] / stderr[at])))
 
 
 ROUNDING = 1e-11
@@ -261,13 +274,13 @@ def prior_variances(problem: Problem, chosen: tuple[Chosen, ...], background: Ba
     geometric, *others = pool.background
     tolerance = BACKGROUND_SIZES[background[0]] * TOLERANCE
     prior[geometric] = (tolerance * problem.scale[geometric]) ** 2
-    for size, columns in zip(background[1:], others, strict=True):
+    for size, columns, shape in zip(background[1:], others, pool.background_shape[1:], strict=True):
         if size:
-            prior[columns] += problem.sizes[size - 1] ** 2
+            prior[columns] += (problem.sizes[size - 1] * shape) ** 2
     prior[pool.frames] = FRAME_PRIOR_MM**2
     for c in chosen:
-        shape = np.array(pool.candidates[c.candidate].shape)
-        prior[pool.columns[c.candidate]] += (problem.sizes[c.size] * shape) ** 2
+        own = np.array(pool.candidates[c.candidate].shape)
+        prior[pool.columns[c.candidate]] += (problem.sizes[c.size] * own) ** 2
     return prior
 
 
@@ -332,6 +345,9 @@ def gains_by_size(problem: Problem, groups: Groups, hypothesis: Hypothesis) -> A
         quadratic = np.sum(u2 * shrunk, axis=2)
         logdet = np.sum(np.log1p(s2[:, None, None] * eigenvalues), axis=2)
         by_size[:, members] = _profiled(quadratic, chi2, problem.n, noise, problem.least_noise) - 0.5 * logdet
+    # what can't be negative and would be is not worth looking at; the others' prior is twice as dense
+    for number in np.flatnonzero(problem.pool.along):
+        by_size[:, number] += np.log(2) if r_all[problem.pool.columns[number][0]] > 0 else -np.inf
     return by_size - problem.costs - np.log(len(problem.sizes))
 
 

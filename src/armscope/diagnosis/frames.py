@@ -6,6 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from armscope.diagnosis.problem import residuals
+from armscope.diagnosis.robust import scale_of
 from armscope.physics.frames import TOOL_FRAME, free_frames, tool_keys
 from armscope.physics.model import Base, FittedModel
 from armscope.physics.scene import Part
@@ -17,6 +19,9 @@ Array = NDArray[np.float64]
 STEPS = 12
 CONVERGED_M = 1e-9
 HUBER = 2.0
+WORSE, EXCHANGED = 2.0, 3.0
+"""A tool counts as exchanged when one tool for all runs leaves this many times the residual, and the tool points lie
+this many times that residual apart."""
 
 
 def fit_frames(arm: Arm, recordings: Recordings, tool_per_run: bool = False) -> FittedModel:
@@ -43,6 +48,26 @@ def fit_frames(arm: Arm, recordings: Recordings, tool_per_run: bool = False) -> 
         {str(run): base for run, base in zip(runs, bases, strict=True)},
         _tool_parts(recordings, tool_per_run, tools),
     )
+
+
+def other_tools(arm: Arm, recordings: Recordings, shared: FittedModel) -> tuple[FittedModel, float] | None:
+    """The arm with its tool free in every run, and how far the tool points of a target lie apart (m), where they must.
+
+    A tool that was exchanged between runs leaves a multiple of what else there is; lesser shifts are effects and
+    compete with the others.
+
+    Args:
+        shared: the arm with one tool for all runs.
+    """
+    if len(shared.bases) < 2:
+        return None
+    free = fit_frames(arm, recordings, tool_per_run=True)
+    before, after = scale_of(residuals(shared, recordings)), scale_of(residuals(free, recordings))
+    apart = max(
+        float(np.ptp([part.values for part in free.tools if part.placed.variant == target], axis=0).max())
+        for target in np.unique(recordings.target)
+    )
+    return (free, apart) if before > WORSE * after and apart * 1e3 > EXCHANGED * after else None
 
 
 def _tool_parts(recordings: Recordings, per_run: bool, tools: Array) -> tuple[Part, ...]:

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from armscope.diagnosis import certainty
 from armscope.diagnosis.atlas import atlas
 from armscope.diagnosis.curves import curve_of
-from armscope.diagnosis.evidence import Hypothesis, Problem, background_sizes
+from armscope.diagnosis.evidence import Chosen, Hypothesis, Problem, background_sizes
 from armscope.diagnosis.headline import headline
+from armscope.diagnosis.naming import worth
 from armscope.diagnosis.nextposes import next_poses
 from armscope.diagnosis.noise import Noise
 from armscope.diagnosis.parameters import parameters
@@ -61,7 +62,10 @@ LISTED_SUSPECTS = 200
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """Everything that the rounds of selection leave behind; ``point`` is where ``blocks`` were linearised."""
+    """Everything that the rounds of selection leave behind.
+
+    ``point`` is where ``blocks`` were linearised; ``best`` is ``found`` with names.
+    """
 
     start: FittedModel
     recordings: Recordings
@@ -72,6 +76,7 @@ class Evidence:
     problem: Problem
     blocks: list[Gram]
     point: FittedModel
+    found: Hypothesis
     best: Hypothesis
     fit: Refit
     scatter: tuple[Scattered, ...]
@@ -85,12 +90,12 @@ def judge(
     search = Search.on(problem)
     tell("weighing alternatives", 0.55)
     rivals = {c.candidate: certainty.alternatives(search, best, c.candidate) for c in best.chosen}
-    often = certainty.inclusion(problem, evidence.blocks, best, resamples, rng) if resamples else {}
+    often = certainty.inclusion(problem, evidence.blocks, best, evidence.found, resamples, rng) if resamples else {}
     scene = fit.model.scene(evidence.recordings)
     gram = _plain_gram(evidence)
     variance = _variance_after_frames(gram, fit.pool.frames)
     found = {
-        c.candidate: _found(evidence, search, c.candidate, part, rivals[c.candidate], often, scene, gram, variance)
+        c.candidate: _found(evidence, search, c, part, rivals[c.candidate], often, scene, gram, variance)
         for c, part in zip(best.chosen, fit.model.parts, strict=True)
     }
     order = sorted(found, key=lambda c: -found[c].rms_at_tool_mm)
@@ -158,7 +163,7 @@ def _plain_gram(evidence: Evidence) -> Gram:
 def _found(
     evidence: Evidence,
     search: Search,
-    candidate: int,
+    chosen: Chosen,
     part: Part,
     rivals: Sequence[tuple[float, Placed, Hypothesis]],
     often: dict[int, float],
@@ -187,9 +192,9 @@ def _found(
         parameters=parameters(placed, part.values, covariance),
         rms_at_tool_mm=rms,
         share=share,
-        evidence_nats=search.worth(evidence.best, candidate),
+        evidence_nats=float(_worth(evidence, search, chosen)),
         alternatives=certainty.listed(rivals),
-        inclusion=often.get(candidate),
+        inclusion=often.get(chosen.candidate),
         curve=curve_of(placed, part.values, covariance, scene),
         physics=placed.effect.physics,
         confirm=placed.effect.confirm,
@@ -205,6 +210,13 @@ def _rest_of_a_curve(scatter: FoundEffect, named: Sequence[FoundEffect]) -> bool
         and effect.rms_at_tool_mm > REST_OF_A_CURVE * scatter.rms_at_tool_mm
         for effect in named
     )
+
+
+def _worth(evidence: Evidence, search: Search, chosen: Chosen) -> float:
+    """Evidence for a name, nats."""
+    if chosen.within:
+        return worth(evidence.problem, evidence.best, chosen)
+    return search.worth(evidence.best, chosen.candidate)
 
 
 def _scattered(evidence: Evidence, variance: float) -> Iterator[FoundEffect]:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from armscope.diagnosis.checks import FEWEST_ROWS, check_table, too_far
-from armscope.diagnosis.frames import fit_frames
+from armscope.diagnosis.frames import fit_frames, other_tools
 from armscope.diagnosis.judge import Evidence, judge, undecided
 from armscope.diagnosis.noise import known_noise
 from armscope.diagnosis.problem import residuals
@@ -18,6 +18,7 @@ from armscope.diagnosis.validation import split
 from armscope.diagnosis.verdict import Notice, Verdict
 from armscope.physics.effect import Placed
 from armscope.physics.frames import free_frames
+from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -61,13 +62,14 @@ def diagnose(
     checked = check_table(arm, recordings)
     table = checked.recordings
     tell("fitting base and tool", 0.02)
-    start = fit_frames(arm, table, settings.tool_per_run)
+    start, tool_per_run, told = _frames(arm, table, settings.tool_per_run)
+    notices = (*checked.notices, *told)
     first = residuals(start, table)
     noise = known_noise(arm, table)
-    frames = free_frames(table, settings.tool_per_run)
+    frames = free_frames(table, tool_per_run)
     obstacle = too_far(arm, table, first) or _too_few(table, frames)
     if obstacle is not None:
-        return undecided(start, table, first, noise, (*checked.notices, obstacle), time.perf_counter() - started)
+        return undecided(start, table, first, noise, (*notices, obstacle), time.perf_counter() - started)
     rng = np.random.default_rng(settings.seed)
     layout = split(table, rng)
     found = select(start, table, noise, frames, layout.of_row, tell)
@@ -77,11 +79,12 @@ def diagnose(
             table,
             first,
             noise,
-            checked.notices,
+            notices,
             layout,
             found.problem,
             found.blocks,
             found.point,
+            found.found,
             found.best,
             found.fit,
             found.scatter,
@@ -93,6 +96,16 @@ def diagnose(
     )
     tell("done", 1.0)
     return verdict.after(time.perf_counter() - started, vars(settings))
+
+
+def _frames(arm: Arm, table: Recordings, tool_per_run: bool) -> tuple[FittedModel, bool, list[Notice]]:
+    """The arm with base and tool fitted, whether its tool is free in every run, and why where nobody asked for it."""
+    start = fit_frames(arm, table, tool_per_run)
+    exchanged = None if tool_per_run else other_tools(arm, table, start)
+    if exchanged is None:
+        return start, tool_per_run, []
+    text = f"The tool point lies up to {exchanged[1] * 1e3:.3g} mm elsewhere from run to run: it is free in each run."
+    return exchanged[0], True, [Notice("tool exchanged", text)]
 
 
 def _too_few(recordings: Recordings, frames: Sequence[Placed]) -> Notice | None:

@@ -38,6 +38,7 @@ class Pool:
         terms: the columns, in order.
         frames: columns of the free frames.
         background: columns of each family's background, in the order of `armscope.physics.backgrounds.FAMILIES`.
+        background_shape: relative size that each of these columns is expected to have.
         candidates: effects that compete.
         columns: columns of each candidate.
     """
@@ -45,6 +46,7 @@ class Pool:
     terms: tuple[Term, ...]
     frames: Indices
     background: tuple[Indices, ...]
+    background_shape: tuple[Array, ...]
     candidates: tuple[Placed, ...]
     columns: tuple[Indices, ...]
 
@@ -87,6 +89,11 @@ class Pool:
             if placed.effect.rests_on
         }
 
+    @functools.cached_property
+    def along(self) -> NDArray[np.bool_]:
+        """Whether each candidate has one value that can't be negative."""
+        return np.array([placed.effect.along and len(placed.terms) == 1 for placed in self.candidates], dtype=np.bool_)
+
     def stands(self, candidates: frozenset[int]) -> bool:
         """Whether every one of some candidates has what it rests on."""
         return all(candidates & needed for number, needed in self.resting.items() if number in candidates)
@@ -108,10 +115,16 @@ def pool(frames: Sequence[Placed], backgrounds: Sequence[Sequence[Placed]], cand
         return np.array([index.setdefault(term, len(index)) for term in placed.terms], dtype=np.intp)
 
     frame_columns = np.concatenate([add(p) for p in frames])
-    empty = [np.empty(0, dtype=np.intp)]
-    background_columns = tuple(np.unique(np.concatenate(empty + [add(p) for p in family])) for family in backgrounds)
+    shapes = [{int(n): s for p in family for n, s in zip(add(p), p.shape, strict=True)} for family in backgrounds]
     columns = tuple(add(p) for p in candidates)
-    return Pool(tuple(index), frame_columns, background_columns, tuple(candidates), columns)
+    return Pool(
+        tuple(index),
+        frame_columns,
+        tuple(np.array(sorted(family), dtype=np.intp) for family in shapes),
+        tuple(np.array([family[column] for column in sorted(family)], dtype=np.float64) for family in shapes),
+        tuple(candidates),
+        columns,
+    )
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 from armscope.diagnosis import robust
 from armscope.diagnosis.evidence import FRAME_PRIOR_MM, TOLERANCE
 from armscope.diagnosis.frames import moved_base
-from armscope.diagnosis.problem import Gram, Pool, accumulate, pool, residuals, scales
+from armscope.diagnosis.problem import Gram, Pool, accumulate, pool, pool_values, residuals, scales
 from armscope.diagnosis.weights import RowWeights
 from armscope.physics.effect import AXES, Placed, Term
 from armscope.physics.model import FittedModel
@@ -22,6 +23,8 @@ Array = NDArray[np.float64]
 
 STEPS = 6
 CONVERGED_MM = 1e-6
+LEADS_AWAY, SHORTEST_STEP = 1.5, 0.1
+"""A step that makes the residual this many times larger is halved, down to this share of it."""
 FREE = 100.0
 """A named effect's values are held by a prior this many times wider than its size, that is: not at all."""
 
@@ -93,14 +96,26 @@ def refit(
         spent = float(len(values) - noise**2 * np.sum(np.diag(covariance) * precision))
         misfit = gram.rss(values)
         noise = max(float(np.sqrt(max(misfit, 0.0) / max(gram.n - spent, 1.0))), 1e-9)
-        updated = _updated(model, parts, background, effects, values)
-        moved = np.abs(residuals(updated, recordings) - left).max()
-        model = updated
+        updated = partial(_updated, model, parts, background, effects, values)
+        model, moved = _not_worse(updated, recordings, left)
         if moved < CONVERGED_MM:
             break
     left = residuals(model, recordings)
     # a lucky residual does not make the instrument better than it is known to be
     return Refit(model, parts, gram, max(noise, least_noise) ** 2 * covariance, noise, spent, RowWeights(w, turn), left)
+
+
+def _not_worse(
+    updated: Callable[[float], FittedModel], recordings: Recordings, left: Array
+) -> tuple[FittedModel, float]:
+    """The model after a step that is shortened until it does not lead away, and how far it moved the points, mm."""
+    share, here = 1.0, robust.scale_of(left)
+    while True:
+        model = updated(share)
+        new = residuals(model, recordings)
+        if share < SHORTEST_STEP or robust.scale_of(new) < LEADS_AWAY * here:
+            return model, float(np.abs(new - left).max())
+        share /= 2
 
 
 def _without(placed: Placed, named: set[Term]) -> Placed | None:
@@ -131,8 +146,8 @@ def _precision(parts: Pool, gram: Gram, sizes: Sequence[float], effects: Sequenc
     """(p,) prior precisions in SI units."""
     scale = scales(gram, parts.frames)
     variance = np.full(len(parts.terms), np.inf)
-    for number, (columns, size) in enumerate(zip(parts.background, sizes, strict=True)):
-        variance[columns] = (size * TOLERANCE) ** 2 if number == 0 else (size / scale[columns]) ** 2
+    for number, (columns, shape, size) in enumerate(zip(parts.background, parts.background_shape, sizes, strict=True)):
+        variance[columns] = (size * TOLERANCE) ** 2 if number == 0 else (size * shape / scale[columns]) ** 2
     for (placed, size), at in zip(effects, parts.columns, strict=True):
         wide = 1.0 if placed.reading == "curve" or placed.variant == "unknown masses" else FREE
         variance[at] = (wide * size * np.array(placed.shape) / scale[at]) ** 2
@@ -153,9 +168,12 @@ def _updated(
     background: Sequence[Placed],
     effects: Sequence[tuple[Placed, float]],
     values: Array,
+    share: float,
 ) -> FittedModel:
-    """The model with new values; frame columns are increments at the linearisation point."""
+    """The model with new values, or a share of the way there; frame columns are increments where it stands."""
     index = {term: number for number, term in enumerate(parts.terms)}
+    present = pool_values(parts, model)
+    values = present + share * (values - present)
 
     def new(placed: Placed) -> Array:
         return values[[index[term] for term in placed.terms]]
@@ -173,7 +191,7 @@ def moved_frames(model: FittedModel, steps: Mapping[Term, float]) -> FittedModel
     twists: dict[str, Array] = {}
     for term, value in steps.items():
         product = term.products[0]
-        if product.driver.kind == "in run":
+        if product.driver.kind == "in run" and product.direction.location == "base":
             twist = twists.setdefault(str(product.driver.arguments[0]), np.zeros(6))
             twist[AXES.index(product.direction.axis)] = value
     bases = {run: moved_base(base, twists.get(run, np.zeros(6))) for run, base in model.bases.items()}

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from armscope.diagnosis import robust
 from armscope.diagnosis.evidence import Hypothesis, Problem, background_sizes, gains, problem
+from armscope.diagnosis.naming import named
 from armscope.diagnosis.noise import Noise, relative_uncertainty
 from armscope.diagnosis.problem import COUNTS, Gram, Pool, accumulate, pool, residuals, total
 from armscope.diagnosis.refit import Refit, refit
@@ -48,11 +49,12 @@ PROMISING = 60
 
 @dataclass(frozen=True, eq=False)
 class Selected:
-    """Where the rounds ended; ``point`` is where the blocks were linearised."""
+    """Where the rounds ended; ``point`` is where the blocks were linearised; ``best`` is ``found`` with names."""
 
     problem: Problem
     blocks: list[Gram]
     point: FittedModel
+    found: Hypothesis
     best: Hypothesis
     fit: Refit
     scatter: tuple[Scattered, ...]
@@ -92,7 +94,7 @@ def _promising(found: Selected) -> list[Placed]:
     search = Search.on(found.problem)
     candidates = found.problem.pool.candidates
     kept = set(found.best.candidates) | {n for n, placed in enumerate(candidates) if placed.fine}
-    coarse = {candidates[n].key for n in kept if candidates[n].fine}
+    coarse = {candidates[n].key for n in kept if candidates[n].fine and candidates[n].variant == "angle"}
     kept |= {n for n, placed in enumerate(candidates) if placed.key in coarse and placed.variant == "angle"}
     for hypothesis in (found.best, search.empty()):
         gain, _ = gains(found.problem, search.groups, hypothesis)
@@ -178,7 +180,8 @@ class Rounds:
         if starts is None:
             starts = STARTS if warm is None else (warm.background,)
         found = search.best(starts, warm)
-        self.best, self.last = search.paying(search.promoted(search.refined(found))), (found, self.pool)
+        self.found = search.refined(found)
+        self.best, self.last = named(search, self.found), (found, self.pool)
         effects = [(self.pool.candidates[c.candidate], float(self.problem.sizes[c.size])) for c in self.best.chosen]
         small = list(zip(self.families, background_sizes(self.problem, self.best), strict=True))
         turn = self.weights.turn
@@ -192,7 +195,7 @@ class Rounds:
 
     def selected(self) -> Selected:
         """Where the rounds stand."""
-        return Selected(self.problem, self.blocks, self.point, self.best, self.fit, tuple(self.scatter))
+        return Selected(self.problem, self.blocks, self.point, self.found, self.best, self.fit, tuple(self.scatter))
 
     def _state(self) -> State:
         """What must not change any more: the effects and the rows that do not count."""

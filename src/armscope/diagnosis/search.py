@@ -30,6 +30,7 @@ from armscope.diagnosis.evidence import (
     weigh,
 )
 from armscope.diagnosis.problem import Pool
+from armscope.physics.backgrounds import FAMILIES
 from armscope.physics.effect import Placed, region
 from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
 
@@ -42,8 +43,6 @@ WORTH_TRYING_NATS = 2.0
 """A removal that loses more than this at the present noise can't pay when the noise is re-estimated."""
 SPECIAL_CASES = 7
 """How many of a curve's special cases are tried in its place."""
-STANDS_OUT_NATS, STANDS_OUT = 20.0, 0.25
-"""A background's member is named when holding it right loses this much and it is worth this share of the RMS."""
 SLACK_NATS = 3.0
 """A predicted value that falls short by more than this is not computed."""
 POLISHED = 2
@@ -206,7 +205,12 @@ class Search:
             rest = self.without(hypothesis, removed)
             least = hypothesis.value - rest.value - SLACK_NATS
             moves += self.additions(rest, self.branches, without=removed, least=least)
-        return [*moves, *self._from_background(hypothesis), *self._trusting(hypothesis)]
+        return [
+            *moves,
+            *self._from_background(hypothesis),
+            *self._into_background(hypothesis),
+            *self._trusting(hypothesis),
+        ]
 
     def _trusting(self, hypothesis: Hypothesis) -> list[Hypothesis]:
         """Stated masses and one wrong payload in place of masses that are unknown to every joint by itself."""
@@ -241,6 +245,18 @@ class Search:
             moves.append(smaller)
         return moves
 
+    def _into_background(self, hypothesis: Hypothesis) -> list[Hypothesis]:
+        """A family's background in place of all its names: one tilt may pass for what gives way everywhere."""
+        moves = []
+        for number, family in enumerate(FAMILIES[1:], start=1):
+            members = [c.candidate for c in hypothesis.chosen if self.placed(c.candidate).family == family]
+            if len(members) > 1 and len(self.problem.pool.background[number]):
+                rest = self.without(hypothesis, members)
+                for size in range(1, FAMILY_SIZES):
+                    background = (*rest.background[:number], size, *rest.background[number + 1 :])
+                    moves.append(self.resized(rest, background))
+        return moves
+
     def _split(self, hypothesis: Hypothesis, curve: Chosen) -> list[Hypothesis]:
         """A curve taken apart into two or three of the special cases that it contains, each as large as the curve."""
         rest = self.without(hypothesis, [curve.candidate])
@@ -271,7 +287,8 @@ class Search:
 
     def refined(self, hypothesis: Hypothesis) -> Hypothesis:
         """With the finer form of a curve in its place wherever the evidence is for it."""
-        fine = {p.key: n for n, p in enumerate(self.problem.pool.candidates) if p.fine}
+        candidates = enumerate(self.problem.pool.candidates)
+        fine = {p.key: n for n, p in candidates if p.fine and p.variant == "angle"}
         for number, c in enumerate(hypothesis.chosen):
             placed = self.placed(c.candidate)
             if placed.key in fine and placed.variant == "angle" and not placed.fine:
@@ -289,31 +306,6 @@ class Search:
             for family, size in zip(self.problem.pool.background, hypothesis.background, strict=True)
         )
 
-    def promoted(self, hypothesis: Hypothesis) -> Hypothesis:
-        """With the members of a background named that stand out by themselves.
-
-        In an arm that is a little wrong everywhere, the place that is so most deserves its name, although the
-        background explains it, too: its evidence is what is lost when it alone is held right.
-        """
-        named = {column for c in hypothesis.chosen for column in self.problem.pool.columns[c.candidate]}
-        within = [
-            (number, columns)
-            for family, size in zip(self.problem.pool.background, hypothesis.background, strict=True)
-            if size
-            for number, columns in enumerate(self.problem.pool.columns)
-            if set(columns) <= set(family) and not named & set(columns)
-        ]
-        if not within:
-            return hypothesis
-        lost = pinned_losses(self.problem, hypothesis, [columns for _, columns in within])
-        at = {int(column): n for n, column in enumerate(hypothesis.columns)}
-        added = []
-        for (number, columns), nats in zip(within, lost, strict=True):
-            rms = float(np.sqrt(np.sum(hypothesis.mean[[at[int(c)] for c in columns]] ** 2)))
-            if nats > STANDS_OUT_NATS and rms > STANDS_OUT * self.problem.mismatch:
-                added.append(Chosen(number, int(np.argmin(np.abs(np.log(self.problem.sizes / rms))))))
-        return weigh(self.problem, (*hypothesis.chosen, *added), hypothesis.background, hypothesis.noise)
-
     def worth(self, hypothesis: Hypothesis, candidate: int) -> float:
         """Log odds, nats, of an effect against nothing in its place; a background that holds it too goes with it."""
         if not self.held(hypothesis, candidate):
@@ -324,13 +316,16 @@ class Search:
         n = self.problem.n
         return n / 2 * float(np.log1p(2 * max(lost, 0.0) / n)) - float(self.problem.costs[candidate]) + SURE_NATS
 
+    def faintest(self, hypothesis: Hypothesis) -> Chosen | None:
+        """The chosen effect that is least worth its price, if one is not."""
+        worths = [(self.worth(hypothesis, c.candidate), n) for n, c in enumerate(hypothesis.chosen) if not c.within]
+        worth, weakest = min(worths, default=(np.inf, 0))
+        return hypothesis.chosen[weakest] if worth < SURE_NATS else None
+
     def paying(self, hypothesis: Hypothesis) -> Hypothesis:
         """Without the names that are not worth their price, the weakest first."""
-        while hypothesis.chosen:
-            worth, weakest = min((self.worth(hypothesis, c.candidate), c.candidate) for c in hypothesis.chosen)
-            if worth >= SURE_NATS:
-                break
-            hypothesis = self.without(hypothesis, [weakest])
+        while (weakest := self.faintest(hypothesis)) is not None:
+            hypothesis = self.without(hypothesis, [weakest.candidate])
         return hypothesis
 
     def placed(self, candidate: int) -> Placed:

@@ -15,6 +15,7 @@ from armscope.diagnosis.search import LARGE, Search
 from armscope.diagnosis.verdict import HeldOut, WaterfallStep
 from armscope.diagnosis.weights import RowWeights
 from armscope.physics.effect import Term
+from armscope.physics.freeform import REST_OF_LOAD
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 
@@ -223,17 +224,19 @@ def carry_over(problem: Problem, blocks: Sequence[Gram], split: Blocks, best: Hy
     if split.grouped_by != "run":
         return {}
     runs = [int(k) for k in np.unique(split.fold)]
+    # a line alone, without what is left of its curve: that could be another's line in each run
+    lines = tuple(c for c in best.chosen if problem.pool.candidates[c.candidate].variant != REST_OF_LOAD)
     alone = [
         weigh(
             problem.with_gram(total([blocks[int(k)] for k in np.flatnonzero(split.fold == run)])),
-            best.chosen,
+            lines,
             best.background,
             best.noise,
         )
         for run in runs
     ]
     said = {}
-    for c in best.chosen:
+    for c in lines:
         if problem.pool.candidates[c.candidate].reading != "plain":
             continue
         at = [np.searchsorted(h.columns, problem.pool.columns[c.candidate]) for h in alone]

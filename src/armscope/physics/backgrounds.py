@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from armscope.physics import elastic, geometric, transmission
 from armscope.physics.effect import Placed
 from armscope.recordings import Recordings
@@ -10,14 +12,16 @@ from armscope.robot import Arm
 FAMILIES = ("geometric", "elastic", "transmission")
 """Geometric errors are measured against the makers' tolerance, the others by what they do at the tool."""
 
+BEARINGS = 1 / 2
+"""A joint's bearing gives less than its drive: the gear's teeth or flexible spline are the softest part of it."""
+
 
 def backgrounds(arm: Arm, recordings: Recordings) -> dict[str, list[Placed]]:
     """By family: D-H constants of all links, give of all joints and bearings, two waves per turn of all gears."""
-    give = [
-        placed
-        for effect in (elastic.JOINT_COMPLIANCE, elastic.BEARING_COMPLIANCE)
-        for placed in effect.place(arm, recordings)
-        if placed.variant == ""
+    give = [placed for placed in elastic.JOINT_COMPLIANCE.place(arm, recordings) if placed.variant == ""]
+    give += [
+        replace(placed, shape=tuple(BEARINGS * size for size in placed.shape))
+        for placed in elastic.BEARING_COMPLIANCE.place(arm, recordings)
     ]
     return {
         "geometric": geometric.background(arm),

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Term, term
 from armscope.physics.placing import varies
 from armscope.recordings import Recordings
@@ -47,6 +49,17 @@ BASE_DRIFT = Effect(
 )
 
 
+def _place_tool_of_run(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    """A tool that stands elsewhere in a whole run than in the first one, where both measured the same target."""
+    runs = np.unique(recordings.run)
+    targets = {str(run): set(recordings.target[recordings.run == run].tolist()) for run in runs}
+    for run in targets:
+        others = set().union(*(seen for other, seen in targets.items() if other != run))
+        if run != str(runs[0]) and targets[run] & others:
+            terms = six_terms("tool", Driver("in run", (run,)), axes=AXES[:3])
+            yield Placed(TOOL_SHIFT, "tool", terms, (1.0,) * 3, f"run {run}", variant=f"run {run}")
+
+
 def base_shift(recordings: Recordings, row: int, tried: int) -> Placed:
     """The base jumps before a row (0-based) and stays so until the end of the row's run."""
     return _shift(BASE_SHIFT, "base", AXES, recordings, row, tried)
@@ -61,6 +74,7 @@ def _shift(
     effect: Effect, location: str, axes: tuple[str, ...], recordings: Recordings, row: int, tried: int
 ) -> Placed:
     run = str(recordings.run[row])
+    several = f", run {run}" if len(np.unique(recordings.run)) > 1 else ""
     scanned: tuple[str, str, float]
     if recordings.time is not None:
         start = float(recordings.time[row])
@@ -73,7 +87,7 @@ def _shift(
         location,
         six_terms(location, driver, axes=axes),
         (1.0,) * len(axes),
-        "time" if recordings.time is not None else "order of rows",
+        ("time" if recordings.time is not None else "order of rows") + several,
         scanned=(scanned,),
         tried=tried,
         variant=f"{run} {scanned[2]:g}",
@@ -100,8 +114,8 @@ BASE_SHIFT = Effect(
 TOOL_SHIFT = Effect(
     "tool_shift",
     "drift",
-    lambda arm, recordings: iter(()),  # its time is scanned by the diagnosis
-    "The tool or its reflector moved on the flange during the recording.",
+    _place_tool_of_run,  # within a run its time is scanned by the diagnosis
+    "The tool or its reflector moved on the flange during the recording or between runs.",
     "Look into the log for what happened at that time; measure the tool point again.",
     "Fasten the tool; calibrate the tool point again after each change.",
 )

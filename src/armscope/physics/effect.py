@@ -148,6 +148,7 @@ class Effect:
         cure: one sentence: how to cure it.
         needs: context columns without which it can't be seen.
         rests_on: family without which it does nothing: a payload's error shows through what gives way.
+        along: its one value is not negative: what gives way does so along its load.
     """
 
     name: str
@@ -158,6 +159,7 @@ class Effect:
     cure: str = field(compare=False)
     needs: tuple[str, ...] = ()
     rests_on: str = ""
+    along: bool = False
 
 
 CONTAINED = {
@@ -173,10 +175,11 @@ CONTAINED = {
 def clash(one: Placed, other: Placed) -> bool:
     """Whether two effects at one location can't stand side by side: two forms of one, or a curve and what it contains.
 
-    Several mesh lines or jumps can (their scanned numbers differ), and curves of different drivers.
+    Several mesh lines or jumps can (their scanned numbers or runs differ), and curves of different drivers.
     """
     if one.name == other.name:
-        return one.variant == other.variant if one.tried > 2 or one.reading == "curve" else True
+        several = one.tried > 2 or one.reading == "curve" or one.family == "drift"
+        return one.variant == other.variant if several else True
     for curve, special in ((one, other), (other, one)):
         if curve.reading == "curve" and special.name in CONTAINED.get(curve.variant, set()):
             return special.name != "backlash" or special.variant == curve.variant

@@ -27,6 +27,8 @@ ROWS_PER_WAVE, ROWS_PER_FINE_WAVE = 7, 20
 FEWEST_WAVES, MOST_WAVES, MOST_FINE_WAVES = 8, 20, 72
 ISOLATED = 0.1
 """A row this share of a joint's range away from all others tells nothing about what lies between."""
+REST_OF_LOAD = "rest of load"
+"""The variant of a curve of load beside the line that it mostly is."""
 SLACK = 1.25
 """The longest wave spans this many times the range that a joint covers, so that its ends are free; a turn at most."""
 
@@ -113,6 +115,8 @@ def _load(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
             terms = (*offsets.get(f"joint {j}", ()), *flanks.get(f"joint {j}", ()), linear, *bumps)
             trends = len(terms) - len(bumps)
             yield _curve(f"joint {j}", terms, [1.0] * len(bumps), f"load of joint {j}", "load", trends)
+            rest = _curve(f"joint {j}", bumps, [1.0] * len(bumps), f"load of joint {j}", REST_OF_LOAD)
+            yield replace(rest, fine=True)
 
 
 def _lost_motion(recordings: Recordings) -> Iterator[Placed]:

@@ -1,0 +1,92 @@
+"""Names out of backgrounds and lines out of curves: as specific as the evidence, and no price paid twice."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from armscope.diagnosis import Settings, diagnose
+from armscope.diagnosis.verdict import Verdict
+from armscope.physics.scene import Scene
+from armscope.recordings import Recordings, read_recordings
+from armscope.robot import Arm, chain, load_arm
+from armscope.robot.kinematics import joint_jacobian
+
+from .planted import planted
+
+QUICK = Settings(resamples=0, cross_validation=False)
+IIWA = Path(__file__).parents[3] / "shared" / "recordings" / "iiwa7-payload"
+DRIVES = {("joint_compliance", f"joint {j}") for j in (2, 3, 4)}
+
+
+def names(verdict: Verdict) -> set[tuple[str, str]]:
+    return {(effect.effect, effect.location) for effect in verdict.effects}
+
+
+def elastic_everywhere(seed: int) -> tuple[Arm, Recordings, dict[str, float]]:
+    """An arm all of whose drives give way, the outer ones more, and all of whose bearings tilt a third as much."""
+    rng = np.random.default_rng(seed)
+    drives = {f"joint {j}": 3e-7 * (1 + j / 2) * rng.uniform(0.7, 1.5) for j in range(1, 7)}
+    tilts = {f"joint {j}": 1e-7 * (1 + j / 2) * rng.uniform(0.7, 1.5) for j in range(1, 7)}
+    wanted = {("joint_compliance", joint): [give] for joint, give in drives.items()}
+    wanted |= {("bearing_compliance", joint): [give] for joint, give in tilts.items()}
+    return *planted("six-axis", wanted, 250, 0.05, seed), drives
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_drives_are_named_in_an_arm_that_is_elastic_everywhere(seed: int) -> None:
+    arm, table, true = elastic_everywhere(seed)
+    effects = diagnose(arm, table, QUICK).effects
+    found = {e.location: e.parameters[0] for e in effects if e.effect == "joint_compliance"}
+    assert {"joint 2", "joint 3"} <= set(found)
+    for location, compliance in found.items():
+        assert abs(compliance.value - true[location]) < 3 * compliance.stderr
+
+
+def test_nothing_gives_way_against_its_load() -> None:
+    arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [-4e-7]}, 120, 0.02, seed=5)
+    verdict = diagnose(arm, table, QUICK)
+    assert verdict.mismatch
+    for effect in verdict.effects:
+        if effect.family == "elastic" and len(effect.parameters) == 1:
+            assert effect.parameters[0].value > 0
+
+
+def bent_spring(beyond: float) -> tuple[Arm, Recordings]:
+    """A drive of joint 2 that gives way in proportion to its load, and more beyond half of the largest load."""
+    arm, table = planted("six-axis", {}, 250, 0.01, seed=4)
+    scene = Scene(arm, table)
+    load = scene.torques[:, 1]
+    turn = 4e-7 * (load + beyond * np.sign(load) * np.maximum(np.abs(load) - 0.5 * np.abs(load).max(), 0.0))
+    moved = joint_jacobian(chain(arm, table.motor_angles))[:, :, 1] * turn[:, None]
+    return arm, replace(table, positions=table.positions + moved)
+
+
+def test_a_spring_that_is_nearly_straight_is_called_a_compliance_and_its_rest_unknown() -> None:
+    verdict = diagnose(*bent_spring(0.5), QUICK)
+    assert names(verdict) == {("joint_compliance", "joint 2"), ("unknown", "joint 2")}
+    line, rest = sorted(verdict.effects, key=lambda effect: effect.effect)
+    assert 4e-7 < line.parameters[0].value < 6e-7
+    assert rest.rms_at_tool_mm < line.rms_at_tool_mm / 3
+    assert rest.driver == "load of joint 2"
+
+
+def test_a_spring_that_is_far_from_straight_is_no_compliance() -> None:
+    verdict = diagnose(*bent_spring(4.0), QUICK)
+    assert names(verdict) == {("unknown", "joint 2")}
+
+
+@pytest.mark.shared
+@pytest.mark.skipif(not IIWA.is_dir(), reason=f"no {IIWA}")
+def test_a_real_arm_that_gives_way_is_told_so_joint_by_joint() -> None:
+    arm = load_arm(IIWA / "robot.yaml")
+    table = read_recordings(IIWA / "recordings.csv.gz", arm.n_motors)
+    verdict = diagnose(arm, table.rows(table.run == "2016-11-18"), QUICK)
+    assert names(verdict) >= DRIVES
+    found = {e.location: e.parameters[0] for e in verdict.effects if e.effect == "joint_compliance"}
+    for location in ("joint 2", "joint 3", "joint 4"):
+        assert 2e-5 < found[location].value < 9e-5
+        assert found[location].stderr < 0.4 * found[location].value
