@@ -40,6 +40,13 @@ def test_a_curve_is_described_by_its_shape(words: str) -> None:
     assert said.startswith(words), said
 
 
+@pytest.mark.parametrize(("unit", "place"), [("rad", "29 deg"), ("N m", "0.5 N m"), ("", "0.5")])
+def test_a_shape_is_told_in_the_units_of_its_driver(unit: str, place: str) -> None:
+    at = np.linspace(0.0, 1.0, 321)
+    said = describe(at, np.clip(at - 0.5, 0, None), np.random.default_rng(1).uniform(0, 1, 200), (), unit)
+    assert said == f"only beyond {place}"
+
+
 def test_a_wave_is_described_by_its_period_and_noise_by_nothing() -> None:
     assert describe(AT, np.cos(7 * AT), AT, ((7, 1.0),)) == "a wave, 7 per turn"
     assert describe(AT, np.random.default_rng(2).normal(size=361), AT).startswith("a free curve")
@@ -138,6 +145,33 @@ def test_the_atlas_shows_where_and_by_what() -> None:
     assert atlas.share[cell] > 0.98
     assert np.nanmax(atlas.left) < 0.05
     assert np.nanmax(atlas.share[atlas.locations.index("joint 5")]) < 0.9
+
+
+@pytest.mark.parametrize(
+    ("robot", "effect", "place", "driver", "values"),
+    [
+        ("six-axis", "link_geometry", "link 2", "constant", [1e-3, -8e-4, 5e-4]),
+        ("seven-axis", "link_geometry", "link 4", "constant", [1e-3, -8e-4, 5e-4]),  # modified D-H rows
+        ("six-axis", "link_bending", "link 2", "gravity load", [3e-6]),
+        ("six-axis", "thermal_expansion", "link 2", "temperature", [3e-4]),
+        ("six-axis", "instrument_scale", "instrument", "constant", [4e-4]),
+    ],
+)
+def test_the_atlas_shows_links_and_what_is_no_joint(
+    robot: str, effect: str, place: str, driver: str, values: list[float]
+) -> None:
+    """What is planted there alone is explained there wholly, and no cell but its own explains all of it."""
+    arm, table = planted(robot, {(effect, place): values}, 150, 0.02, seed=9)
+    found = diagnose(arm, table, QUICK).atlas
+    assert found is not None
+    row, column = found.locations.index(place), found.drivers.index(driver)
+    own = found.share[row, found.directions.index("together"), column]
+    assert own > 0.97
+    assert np.nanmax(found.left) < 0.06
+    others = found.share.copy()
+    others[row] = np.nan
+    assert own > np.nanmax(others) - 0.03
+    assert set(found.locations) >= {f"link {j}" for j in range(1, arm.n_joints + 1)}
 
 
 def test_a_jump_of_the_base_is_found_with_its_row() -> None:

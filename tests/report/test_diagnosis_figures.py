@@ -118,8 +118,8 @@ def test_the_atlas_takes_the_best_direction_and_leaves_out_what_does_not_exist()
     ("effect", "location", "cell"),
     [
         ("joint_offset", "joint 3", ("joint 3", "constant")),
-        ("link_geometry", "link 2", ("joint 3", "constant")),
-        ("thermal_expansion", "link 6", ("joint 6", "temperature")),
+        ("link_geometry", "link 2", ("link 2", "constant")),
+        ("thermal_expansion", "link 6", ("link 6", "temperature")),
     ],
 )
 def test_named_effects_are_framed_where_the_atlas_shows_them(effect, location, cell):

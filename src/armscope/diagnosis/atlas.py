@@ -8,18 +8,29 @@ from scipy.linalg import cholesky, solve_triangular
 
 from armscope.diagnosis.extra import conditioned, explained, weigh_blocks
 from armscope.diagnosis.problem import Gram, Pool, accumulate
-from armscope.diagnosis.verdict import Atlas
+from armscope.diagnosis.verdict import TOGETHER, Atlas
 from armscope.diagnosis.weights import RowWeights
 from armscope.physics.effect import AXES, ONE, Direction, Driver, Term, motor, term
 from armscope.physics.elastic import has_load
 from armscope.physics.model import FittedModel
 from armscope.physics.placing import varies
+from armscope.physics.registry import EFFECTS
 from armscope.recordings import Recordings
 
 Array = NDArray[np.float64]
 
 ATLAS_ROWS = 4000
+DIRECTIONS = (*AXES, TOGETHER)
 Cell = tuple[int, int, int]
+WHOLE = {
+    "link_geometry": "constant",
+    "parallelogram_geometry": "constant",
+    "instrument_scale": "constant",
+    "link_bending": "gravity load",
+    "payload_error": "gravity load",
+    "thermal_expansion": "temperature",
+}
+"""Effects at links, linkage, instrument and payload: each is weighed as a whole, on the driver that it follows."""
 
 
 def atlas(pool: Pool, model: FittedModel, recordings: Recordings, weights: RowWeights) -> Atlas:
@@ -34,16 +45,17 @@ def atlas(pool: Pool, model: FittedModel, recordings: Recordings, weights: RowWe
     # columns and response must stand at one and the same point and on the same rows, or what the frames absorb does not
     # cancel
     fitted = accumulate(pool, model, table, w, np.zeros(len(rows), dtype=np.intp))[0]
-    locations = ("base", *(f"joint {j}" for j in range(1, model.arm.n_joints + 1)))
     drivers = _drivers(model, recordings)
     names = tuple(name for name, _ in drivers)
-    before = np.full((len(locations), len(AXES), len(names)), np.nan)
+    whole = _whole_effects(model, recordings, names)
+    locations = _locations(model, whole)
+    before = np.full((len(locations), len(DIRECTIONS), len(names)), np.nan)
     left = before.copy()
     total = _left_after(fitted, pool.frames)
-    for size in (1, 2):
-        cells = _cells(model, recordings, locations, drivers, size)
-        if not cells:
-            continue
+    found = _cells(model, recordings, locations, drivers)
+    found += [((locations.index(place), len(AXES), names.index(name)), terms) for place, name, terms in whole]
+    for size in sorted({len(terms) for _, terms in found}):
+        cells = [cell for cell in found if len(cell[1]) == size]
         for target, inside in ((before, pool.frames), (left, np.arange(len(pool.terms)))):
             sums = weigh_blocks([terms for _, terms in cells], pool, inside, model, table, w)
             G = fitted.G[np.ix_(inside, inside)]
@@ -53,7 +65,28 @@ def atlas(pool: Pool, model: FittedModel, recordings: Recordings, weights: RowWe
             gain = explained(*conditioned(sums, factor, half), np.einsum("mcc->mc", sums.own))
             for (at, _), value in zip(cells, gain, strict=True):
                 target[at] = value / max(total, 1e-30)
-    return Atlas(locations, AXES, names, np.clip(before, 0, 1), np.clip(left, 0, 1))
+    return Atlas(locations, DIRECTIONS, names, np.clip(before, 0, 1), np.clip(left, 0, 1))
+
+
+def _whole_effects(
+    model: FittedModel, recordings: Recordings, drivers: tuple[str, ...]
+) -> list[tuple[str, str, tuple[Term, ...]]]:
+    """(location, driver, terms) of the library's effects that act elsewhere than at a joint or the base."""
+    return [
+        (placed.location, WHOLE[effect.name], placed.terms)
+        for effect in EFFECTS
+        if WHOLE.get(effect.name) in drivers
+        for placed in effect.place(model.arm, recordings)
+    ]
+
+
+def _locations(model: FittedModel, whole: list[tuple[str, str, tuple[Term, ...]]]) -> tuple[str, ...]:
+    """From the base outwards, each link after the joint before it (modified D-H rows: before the joint behind it)."""
+    there = dict.fromkeys(location for location, _, _ in whole)
+    order = ["link", "joint"] if model.arm.is_modified_dh else ["joint", "link"]
+    along = ["base", *(f"{kind} {j}" for j in range(1, model.arm.n_joints + 1) for kind in order)]
+    along = [place for place in along if not place.startswith("link") or place in there]
+    return (*along, *(place for place in there if place not in along))
 
 
 def _left_after(gram: Gram, inside: NDArray[np.intp]) -> float:
@@ -84,15 +117,16 @@ def _cells(
     recordings: Recordings,
     locations: tuple[str, ...],
     drivers: list[tuple[str, str]],
-    size: int,
 ) -> list[tuple[Cell, tuple[Term, ...]]]:
-    """Cells with ``size`` columns: where they stand in the atlas, and their terms."""
+    """Cells of base and joints, direction by direction: where they stand in the atlas, and their terms."""
     cells = []
     for row, location in enumerate(locations):
+        if location != "base" and not location.startswith("joint"):
+            continue
         for column, axis in enumerate(AXES):
             for depth, (_, kind) in enumerate(drivers):
                 chosen = _driver(model, recordings, location, axis, kind)
-                if len(chosen) == size:
+                if chosen:
                     direction = _direction(model, location, axis)
                     terms = tuple(term(f"{n}", "", (direction, d)) for n, d in enumerate(chosen))
                     cells.append(((row, column, depth), terms))

@@ -131,11 +131,11 @@ def _limits(arm: Arm, recordings: Recordings) -> list[Notice]:
 
 def too_far(arm: Arm, recordings: Recordings, residuals: Array) -> Notice | None:
     """Why the arm's model can't be the recordings' at all, if so; ``residuals`` (N, 3) mm after the free frames."""
-    size = float(np.median(np.linalg.norm(residuals, axis=1))) * 1e-3 / np.sqrt(3)
-    if size < TOO_FAR * arm.reach:
+    size = float(np.median(np.linalg.norm(residuals, axis=1))) / np.sqrt(3)
+    if size < TOO_FAR * arm.reach * 1e3:
         return None
     points = forward_kinematics(arm, recordings.motor_angles)
-    start = f"After fitting base and tool the residual is still {size:.3g} m"
+    start = f"After fitting base and tool the residual is still {size:.0f} mm per axis"
     stretch = _spread(recordings.positions) / _spread(points)
     if not 0.5 < stretch < 2:
         text = (

@@ -59,7 +59,14 @@ def curve_of(placed: Placed, values: Array, covariance: Array, scene: Scene) -> 
     value, band = best[1], best[2]
     periods = _periods(placed, values) if source.kind == "angle" else ()
     return Curve(
-        placed.driver, UNITS[source.kind], at, value, band, best[3], periods, describe(at, value, recorded, periods)
+        placed.driver,
+        UNITS[source.kind],
+        at,
+        value,
+        band,
+        best[3],
+        periods,
+        describe(at, value, recorded, periods, UNITS[source.kind]),
     )
 
 
@@ -92,19 +99,22 @@ def _periods(placed: Placed, values: Array) -> tuple[tuple[float, float], ...]:
     return tuple((count, float(np.sqrt(power))) for count, power in strongest)
 
 
-def describe(at: Array, value: Array, recorded: Array, periods: tuple[tuple[float, float], ...] = ()) -> str:
-    """The simple shape that comes closest to a curve, weighted by where rows were recorded."""
+def describe(
+    at: Array, value: Array, recorded: Array, periods: tuple[tuple[float, float], ...] = (), unit: str = ""
+) -> str:
+    """The simple shape that comes closest to a curve over values in ``unit``, weighted by where rows were recorded."""
     density, _ = np.histogram(recorded, bins=np.append(at, at[-1] + 1e-9))
     weight = np.convolve(density, np.ones(9) / 9, mode="same") + 1e-6 * max(density.max(), 1)
     shapes: list[tuple[float, str]] = [(_explained(value, [at], weight), "a trend in proportion to its driver")]
     span = at[-1] - at[0]
     for cut in np.linspace(at[0] + 0.1 * span, at[-1] - 0.1 * span, 33):
-        shapes.append((_explained(value, [np.tanh((at - cut) / (0.03 * span))], weight), f"a step at {cut:.3g}"))
-        shapes.append((_explained(value, [np.clip(at - cut, 0, None)], weight), f"only beyond {cut:.3g}"))
-        shapes.append((_explained(value, [np.clip(cut - at, 0, None)], weight), f"only below {cut:.3g}"))
+        place = f"{np.degrees(cut):.0f} deg" if unit == "rad" else f"{cut:.3g} {unit}".rstrip()
+        shapes.append((_explained(value, [np.tanh((at - cut) / (0.03 * span))], weight), f"a step at {place}"))
+        shapes.append((_explained(value, [np.clip(at - cut, 0, None)], weight), f"only beyond {place}"))
+        shapes.append((_explained(value, [np.clip(cut - at, 0, None)], weight), f"only below {place}"))
         for width in (0.04, 0.08):
             bump = np.exp(-0.5 * ((at - cut) / (width * span)) ** 2)
-            shapes.append((_explained(value, [bump], weight), f"a local bump at {cut:.3g}"))
+            shapes.append((_explained(value, [bump], weight), f"a local bump at {place}"))
     for count, _ in periods[:3]:
         waves = [np.cos(count * at), np.sin(count * at)]
         shapes.append((_explained(value, waves, weight), f"a wave, {count:.3g} per turn"))

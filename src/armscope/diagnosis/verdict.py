@@ -17,6 +17,7 @@ from armscope.physics.model import FittedModel
 
 Array = NDArray[np.float64]
 Specific = Literal["effect", "region", "family"]
+TOGETHER = "together"
 Answer = Literal["nothing missing", "explained", "partly explained", "cannot tell"]
 INTERVAL = 1.959964
 """Half width of a 95 % interval in standard errors."""
@@ -166,7 +167,8 @@ class Atlas:
     """Share of the residual variance that each location x direction x driver explains.
 
     ``share`` is (locations, directions, drivers) on top of the free frames; ``left`` the same on top of the whole
-    fitted model, as a share of the same initial variance. NaN where a driver does not exist.
+    fitted model, as a share of the same initial variance. NaN where a driver does not exist. Base and joints have the
+    six directions of a twist; links, linkage, payload and instrument `TOGETHER`: what their effect moves, as a whole.
     """
 
     locations: tuple[str, ...]

@@ -139,7 +139,7 @@ def atlas_tables(
     there = tables[0].notna()
     rows, columns = there.index[there.any(axis=1)], there.columns[there.any(axis=0)]
     shares, left = (table.reindex(index=rows, columns=columns) for table in tables)
-    marked = [cell for effect in effects if (cell := _cell(effect, len(atlas.locations) - 1)) is not None]
+    marked = [cell for effect in effects if (cell := _cell(effect)) is not None]
     return shares, left, marked
 
 
@@ -153,24 +153,22 @@ ATLAS_DRIVERS = {
     "link_bending": "gravity load",
     "backlash": "side of approach",
     "servo_lag": "speed",
+    "parallelogram_geometry": "constant",
+    "instrument_scale": "constant",
+    "payload_error": "gravity load",
     "thermal_expansion": "temperature",
     "base_drift": "time",
 }
 WAVES = {1: "once per turn", 2: "twice per turn"}
 
 
-def _cell(effect: FoundEffect, n_joints: int) -> tuple[str, str] | None:
-    """Where in the atlas an effect shows: a link's error at the next joint, where its end is; None: nowhere."""
+def _cell(effect: FoundEffect) -> tuple[str, str] | None:
+    """Where in the atlas an effect shows; None: nowhere."""
     driver = ATLAS_DRIVERS.get(effect.effect)
     if effect.effect in ("gear_eccentricity", "axis_wobble"):
         count = next((p.value for p in effect.parameters if p.name == "per_turn"), 0)
         driver = WAVES.get(round(count))
-    if driver is None:
-        return None
-    kind, _, number = effect.location.partition(" ")
-    if kind == "link":
-        return f"joint {min(int(number) + 1, n_joints)}", driver
-    return effect.location, driver
+    return None if driver is None else (effect.location, driver)
 
 
 def curve_of(effect: FoundEffect, found: FoundCurve) -> Curve:

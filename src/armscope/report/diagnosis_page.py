@@ -21,7 +21,7 @@ from armscope.report.error_field import MOST_ROWS, ErrorField, turnable
 from armscope.report.headline import headline
 from armscope.report.page import render_page
 from armscope.report.reference_models import held_out_rms
-from armscope.report.wording import main_and_minor, millimetres, percent
+from armscope.report.wording import main_and_minor, millimetres, percent, rounded
 from armscope.robot import Arm
 
 MOST_SUSPECTS = 40
@@ -113,6 +113,8 @@ def _content(
         ],
         "background_share": percent(verdict.background.share),
         "steps": _steps(verdict, references),
+        "left_is_told": _left_is_told(verdict),
+        "notices": [notice for notice in verdict.notices if not _said(notice.text, headline(verdict))],
         "unexplained_rms": millimetres(verdict.unexplained.rms_mm),
         "suspects": _suspects(verdict.suspects),
         "suspects_left_out": max(0, len(verdict.suspects) - MOST_SUSPECTS),
@@ -180,12 +182,15 @@ def improvement(verdict: Verdict) -> str:
             "to keep some aside, or the test was switched off."
         )
     folds = f"{verdict.held_out.folds} parts" if verdict.held_out.folds else "parts"
-    by = f", split by {verdict.held_out.grouped_by}" if verdict.held_out.grouped_by else ""
-    start = f"On rows that took no part in search or fit (whole diagnosis repeated, {folds}{by}), the error "
+    by = f"; parts go by {verdict.held_out.grouped_by}" if verdict.held_out.grouped_by else ""
+    start = (
+        f"On rows that took no part in search or fit (the whole diagnosis was repeated with one of {folds} of the rows "
+        f"kept aside{by}), the error "
+    )
     if after < 0.98 * before:
         noise = f"; the noise is {millimetres(verdict.noise_mm)}" if math.isfinite(verdict.noise_mm) else ""
         spread, everything = verdict.held_out.spread, verdict.held_out.after_all_rows
-        apart = f" (± {millimetres(spread)} from part to part)" if math.isfinite(spread) else ""
+        apart = f" (± {rounded(spread)} mm from part to part)" if math.isfinite(spread) else ""
         shots = f" With the suspected bad shots it is {millimetres(everything)}." if everything > 1.05 * after else ""
         return f"{start}falls from {millimetres(before)} to {millimetres(after)} RMS per axis{apart}{noise}.{shots}"
     return f"{start}stays where it is: {millimetres(before)} before, {millimetres(after)} after."
@@ -198,6 +203,20 @@ def _steps(verdict: Verdict, references: Sequence[tuple[str, float]]) -> pd.Data
     return pd.DataFrame(rows, columns=names)
 
 
+def _left_is_told(verdict: Verdict) -> str:
+    """The anchor of the card that already shows what is left unexplained; empty where there is none."""
+    left = verdict.unexplained
+    for number, effect in enumerate(verdict.effects, start=1):
+        if left.present and effect.effect == "unknown" and effect.location == left.location:
+            return card(effect, number).anchor
+    return ""
+
+
+def _said(text: str, sentence: str) -> bool:
+    """Whether a notice only repeats the headline."""
+    return text.rstrip(".").lower() in sentence.lower()
+
+
 def _concerns(poses: NextPoses | None, effects: Sequence[FoundEffect]) -> bool:
     """Whether the two readings that could not be told apart are about one of these effects."""
     return poses is not None and any(
@@ -208,7 +227,7 @@ def _concerns(poses: NextPoses | None, effects: Sequence[FoundEffect]) -> bool:
 def _suspects(suspects: Sequence[SuspectRow]) -> pd.DataFrame:
     worst = sorted(suspects, key=lambda row: row.weight)[:MOST_SUSPECTS]
     table = pd.DataFrame(
-        [(row.id, row.run or "–", row.residual_mm, row.weight) for row in worst],
+        [(row.id, row.run or "–", row.residual_mm, f"{row.weight:.2f}") for row in worst],
         columns=["row (id)", "run", "left over (mm)", "weight kept (1 = full)"],
     )
     return table.drop(columns="run") if all(not row.run for row in worst) else table

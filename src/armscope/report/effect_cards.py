@@ -22,6 +22,8 @@ from armscope.report.wording import (
 MOST_PARAMETERS = 8
 CANCELS = 1.05
 UNKNOWN_MASSES = "compliance_times_moment"
+RELIABLE = 0.5
+"""An effect chosen in fewer of the resampled data sets than this is not to be relied on."""
 TOO_CLOSE_NATS = 3.0
 """Alternatives nearer than this can't be told apart (odds below 20 to 1)."""
 
@@ -43,7 +45,6 @@ class Card:
     title: str
     what: str
     location: str
-    family: str
     share: str
     share_width: float
     size: str
@@ -70,9 +71,8 @@ def card(effect: FoundEffect, number: int, figure: str = "") -> Card:
     return Card(
         anchor=f"effect-{number}-{re.sub('[^a-z0-9]+', '-', f'{effect.effect} {effect.location}'.lower())}",
         title=capitalised(title_of(effect)),
-        what=effect_in_words(effect.effect, effect.location),
+        what=what_kind(effect),
         location=effect.location,
-        family=effect.family,
         share=percent(effect.share),
         share_width=min(100.0, max(0.0, 100 * effect.share)),
         size=millimetres(effect.rms_at_tool_mm),
@@ -106,6 +106,15 @@ def title_of(effect: FoundEffect) -> str:
     if effect.effect == "unknown" and effect.named_as == "effect" and effect.curve is not None:
         return f"{effect.location}: unexplained curve that follows the {effect.driver}"
     return plain(effect.title) or effect_in_words(effect.effect, effect.location)
+
+
+def what_kind(effect: FoundEffect) -> str:
+    """What a title leaves open: the best single reading, and the kind of physics."""
+    family = "" if effect.family == "unknown" else f"{effect.family}"
+    if effect.effect == "unknown":
+        return family or "no known physics"
+    name = effect_in_words(effect.effect, effect.location)
+    return family if title_of(effect).replace(" at ", ", ") == name else f"{name} · {family}"
 
 
 def told_parameters(effect: FoundEffect) -> Sequence[Parameter]:
@@ -146,7 +155,13 @@ def chosen_how_often(inclusion: float | None) -> str:
     """How stable the choice is when rows are drawn anew."""
     if inclusion is None:
         return "not tested (resampling was switched off)"
-    return f"chosen in {100 * inclusion:.0f} % of the resampled data sets"
+    often = f"chosen in {100 * inclusion:.0f} % of the resampled data sets"
+    if inclusion >= RELIABLE:
+        return often
+    return (
+        f"{often}: in the others, other effects or the small errors everywhere took its place. Take it as one way to "
+        "say what happens, not as the cause"
+    )
 
 
 def how_specific(effect: FoundEffect) -> str:
