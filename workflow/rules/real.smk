@@ -57,6 +57,7 @@ rule protocol_real:
         reference=lambda wildcards: CONFIG.real[wildcards.set].reference,
     output:
         expand(f"{RESULTS}/real/{{{{set}}}}/{{table}}.csv", table=("protocol", "splits", "names", "transfer")),
+        f"{RESULTS}/real/{{set}}/protocol.png",
     params:
         folder=subpath(output[0], parent=True),
         splits=lambda wildcards: (

@@ -32,6 +32,8 @@ def protocol(
     from armscope.real.reference import load_reference
     from armscope.real.transfer import measure_transfers, transfer_table
     from armscope.recordings import read_recordings
+    from armscope.report.protocol_figure import draw_protocol
+    from armscope.report.style import save_figure
     from armscope.robot import load_arm
 
     arm, stated = load_arm(robot), load_reference(reference)
@@ -40,7 +42,9 @@ def protocol(
     splits = pd.concat([each.splits for each in found], ignore_index=True)
     write_table(output / "splits.csv", splits, digits=6)
     write_table(output / "names.csv", pd.concat([each.names for each in found], ignore_index=True), digits=6)
-    write_table(output / "protocol.csv", pd.concat([protocol_table(splits, run) for run in stated.runs]), digits=6)
+    beside = pd.concat([protocol_table(splits, run) for run in stated.runs], ignore_index=True)
+    write_table(output / "protocol.csv", beside, digits=6)
+    save_figure(draw_protocol([(arm.name, beside)]), output / "protocol.png")
     carried = measure_transfers(arm, table, stated.transfers, _tell)
     write_table(output / "transfer.csv", transfer_table(carried), digits=6)
 
@@ -137,12 +141,18 @@ def page(
     """Write what is wrong with each real arm, from results, with one figure each."""
     import shutil
 
+    import pandas as pd
+
     from armscope.real.settings import PageSettings
+    from armscope.report.protocol_figure import draw_protocol
     from armscope.report.real_arms import RealArm, write_real_arms
+    from armscope.report.style import save_figure
 
     chosen = parsed(PageSettings, settings)
     arms = [RealArm(a.name, a.title, Path(a.folder), Path(a.reference), (a.run, a.first_id)) for a in chosen.arms]
     figures = output.parent / "figures"
     for arm in arms:
         shutil.copy(arm.folder / "figures" / "arm.png", figures / f"real-{arm.name}.png")
+    tables = [(arm.title.partition(",")[0], pd.read_csv(arm.folder / "protocol.csv")) for arm in arms]
+    save_figure(draw_protocol(tables), figures / "real-protocol.png", formats=("png",))
     write_real_arms(output, arms, figures.name, None if chosen.proof is None else Path(chosen.proof))

@@ -58,11 +58,11 @@ def write_real_arms(path: Path, arms: Sequence[RealArm], figures: str, proof: Pa
         proof: folder of the tables of `armscope real score`; None leaves the concealment out.
     """
     sections = [_section(arm, figures) for arm in arms]
-    text = "\n\n".join([_head(arms), *sections, *([] if proof is None else [_concealment(proof, arms)])])
+    text = "\n\n".join([_head(arms, figures), *sections, *([] if proof is None else [_concealment(proof, arms)])])
     write_text(path, text + "\n")
 
 
-def _head(arms: Sequence[RealArm]) -> str:
+def _head(arms: Sequence[RealArm], figures: str) -> str:
     lines = [
         "# Real arms",
         "",
@@ -80,6 +80,10 @@ def _head(arms: Sequence[RealArm]) -> str:
             others = run.lowest
             verdict = "at or below" if ours["mean_mm"] <= others.mm else "**above**"
             lines.append(f"| {arm.title} | {run.name} | {_spread(ours)} | {others.mm:g} ({others.what}) | {verdict} |")
+    lines += [
+        "",
+        f"![Every run from the nominal arm to armscope, beside the figures of others]({figures}/real-protocol.png)",
+    ]
     return "\n".join(lines)
 
 
@@ -130,7 +134,7 @@ def _what_is_wrong(verdict: dict[str, Any]) -> str:
         share = 100 * verdict["background"]["share"]
         told.append(f"small errors allowed for everywhere in the arm ({share:.0f} %)")
     before = f"{verdict['fitted_rms_mm']['before']:.2g} mm per axis, base and tool fitted"
-    return f"What the nominal arm misses ({before}) is, the largest first: {'; '.join(told)}."
+    return f"What the nominal arm misses ({before}) is, the largest first (shares overlap): {'; '.join(told)}."
 
 
 def _how_well(table: pd.DataFrame, run: ReferenceRun) -> str:
