@@ -45,7 +45,7 @@ def write_real_proof_page(
         withheld=_withheld(tables["withheld"], titles),
         skipped=_titled(tables["skipped"], titles),
         wrong=_wrong(cases, titles),
-        failed=int((cases["failed"].fillna("") != "").sum()),
+        failed=int(cases["failed"].notna().sum()),
         definitions=_paragraphs(scoring.__doc__ or ""),
     )  # fmt: skip
 
