@@ -35,7 +35,7 @@ def draw_all(tables: Mapping[str, pd.DataFrame], titles: Mapping[str, str]) -> d
 def found(cases: pd.DataFrame) -> Figure:
     """How planted effects ended, by effect and by arm, at each size."""
     rows = max(cases["effect"].nunique(), cases["arm"].nunique()) * (cases["size"].nunique() + 1)
-    figure, panels = plt.subplots(1, 2, figsize=(9.6, 1.6 + 0.13 * rows))
+    figure, panels = plt.subplots(1, 2, figsize=(9.6, max(3.2, 1.6 + 0.13 * rows)))
     for axes, key in zip(panels, ("effect", "arm"), strict=True):
         _outcomes(axes, cases, key)
     handles = [Patch(color=colour, label=name) for name, colour in OUTCOME_COLOURS.items()]
@@ -70,7 +70,7 @@ def _outcomes(axes: Axes, cases: pd.DataFrame, key: str) -> None:
 def sizes(cases: pd.DataFrame) -> Figure:
     """Fitted over planted size of the effects found under their own name, by effect."""
     names = sorted(cases["effect"].unique())
-    figure, axes = plt.subplots(figsize=(7.2, 1.4 + 0.4 * len(names)))
+    figure, axes = plt.subplots(figsize=(7.2, max(2.4, 1.4 + 0.4 * len(names))))
     rows = cases[np.isfinite(cases["size_ratio"].astype(float))]
     axes.axvline(1, color=GREEN, lw=1)
     _dots(axes, rows, "size_ratio", "effect", names, RATIO_RANGE)
@@ -82,7 +82,7 @@ def sizes(cases: pd.DataFrame) -> Figure:
 def held_out(cases: pd.DataFrame) -> Figure:
     """Share of the planted squared error on unseen rows that the altered verdict's model takes away, by arm."""
     names = sorted(cases["arm"].unique())
-    figure, axes = plt.subplots(figsize=(7.2, 1.4 + 0.4 * len(names)))
+    figure, axes = plt.subplots(figsize=(7.2, max(2.4, 1.4 + 0.4 * len(names))))
     axes.axvline(1, color=GREEN, lw=1)
     axes.axvline(0, color=BLACK, lw=0.8)
     _dots(axes, cases, "recovered", "arm", names, RECOVERED_RANGE)
