@@ -64,7 +64,7 @@ def _outcomes(axes: Axes, cases: pd.DataFrame, key: str) -> None:
     axes.set_xticks([0, 0.5, 1], ["0", "50 %", "100 %"])
     axes.set_xlabel("share of the planted effects")
     axes.grid(axis="y", visible=False)
-    axes.text(1.02, 1.5, "size, cases", fontsize=7, color=GREY, va="center")
+    axes.set_ylim(-len(names) * (len(sizes) + 1) + 1.4, 0.6)
 
 
 def sizes(cases: pd.DataFrame) -> Figure:
