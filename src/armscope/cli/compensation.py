@@ -37,7 +37,7 @@ def compensate(
         Path | None, typer.Option(help="what model.yaml was diagnosed on; else domain.json beside it")
     ] = None,
     frame: Annotated[str, typer.Option(help="where the wanted points stand: base or measurement")] = "base",
-    pose: Annotated[bool, typer.Option(help="keep the orientation, too")] = False,
+    pose: Annotated[bool, typer.Option(help="correct the orientation, too")] = False,
     start_rad: Annotated[str | None, typer.Option(help="q1,q2,...: where the arm comes from (rad)")] = None,
     allowed_outside: Annotated[
         float, typer.Option(min=0, help="standard deviations that a command may leave the identified range")
@@ -102,8 +102,9 @@ def fit_error_model(
     register: Annotated[bool, typer.Option(help="fit measurement frame and tool offset with the nominal arm")] = False,
     products: Annotated[bool, typer.Option(help="choose among products of the inputs' terms, too")] = False,
     regions: Annotated[str, typer.Option(help="1, 2, 4, ... blended models, or auto: by cross-validation")] = "1",
+    orientation: Annotated[bool, typer.Option(help="fit measured orientations (qw, qx, qy, qz), too")] = True,
 ) -> None:
-    """Fit one of the paper's error models to recordings, ready for `armscope compensate`."""
+    """Fit one of the paper's error models to recordings, ready for `armscope compensate`: three axes, or all six."""
     from armscope.compensation import fit_error_model as fit
     from armscope.compensation import save_error_model
     from armscope.inputs import nearest
@@ -126,12 +127,14 @@ def fit_error_model(
     for name, wanted in (("run", run), ("target", target)):
         if wanted is not None:
             table = table.rows(getattr(table, name) == wanted)
-    fitted = fit(
-        arm, table, _spec(model), methods[method], seed, register, None if regions == "auto" else int(regions), products
-    )
+    count = None if regions == "auto" else int(regions)
+    fitted = fit(arm, table, _spec(model), methods[method], seed, register, count, products, orientation)
     save_error_model(output, fitted)
     left = ", ".join(f"{value:.4g}" for value in fitted.rms_mm)
     print(f"{fitted.name} by {fitted.method} on {len(table)} rows leaves ({left}) mm RMS along x, y, z")
+    if fitted.turning is not None:
+        turned = ", ".join(f"{value:.4g}" for value in fitted.turning.rms_mrad)
+        print(f"and ({turned}) mrad RMS about x, y, z of the base frame")
     if len(fitted.coefficients) > 1:
         print(f"{len(fitted.coefficients)} regions")
     print(output)
@@ -341,6 +344,10 @@ def _tell(result: Compensated) -> None:
         missed, left = (np.sqrt(np.mean(miss[reached] ** 2)) * 1e3 for miss in (result.uncorrected, result.residual))
         outside = result.outside[reached].max()
         print(f"{reached.sum()} of {count} rows: predicted miss {missed:.4g} mm RMS, with correction {left:.2g} mm")
+        if result.pose:
+            turns = (result.uncorrected_turn, result.residual_turn)
+            turned, left = (np.sqrt(np.mean(turn[reached] ** 2)) * 1e3 for turn in turns)
+            print(f"orientation: predicted error {turned:.4g} mrad RMS, with correction {left:.2g} mrad")
         print(f"up to {outside:.2g} standard deviations outside the identified range")
     for reason in np.unique(result.reasons[~reached])[:10]:
         rows = np.flatnonzero(result.reasons == reason) + 1

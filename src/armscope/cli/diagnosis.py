@@ -114,21 +114,63 @@ def _progress(title: str) -> Iterator[Callable[[str, float], None]]:
 
 @app.command()
 def predict(
-    model: Annotated[Path, typer.Argument(help="model.yaml, as `armscope diagnose` writes it")],
+    model: Annotated[Path, typer.Argument(help="model.yaml of `armscope diagnose`, or errormodel.json")],
     poses: Annotated[Path, typer.Argument(help="a table of motor angles and whatever context the model follows")],
     output: Annotated[Path, typer.Option("--output", "-o", help="table to write: id, run, x_mm, y_mm, z_mm")],
+    pose: Annotated[bool, typer.Option(help="orientations qw, qx, qy, qz, too")] = False,
 ) -> None:
-    """Predict where the arm's tool point will be, in the measurement frame."""
+    """Predict where the arm's tool point will be, in the measurement frame; with --pose how the tool is turned."""
     import pandas as pd
+    from scipy.spatial.transform import Rotation
 
     from armscope.files import write_table
-    from armscope.physics.model import load_model
+
+    points, rotations, rows = (_by_black_box if model.suffix == ".json" else _by_physics)(model, poses, pose)
+    table = pd.DataFrame({"id": rows.id, "run": rows.run})
+    table[["x_mm", "y_mm", "z_mm"]] = points * 1e3
+    if rotations is not None:
+        table[["qx", "qy", "qz", "qw"]] = Rotation.from_matrix(rotations).as_quat(canonical=True)
+        table = table[["id", "run", "x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz"]]
+    write_table(output, table)
+
+
+def _by_physics(
+    model: Path, poses: Path, pose: bool
+) -> tuple[NDArray[np.float64], NDArray[np.float64] | None, Recordings]:
+    """Points (N, 3), m, and orientations (N, 3, 3) in the measurement frame, and the rows they are of."""
+    from armscope.physics.model import load_model, predict_orientation
     from armscope.physics.model import predict as predicted_points
     from armscope.recordings import read_recordings
 
     fitted = load_model(model)
-    recordings = read_recordings(poses, fitted.arm.n_motors, measured=False)
-    points = pd.DataFrame(predicted_points(fitted, recordings) * 1e3, columns=["x_mm", "y_mm", "z_mm"])
-    write_table(output, pd.concat([pd.DataFrame({"id": recordings.id, "run": recordings.run}), points], axis=1))
-    for run in fitted.unknown_runs(recordings):
+    rows = read_recordings(poses, fitted.arm.n_motors, measured=False)
+    for run in fitted.unknown_runs(rows):
         print(f"run {run!r} is not in the model: its base is taken from run {list(fitted.bases)[-1]!r}")
+    return predicted_points(fitted, rows), predict_orientation(fitted, rows) if pose else None, rows
+
+
+def _by_black_box(
+    model: Path, poses: Path, pose: bool
+) -> tuple[NDArray[np.float64], NDArray[np.float64] | None, Recordings]:
+    """As `_by_physics` for a black-box model; poses outside the identified range are named."""
+    from armscope.compensation import load_error_model
+    from armscope.compensation.black_box import domain_inputs
+    from armscope.compensation.domain import ALLOWED
+    from armscope.inputs import InputError
+    from armscope.recordings import read_recordings
+
+    fitted = load_error_model(model)
+    rows = read_recordings(poses, fitted.arm.n_motors, measured=False)
+    if pose and fitted.turning is None:
+        raise InputError(
+            model,
+            "turning",
+            "nothing",
+            "the model was fitted to positions only",
+            "Fit it to recordings with qw ... qz.",
+        )
+    points, rotations = fitted.as_measured(rows.motor_angles)
+    outside = fitted.domain.outside(domain_inputs(fitted, rows.motor_angles))[0] > ALLOWED
+    if outside.any():
+        print(f"note: {outside.sum()} of {len(rows)} rows lie outside the identified range", file=sys.stderr)
+    return points, rotations if pose else None, rows

@@ -1,14 +1,10 @@
 """False targets: commands under which the real arm reaches the wanted points, by either kind of error model."""
 
-from armscope.compensation.black_box import (
-    ErrorModel,
-    error_model,
-    fit_error_model,
-    load_error_model,
-    save_error_model,
-)
+from armscope.compensation.black_box import ErrorModel, Turning, error_model
 from armscope.compensation.compensate import Options, compensate_black_box, compensate_physical
 from armscope.compensation.domain import Domain
+from armscope.compensation.error_model_file import load_error_model, save_error_model
+from armscope.compensation.fitting import fit_error_model
 from armscope.compensation.path import WantedPath, as_path, read_path
 from armscope.compensation.physical import Identified, identified_on, load_identified, save_identified
 from armscope.compensation.result import Compensated
@@ -19,6 +15,7 @@ __all__ = [
     "ErrorModel",
     "Identified",
     "Options",
+    "Turning",
     "WantedPath",
     "as_path",
     "compensate_black_box",

@@ -51,8 +51,8 @@ class Options:
 def compensate_black_box(model: ErrorModel, path: WantedPath, options: Options | None = None) -> Compensated:
     """Commands by a black-box error model.
 
-    Motors that stood still when the model was identified keep their angles. With ``pose`` the nominal orientation is
-    kept: such a model says nothing about the orientation's error.
+    Motors that stood still when the model was identified keep their angles. With ``pose`` the orientation is corrected,
+    too, if the model was fitted to orientations; otherwise it says nothing about them, and the nominal one is kept.
 
     Raises:
         InputError: a path of another arm, or options that the path can't serve.
@@ -73,7 +73,11 @@ def compensate_black_box(model: ErrorModel, path: WantedPath, options: Options |
         to_frame=lambda points: points @ rotation.T + translation,
         turn=np.tile(rotation, (len(path), 1, 1)),
     )
-    return task.run(np.full(len(path), "", dtype=object))
+    result = task.run(np.full(len(path), "", dtype=object))
+    if options.pose and model.turning is None:
+        note = "the model was fitted to positions only: orientations are kept as the nominal arm has them"
+        return replace(result, notes=(*result.notes, note))
+    return result
 
 
 def compensate_physical(
@@ -149,7 +153,7 @@ class _Task:
         nominal = self._nominal(wanted, held, refused)
         real, note = self.forward(nominal)
         free = np.array([motor + 1 not in held for motor in range(self.arm.n_motors)])
-        uncorrected = np.full(len(rows), np.nan)
+        uncorrected, uncorrected_turn, residual_turn = np.full((3, len(rows)), np.nan)
         commands, predicted = np.full_like(nominal, np.nan), np.full((len(rows), 3), np.nan)
         iterations = 0
         possible = np.isfinite(nominal.sum(axis=1)) & np.isfinite(wanted.points.sum(axis=1))
@@ -157,17 +161,20 @@ class _Task:
         if len(known):
             before = real.at(nominal[known], known)
             uncorrected[known] = np.linalg.norm(wanted.points[known] - before.points, axis=1)
+            uncorrected_turn[known] = np.linalg.norm(wanted.rows(known).turn(before), axis=1)
             solution = solve(real, wanted.rows(known), nominal[known], free, known)
             commands[known], iterations = solution.angles, solution.iterations
             moved = np.abs(solution.angles - nominal[known])
             at_start = weakest(wanted.rows(known), before, free, lever(real))
             pole = np.where(solution.converged, solution.singular, at_start) < POLE
             self._refuse_unsolved(refused, known, solution, moved, pole)
-            predicted[known] = real.at(commands[known], known).points
+            after = real.at(commands[known], known)
+            predicted[known] = after.points
+            residual_turn[known] = np.linalg.norm(wanted.rows(known).turn(after), axis=1)
         outside, nearest = self._refuse_outside(refused, commands)
         reasons = np.asarray(refused, dtype=str)
         residual = np.linalg.norm(wanted.points - predicted, axis=1)
-        for values in (commands, predicted, residual):
+        for values in (commands, predicted, residual, residual_turn):
             values[reasons != ""] = np.nan
         ok = np.flatnonzero(reasons == "")
         points, turns = np.full((len(rows), 3), np.nan), np.full((len(rows), 3, 3), np.nan)
@@ -187,6 +194,8 @@ class _Task:
             self.to_frame(predicted),
             residual,
             uncorrected,
+            residual_turn,
+            uncorrected_turn,
             outside,
             nearest,
             self.options.frame,

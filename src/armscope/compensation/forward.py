@@ -7,6 +7,7 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from armscope.compensation.black_box import ErrorModel
 from armscope.physics.model import FittedModel
@@ -58,7 +59,7 @@ class NominalArm:
 
 @dataclass(frozen=True, eq=False)
 class BlackBoxArm:
-    """The nominal arm plus a fitted error of the tool point; orientations are nominal (such a model says nothing)."""
+    """The nominal arm plus a fitted error of the tool point and, where it was measured, of the orientation."""
 
     model: ErrorModel
 
@@ -68,15 +69,16 @@ class BlackBoxArm:
         return self.model.arm
 
     def at(self, angles: Array, rows: Rows) -> Stand:
-        """See `Forward`; the Jacobian is exact."""
+        """See `Forward`; the Jacobian is exact, but for half the product of the orientation's error and its slope."""
         frames = chain(self.arm, angles)
         error, slope = self.model.error_and_slope(angles, frames.tool)
+        turn, turn_slope = self.model.turn_and_slope(angles, frames.tool)
         jacobian = frame_jacobian(self.arm, frames)
-        if self.model.space == "cartesian":
-            jacobian[:, :3] += slope @ jacobian[:, :3]
-        else:
-            jacobian[:, :3] += slope
-        return Stand(frames.tool + error, frames.tool_rotation, jacobian)
+        slopes = np.concatenate([slope, turn_slope], axis=1)
+        added = slopes @ jacobian[:, :3] if self.model.space == "cartesian" else slopes
+        turned = Rotation.from_rotvec(turn).as_matrix()
+        jacobian[:, 3:] = turned @ jacobian[:, 3:]
+        return Stand(frames.tool + error, turned @ frames.tool_rotation, jacobian + added)
 
 
 @dataclass(frozen=True, eq=False)

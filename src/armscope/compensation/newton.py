@@ -48,8 +48,14 @@ class Wanted:
         gap = self.points - stand.points
         if self.rotations is None:
             return gap
-        turn = Rotation.from_matrix(self.rotations @ np.swapaxes(stand.rotations, 1, 2)).as_rotvec()
-        return np.concatenate([gap, lever * turn], axis=1)
+        return np.concatenate([gap, lever * self.turn(stand)], axis=1)
+
+    def turn(self, stand: Stand) -> Array:
+        """(N, 3) the rotation vector that is missing, rad, base axes; NaN where the orientation is free."""
+        if self.rotations is None:
+            return np.full((len(self.points), 3), np.nan)
+        turn: Array = Rotation.from_matrix(self.rotations @ np.swapaxes(stand.rotations, 1, 2)).as_rotvec()
+        return turn
 
     def jacobian(self, stand: Stand, lever: float) -> Array:
         """(N, 3 or 6, m) how the gap closes by unit turns of the motors, m/rad."""

@@ -31,6 +31,7 @@ class Compensated:
         wanted, predicted: (N, 3) m, in ``frame``.
         residual: (N,) distance of the predicted from the wanted point, m.
         uncorrected: (N,) the same without correction, m.
+        residual_turn, uncorrected_turn: (N,) the same for the orientation, rad; NaN where it is free.
         outside, nearest: (N,) distance of the commands from the identified range, and from the nearest identification
             row (root mean square over the inputs), in standard deviations.
         frame: of wanted and predicted points.
@@ -51,6 +52,8 @@ class Compensated:
     predicted: Array
     residual: Array
     uncorrected: Array
+    residual_turn: Array
+    uncorrected_turn: Array
     outside: Array
     nearest: Array
     frame: Frame
@@ -83,6 +86,9 @@ class Compensated:
                     table[f"command_q{name}"] = quaternions[:, n]
         table["uncorrected_mm"] = self.uncorrected * 1e3
         table["residual_mm"] = self.residual * 1e3
+        if self.pose:
+            table["uncorrected_mrad"] = self.uncorrected_turn * 1e3
+            table["residual_mrad"] = self.residual_turn * 1e3
         table["outside_sd"] = self.outside
         table["nearest_sd"] = self.nearest
         return table

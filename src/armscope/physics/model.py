@@ -96,6 +96,19 @@ def predict(model: FittedModel, recordings: Recordings) -> Array:
     return model.to_measurement(model.posture(model.scene(recordings)).tool, recordings.run)
 
 
+def predict_orientation(model: FittedModel, recordings: Recordings) -> Array:
+    """Orientations (N, 3, 3) of the arm's last frame in the measurement frame, with all effects in place.
+
+    A tool frame that is turned against the last frame is not part of the model: positions do not show it.
+    """
+    rotations = model.posture(model.scene(recordings)).frames.tool_rotation
+    turned = np.empty_like(rotations)
+    for run in np.unique(recordings.run):
+        rows = recordings.run == run
+        turned[rows] = model.base_of(str(run)).rotation @ rotations[rows]
+    return turned
+
+
 def save_model(path: Path | str, model: FittedModel, extra: Mapping[str, Any] | None = None) -> None:
     """Write model.yaml; the robot's description is part of it (a URDF by its path)."""
     write_yaml(

@@ -1,0 +1,248 @@
+"""Fitting a black-box model to recordings: frames where asked, then the errors of position and orientation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from armscope.compensation.black_box import ErrorModel, Turning, domain_of
+from armscope.errormodels import FeatureSet, FitProblem, ModelSpec, fit_least_squares, fit_swarms
+from armscope.errormodels.products import ProductFeatures, fit_products
+from armscope.errormodels.regions import (
+    Cut,
+    blended,
+    chosen_regions,
+    compare_regions,
+    divide,
+    fit_regions,
+    halvings_of,
+)
+from armscope.inputs import InputError
+from armscope.physics.model import Base
+from armscope.recordings import Recordings
+from armscope.robot import Arm, chain
+from armscope.robot.arm import build_arm
+
+Array = NDArray[np.float64]
+
+LARGEST_PLAIN_ERROR_MM = 50.0
+"""Errors beyond this are no positioning errors: the measurements stand in another frame than the arm's base."""
+LARGEST_PLAIN_TURN_RAD = 0.1
+"""Turns beyond this are no errors of the orientation: the measured tool frame is not the arm's last frame."""
+
+
+def fit_error_model(
+    arm: Arm,
+    recordings: Recordings,
+    spec: ModelSpec,
+    method: str = "least squares",
+    seed: int = 0,
+    register: bool = False,
+    regions: int | None = 1,
+    products: bool = False,
+    orientation: bool = True,
+) -> ErrorModel:
+    """Fit one of the paper's models to recordings: of the position, and of the orientation where that was measured.
+
+    Args:
+        arm: the nominal arm.
+        recordings: measured points.
+        spec: which model.
+        method: "least squares" or "swarm".
+        seed: of the swarm.
+        register: fit the measurement frame and the tool (offset and turn) with the nominal arm first; without, the
+            measurements must stand in the arm's base frame, as in the paper, and the model holds the frames' errors.
+        regions: 1, 2, 4, ... models blended across the workspace, by least squares; None lets cross-validation choose
+            by the positions.
+        products: choose sparsely among products of the inputs' terms, by least squares, in one region.
+        orientation: whether measured orientations are fitted.
+
+    Raises:
+        InputError: too few rows; several runs or targets; measurements that stand in another frame.
+    """
+    _check_one_setup(recordings)
+    how = _How(spec, method, seed, regions, products)
+    _check_rows(how, arm, recordings)
+    base = Base(np.eye(3), np.zeros(3))
+    if register:
+        arm, base = register_frames(arm, recordings)
+    frames = chain(arm, recordings.motor_angles)
+    errors = ((recordings.positions - base.translation) @ base.rotation - frames.tool) * 1e3
+    rms = float(np.sqrt(np.mean(errors**2)))
+    if not register and rms > LARGEST_PLAIN_ERROR_MM:
+        raise InputError(
+            recordings.source,
+            "x_mm, y_mm, z_mm",
+            f"{rms:.0f} mm RMS from the nominal arm",
+            f"errors are differences in the arm's base frame, below {LARGEST_PLAIN_ERROR_MM:.0f} mm",
+            "Use --register to fit the measurement frame and the tool offset first.",
+        )
+    inputs = _inputs(arm, spec, recordings.motor_angles)
+    try:
+        cut = how.cut(inputs, errors)
+        fitted = how.fit(inputs, errors, cut, arm.name)
+    except ValueError as error:
+        raise InputError(recordings.source, "regions", regions, str(error), "Use fewer regions.") from error
+    domain = domain_of(arm, spec, recordings.motor_angles)
+    turning = _turning(how, cut, arm, recordings, base, register) if orientation else None
+    return ErrorModel(arm, fitted.features, fitted.coefficients, method, fitted.rms, base, domain, cut, turning)
+
+
+@dataclass(frozen=True, eq=False)
+class _Fitted:
+    """Terms fitted to three axes: coefficients (regions, 3, n), residual RMS (3,)."""
+
+    features: FeatureSet | ProductFeatures
+    coefficients: Array
+    rms: Array
+
+
+@dataclass(frozen=True)
+class _How:
+    """How three axes are fitted; see `fit_error_model`."""
+
+    spec: ModelSpec
+    method: str
+    seed: int
+    regions: int | None
+    products: bool
+
+    def cut(self, inputs: Array, errors: Array) -> Cut | None:
+        """The borders of the regions; their number by cross-validation where that was left open."""
+        count = self.regions
+        if count is None:
+            compared = compare_regions(self.spec, inputs, errors, np.random.default_rng(self.seed))
+            count = chosen_regions(compared)
+        return divide(inputs, halvings_of(count))
+
+    def fit(self, inputs: Array, errors: Array, cut: Cut | None, label: str) -> _Fitted:
+        """Fit errors (M, 3) within the borders of the regions.
+
+        Raises:
+            ValueError: a region with too few rows.
+        """
+        features = self.spec.features(inputs)
+        if self.method == "swarm":
+            fit = fit_swarms([FitProblem(self.spec, inputs, errors, label)], [self.seed])[0]
+            return _Fitted(fit.features, fit.coefficients, fit.fitness_mm[0])
+        if self.products:
+            chosen, coefficients, _ = fit_products(self.spec, inputs, errors, np.random.default_rng(self.seed))
+            return _Fitted(chosen, coefficients[None], _rms(errors - chosen.matrix(inputs) @ coefficients.T))
+        if cut is None:
+            coefficients, rms = fit_least_squares(features, inputs, errors)
+            return _Fitted(features, coefficients[None], rms)
+        by_region = fit_regions(features, cut, inputs, errors)
+        return _Fitted(features, by_region, _rms(errors - blended(features, cut, by_region, inputs)))
+
+
+def _rms(left: Array) -> Array:
+    """(3,) over the rows."""
+    return np.asarray(np.sqrt(np.mean(left**2, axis=0)), dtype=float)
+
+
+def _turning(
+    how: _How, cut: Cut | None, arm: Arm, recordings: Recordings, base: Base, register: bool
+) -> Turning | None:
+    """The same terms fitted to the orientation's errors; None where none were measured."""
+    if recordings.orientation is None:
+        return None
+    known = np.asarray(np.isfinite(recordings.orientation).all(axis=1))
+    rows = recordings.rows(known)
+    if not len(rows):
+        return None
+    _check_rows(how, arm, rows, "rows with an orientation")
+    turns, tool = turning_errors(arm, rows, base, register)
+    fitted = how.fit(_inputs(arm, how.spec, rows.motor_angles), turns * 1e3, cut, arm.name)
+    return Turning(fitted.features, fitted.coefficients, fitted.rms, tool)
+
+
+def turning_errors(arm: Arm, rows: Recordings, base: Base, register: bool) -> tuple[Array, Array]:
+    """Rotation vectors r (N, 3), rad: measured = exp(r) * nominal in base axes; and the tool frame from the last frame.
+
+    With ``register`` the tool frame's constant turn is the mean of what is measured behind the nominal last frame;
+    without, the two frames are the same.
+
+    Raises:
+        InputError: orientations of another frame.
+    """
+    assert rows.orientation is not None
+    measured = Rotation.from_quat(rows.orientation[:, [1, 2, 3, 0]]).as_matrix()
+    nominal = chain(arm, rows.motor_angles).tool_rotation
+    in_base = base.rotation.T @ measured
+    tool = np.eye(3)
+    if register:
+        tool = Rotation.from_matrix(np.swapaxes(nominal, 1, 2) @ in_base).mean().as_matrix()
+    turns = Rotation.from_matrix(in_base @ tool.T @ np.swapaxes(nominal, 1, 2)).as_rotvec()
+    rms = float(np.sqrt(np.mean(np.sum(turns**2, axis=1))))
+    if rms > LARGEST_PLAIN_TURN_RAD:
+        raise InputError(
+            rows.source,
+            "qw, qx, qy, qz",
+            f"{np.degrees(rms):.0f} degrees RMS from the nominal arm",
+            f"errors of the orientation are below {np.degrees(LARGEST_PLAIN_TURN_RAD):.0f} degrees",
+            "Is it the order wxyz, measurement frame from tool frame? "
+            + ("--no-orientation leaves them out." if register else "--register fits the tool's own turn."),
+        )
+    return turns, np.asarray(tool, dtype=float)
+
+
+def register_frames(arm: Arm, recordings: Recordings) -> tuple[Arm, Base]:
+    """The measurement frame and the tool offset that suit the nominal arm best (least squares, 9 numbers).
+
+    Returns:
+        The arm with that tool offset, and measurement frame from base frame.
+    """
+    frames = chain(arm, recordings.motor_angles)
+    last = frames.tool - frames.tool_rotation @ arm.tool
+    tool, measured = arm.tool.copy(), recordings.positions
+    rotation = _aligned(measured, frames.tool)
+    translation = np.zeros(3)
+    for _ in range(100):
+        points = last + frames.tool_rotation @ tool
+        turned = points @ rotation.T
+        turning = np.swapaxes(np.cross(np.eye(3)[None], turned[:, None, :]), 1, 2)
+        shifting = np.broadcast_to(np.eye(3), turning.shape)
+        columns = np.concatenate([turning, shifting, rotation @ frames.tool_rotation], axis=2)
+        gap = measured - turned - translation
+        step = np.linalg.lstsq(columns.reshape(-1, 9), gap.reshape(-1), rcond=1e-10)[0]
+        rotation = Rotation.from_rotvec(step[:3]).as_matrix() @ rotation
+        translation, tool = translation + step[3:6], tool + step[6:]
+        if np.abs(step).max() < 1e-12:
+            break
+    description = arm.description.model_copy(update={"tool_mm": tuple(float(value) for value in tool * 1e3)})
+    return build_arm(description), Base(rotation, translation)
+
+
+def _inputs(arm: Arm, spec: ModelSpec, angles: Array) -> Array:
+    return chain(arm, angles).tool * 1e3 if spec.space == "cartesian" else angles
+
+
+def _check_rows(how: _How, arm: Arm, recordings: Recordings, what: str = "rows") -> None:
+    count = how.spec.features(_inputs(arm, how.spec, recordings.motor_angles)).coefficients_per_axis
+    if len(recordings) <= count:
+        raise InputError(
+            recordings.source, "", f"{len(recordings)} {what}", f"{how.spec.name} has {count} terms: more are needed"
+        )
+
+
+def _check_one_setup(recordings: Recordings) -> None:
+    for column, values in (("run", recordings.run), ("target", recordings.target)):
+        known = np.unique(values)
+        if len(known) > 1:
+            raise InputError(
+                recordings.source,
+                f"column {column}",
+                ", ".join(map(str, known[:5])),
+                f"a black-box model is fitted to one {column}: it has one set of frames",
+                f"Choose one with --{column}.",
+            )
+
+
+def _aligned(measured: Array, points: Array) -> Array:
+    """The rotation that turns points into measured ones best, both about their middle."""
+    turn, _ = Rotation.align_vectors(measured - measured.mean(axis=0), points - points.mean(axis=0))
+    matrix: Array = turn.as_matrix()
+    return matrix
