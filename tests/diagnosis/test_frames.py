@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
+import pytest
 
 from armscope.diagnosis import Settings, diagnose
 from armscope.diagnosis.frames import fit_frames
 from armscope.diagnosis.problem import residuals
-from armscope.recordings import Recordings
-from armscope.robot import Arm, chain
+from armscope.recordings import Recordings, read_recordings
+from armscope.robot import Arm, chain, load_arm
 
 from ..physics.scenes import arm_named, full_table
 from .planted import joined, one_run, recorded
 
 QUICK = Settings(resamples=0, cross_validation=False)
+SHARED = Path(__file__).parents[3] / "shared" / "recordings"
+MA1400, IRB120 = SHARED / "ma1400-leica", SHARED / "irb120-offsets"
 
 
 def test_a_base_metres_away_is_found_from_nothing() -> None:
@@ -76,3 +80,33 @@ def test_points_with_names_of_their_own_are_no_shift() -> None:
     arm, table = two_runs([0.0, 0.3, -0.2])
     table = replace(table, target=np.where(table.run == "2", "p2", "p1"))
     assert {effect.effect for effect in diagnose(arm, table, QUICK).effects} == {"joint_compliance"}
+
+
+@pytest.mark.shared
+@pytest.mark.skipif(not MA1400.is_dir(), reason=f"no {MA1400}")
+def test_a_real_set_up_that_changed_twice_is_found_with_its_rows_and_its_bad_shots() -> None:
+    """README: one tool up to id 85, a smaller change at id 164 to 172; the first 14 poses are worst, one by 17 mm."""
+    arm = load_arm(MA1400 / "robot.yaml")
+    table = read_recordings(MA1400 / "recordings.csv.gz", arm.n_motors)
+    verdict = diagnose(arm, table.rows(table.run == "leica_random"), QUICK)
+    rows = {e.effect: {p.name: p for p in e.parameters}["row"] for e in verdict.effects if e.effect[-5:] == "shift"}
+    assert abs(rows["tool_shift"].value - 86) < 1
+    assert 164 <= rows["base_shift"].value <= 172
+    assert all(0 < row.stderr < 5 for row in rows.values())
+    worst = verdict.suspects[0]
+    assert (worst.id, worst.residual_mm > 10) == ("13", True)
+    assert {suspect.id for suspect in verdict.suspects} <= {str(number) for number in range(1, 15)}
+    assert all(effect.evidence_nats >= 3 for effect in verdict.effects)
+    assert all(a.evidence_gap_nats >= 0 for effect in verdict.effects for a in effect.alternatives)
+
+
+@pytest.mark.shared
+@pytest.mark.skipif(not IRB120.is_dir(), reason=f"no {IRB120}")
+def test_a_real_tool_point_that_is_another_one_is_found_where_nobody_says_so() -> None:
+    """README: point p1b of run test2 lies 1.22 mm from p1; here it is called p1, too."""
+    arm = load_arm(IRB120 / "robot.yaml")
+    table = read_recordings(IRB120 / "recordings.csv.gz", arm.n_motors)
+    verdict = diagnose(arm, replace(table, target=np.where(table.target == "p1b", "p1", table.target)), QUICK)
+    (shift,) = (effect for effect in verdict.effects if effect.effect == "tool_shift")
+    assert shift.driver == "run test2"
+    assert np.linalg.norm([p.value for p in shift.parameters]) == pytest.approx(1.22, abs=0.06)

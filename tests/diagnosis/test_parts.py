@@ -180,8 +180,23 @@ def test_a_jump_of_the_base_is_found_with_its_row() -> None:
     table.positions[70:] += [3e-4, -2e-4, 1e-4]
     (found,) = diagnose(arm, table, QUICK).effects
     assert (found.effect, found.location) == ("base_shift", "base")
-    rows = {p.name: p.value for p in found.parameters}
-    assert rows["row"] == pytest.approx(71, abs=2)
+    row = {p.name: p for p in found.parameters}["row"]
+    assert row.value == pytest.approx(71, abs=2)
+    assert abs(row.value - 71) <= 3 * row.stderr
+    assert 0.2 < row.stderr < 3
+
+
+def test_a_faint_jump_has_a_wide_interval() -> None:
+    arm, table = planted("six-axis", {}, 120, 0.02, seed=14)
+    spreads = []
+    for size in (1.0, 0.08):
+        moved = table.positions.copy()
+        moved[70:] += size * np.array([3e-4, -2e-4, 1e-4])
+        (found,) = diagnose(arm, replace(table, time=None, positions=moved), QUICK).effects
+        row = {p.name: p for p in found.parameters}["row"]
+        assert abs(row.value - 71) < 3 * row.stderr + 1
+        spreads.append(row.stderr)
+    assert spreads[1] > 2 * spreads[0]
 
 
 def test_a_long_table_is_sampled_and_then_weighed_whole(monkeypatch: pytest.MonkeyPatch) -> None:

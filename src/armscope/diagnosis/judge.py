@@ -20,6 +20,7 @@ from armscope.diagnosis.parameters import parameters
 from armscope.diagnosis.presence import Presence, presence
 from armscope.diagnosis.problem import Gram, accumulate, contribution
 from armscope.diagnosis.refit import Refit
+from armscope.diagnosis.scan import when_stderr
 from armscope.diagnosis.scatter import Scattered, levers
 from armscope.diagnosis.search import Search
 from armscope.diagnosis.validation import Blocks, Rows, carry_over, cross_validate
@@ -189,7 +190,7 @@ def _found(
         named_as=named_as,
         title=title,
         minor=False,
-        parameters=parameters(placed, part.values, covariance),
+        parameters=_with_moment(evidence, search, chosen, placed, parameters(placed, part.values, covariance)),
         rms_at_tool_mm=rms,
         share=share,
         evidence_nats=float(_worth(evidence, search, chosen)),
@@ -210,6 +211,17 @@ def _rest_of_a_curve(scatter: FoundEffect, named: Sequence[FoundEffect]) -> bool
         and effect.rms_at_tool_mm > REST_OF_A_CURVE * scatter.rms_at_tool_mm
         for effect in named
     )
+
+
+def _with_moment(
+    evidence: Evidence, search: Search, chosen: Chosen, placed: Placed, told: tuple[Parameter, ...]
+) -> tuple[Parameter, ...]:
+    """Parameters with the standard error of a jump's moment."""
+    if placed.family != "drift" or not placed.scanned:
+        return told
+    without = search.without(evidence.best, [chosen.candidate])
+    stderr = when_stderr(placed, evidence.problem, without, evidence.point, evidence.recordings, evidence.fit.weights)
+    return (*told[:-1], replace(told[-1], stderr=stderr))
 
 
 def _worth(evidence: Evidence, search: Search, chosen: Chosen) -> float:

@@ -11,7 +11,7 @@ from armscope.diagnosis.evidence import Hypothesis, Problem
 from armscope.diagnosis.extra import Blocks, conditioned, weigh_blocks
 from armscope.diagnosis.problem import chunks, columns, pool_values
 from armscope.diagnosis.weights import RowWeights
-from armscope.physics.drift import base_shift, tool_shift
+from armscope.physics.drift import BASE_SHIFT, base_shift, row_number, tool_shift
 from armscope.physics.effect import Placed
 from armscope.physics.model import FittedModel
 from armscope.physics.placing import moving_joints
@@ -26,7 +26,7 @@ LINES_KEPT = 2
 """Mesh counts per joint that go on to compete."""
 SHORTEST_PIECE = 8
 """Rows on either side of a jump."""
-MOST_TIMES = 240
+MOST_TIMES = 600
 WORTH_A_LOOK = 8.0
 """Nats that a scanned number must promise before its price to go on to compete."""
 
@@ -104,6 +104,38 @@ def jumps(
         for found in best:
             if found is not None and found[0] > WORTH_A_LOOK + np.log(tried):
                 yield found[1]
+
+
+def when_stderr(
+    placed: Placed,
+    problem: Problem,
+    without: Hypothesis,
+    model: FittedModel,
+    recordings: Recordings,
+    weights: RowWeights,
+) -> float:
+    """Standard error of a jump's row, or time (s): its spread over all moments, each as likely as its evidence says.
+
+    Args:
+        placed: a shift of base or tool within a run.
+        without: the hypothesis without it.
+    """
+    build, run = (base_shift if placed.effect is BASE_SHIFT else tool_shift), placed.terms[0].products[0].driver
+    for rows, cuts in _pieces(recordings):
+        if str(recordings.run[rows[0]]) != run.arguments[1]:
+            continue
+        sums = _step_sums(problem, without.columns, model, recordings, weights, rows, cuts, build)
+        before = np.einsum("mcc->mc", sums.own)
+        gain = _gain(problem, without, *conditioned(sums, *_in_si(problem, without)), before)
+        likely = np.exp(gain - gain.max())
+        at = rows[cuts]
+        moment = recordings.time[at] if recordings.time is not None else [row_number(recordings, int(r)) for r in at]
+        moments = np.asarray(moment, dtype=np.float64)
+        mean = float(np.average(moments, weights=likely))
+        spacing = float(np.median(np.diff(moments))) if len(moments) > 1 else 0.0
+        # between two rows it may have been at any moment
+        return float(np.sqrt(np.average((moments - mean) ** 2, weights=likely) + spacing**2 / 12))
+    return 0.0
 
 
 def _pieces(recordings: Recordings) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
