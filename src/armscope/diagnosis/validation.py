@@ -11,7 +11,7 @@ from scipy.stats import chi2
 
 from armscope.diagnosis.evidence import PERFECT, Chosen, Hypothesis, Problem, weigh
 from armscope.diagnosis.problem import COUNTS, Gram, Pool, chunks, columns, pool_values, total
-from armscope.diagnosis.search import LARGE, Search
+from armscope.diagnosis.search import LARGE, STARTS, Search
 from armscope.diagnosis.verdict import HeldOut, WaterfallStep
 from armscope.diagnosis.weights import RowWeights
 from armscope.physics.effect import Term
@@ -118,9 +118,11 @@ def cross_validate(
 
 
 def _chosen_again(trained: Problem, best: Hypothesis) -> Hypothesis:
-    """The selection repeated on a fold's own rows."""
-    starts = {best.background} if len(best.columns) > LARGE else {best.background, PERFECT}
-    search = Search.on(trained, beam=2 if len(starts) > 1 else 1, branches=2)
+    """The selection repeated on a fold's own rows, from as many starts as on all rows; from one where it is large."""
+    if len(best.columns) > LARGE:
+        search, starts = Search.on(trained, beam=1, branches=2), {best.background}
+    else:
+        search, starts = Search.on(trained), {best.background, *STARTS}
     return search.refined(search.best(starts=tuple(sorted(starts))))
 
 
