@@ -10,7 +10,7 @@ import numpy as np
 from armscope.diagnosis.evidence import Hypothesis, Problem
 from armscope.diagnosis.naming import named, rest_of
 from armscope.diagnosis.problem import Gram
-from armscope.diagnosis.search import Search
+from armscope.diagnosis.search import LARGE, Search
 from armscope.diagnosis.verdict import Alternative, Specific
 from armscope.physics.effect import Placed, region
 
@@ -106,6 +106,8 @@ def inclusion(
 ) -> dict[int, float]:
     """How often each chosen effect's place is chosen again when blocks of rows are drawn with replacement.
 
+    Hypotheses of many columns (several free curves) are looked for with coarse curves, and their ends not polished.
+
     Args:
         found: the best hypothesis before names were given within its backgrounds and curves.
     """
@@ -113,11 +115,12 @@ def inclusion(
         return {}
     places = {c: _place(problem.pool.candidates[c]) for c in best.candidates}
     hits = dict.fromkeys(best.candidates, 0)
+    large = len(best.columns) > LARGE
     for _ in range(draws):
         times = np.bincount(rng.integers(0, len(blocks), len(blocks)), minlength=len(blocks))
         gram = _weighted(blocks, times)
         search = Search.on(problem.with_gram(gram), beam=1, branches=2)
-        again = named(search, search.best(starts=(best.background,), also=found))
+        again = named(search, search.best(starts=(best.background,), also=search.coarse(found), polished=not large))
         places_again = {_place(problem.pool.candidates[c]) for c in again.candidates}
         for candidate, place in places.items():
             hits[candidate] += place in places_again

@@ -8,6 +8,7 @@ noise. Everything is linear, so coefficients are integrated out: log p(y) = -n l
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
@@ -147,7 +148,7 @@ class Hypothesis:
         value: log evidence with prior, nats.
         columns: columns of the pool that take part, ascending.
         variance: their prior variances, mm^2 at the tool.
-        factor: Cholesky factor (lower) of G + noise^2 / variance; ``inverse`` is its inverse.
+        factor: Cholesky factor (lower) of G + noise^2 / variance.
         mean: posterior mean of the scaled coefficients.
         rss: penalised residual sum of squares, mm^2.
     """
@@ -159,9 +160,13 @@ class Hypothesis:
     columns: Indices = field(repr=False)
     variance: Array = field(repr=False)
     factor: Array = field(repr=False)
-    inverse: Array = field(repr=False)
     mean: Array = field(repr=False)
     rss: float = field(repr=False)
+
+    @functools.cached_property
+    def inverse(self) -> Array:
+        """The inverse of the factor."""
+        return np.asarray(dtrtri(self.factor, lower=1)[0])
 
     @property
     def candidates(self) -> frozenset[int]:
@@ -181,15 +186,18 @@ def weigh(problem: Problem, chosen: tuple[Chosen, ...], background: Background, 
     columns = np.flatnonzero(prior > 0)
     variance = prior[columns]
     G, b = problem.gram.G[np.ix_(columns, columns)], problem.gram.b[columns]
+    spent = None
     for step in range(NOISE_STEPS):
         factor = lower_factor(G, noise**2 / variance)
         half = forward(factor, b)
         rss = float(problem.gram.yy - half @ half)
-        inverse = dtrtri(factor, lower=1)[0]
-        mean = half @ inverse
+        mean = np.asarray(dtrtrs(factor, half, lower=1, trans=1)[0])
         if step == NOISE_STEPS - 1:
             break
-        spent = len(columns) - noise**2 * float(np.sum(np.sum(inverse**2, axis=0) / variance))
+        if spent is None:
+            # how many values the data determine hardly changes with the noise: one inverse is enough
+            inverse = dtrtri(factor, lower=1)[0]
+            spent = len(columns) - noise**2 * float(np.sum(np.einsum("ij,ij->j", inverse, inverse) / variance))
         misfit = rss - noise**2 * float(np.sum(mean**2 / variance))
         updated = np.sqrt(max(misfit, 0.0) / max(problem.n - spent, 1.0))
         updated = max(float(updated), problem.least_noise, 1e-6)
@@ -205,7 +213,7 @@ def weigh(problem: Problem, chosen: tuple[Chosen, ...], background: Background, 
     paid += CROWDED_NATS * max(problem.pool.crowding(frozenset(c.candidate for c in own)), 0)
     if not problem.pool.stands(frozenset(c.candidate for c in chosen)):
         paid = np.inf
-    return Hypothesis(chosen, background, noise, float(evidence - paid), columns, variance, factor, inverse, mean, rss)
+    return Hypothesis(chosen, background, noise, float(evidence - paid), columns, variance, factor, mean, rss)
 
 
 def _along(problem: Problem, chosen: Sequence[Chosen], columns: Indices, mean: Array, stderr: Array) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.diagnosis.evidence import forward
-from armscope.diagnosis.problem import Pool, chunks, columns, pool_values
+from armscope.diagnosis.problem import Pool, chunks, component_rows, pool_values
 from armscope.diagnosis.weights import RowWeights
 from armscope.physics.effect import Term
 from armscope.physics.model import FittedModel
@@ -50,15 +50,18 @@ def weigh_blocks(
     present = [pool.terms[i] for i in active]
     own, cross, b = np.zeros((m, c, c)), np.zeros((len(inside), m * c)), np.zeros((m, c))
     for rows, posture in chunks(model, recordings):
-        X = columns(posture, model_terms)
-        y = (model.to_base(recordings.positions[rows], recordings.run[rows]) - posture.tool).reshape(-1) * 1e3
-        # the response before any effect, also of those that are not among the columns inside
-        y = weights.times(rows, y + columns(posture, present) @ values[active] if present else y)
-        X = weights.times(rows, X)
-        E = weights.times(rows, columns(posture, flat))
-        cross += X.T @ E
-        b += (y @ E).reshape(m, c)
-        blockwise = np.ascontiguousarray(E.T).reshape(m, c, -1)
+        lens = weights.lens(rows)
+        seen = posture.through(lens)
+        left = (model.to_base(recordings.positions[rows], recordings.run[rows]) - posture.tool) * 1e3
+        y = np.einsum("nij,nj->in", lens, left).reshape(-1)
+        if present:
+            # the response before any effect, also of those that are not among the columns inside
+            y = y + values[active] @ component_rows(seen, present).reshape(len(present), -1)
+        X = component_rows(seen, model_terms).reshape(len(inside), -1)
+        E = component_rows(seen, flat).reshape(m * c, -1)
+        cross += X @ E.T
+        b += (E @ y).reshape(m, c)
+        blockwise = E.reshape(m, c, -1)
         own += blockwise @ np.swapaxes(blockwise, 1, 2)
     return Blocks(own, np.moveaxis(cross.reshape(-1, m, c), 1, 0), b)
 

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,13 +18,15 @@ from numpy.typing import NDArray
 from armscope.diagnosis.weights import RowWeights
 from armscope.physics.effect import Placed, Term, clash
 from armscope.physics.model import FittedModel
-from armscope.physics.scene import Posture
+from armscope.physics.scene import Posture, Scene
 from armscope.recordings import Recordings
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 CHUNK_ROWS = 1500
+KEPT_ROWS = 4000
+"""Drivers of tables up to this long are kept between passes: at most some 40 MB."""
 COUNTS = 0.5
 """Rows with a smaller weight do not count as measurements."""
 LEAST_SEEN = 0.02
@@ -151,12 +154,43 @@ class Gram:
         return float(self.yy - 2 * self.b @ coefficients + coefficients @ self.G @ coefficients)
 
 
-def chunks(model: FittedModel, recordings: Recordings) -> Iterator[tuple[NDArray[np.intp], Posture]]:
-    """(rows, posture) of the model, chunk by chunk."""
+_KEPT: WeakKeyDictionary[Recordings, list[tuple[Indices, Scene]]] = WeakKeyDictionary()
+
+
+def keep_drivers(recordings: Recordings) -> Recordings:
+    """A copy of a table; what drives the effects on its rows is computed once, unless it is long."""
+    table = replace(recordings)
+    if len(table) <= KEPT_ROWS:
+        _KEPT[table] = []
+    return table
+
+
+def chunks(
+    model: FittedModel, recordings: Recordings, order: Indices | None = None
+) -> Iterator[tuple[Indices, Posture]]:
+    """(rows, posture) of the model, chunk by chunk; in an order of rows, where one is given."""
+    if order is None:
+        yield from ((rows, model.posture(scene)) for rows, scene in _scenes(model, recordings))
+        return
+    for start in range(0, len(order), CHUNK_ROWS):
+        rows = order[start : start + CHUNK_ROWS]
+        yield rows, model.posture(model.scene(recordings.rows(rows)))
+
+
+def _scenes(model: FittedModel, recordings: Recordings) -> Iterator[tuple[Indices, Scene]]:
+    kept = _KEPT.get(recordings)
+    if kept:
+        yield from kept
+        return
+    seen = []
     for start in range(0, len(recordings), CHUNK_ROWS):
         rows = np.arange(start, min(start + CHUNK_ROWS, len(recordings)))
         scene = model.scene(recordings.rows(rows))
-        yield rows, model.posture(scene)
+        if kept is not None:
+            seen.append((rows, scene))
+        yield rows, scene
+    if kept is not None:
+        kept.extend(seen)
 
 
 def columns(posture: Posture, terms: Sequence[Term]) -> Array:
@@ -166,6 +200,15 @@ def columns(posture: Posture, terms: Sequence[Term]) -> Array:
         stacked[number] = posture.column(term)
     stacked *= 1e3
     return stacked.reshape(len(terms), -1).T
+
+
+def component_rows(posture: Posture, terms: Sequence[Term]) -> Array:
+    """(p, 3, N) the same columns, lying, a component of all rows side by side: fast to fill and to multiply."""
+    stacked = np.empty((len(terms), 3, len(posture.scene)))
+    for number, term in enumerate(terms):
+        stacked[number] = posture.column(term).T
+    stacked *= 1e3
+    return stacked
 
 
 def residuals(model: FittedModel, recordings: Recordings) -> Array:
@@ -191,21 +234,27 @@ def accumulate(
     current = pool_values(pool, model)
     count, p = int(blocks.max()) + 1, len(pool.terms)
     G, b, yy, n = np.zeros((count, p, p)), np.zeros((count, p)), np.zeros(count), np.zeros(count)
-    for rows, posture in chunks(model, recordings):
-        X = columns(posture, pool.terms)
-        y = (model.to_base(recordings.positions[rows], recordings.run[rows]) - posture.tool).reshape(-1) * 1e3
-        y = y + X @ current
-        X, y = weights.times(rows, X), weights.times(rows, y)
-        counts = np.repeat(weights.row[rows] > COUNTS, 3)
-        block_of = np.repeat(blocks[rows], 3)
-        for block in np.unique(block_of):
-            inside = block_of == block
-            Xb, yb = X[inside], y[inside]
-            G[block] += Xb.T @ Xb
-            b[block] += Xb.T @ yb
+    order = np.argsort(blocks, kind="stable") if count > 1 and len(recordings) > KEPT_ROWS else None
+    for rows, posture in chunks(model, recordings, order):
+        lens = weights.lens(rows)
+        X = component_rows(posture.through(lens), pool.terms)
+        left = (model.to_base(recordings.positions[rows], recordings.run[rows]) - posture.tool) * 1e3
+        y = np.einsum("nij,nj->in", lens, left) + (current @ X.reshape(p, -1)).reshape(3, -1)
+        counts, inside = weights.row[rows] > COUNTS, blocks[rows]
+        for block in np.unique(inside):
+            at = slice(None) if count == 1 else _where(inside == block)
+            Xb, yb = X[:, :, at].reshape(p, -1), y[:, at].reshape(-1)
+            G[block] += Xb @ Xb.T
+            b[block] += Xb @ yb
             yy[block] += yb @ yb
-            n[block] += np.count_nonzero(counts[inside])
+            n[block] += 3 * np.count_nonzero(counts[at])
     return [Gram(G[k], b[k], float(yy[k]), float(n[k])) for k in range(count)]
+
+
+def _where(inside: NDArray[np.bool_]) -> slice | Indices:
+    """Where a mask holds: as a slice, if it holds in one stretch."""
+    at = np.flatnonzero(inside)
+    return slice(int(at[0]), int(at[-1]) + 1) if at[-1] - at[0] + 1 == len(at) else at
 
 
 def pool_values(pool: Pool, model: FittedModel) -> Array:

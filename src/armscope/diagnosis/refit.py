@@ -22,7 +22,8 @@ from armscope.recordings import Recordings
 Array = NDArray[np.float64]
 
 STEPS = 6
-CONVERGED_MM = 1e-6
+CONVERGED_MM, CONVERGED = 1e-6, 0.05
+"""Steps end when residuals (RMS) move by less: mm, or this share of what the noise leaves uncertain anyway."""
 LEADS_AWAY, SHORTEST_STEP = 1.5, 0.1
 """A step that makes the residual this many times larger is halved, down to this share of it."""
 FREE = 100.0
@@ -85,8 +86,8 @@ def refit(
     model = _start(model, background, effects)
     blocks = np.zeros(len(recordings), dtype=np.intp)
     noise = least_noise
+    left = residuals(model, recordings)
     for _ in range(STEPS):
-        left = residuals(model, recordings)
         w = robust.weights(RowWeights(uncertainty, turn).whitened(left), uncertainty, least_noise)
         gram = accumulate(parts, model, recordings, RowWeights(w, turn), blocks)[0]
         noise = noise or robust.scale_of(left)
@@ -96,25 +97,25 @@ def refit(
         spent = float(len(values) - noise**2 * np.sum(np.diag(covariance) * precision))
         misfit = gram.rss(values)
         noise = max(float(np.sqrt(max(misfit, 0.0) / max(gram.n - spent, 1.0))), 1e-9)
-        updated = partial(_updated, model, parts, background, effects, values)
-        model, moved = _not_worse(updated, recordings, left)
-        if moved < CONVERGED_MM:
+        before = left
+        model, left = _not_worse(partial(_updated, model, parts, background, effects, values), recordings, left)
+        uncertain = noise * np.sqrt(spent / max(gram.n, 1.0))
+        if np.sqrt(np.mean((left - before) ** 2)) < max(CONVERGED_MM, CONVERGED * uncertain):
             break
-    left = residuals(model, recordings)
     # a lucky residual does not make the instrument better than it is known to be
     return Refit(model, parts, gram, max(noise, least_noise) ** 2 * covariance, noise, spent, RowWeights(w, turn), left)
 
 
 def _not_worse(
     updated: Callable[[float], FittedModel], recordings: Recordings, left: Array
-) -> tuple[FittedModel, float]:
-    """The model after a step that is shortened until it does not lead away, and how far it moved the points, mm."""
+) -> tuple[FittedModel, Array]:
+    """The model after a step that is shortened until it does not lead away, and its residuals (N, 3), mm."""
     share, here = 1.0, robust.scale_of(left)
     while True:
         model = updated(share)
         new = residuals(model, recordings)
         if share < SHORTEST_STEP or robust.scale_of(new) < LEADS_AWAY * here:
-            return model, float(np.abs(new - left).max())
+            return model, new
         share /= 2
 
 

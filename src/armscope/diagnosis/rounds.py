@@ -15,7 +15,7 @@ from armscope.diagnosis import robust
 from armscope.diagnosis.evidence import Hypothesis, Problem, background_sizes, gains, problem
 from armscope.diagnosis.naming import named
 from armscope.diagnosis.noise import Noise, relative_uncertainty
-from armscope.diagnosis.problem import COUNTS, Gram, Pool, accumulate, pool, residuals, total
+from armscope.diagnosis.problem import COUNTS, Gram, Pool, accumulate, keep_drivers, pool, residuals, total
 from armscope.diagnosis.refit import Refit, refit
 from armscope.diagnosis.scan import jumps, mesh_lines
 from armscope.diagnosis.scatter import Scattered, find_scatter, levers, noise_between, whitening
@@ -73,7 +73,7 @@ def select(
         return Rounds(start, recordings, noise, frames, block_of_row, tell).until_settled()
     rows = _sample(recordings)
     small = Rounds(start, recordings.rows(rows), noise, frames, block_of_row[rows], tell)
-    found = small.until_settled()
+    found = small.until_settled(of_a_sample=True)
     whole = Rounds(start, recordings, noise, frames, block_of_row, tell, _promising(found))
     whole.follow(small)
     tell("weighing all rows", 0.45)
@@ -125,19 +125,19 @@ class Rounds:
         tell: Progress,
         candidates: Sequence[Placed] | None = None,
     ) -> None:
-        self.recordings, self.noise, self.frames, self.tell = recordings, noise, frames, tell
+        self.recordings, self.noise, self.frames, self.tell = keep_drivers(recordings), noise, frames, tell
         self.block_of_row = block_of_row
         self.candidates = library(start.arm, recordings) if candidates is None else list(candidates)
         self.families = list(backgrounds(start.arm, recordings).values())
-        self.moved = levers(start, recordings)
-        self.model, self.left = start, residuals(start, recordings)
+        self.moved = levers(start, self.recordings)
+        self.model, self.left = start, residuals(start, self.recordings)
         self.scatter: list[Scattered] = []
         self.uncertainty = relative_uncertainty(recordings, robust.scale_of(self.left))
         self.weights = RowWeights(robust.first_weights(self.left, self.uncertainty, noise.least_mm))
         self.last: tuple[Hypothesis, Pool] | None = None
 
-    def until_settled(self) -> Selected:
-        """Rounds until nothing changes."""
+    def until_settled(self, of_a_sample: bool = False) -> Selected:
+        """Rounds until nothing changes; those on all rows still follow where these are a sample."""
         previous: State | None = None
         settled = False
         for number in range(ROUNDS):
@@ -156,7 +156,8 @@ class Rounds:
             self.round(None)
             # what looked like scatter may have been what the coarse curves could not follow
             self._take_scatter(find_scatter(self.left, self.moved, self.noise.least_mm))
-            self.round(None)
+            if not of_a_sample:
+                self.round(None)
         return self.selected()
 
     def follow(self, other: Rounds) -> None:

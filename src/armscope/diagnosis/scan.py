@@ -173,14 +173,15 @@ def _step_sums(
     segment = np.searchsorted(cuts, np.arange(len(rows)), side="right")
     own, cross, b = np.zeros((len(cuts) + 1, c, c)), np.zeros((len(cuts) + 1, k, c)), np.zeros((len(cuts) + 1, c))
     for part, posture in chunks(model, table):
-        n, here = len(part), rows[part]
-        y = (model.to_base(table.positions[part], table.run[part]) - posture.tool).reshape(-1) * 1e3
-        # the response before any effect
-        y = weights.times(here, y + columns(posture, present) @ values[active] if present else y)
-        X = weights.times(here, columns(posture, model_terms))
-        E = weights.times(here, columns(posture, terms)).reshape(n, 3, c)
+        here = rows[part]
+        seen = posture.through(weights.lens(here))
+        y = weights.times(here, (model.to_base(table.positions[part], table.run[part]) - posture.tool) * 1e3)
+        if present:
+            # the response before any effect
+            y = y + (columns(seen, present) @ values[active]).reshape(-1, 3)
+        X, E = (columns(seen, wanted).reshape(len(part), 3, -1) for wanted in (model_terms, terms))
         np.add.at(own, segment[part], np.einsum("nic,nid->ncd", E, E))
-        np.add.at(cross, segment[part], np.einsum("nik,nic->nkc", X.reshape(n, 3, k), E, optimize=True))
-        np.add.at(b, segment[part], np.einsum("ni,nic->nc", y.reshape(n, 3), E))
+        np.add.at(cross, segment[part], np.einsum("nik,nic->nkc", X, E, optimize=True))
+        np.add.at(b, segment[part], np.einsum("ni,nic->nc", y, E))
     own, cross, b = (np.cumsum(x[::-1], axis=0)[::-1][1:] for x in (own, cross, b))
     return Blocks(own, cross, b)

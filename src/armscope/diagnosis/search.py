@@ -70,12 +70,17 @@ class Search:
         """A search on a problem."""
         return cls(problem, group(problem.pool), beam, branches)
 
-    def best(self, starts: Sequence[Background] = STARTS, also: Hypothesis | None = None) -> Hypothesis:
+    def best(
+        self, starts: Sequence[Background] = STARTS, also: Hypothesis | None = None, polished: bool = True
+    ) -> Hypothesis:
         """The most probable hypothesis found from all starts, and from one found on other rows."""
         ends = [self._climb(self._empty(start)) for start in starts]
         if also is not None:
             ends.append(self._pruned(weigh(self.problem, also.chosen, also.background, also.noise)))
-        ends = _distinct(sorted(ends, key=_value, reverse=True))[:POLISHED]
+        ends = _distinct(sorted(ends, key=_value, reverse=True))
+        if not polished:
+            return ends[0]
+        ends = ends[:POLISHED]
         return max((self._polish(end) for end in ends), key=_value)
 
     def taken_over(self, hypothesis: Hypothesis, pool: Pool) -> Hypothesis:
@@ -297,6 +302,19 @@ class Search:
                 other = weigh(self.problem, chosen, hypothesis.background, hypothesis.noise)
                 hypothesis = max(hypothesis, other, key=_value)
         return self._pruned(hypothesis)
+
+    def coarse(self, hypothesis: Hypothesis) -> Hypothesis:
+        """With the coarse form of every fine curve in its place."""
+        coarse = {p.key: n for n, p in enumerate(self.problem.pool.candidates) if p.variant == "angle" and not p.fine}
+        chosen = tuple(
+            Chosen(coarse[self.placed(c.candidate).key], c.size) if self.placed(c.candidate).fine else c
+            for c in hypothesis.chosen
+        )
+        return (
+            hypothesis
+            if chosen == hypothesis.chosen
+            else weigh(self.problem, chosen, hypothesis.background, hypothesis.noise)
+        )
 
     def held(self, hypothesis: Hypothesis, candidate: int) -> bool:
         """Whether a background of the hypothesis holds an effect, too."""

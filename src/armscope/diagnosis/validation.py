@@ -13,7 +13,6 @@ from armscope.diagnosis.evidence import PERFECT, Chosen, Hypothesis, Problem, we
 from armscope.diagnosis.problem import COUNTS, Gram, Pool, chunks, columns, pool_values, total
 from armscope.diagnosis.search import LARGE, STARTS, Search
 from armscope.diagnosis.verdict import HeldOut, WaterfallStep
-from armscope.diagnosis.weights import RowWeights
 from armscope.physics.effect import Term
 from armscope.physics.freeform import REST_OF_LOAD
 from armscope.physics.model import FittedModel
@@ -204,11 +203,10 @@ def _held_out_errors(
 def _refitted(rows: Rows, terms: Sequence[Term], at: Indices, errors: Array) -> Array:
     """Errors (K, n, 3) of rows ``at`` once their own frames are fitted to them."""
     table = rows.recordings.rows(at)
-    weights = RowWeights(rows.weight[at])
     X = np.concatenate([columns(posture, terms) for _, posture in chunks(rows.point, table)])
     y = np.moveaxis(errors, 0, 2).reshape(len(X), -1)
-    each = np.arange(len(at))
-    values = np.linalg.lstsq(weights.times(each, X), weights.times(each, y), rcond=1e-12)[0]
+    root = np.repeat(np.sqrt(rows.weight[at]), 3)[:, None]
+    values = np.linalg.lstsq(root * X, root * y, rcond=1e-12)[0]
     return np.asarray(np.moveaxis((y - X @ values).reshape(len(at), 3, -1), 2, 0))
 
 

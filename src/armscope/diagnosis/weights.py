@@ -23,13 +23,14 @@ class RowWeights:
     row: Array
     turn: Array | None = None
 
+    def lens(self, rows: Indices) -> Array:
+        """(n, 3, 3) root of the weight, times the whitening: W^1/2 of ``rows``."""
+        root = np.sqrt(self.row[rows])[:, None, None]
+        return np.asarray(root * (np.eye(3) if self.turn is None else self.turn[rows]))
+
     def times(self, rows: Indices, values: Array) -> Array:
-        """Values (3n,) or (3n, p) of ``rows``, whitened and times the root of the weights: W^1/2 X."""
-        by_row = values.reshape(len(rows), 3, -1)
-        if self.turn is not None:
-            by_row = self.turn[rows] @ by_row
-        weighted: Array = (by_row * np.sqrt(self.row[rows])[:, None, None]).reshape(values.shape)
-        return weighted
+        """Residuals (n, 3) of ``rows``, whitened and times the root of the weights: W^1/2 y."""
+        return np.asarray(np.einsum("nij,nj->ni", self.lens(rows), values))
 
     def take(self, rows: Indices, share: float = 1.0) -> RowWeights:
         """The weights of some rows, each standing for 1 / ``share`` rows."""

@@ -7,8 +7,8 @@ second order.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -267,11 +267,13 @@ class Posture:
         scene: rows and drivers.
         frames: where the frames stand, base axes.
         stretch: relative length error of the instrument.
+        lens: (N, 3, 3) through which displacements are seen: a row's weight, and the whitening of its scatter.
     """
 
     scene: Scene
     frames: Chain
     stretch: float = 0.0
+    lens: Array | None = None
     _levers: dict[Direction, Array] = field(default_factory=dict, repr=False)
 
     @property
@@ -282,20 +284,27 @@ class Posture:
     def lever(self, direction: Direction) -> Array:
         """(N, 3) displacement of the tool point per unit of a direction, m."""
         if direction not in self._levers:
-            self._add_levers(direction.location)
+            for each, moved in self._levers_at(direction.location):
+                seen = moved if self.lens is None else np.einsum("nij,nj->ni", self.lens, moved)
+                # one component of all rows side by side: products with drivers run along the rows
+                self._levers[each] = np.asfortranarray(seen)
         return self._levers[direction]
 
-    def _add_levers(self, location: str) -> None:
+    def _levers_at(self, location: str) -> Iterator[tuple[Direction, Array]]:
         if location == "instrument":
-            self._levers[Direction(location, "scale")] = self.frames.tool
+            yield Direction(location, "scale"), self.frames.tool
         elif location.startswith("motor"):
             by_motor = joint_jacobian(self.frames) @ self.scene.arm.actuation
             for j in range(by_motor.shape[2]):
-                self._levers[Direction(f"motor {j + 1}", "turn")] = by_motor[:, :, j]
+                yield Direction(f"motor {j + 1}", "turn"), by_motor[:, :, j]
         else:
             jacobian = twist_jacobian(self.frames, location)
             for axis, name in enumerate(AXES):
-                self._levers[Direction(location, name)] = jacobian[:, :, axis]
+                yield Direction(location, name), jacobian[:, :, axis]
+
+    def through(self, lens: Array) -> Posture:
+        """The same frames, displacements seen through a lens (N, 3, 3)."""
+        return replace(self, lens=lens, _levers={})
 
     def column(self, term: Term) -> Array:
         """(N, 3) displacement of the tool point per SI unit of a term, m."""
