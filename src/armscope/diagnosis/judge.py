@@ -176,7 +176,7 @@ def _found(
     fit, placed = evidence.fit, part.placed
     covariance = fit.covariance_of(placed)
     coefficients = np.zeros(len(fit.pool.terms))
-    coefficients[fit.pool.of(placed)] = _sized(evidence, candidate, part.values, covariance)
+    coefficients[fit.pool.of(placed)] = _sized(evidence, chosen, part.values, covariance)
     rms = contribution(gram, fit.pool.frames, coefficients)
     share = rms**2 / variance if variance > 0 else 0.0
     apart = [certainty.apart(evidence.best, other, placed, rival) for _, rival, other in rivals]
@@ -203,20 +203,18 @@ def _found(
     )
 
 
-def _sized(evidence: Evidence, candidate: int, values: Array, covariance: Array) -> Array:
+def _sized(evidence: Evidence, chosen: Chosen, values: Array, covariance: Array) -> Array:
     """An effect's values for its size at the tool: what its rows leave open counts as its prior has it.
 
     The refit holds named values by a prior so wide that it does not pull; two of them that only show together (offsets
     along parallel axes) are then told with their wide intervals, but could stand for any size at the tool.
     """
     problem = evidence.problem
-    if problem.pool.candidates[candidate].reading == "curve":
+    placed = problem.pool.candidates[chosen.candidate]
+    if placed.reading == "curve":
         return values  # its prior is that already
-    columns, chosen = problem.pool.columns[candidate], {c.candidate: c for c in evidence.best.chosen}[candidate]
-    shape = np.array(problem.pool.candidates[candidate].shape)
-    variance = (problem.sizes[chosen.size] * shape / problem.scale[columns]) ** 2
+    scale = problem.sizes[chosen.size] * np.array(placed.shape) / problem.scale[problem.pool.columns[chosen.candidate]]
     # the posterior with this prior in place of a flat one
-    scale = np.sqrt(variance)
     scaled = covariance / np.outer(scale, scale)
     return np.asarray(scale * (np.linalg.solve(np.eye(len(scale)) + scaled, values / scale)))
 
