@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from armscope.diagnosis.verdict import Curve, Parameter
 from armscope.physics.registry import EFFECTS
 from armscope.report.diagnosis_figures import location_shares
-from armscope.report.effect_cards import card, told_parameters
+from armscope.report.effect_cards import card, chosen_how_often, told_parameters
 from armscope.report.headline import exact_phrase, headline
 from armscope.report.page import unbroken
 from armscope.report.reference_models import held_out_rms
@@ -258,3 +258,16 @@ def test_a_model_with_more_terms_than_rows_is_not_compared():
     names = [name for name, _ in held_out_rms(case.arm, case.recordings, np.zeros((20, 3)))]
     assert "FDP(CI)" in names
     assert "Fourier 2 (AI)" not in names
+
+
+def test_a_number_that_the_poses_leave_open_gets_no_digits():
+    """d of a row between parallel axes: 40 mm of uncertainty in an effect of 0.2 mm is no measurement."""
+    effect = found("link_geometry", "link 3", Parameter("a", "mm", 0.6, 0.02), Parameter("d", "mm", -0.01, 40.0))
+    told = {reading.label: reading for reading in card(effect, 1).readings}
+    assert told["length a"].value == "0.600 mm"
+    assert told["length d"].value == "left open"
+
+
+def test_an_effect_that_resampling_rarely_finds_is_said_to_be_one_way_of_putting_it():
+    assert "not as the cause" in chosen_how_often(0.2)
+    assert chosen_how_often(0.9) == "chosen in 90 % of the resampled data sets"

@@ -159,12 +159,16 @@ ATLAS_DRIVERS = {
     "thermal_expansion": "temperature",
     "base_drift": "time",
 }
+FOLLOWED = {"angle of": "own angle", "load of": "gravity load", "time": "time", "temperature": "temperature"}
+"""Columns of the atlas by how the driver of an unexplained curve begins."""
 WAVES = {1: "once per turn", 2: "twice per turn"}
 
 
 def _cell(effect: FoundEffect) -> tuple[str, str] | None:
     """Where in the atlas an effect shows; None: nowhere."""
     driver = ATLAS_DRIVERS.get(effect.effect)
+    if effect.effect == "unknown":
+        driver = next((column for start, column in FOLLOWED.items() if effect.driver.startswith(start)), None)
     if effect.effect in ("gear_eccentricity", "axis_wobble"):
         count = next((p.value for p in effect.parameters if p.name == "per_turn"), 0)
         driver = WAVES.get(round(count))

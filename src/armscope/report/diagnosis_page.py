@@ -182,7 +182,9 @@ def improvement(verdict: Verdict) -> str:
             "to keep some aside, or the test was switched off."
         )
     folds = f"{verdict.held_out.folds} parts" if verdict.held_out.folds else "parts"
-    by = f"; parts go by {verdict.held_out.grouped_by}" if verdict.held_out.grouped_by else ""
+    together = {"configuration": "rows of alike configuration stay together", "run": "whole runs at a time"}
+    by = f"; {together.get(verdict.held_out.grouped_by, verdict.held_out.grouped_by)}"
+    by = by if verdict.held_out.grouped_by else ""
     start = (
         f"On rows that took no part in search or fit (the whole diagnosis was repeated with one of {folds} of the rows "
         f"kept aside{by}), the error "

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -22,6 +23,8 @@ from armscope.report.wording import (
 MOST_PARAMETERS = 8
 CANCELS = 1.05
 UNKNOWN_MASSES = "compliance_times_moment"
+LEFT_OPEN = 10.0
+"""A parameter whose standard error would move the tool so many times as far as its effect does is left open."""
 RELIABLE = 0.5
 """An effect chosen in fewer of the resampled data sets than this is not to be relied on."""
 TOO_CLOSE_NATS = 3.0
@@ -66,7 +69,7 @@ class Card:
 
 def card(effect: FoundEffect, number: int, figure: str = "") -> Card:
     """The card of the ``number``-th effect."""
-    readings = [read_parameter(p) for p in told_parameters(effect)]
+    readings = [reading_of(p, effect) for p in told_parameters(effect)]
     shown = tuple(readings[:MOST_PARAMETERS])
     return Card(
         anchor=f"effect-{number}-{re.sub('[^a-z0-9]+', '-', f'{effect.effect} {effect.location}'.lower())}",
@@ -106,6 +109,20 @@ def title_of(effect: FoundEffect) -> str:
     if effect.effect == "unknown" and effect.named_as == "effect" and effect.curve is not None:
         return f"{effect.location}: unexplained curve that follows the {effect.driver}"
     return plain(effect.title) or effect_in_words(effect.effect, effect.location)
+
+
+def reading_of(parameter: Parameter, effect: FoundEffect) -> Reading:
+    """A parameter as a card shows it; one that the poses leave open is not told with digits that mean nothing.
+
+    A length or an angle whose uncertainty would move the tool many times as far as the whole effect does must be
+    cancelled by others in these poses (d of neighbouring parallel axes, for instance).
+    """
+    reading = read_parameter(parameter)
+    lever_mm = {"mm": 1.0, "rad": 1e3}.get(parameter.unit)  # an angle acts at about a metre
+    open_mm = parameter.stderr * lever_mm if lever_mm is not None and math.isfinite(parameter.stderr) else 0.0
+    if len(effect.parameters) < 2 or open_mm < LEFT_OPEN * effect.rms_at_tool_mm or effect.effect == "unknown":
+        return reading
+    return Reading(reading.label, "left open", "in these poses others take its place")
 
 
 def what_kind(effect: FoundEffect) -> str:

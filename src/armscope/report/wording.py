@@ -125,7 +125,7 @@ def _number(value: float, decimals: int | None) -> str:
     if decimals is None:
         return f"{value:.4g}"
     text = f"{value:.{min(decimals, 6)}f}"
-    return text.replace("-", "−")
+    return text.removeprefix("-") if float(text) == 0 else text.replace("-", "−")
 
 
 def _said_otherwise(parameter: Parameter) -> str:
