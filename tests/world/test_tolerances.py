@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
-from armscope.robot import chain, forward_kinematics
+from armscope.robot import chain, forward_kinematics, load_arm
 from armscope.robot.arm import build_arm
 from armscope.robot.description import RobotDescription
 from armscope.world.tolerances import geometric_errors
-from tests.robot.arms import STANDARD, as_urdf
+from tests.robot.arms import SK120, STANDARD, as_urdf
 
 KEYS = {"a": "a_mm", "alpha": "alpha_deg", "d": "d_mm", "theta": "theta_offset_deg"}
 ROWS = [
@@ -87,3 +88,16 @@ def test_a_urdf_has_frames_that_are_shifted_and_turned(tmp_path):
     unit = np.eye(len(errors.names))[errors.names.index("ry3")] * 1e-3
     slope = (errors.positions(angles, unit)[0] - errors.positions(angles, -unit)[0]) / 2e-3
     assert np.abs(jacobian[:, :, errors.names.index("ry3")] - slope).max() < 1e-9
+
+
+def test_one_arms_frames_end_where_its_positions_are():
+    """Both ways to the tool agree, and the orientation turns by what the errors' rotations add up to."""
+    errors = geometric_errors(load_arm(SK120))
+    rng = np.random.default_rng(4)
+    sizes, angles = rng.normal(size=len(errors.names)), rng.uniform(-1, 1, (5, 6))
+    frames = errors.stand(angles, sizes)
+    np.testing.assert_allclose(frames.tool, errors.positions(angles, sizes)[0], atol=1e-12)
+    only_turn = np.array([float(name == "base rz") for name in errors.names])
+    turned = errors.stand(angles, only_turn).tool_rotation @ np.swapaxes(chain(errors.arm, angles).tool_rotation, 1, 2)
+    expected = Rotation.from_rotvec([0, 0, 3e-3]).as_matrix()
+    np.testing.assert_allclose(turned, np.broadcast_to(expected, turned.shape), atol=1e-12)

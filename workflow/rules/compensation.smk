@@ -22,7 +22,7 @@ rule closed_loop:
         svg=f"{OUTLOOK}/closed_loop.svg",
     params:
         extended=EXTENDED,
-        code=code("armscope.cli.compensation:closed_loop"),
+        code=code("armscope.cli.outlook:closed_loop"),
     log:
         f"{RESULTS}/logs/closed_loop.log",
     conda:
@@ -42,7 +42,7 @@ rule regions:
         svg=f"{OUTLOOK}/regions.svg",
     params:
         seed=CONFIG.seed,
-        code=code("armscope.cli.compensation:regions_"),
+        code=code("armscope.cli.outlook:regions_"),
     log:
         f"{RESULTS}/logs/regions.log",
     conda:
@@ -60,13 +60,35 @@ rule products:
         f"{OUTLOOK}/products.csv",
     params:
         seed=CONFIG.seed,
-        code=code("armscope.cli.compensation:products_"),
+        code=code("armscope.cli.outlook:products_"),
     log:
         f"{RESULTS}/logs/products.log",
     conda:
         "../envs/armscope.yaml"
     shell:
         "armscope products --poses {input.poses} --errors {input.errors} --seed {params.seed} -o {output} > {log} 2>&1"
+
+
+rule full_pose:
+    # position and orientation, with the wrist bent: the paper's trajectories run along its pole
+    input:
+        robot=CONFIG.paper.robot.value,
+        poses=rules.measure.output.poses,
+        errors=rules.measure.output.errors,
+        robots=rules.measure.output.robots,
+    output:
+        f"{OUTLOOK}/full_pose.csv",
+    params:
+        extended=EXTENDED,
+        seed=CONFIG.seed,
+        code=code("armscope.cli.outlook:full_pose"),
+    log:
+        f"{RESULTS}/logs/full_pose.log",
+    conda:
+        "../envs/armscope.yaml"
+    shell:
+        "armscope full-pose {input.robot} --poses {input.poses} --errors {input.errors} --robots {input.robots} "
+        "{params.extended} --seed {params.seed} -o {output} > {log} 2>&1"
 
 
 rule cross_table:
@@ -79,7 +101,7 @@ rule cross_table:
     params:
         folders=" ".join(f"--real {RESULTS}/real/{name}/paper" for name in REAL),
         extended=EXTENDED,
-        code=code("armscope.cli.compensation:cross_table_"),
+        code=code("armscope.cli.outlook:cross_table_"),
     log:
         f"{RESULTS}/logs/cross_table.log",
     conda:
@@ -92,5 +114,6 @@ rule compensation:
     input:
         rules.closed_loop.output,
         rules.cross_table.output,
+        rules.full_pose.output,
         rules.regions.output,
         rules.products.output,

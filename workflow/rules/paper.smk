@@ -303,7 +303,7 @@ rule paper_report:
         robot=CONFIG.paper.robot.value,
         outlook=expand(
             f"{RESULTS}/compensation/{{file}}",
-            file="closed_loop_points.csv products.csv closed_loop.svg regions.svg".split(),
+            file="closed_loop_points.csv products.csv full_pose.csv closed_loop.svg regions.svg".split(),
         ),
         cross_table=f"{RESULTS}/compensation/cross_table.csv",
         figures=rules.figures.input,

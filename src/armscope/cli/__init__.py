@@ -11,7 +11,7 @@ from typing import Annotated
 
 import typer
 
-from armscope.cli import calibration, compensation, diagnosis, paper, poses, proof, real, recordings, sweep
+from armscope.cli import calibration, compensation, diagnosis, outlook, paper, poses, proof, real, recordings, sweep
 from armscope.cli.panels import EXPERIMENTS
 from armscope.inputs import InputError
 
@@ -23,6 +23,7 @@ app = typer.Typer(
 )
 app.add_typer(diagnosis.app)
 app.add_typer(compensation.app)
+app.add_typer(outlook.app)
 app.add_typer(poses.app)
 app.add_typer(calibration.app)
 app.add_typer(recordings.app)

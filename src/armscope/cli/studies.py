@@ -15,7 +15,7 @@ from armscope.inputs import InputError, Model, validate
 if TYPE_CHECKING:
     import pandas as pd
 
-    from armscope.errormodels import FittedModel
+    from armscope.errormodels import FittedModel, ModelSpec
     from armscope.paper.measurements import Measurements
 
 Settings = Annotated[str, typer.Option(help="JSON: the parts of the configuration that this step follows")]
@@ -86,3 +86,17 @@ def read_fits(*paths: Path) -> list[FittedModel]:
         except (KeyError, TypeError) as error:
             raise InputError(path, "", f"no {error}", "`armscope paper fit` writes the fits of a study") from error
     return fits
+
+
+def model_named(name: str) -> ModelSpec:
+    """A model by its name."""
+    from armscope.errormodels import ModelSpec
+    from armscope.inputs import nearest
+
+    specs = [
+        ModelSpec(f, n, s) for f in ("polynomial", "fourier") for n in range(1, 7) for s in ("cartesian", "angular")
+    ]
+    by_name = {spec.name: spec for spec in specs}
+    if name not in by_name:
+        raise InputError("--model", "", name, "no model of that name", nearest(name, by_name))
+    return by_name[name]

@@ -199,6 +199,19 @@ class Outlook:
         return wide.reset_index().rename(columns={"model": "held out, 3D RMS in mm"})
 
     @property
+    def full_pose(self) -> pd.DataFrame:
+        """Position (mm) and orientation (mrad) by model: fit, and closed loop on every trajectory."""
+        table = read_table(self.folder / "full_pose.csv")
+        kept = table[table["stage"] != "prediction"].rename(columns={"rms_mm": "mm", "rms_mrad": "mrad"})
+        wide = kept.pivot_table(index="model", columns="trajectory", values=["mm", "mrad"], sort=False)
+        paths = list(dict.fromkeys(kept["trajectory"]))
+        wide = wide[[(unit, path) for path in paths for unit in ("mm", "mrad")]]
+        short = {"identification": "fit"}
+        levels = (wide.columns.get_level_values(level) for level in (0, 1))
+        columns = [f"{short.get(path, path)} ({unit})" for unit, path in zip(*levels, strict=True)]
+        return wide.set_axis(columns, axis=1).reset_index()
+
+    @property
     def products(self) -> pd.DataFrame:
         """Sums against products."""
         return read_table(self.folder / "products.csv")

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from armscope.robot import Arm, Chain, forward_kinematics, twist_jacobian
+from armscope.robot import Arm, Chain, chain, forward_kinematics, twist_jacobian
 
 Array = NDArray[np.float64]
 
@@ -46,6 +46,13 @@ class GeometricErrors:
             for location, direction in zip(self.locations, self.directions, strict=True)
         ]
         return np.stack(columns, axis=2) * self.sigmas
+
+    def stand(self, motor_angles: Array, in_sigmas: Array) -> Chain:
+        """All frames of one arm with errors ``in_sigmas`` (K,) at ``motor_angles`` (N, m), exactly."""
+        twists: dict[str, Array] = {}
+        for size, location, direction in zip(in_sigmas * self.sigmas, self.locations, self.directions, strict=True):
+            twists[location] = twists.get(location, np.zeros(6)) + size * direction
+        return chain(self.arm, motor_angles, twists)
 
     def positions(self, motor_angles: ArrayLike, in_sigmas: ArrayLike) -> Array:
         """(R, N, 3) exact tool points, m, of R arms with errors ``in_sigmas`` (R, K) at ``motor_angles`` (N, m)."""

@@ -1,0 +1,188 @@
+"""Experiments on the paper's outlook: closed-loop, full-pose, cross-table, regions, products."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from armscope.cli.panels import EXPERIMENTS
+from armscope.cli.studies import model_named
+from armscope.inputs import InputError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from armscope.errormodels import ModelSpec
+    from armscope.paper.measurements import Measurements
+    from armscope.robot import Arm
+
+app = typer.Typer()
+
+
+@app.command("closed-loop", rich_help_panel=EXPERIMENTS)
+def closed_loop(
+    robot: Annotated[Path, typer.Argument(help="robot.yaml")],
+    poses: Annotated[Path, typer.Option(help="poses.csv of `armscope paper measure`")],
+    errors: Annotated[Path, typer.Option(help="errors.csv")],
+    robots: Annotated[Path, typer.Option(help="robots.csv: the anchored robot's geometric errors")],
+    fits: Annotated[Path, typer.Option(help="fits.json.gz: the models, fitted")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="table: model, trajectory, stage, axis, rms_mm")],
+    points: Annotated[Path | None, typer.Option(help="table of the error left at every point")] = None,
+    figure: Annotated[Path | None, typer.Option(help="picture of the table")] = None,
+    products: Annotated[list[str] | None, typer.Option(help="models to fit with products, too")] = None,
+    regions: Annotated[list[str] | None, typer.Option(help="models to divide: 'FDP(CI)=4', four regions")] = None,
+    diagnosed: Annotated[bool, typer.Option(help="diagnose the identification rows, too")] = True,
+) -> None:
+    """Compensate the paper's test paths with every model and let the virtual arm follow the commands."""
+    from armscope.cli.studies import read_fits, read_measurements
+    from armscope.compensation.closed_loop import cross_table
+    from armscope.files import write_table
+    from armscope.report.closed_loop import paper_closed_loop
+    from armscope.report.compensation_figure import cross_table_figure
+    from armscope.report.style import save_figure
+    from armscope.robot import load_arm
+
+    measurements = read_measurements(poses, errors)
+    specs = [model_named(name) for name in products or ()]
+    arm, truth, divided = load_arm(robot), _true_errors(robots), _divided(regions)
+    _check_nominal(robot, arm, poses, measurements)
+    left = paper_closed_loop(arm, measurements, read_fits(fits), truth, specs, divided, diagnosed)
+    table = cross_table(left)
+    write_table(output, table)
+    if points is not None:
+        write_table(points, left, digits=6)
+    if figure is not None:
+        save_figure(cross_table_figure(table), figure)
+
+
+@app.command("full-pose", rich_help_panel=EXPERIMENTS)
+def full_pose(
+    robot: Annotated[Path, typer.Argument(help="robot.yaml")],
+    poses: Annotated[Path, typer.Option(help="poses.csv of `armscope paper measure`: the tool points")],
+    errors: Annotated[Path, typer.Option(help="errors.csv")],
+    robots: Annotated[Path, typer.Option(help="robots.csv: the anchored robot's geometric errors")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="table: model, trajectory, stage, rms_mm, rms_mrad")],
+    model: Annotated[list[str] | None, typer.Option(help="models; may be given several times")] = None,
+    products: Annotated[list[str] | None, typer.Option(help="models to fit with products, too")] = None,
+    regions: Annotated[list[str] | None, typer.Option(help="models to divide: 'FDP(CI)=4', four regions")] = None,
+    seed: Annotated[int, typer.Option(help="of the identification poses and the noise")] = 0,
+) -> None:
+    """Position and orientation by every model, predicted and in closed loop, with the virtual arm's wrist bent."""
+    from armscope.cli.studies import read_measurements
+    from armscope.files import write_table
+    from armscope.report.full_pose import paper_full_pose
+    from armscope.robot import load_arm
+
+    measurements, arm = read_measurements(poses, errors), load_arm(robot)
+    _check_nominal(robot, arm, poses, measurements)
+    names = model or ("FDP(CI)", "SDP(CI)", "FDP(AI)", "SDP(AI)")
+    specs, multiplied = [model_named(name) for name in names], [model_named(name) for name in products or ()]
+    truth = _true_errors(robots)
+    table = paper_full_pose(arm, measurements, truth, specs, multiplied, _divided(regions), seed)
+    write_table(output, table, digits=6)
+
+
+@app.command("cross-table", rich_help_panel=EXPERIMENTS)
+def cross_table_(
+    virtual: Annotated[Path, typer.Argument(help="closed_loop.csv of `armscope closed-loop`")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="table: arm, model, trajectory, stage, axis, rms_mm")],
+    real: Annotated[list[Path] | None, typer.Option(help="folders with poses.csv, errors.csv, fits.json.gz")] = None,
+    products: Annotated[list[str] | None, typer.Option(help="models to fit with products, too")] = None,
+    regions: Annotated[list[str] | None, typer.Option(help="models to divide: 'FDP(CI)=4', four regions")] = None,
+) -> None:
+    """Model by trajectory by stage for the virtual arm and for real ones, whose held-out rows stand in for paths."""
+    import pandas as pd
+
+    from armscope.cli.studies import read_fits, read_measurements
+    from armscope.compensation.closed_loop import cross_table
+    from armscope.files import read_table, write_table
+    from armscope.report.closed_loop import real_left_over
+
+    specs, divided = [model_named(name) for name in products or ()], _divided(regions)
+    tables = [read_table(virtual).assign(arm="virtual")]
+    for folder in real or ():
+        measurements = read_measurements(folder / "poses.csv", folder / "errors.csv")
+        left = real_left_over(measurements, read_fits(folder / "fits.json.gz"), specs, divided)
+        tables.append(cross_table(left).assign(arm=measurements.robots[0]))
+    table = pd.concat(tables, ignore_index=True)
+    write_table(output, table[["arm", *table.columns.drop("arm")]])
+
+
+def _divided(regions: list[str] | None) -> list[tuple[ModelSpec, int]]:
+    """Models and numbers of regions from "FDP(CI)=4"."""
+    found = []
+    for text in regions or ():
+        name, _, count = text.partition("=")
+        if not count.isdecimal() or int(count) < 1 or int(count) & (int(count) - 1):
+            raise InputError("--regions", "", text, "a model and 2, 4, 8, ... regions, like FDP(CI)=4")
+        found.append((model_named(name), int(count)))
+    return found
+
+
+@app.command("regions", rich_help_panel=EXPERIMENTS)
+def regions_(
+    poses: Annotated[Path, typer.Option(help="poses.csv of `armscope paper measure`")],
+    errors: Annotated[Path, typer.Option(help="errors.csv")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="table: model, regions, held_out_rms_mm, ...")],
+    model: Annotated[list[str] | None, typer.Option(help="models; may be given several times")] = None,
+    figure: Annotated[Path | None, typer.Option(help="picture of the table")] = None,
+    seed: Annotated[int, typer.Option(help="of the folds")] = 0,
+) -> None:
+    """Error against the number of blended sub-volumes, chosen by cross-validation on the identification rows."""
+    from armscope.cli.studies import read_measurements
+    from armscope.files import write_table
+    from armscope.paper.outlook import paper_regions
+    from armscope.report.compensation_figure import regions_figure
+    from armscope.report.style import save_figure
+
+    specs = [model_named(name) for name in model or ("FDP(CI)", "SDP(CI)", "FDP(AI)", "SDP(AI)")]
+    table = paper_regions(read_measurements(poses, errors), specs, seed)
+    write_table(output, table)
+    if figure is not None:
+        save_figure(regions_figure(table), figure)
+
+
+@app.command("products", rich_help_panel=EXPERIMENTS)
+def products_(
+    poses: Annotated[Path, typer.Option(help="poses.csv of `armscope paper measure`")],
+    errors: Annotated[Path, typer.Option(help="errors.csv")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="table: model, kind, terms, held_out_rms_mm, ...")],
+    model: Annotated[list[str] | None, typer.Option(help="models; may be given several times")] = None,
+    seed: Annotated[int, typer.Option(help="of the folds")] = 0,
+) -> None:
+    """Sums of one-input terms against a sparse choice of their products, on held-out rows and the test paths."""
+    from armscope.cli.studies import read_measurements
+    from armscope.files import write_table
+    from armscope.paper.outlook import paper_products
+
+    names = model or ("SDP(CI)", "SDP(AI)", "4th-degree polynomial (AI)", "Fourier 2 (AI)", "Fourier 3 (AI)")
+    specs = [model_named(name) for name in names]
+    write_table(output, paper_products(read_measurements(poses, errors), specs, seed))
+
+
+def _check_nominal(robot: Path, arm: Arm, poses: Path, measurements: Measurements) -> None:
+    """The study's nominal points must be the arm's own."""
+    import numpy as np
+
+    from armscope.robot import forward_kinematics
+
+    rows = measurements.identification
+    if rows.motor_angles.shape[1] != arm.n_motors:
+        raise InputError(robot, "", f"{arm.n_motors} motors", f"{poses} has {rows.motor_angles.shape[1]}")
+    apart = np.abs(forward_kinematics(arm, rows.motor_angles) * 1e3 - rows.nominal_mm).max()
+    if apart > 0.1:
+        rule = f"its tool points lie up to {apart:.0f} mm from the nominal ones of {poses}"
+        raise InputError(robot, "", arm.name, rule, "Is it the robot of this study?")
+
+
+def _true_errors(robots: Path) -> NDArray[np.float64]:
+    """Geometric errors of the anchored robot, m and rad."""
+    import numpy as np
+
+    from armscope.files import read_table
+
+    table = read_table(robots, ["anchored"], "the table robots.csv of `armscope paper measure`")
+    return np.asarray(table["anchored"], dtype=float) * 1e-3  # mm and mrad

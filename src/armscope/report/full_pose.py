@@ -1,0 +1,215 @@
+"""Full pose on the paper's virtual robot: every model on position and orientation, predicted and in closed loop.
+
+The paper's trajectories keep theta4 = theta5 = 0, a pole of the wrist: there a full pose cannot be corrected. So the
+same tool points are followed with a bent wrist, and identification poses of their own cover these joint ranges.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from armscope.compensation import (
+    ErrorModel,
+    Options,
+    as_path,
+    compensate_black_box,
+    compensate_physical,
+    fit_error_model,
+)
+from armscope.compensation.closed_loop import NO_MODEL
+from armscope.compensation.path import WantedPath
+from armscope.compensation.physical import identified_on
+from armscope.compensation.result import Compensated
+from armscope.diagnosis import Settings, diagnose
+from armscope.errormodels import ModelSpec
+from armscope.paper.measurements import Measurements
+from armscope.physics.model import predict, predict_orientation
+from armscope.recordings import Recordings
+from armscope.recordings.table import as_recordings
+from armscope.report.closed_loop import DIAGNOSED
+from armscope.robot import Arm, Chain, chain
+from armscope.robot.inverse import follow_path
+from armscope.world.poses import candidate_poses, choose_poses, joint_ranges
+from armscope.world.tolerances import GeometricErrors, geometric_errors
+
+Array = NDArray[np.float64]
+
+BENT_WRIST = {4: 0.3, 5: 0.7}
+"""Angles of the wrist's motors along the trajectories, rad (assumed)."""
+MARGIN_RAD = 0.1
+WRIST_MARGIN_RAD = 0.3
+"""The identification poses' ranges are the trajectories', widened by this (assumed; wrists need room to correct)."""
+CANDIDATES = 2000
+NOISE_MM, NOISE_MRAD = 0.03, 0.05
+"""1-sigma per axis of a tracker with an orientation probe (assumed)."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Model:
+    """Predicts points (N, 3), m, and orientations (N, 3, 3) at motor angles, and corrects paths."""
+
+    stand: Callable[[Array], tuple[Array, Array]]
+    compensate: Callable[[WantedPath], Compensated]
+
+
+def paper_full_pose(
+    arm: Arm,
+    measurements: Measurements,
+    errors: Array,
+    specs: Sequence[ModelSpec],
+    products: Sequence[ModelSpec] = (),
+    regions: Sequence[tuple[ModelSpec, int]] = (),
+    seed: int = 0,
+    diagnosed: bool = True,
+) -> pd.DataFrame:
+    """Model by trajectory by stage, position and orientation, for the first robot of a study.
+
+    Args:
+        arm: the nominal arm.
+        measurements: whose held-out sets give the trajectories' tool points, and the number of identification poses.
+        errors: (K,) the robot's true geometric errors, m and rad, in the order of `geometric_errors`.
+        specs: models to fit as they are.
+        products: models to extend by a sparse choice of products.
+        regions: models of so many blended regions.
+        seed: of the identification poses and the noise.
+        diagnosed: add physics diagnosed from the positions alone.
+
+    Returns:
+        Columns model, trajectory, stage ("fit", "prediction", "closed loop"), points, refused, rms_mm (of the error
+        vector), rms_mrad (of the rotation vector, base axes). All by least squares. The closed loop is the true arm at
+        the corrected commands.
+    """
+    truth = geometric_errors(arm)
+    paths = {
+        each.name: follow_path(arm, each.nominal_mm * 1e-3, _start(arm), BENT_WRIST).require_all(each.name)
+        for each in measurements.held_out
+    }
+    count = len(measurements.identification.motor_angles)
+    identification = _identification(truth, np.concatenate(list(paths.values())), count, seed)
+    recordings = _measured(truth, errors, identification, np.random.default_rng(seed))
+    models = _models(arm, recordings, specs, products, regions)
+    if diagnosed:
+        models[DIAGNOSED] = _physics(arm, recordings)
+    rows = _rows(NO_MODEL, "identification", "fit", *_gap(_of(recordings), _nominal(arm, identification)))
+    for name, angles in paths.items():
+        real = _pose(truth.stand(angles, errors / truth.sigmas))
+        for stage in ("prediction", "closed loop"):
+            rows += _rows(NO_MODEL, name, stage, *_gap(real, _nominal(arm, angles)))
+    for title, model in models.items():
+        rows += _rows(title, "identification", "fit", *_gap(_of(recordings), model.stand(identification)))
+        for name, angles in paths.items():
+            real = _pose(truth.stand(angles, errors / truth.sigmas))
+            rows += _rows(title, name, "prediction", *_gap(real, model.stand(angles)))
+            result = model.compensate(_wanted(arm, angles, name))
+            reached = result.reached
+            loop = _pose(truth.stand(result.commands[reached], errors / truth.sigmas)) if reached.any() else None
+            gap = None if loop is None else _gap(loop, _nominal(arm, angles[reached]))
+            rows += _rows(title, name, "closed loop", *(gap or (np.empty((0, 3)),) * 2), int(np.sum(~reached)))
+    return pd.DataFrame(rows)
+
+
+def _start(arm: Arm) -> Array:
+    start = np.zeros(arm.n_motors)
+    for motor, angle in BENT_WRIST.items():
+        start[motor - 1] = angle
+    return start
+
+
+def _identification(truth: GeometricErrors, angles: Array, count: int, seed: int) -> Array:
+    """(count, m) poses over the trajectories' ranges that show geometric errors best."""
+    low, high = joint_ranges(angles, MARGIN_RAD)
+    wrist = np.arange(len(low)) >= 3
+    low, high = np.where(wrist, low - WRIST_MARGIN_RAD, low), np.where(wrist, high + WRIST_MARGIN_RAD, high)
+    poses = candidate_poses(low, high, CANDIDATES, seed)
+    jacobian = truth.jacobian(chain(truth.arm, poses))
+    return poses[choose_poses(jacobian, count, np.random.default_rng(seed)).rows]
+
+
+def _measured(truth: GeometricErrors, errors: Array, angles: Array, rng: np.random.Generator) -> Recordings:
+    points, rotations = _pose(truth.stand(angles, errors / truth.sigmas))
+    points = points + rng.normal(0, NOISE_MM * 1e-3, points.shape)
+    noise = Rotation.from_rotvec(rng.normal(0, NOISE_MRAD * 1e-3, points.shape))
+    table = _table(angles, points, (noise * Rotation.from_matrix(rotations)).as_matrix())
+    return replace(as_recordings(table), source="identification")
+
+
+def _table(angles: Array, points: Array, rotations: Array) -> pd.DataFrame:
+    columns = {f"q{motor}_rad": values for motor, values in enumerate(angles.T, start=1)}
+    columns |= {f"{axis}_mm": points[:, n] * 1e3 for n, axis in enumerate("xyz")}
+    quaternions = Rotation.from_matrix(rotations).as_quat(canonical=True)
+    return pd.DataFrame(columns | dict(zip(("qx", "qy", "qz", "qw"), quaternions.T, strict=True)))
+
+
+def _wanted(arm: Arm, angles: Array, name: str) -> WantedPath:
+    """Nominal poses, wanted on the branch of the nominal commands."""
+    return as_path(_table(angles, *_nominal(arm, angles)), f"trajectory {name}", arm)
+
+
+def _models(
+    arm: Arm,
+    recordings: Recordings,
+    specs: Sequence[ModelSpec],
+    products: Sequence[ModelSpec],
+    regions: Sequence[tuple[ModelSpec, int]],
+) -> dict[str, _Model]:
+    fitted = {spec.name: fit_error_model(arm, recordings, spec) for spec in specs}
+    fitted |= {f"{spec.name} with products": fit_error_model(arm, recordings, spec, products=True) for spec in products}
+    fitted |= {
+        f"{spec.name}, {count} regions": fit_error_model(arm, recordings, spec, regions=count)
+        for spec, count in regions
+    }
+    return {name: _black_box(model) for name, model in fitted.items()}
+
+
+def _black_box(model: ErrorModel) -> _Model:
+    return _Model(model.stand, lambda path: compensate_black_box(model, path, Options(pose=True)))
+
+
+def _physics(arm: Arm, recordings: Recordings) -> _Model:
+    """Diagnosed from positions; the orientation follows from what was found."""
+    verdict = diagnose(arm, recordings, Settings(0, False, 0, False))
+    identified, model = identified_on(arm, recordings), verdict.model
+
+    def stand(angles: Array) -> tuple[Array, Array]:
+        motors = [f"q{motor}_rad" for motor in range(1, arm.n_motors + 1)]
+        rows = as_recordings(pd.DataFrame(angles, columns=motors), measured=False)
+        rows = replace(rows, run=np.full(len(rows), list(model.bases)[-1]))
+        return predict(model, rows), predict_orientation(model, rows)
+
+    options = Options(frame="measurement", pose=True)
+    return _Model(stand, lambda path: compensate_physical(model, identified, path, options))
+
+
+def _pose(frames: Chain) -> tuple[Array, Array]:
+    return frames.tool, frames.tool_rotation
+
+
+def _nominal(arm: Arm, angles: Array) -> tuple[Array, Array]:
+    return _pose(chain(arm, angles))
+
+
+def _of(recordings: Recordings) -> tuple[Array, Array]:
+    assert recordings.orientation is not None
+    return recordings.positions, Rotation.from_quat(recordings.orientation[:, [1, 2, 3, 0]]).as_matrix()
+
+
+def _gap(pose: tuple[Array, Array], other: tuple[Array, Array]) -> tuple[Array, Array]:
+    """(displacement (N, 3), m; rotation vector (N, 3), rad) of the first pose from the other."""
+    turn = Rotation.from_matrix(pose[1] @ np.swapaxes(other[1], 1, 2)).as_rotvec()
+    return pose[0] - other[0], turn
+
+
+def _rows(
+    model: str, trajectory: str, stage: str, displacement: Array, turn: Array, refused: int = 0
+) -> list[Mapping[str, object]]:
+    def rms(vectors: Array) -> float:
+        return float(np.sqrt(np.mean(np.sum(vectors**2, axis=1)))) * 1e3 if len(vectors) else float("nan")
+
+    keys = {"model": model, "trajectory": trajectory, "stage": stage, "points": len(turn), "refused": refused}
+    return [keys | {"rms_mm": rms(displacement), "rms_mrad": rms(turn)}]
