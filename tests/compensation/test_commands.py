@@ -103,7 +103,6 @@ def test_a_model_of_another_arm_is_an_error(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "found"),
     [
-        (("--frame", "world"), "base or measurement"),
         (("-o", "a.xlsx"), "ending"),
         (("--start-rad", "1,2"), "6 angles"),
         (("--start-rad", "a,b"), "numbers"),
@@ -115,6 +114,12 @@ def test_options_that_cannot_be(tmp_path, arguments, found):
     done = run("compensate", tmp_path / "m.json", tmp_path / "path.csv", "-o", tmp_path / "a.csv", *arguments)
     assert isinstance(done.exception, InputError)
     assert found in str(done.exception)
+
+
+def test_a_frame_that_is_none_is_refused_with_the_known_ones(tmp_path):
+    done = run("compensate", tmp_path / "m.json", tmp_path / "path.csv", "-o", tmp_path / "a.csv", "--frame", "world")
+    assert done.exit_code == 2
+    assert "'measurement'" in done.output
 
 
 def test_model_files_come_back_and_broken_ones_are_errors(tmp_path):

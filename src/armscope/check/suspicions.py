@@ -6,6 +6,7 @@ and a mistake is only named where undoing it makes the arm explain the points, o
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -175,15 +176,19 @@ def _trials(arm: Arm) -> Iterator[_Trial]:
         yield _Trial(
             f"the measured points come {abs(shift)} row(s) too {'late' if shift < 0 else 'early'} for the joint angles",
             "Join angles and points by what they have in common, not by their order.",
-            lambda table, shift=shift: _shifted(table, shift),  # type: ignore[misc]
+            functools.partial(_shifted, shift=shift),
         )
     for motor in range(arm.n_motors):
         signs = np.where(np.arange(arm.n_motors) == motor, -1.0, 1.0)
         yield _Trial(
             f"joint {motor + 1} turns the other way than the arm's model says",
             f"Give q{motor + 1} the other sign, or turn the axis in robot.yaml (alpha of the rows beside it).",
-            lambda table, signs=signs: replace(table, motor_angles=table.motor_angles * signs),  # type: ignore[misc]
+            functools.partial(_turned_round, signs=signs),
         )
+
+
+def _turned_round(table: Recordings, signs: Array) -> Recordings:
+    return replace(table, motor_angles=table.motor_angles * signs)
 
 
 def _shifted(table: Recordings, shift: int) -> Recordings:

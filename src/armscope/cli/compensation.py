@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -34,7 +34,7 @@ def compensate(
     recordings: Annotated[
         Path | None, typer.Option(help="what model.yaml was diagnosed on; else domain.json beside it")
     ] = None,
-    frame: Annotated[str, typer.Option(help="where the wanted points stand: base or measurement")] = "base",
+    frame: Annotated[Literal["base", "measurement"], typer.Option(help="where the wanted points stand")] = "base",
     pose: Annotated[bool, typer.Option(help="correct the orientation, too")] = False,
     start_rad: Annotated[str | None, typer.Option(help="q1,q2,...: where the arm comes from (rad)")] = None,
     allowed_outside: Annotated[
@@ -45,22 +45,29 @@ def compensate(
     """Commands that make the real arm reach the wanted points; exit code 3 where some rows have none."""
     import numpy as np
 
-    from armscope.compensation import Options, compensate_black_box, load_error_model, read_path
+    from armscope.compensation import (
+        ErrorModel,
+        Options,
+        compensate_black_box,
+        compensate_physical,
+        load_error_model,
+        read_path,
+    )
     from armscope.compensation.output import FORMATS, write_commands
+    from armscope.physics.model import load_model
     from armscope.robot.inverse import LARGEST_STEP_RAD
 
-    if frame not in ("base", "measurement"):
-        raise InputError("--frame", "", frame, "base or measurement")
     if not str(output).endswith(FORMATS):
         raise InputError("--output", "", str(output), f"the file's ending says the format: {', '.join(FORMATS)}")
     step = np.inf if separate_points else LARGEST_STEP_RAD
-    black_box = load_error_model(model) if model.suffix == ".json" else None
-    if black_box is not None:
-        _check_robot(robot, black_box.arm)
-        options = Options(frame, pose, _start(start_rad, black_box.arm), allowed_outside, step)  # type: ignore[arg-type]
-        result = compensate_black_box(black_box, read_path(path, black_box.arm), options)
+    fitted: ErrorModel | FittedModel = load_error_model(model) if model.suffix == ".json" else load_model(model)
+    _check_robot(robot, fitted.arm)
+    wanted = read_path(path, fitted.arm)
+    options = Options(frame, pose, _start(start_rad, fitted.arm), allowed_outside, step)
+    if isinstance(fitted, ErrorModel):
+        result = compensate_black_box(fitted, wanted, options)
     else:
-        result = _compensate_physical(model, path, robot, recordings, (frame, pose, start_rad, allowed_outside, step))
+        result = compensate_physical(fitted, _identified(model, fitted, recordings), wanted, options)
     for note in result.notes:
         print(f"note: {note}", file=sys.stderr)
     _tell(result)
@@ -68,23 +75,6 @@ def compensate(
     print(output)
     if not result.reached.all():
         raise typer.Exit(REFUSED)
-
-
-def _compensate_physical(
-    model: Path,
-    path: Path,
-    robot: Path | None,
-    recordings: Path | None,
-    choice: tuple[str, bool, str | None, float, float],
-) -> Compensated:
-    from armscope.compensation import Options, compensate_physical, read_path
-    from armscope.physics.model import load_model
-
-    fitted = load_model(model)
-    _check_robot(robot, fitted.arm)
-    frame, pose, start, allowed, step = choice
-    options = Options(frame, pose, _start(start, fitted.arm), allowed, step)  # type: ignore[arg-type]
-    return compensate_physical(fitted, _identified(model, fitted, recordings), read_path(path, fitted.arm), options)
 
 
 @app.command("fit-error-model")

@@ -10,12 +10,12 @@ depends neither on its lane nor on its neighbours, and its moves agree with the 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.swarm.kernel_data import LANES, Outcome, Pack, Problems
 from armscope.swarm.least_squares import LeastSquares
 from armscope.swarm.result import StopReason, SwarmResult, final_reason
 from armscope.swarm.settings import SwarmSettings
@@ -25,7 +25,6 @@ Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Words = NDArray[np.uint64]
 
-LANES = 16
 ROW_BLOCK = 4  # rows of the triangular product that are computed in one loop
 
 # Unsigned, since indices that might be negative would keep numba's loops scalar.
@@ -35,50 +34,6 @@ _LOWER_HALF, _HALF = np.uint64(2**32 - 1), np.uint64(32)
 _THRESHOLD, _DIVERGED, _OTHER = 0, 1, 2
 
 _compiled = numba.njit(cache=True, nogil=True, error_model="numpy")
-
-
-class _Problems(NamedTuple):
-    """What all swarms look for, and how: S swarms, D dimensions, T iterations."""
-
-    factors: Array  # M x D x D
-    factor_of: Integers  # S
-    targets: Array  # S x D
-    rests: Array  # S
-    lower: Array  # S x D
-    width: Array  # S x D
-    speed_limits: Array  # S x D
-    coefficients: Array  # T x 3
-    particles: int
-    threshold: float
-    orthonormal: bool
-    clamped: bool
-    ring: bool
-
-
-class _Outcome(NamedTuple):
-    """Where the results go, one row per swarm."""
-
-    states: Words  # S x 4, also where the streams begin
-    positions: Array  # S x D
-    fitness: Array  # S
-    history: Array  # S x (T + 1)
-    iterations: Integers  # S
-    codes: Integers  # S
-
-
-class _Pack(NamedTuple):
-    """The state of `LANES` swarms; flat arrays whose fastest index is the lane."""
-
-    swarms: Integers  # which swarm each lane computes
-    stream: Words  # a, b, c, counter of each SFC64
-    cells: Array  # particles x dimensions x (position, velocity, personal best)
-    aims: Array  # (particles or 1) x dimensions x (neighbourhood's best, target, speed limit)
-    factor: Array  # columns x rows (padded with zeros to whole blocks)
-    image: Array  # rows (padded): factor times position
-    tally: Array  # sum of squares (zero between particles), rest, whether better; how many finite, best fitness, whose
-    best_fitness: Array  # particles
-    progress: Array  # iterations + 1
-    at_work: NDArray[np.bool_]
 
 
 def run_kernel(
@@ -91,7 +46,7 @@ def run_kernel(
     """What `minimise` does for ``problems.mean_squares``. Bounds are S x D; the generators must be SFC64."""
     swarms, dimensions = problems.targets.shape
     count, clamp = settings.iterations, settings.velocity_clamp
-    given = _Problems(
+    given = Problems(
         # copies, since arrays that are read-only or not contiguous would each need a compilation of their own
         factors=np.array(problems.factors, dtype=float, order="C"),
         factor_of=np.array(problems.factor_of, dtype=np.int64),
@@ -107,7 +62,7 @@ def run_kernel(
         clamped=clamp is not None,
         ring=settings.neighbourhood == "ring",
     )
-    outcome = _Outcome(
+    outcome = Outcome(
         states=sfc64_states(generators),
         positions=np.full((swarms, dimensions), np.nan),
         fitness=np.full(swarms, np.inf),
@@ -131,11 +86,11 @@ def run_kernel(
 
 
 @_compiled
-def _run(given: _Problems, outcome: _Outcome, lanes: np.uint64) -> None:
+def _run(given: Problems, outcome: Outcome, lanes: np.uint64) -> None:
     """All swarms, pack by pack; the last pack repeats the last swarm, which gives the same result again."""
     swarms, dimensions = given.targets.shape
     padded = (dimensions + ROW_BLOCK - 1) // ROW_BLOCK * ROW_BLOCK
-    pack = _Pack(
+    pack = Pack(
         np.empty(LANES, dtype=np.int64),
         np.empty(4 * LANES, dtype=np.uint64),
         np.empty(given.particles * dimensions * 3 * LANES),
@@ -156,7 +111,7 @@ def _run(given: _Problems, outcome: _Outcome, lanes: np.uint64) -> None:
 
 
 @_compiled
-def _load(given: _Problems, states: Words, pack: _Pack) -> None:
+def _load(given: Problems, states: Words, pack: Pack) -> None:
     """Lay the pack's problems and streams out lane by lane."""
     dimensions = given.targets.shape[1]
     padded = len(pack.image) // LANES
@@ -178,7 +133,7 @@ def _load(given: _Problems, states: Words, pack: _Pack) -> None:
 
 
 @_compiled
-def _place(given: _Problems, pack: _Pack) -> None:
+def _place(given: Problems, pack: Pack) -> None:
     """Every particle at rest, uniformly distributed in the search box."""
     dimensions, stream = given.targets.shape[1], pack.stream
     for cell in range(given.particles * dimensions):
@@ -199,7 +154,7 @@ def _place(given: _Problems, pack: _Pack) -> None:
 
 
 @_compiled
-def _run_pack(given: _Problems, outcome: _Outcome, pack: _Pack, lanes: np.uint64) -> None:
+def _run_pack(given: Problems, outcome: Outcome, pack: Pack, lanes: np.uint64) -> None:
     """One pack from its placed particles until its last swarm has stopped."""
     dimensions, count = given.targets.shape[1], len(given.coefficients)
     pack.best_fitness[:] = np.inf
@@ -342,7 +297,7 @@ def _remember(cells: Array, cell: np.uint64, tally: Array, dimensions: int, lane
 
 
 @_compiled
-def _lead(pack: _Pack, ring: bool, particles: int, dimensions: int) -> None:
+def _lead(pack: Pack, ring: bool, particles: int, dimensions: int) -> None:
     """Let the particles follow the best of their swarm, or the best of three on their ring."""
     fitness = pack.best_fitness
     for particle in range(particles if ring else 1):
@@ -359,7 +314,7 @@ def _lead(pack: _Pack, ring: bool, particles: int, dimensions: int) -> None:
 
 
 @_compiled
-def _note(given: _Problems, outcome: _Outcome, pack: _Pack, iteration: int) -> bool:
+def _note(given: Problems, outcome: Outcome, pack: Pack, iteration: int) -> bool:
     """Write down the swarms' progress and those that stop; whether any goes on."""
     last = len(given.coefficients)
     pack.progress[iteration * LANES : (iteration + 1) * LANES] = pack.tally[4 * LANES : 5 * LANES]
@@ -379,7 +334,7 @@ def _note(given: _Problems, outcome: _Outcome, pack: _Pack, iteration: int) -> b
 
 
 @_compiled
-def _hand_over(outcome: _Outcome, pack: _Pack, lane: int, iteration: int) -> None:
+def _hand_over(outcome: Outcome, pack: Pack, lane: int, iteration: int) -> None:
     """The result of a swarm that has stopped."""
     swarm, dimensions = pack.swarms[lane], outcome.positions.shape[1]
     fitness, leader = pack.tally[4 * LANES + lane], int(pack.tally[5 * LANES + lane])
@@ -396,7 +351,7 @@ def _hand_over(outcome: _Outcome, pack: _Pack, lane: int, iteration: int) -> Non
 
 
 @_compiled
-def _any_finite(given: _Problems, pack: _Pack, lane: int) -> bool:
+def _any_finite(given: Problems, pack: Pack, lane: int) -> bool:
     """Whether any particle of a lane still has a finite position."""
     dimensions = given.targets.shape[1]
     for particle in range(given.particles):
