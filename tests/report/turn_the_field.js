@@ -21,7 +21,7 @@ addEventListener("load", () => {
   for (const axis of ["x", "y", "z"]) { choose("axis", axis); look(axis); }
   choose("axis", "3D"); choose("model", 0); look("back");
   choose("group", 1); look("path");
-  choose("group", -1);
+  choose("group", -1); field.choose(field.data.row);  // a chosen group brings its own row
   pointer("pointerdown", 200, 200); pointer("pointermove", 260, 210); pointer("pointerup", 260, 210); look("turned");
   key("0"); look("reset");
   key("ArrowLeft"); look("key");

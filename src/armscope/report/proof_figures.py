@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.ticker import LogFormatter
 
 from armscope.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, SKY, VERMILION, YELLOW, legend_above, styled
 
@@ -127,6 +128,7 @@ def power(tables: dict[str, pd.DataFrame]) -> Figure:
     for axes in (left, right):
         axes.set(xscale="log", ylim=(-3, 103))
         axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
+        axes.xaxis.set_minor_formatter(LogFormatter())  # 3, 4, 5 within one decade, not 3 x 10^0
     handles = [Line2D([], [], color=c, marker=m, label=label) for c, m, label in FOUND.values()]
     handles.append(Line2D([], [], color=BLACK, ls="--", label="oracle that knows what to test (1 % false alarms)"))
     _legend(figure, handles, columns=3)

@@ -21,6 +21,7 @@
     const size = Math.abs(value);
     return size === 0 ? "0" : Number(value.toPrecision(size >= 100 ? Math.ceil(Math.log10(size)) : 3)).toString().replace("-", "−");
   };
+  const whole = value => value.toFixed(0).replace("-", "−");
   const nice = value => {  // the largest of 1, 2, 5, 10, ... that does not exceed the value
     const power = 10 ** Math.floor(Math.log10(Math.max(value, 1e-9)));
     return [5, 2, 1].map(step => step * power).find(step => step <= value * (1 + 1e-9));
@@ -134,7 +135,7 @@
       this.told.textContent = known
         ? `${model}${data.stages[this.stage][0]} (${data.stages[this.stage][1]}): RMS ${short(Math.sqrt(squares / known))} mm${signed ? ` along ${this.axis}` : " 3D distance"}, largest ${short(largest)} mm, ${known} ${data.row_word}s.${missing}${arrows}`
         : `${model}${data.stages[this.stage][0]}: no numbers here. ${missing}`;
-      this.choose(this.row);
+      this.choose(this.inGroup(this.row) ? this.row : this.groups.indexOf(this.group));
     }
 
     describe(row) {
@@ -142,7 +143,7 @@
       const error = Number.isFinite(here[0]) ? `error ${short(Math.hypot(...here))} mm (x ${short(here[0])}, y ${short(here[1])}, z ${short(here[2])})` : this.data.missing;
       const name = this.data.groups[this.groups[row]];
       const bad = this.suspects.has(row) ? `; suspect: ${this.suspects.get(row)}` : "";
-      return `${name ? `${name}, ` : ""}${this.data.row_word} ${this.data.ids[row]}: ${error}; at x ${where[0].toFixed(0)}, y ${where[1].toFixed(0)}, z ${where[2].toFixed(0)} mm${bad}`;
+      return `${name ? `${name}, ` : ""}${this.data.row_word} ${this.data.ids[row]}: ${error}; at x ${whole(where[0])}, y ${whole(where[1])}, z ${whole(where[2])} mm${bad}`;
     }
 
     choose(row) {
