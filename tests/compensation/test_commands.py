@@ -16,7 +16,17 @@ from armscope.physics.model import save_model
 from armscope.robot import forward_kinematics
 from tests.robot.arms import CONFIG, SK120
 
-from .arms import CONTEXT, black_box, identification_angles, physical, physical_path, sk120, table_of, wanted_points
+from .arms import (
+    CONTEXT,
+    MIDDLE,
+    black_box,
+    identification_angles,
+    physical,
+    physical_path,
+    sk120,
+    table_of,
+    wanted_points,
+)
 
 
 def run(*arguments):
@@ -67,6 +77,17 @@ def test_a_partly_impossible_path_keeps_its_rows_and_gives_no_job(tmp_path):
     job = run("compensate", tmp_path / "m.json", tmp_path / "path.csv", "-o", tmp_path / "a.mod")
     assert isinstance(job.exception, InputError)
     assert not (tmp_path / "a.mod").exists()
+
+
+def test_rows_outside_by_different_distances_are_told_in_one_line(tmp_path):
+    save_error_model(tmp_path / "m.json", black_box())
+    turned = MIDDLE + np.linspace(0.9, 1.2, 6)[:, None] * np.eye(6)[0]
+    table_of(forward_kinematics(sk120(), turned)).to_csv(tmp_path / "path.csv", index=False)
+    done = run("compensate", tmp_path / "m.json", tmp_path / "path.csv", "-o", tmp_path / "a.csv")
+    lines = [line for line in done.output.splitlines() if line.startswith("refused")]
+    causes = pd.read_csv(tmp_path / "a.csv")["reason"].str.replace(r" by .*", "", regex=True)
+    assert causes.str.startswith("outside").sum() > 3
+    assert len(lines) == causes.nunique() < pd.read_csv(tmp_path / "a.csv")["reason"].nunique()
 
 
 def test_diagnosed_physics_needs_to_know_where_it_was_identified(tmp_path):

@@ -47,6 +47,13 @@ def test_missing_context_that_the_model_follows_is_said_per_row(column):
     assert set(np.delete(said, 4)) == {""}
 
 
+def test_points_that_lie_at_the_base_raise_the_question_of_units_whatever_refuses_them():
+    """A folded arm may well reach 2 mm from its base: the range refuses it, and the unit is asked for all the same."""
+    points, _ = physical_path(6)
+    said = reasons(table_of(points * 1e-3, **CONTEXT))
+    assert all("are they metres in columns called _mm?" in reason for reason in said)
+
+
 def test_context_that_the_model_does_not_follow_is_not_asked_for():
     model, identified = physical()
     points, middle = physical_path(5)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 
 app = typer.Typer()
 
+MOST_CAUSES = 10
 REFUSED = 3
 """Exit code where some rows of a path have no command."""
 
@@ -184,9 +186,15 @@ def _tell(result: Compensated) -> None:
             turned, left = (np.sqrt(np.mean(turn[reached] ** 2)) * 1e3 for turn in turns)
             print(f"orientation: predicted error {turned:.4g} mrad RMS, with correction {left:.2g} mrad")
         print(f"up to {outside:.2g} standard deviations outside the identified range")
-    for reason in np.unique(result.reasons[~reached])[:10]:
-        rows = np.flatnonzero(result.reasons == reason) + 1
-        print(f"refused: {len(rows)} rows ({_ranges(rows)}): {reason}")
+    # one line per cause: how far rows lie outside differs from row to row
+    causes = np.array([re.sub(r" by \S+ standard deviations", "", reason) for reason in result.reasons])
+    told = np.unique(causes[~reached])
+    for cause in told[:MOST_CAUSES]:
+        rows = np.flatnonzero(causes == cause)
+        reason = result.reasons[rows[0]] if len(set(result.reasons[rows])) == 1 else cause
+        print(f"refused: {len(rows)} rows ({_ranges(rows + 1)}): {reason}")
+    if len(told) > MOST_CAUSES:
+        print(f"refused for {len(told) - MOST_CAUSES} more reasons: the table says which")
 
 
 def _ranges(rows: NDArray[np.intp]) -> str:

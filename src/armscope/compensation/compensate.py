@@ -171,7 +171,7 @@ class _Task:
             after = real.at(commands[known], known)
             predicted[known] = after.points
             residual_turn[known] = np.linalg.norm(wanted.rows(known).turn(after), axis=1)
-        outside, nearest = self._refuse_outside(refused, commands)
+        outside, nearest = self._refuse_outside(refused, commands, unit_doubt(wanted.points, self.arm.reach))
         reasons = np.asarray(refused, dtype=str)
         residual = np.linalg.norm(wanted.points - predicted, axis=1)
         for values in (commands, predicted, residual, residual_turn):
@@ -292,8 +292,11 @@ class _Task:
             text = f"the correction turns joint {worst[row] + 1} by {size:.1f} degrees: close to a pole"
             _refuse(refused, known[row : row + 1], text)
 
-    def _refuse_outside(self, refused: NDArray[np.object_], commands: Array) -> tuple[Array, Array]:
-        """Distances (N,) from the identified range and from the nearest identification row."""
+    def _refuse_outside(self, refused: NDArray[np.object_], commands: Array, doubt: str) -> tuple[Array, Array]:
+        """Distances (N,) from the identified range and from the nearest identification row.
+
+        ``doubt`` is what `unit_doubt` says about the path.
+        """
         outside, nearest = np.full(len(commands), np.nan), np.full(len(commands), np.nan)
         solved = np.isfinite(commands.sum(axis=1))
         if not solved.any():
@@ -304,7 +307,7 @@ class _Task:
         where = np.flatnonzero(solved)
         for row, name in zip(where, label, strict=True):
             if outside[row] > self.options.allowed:
-                text = f"outside the identified range: {name} by {outside[row]:.2g} standard deviations"
+                text = f"outside the identified range: {name} by {outside[row]:.2g} standard deviations{doubt}"
                 _refuse(refused, np.array([row]), text)
         return outside, nearest
 
