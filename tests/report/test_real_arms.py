@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import pandas as pd
 import pytest
@@ -77,3 +78,33 @@ def test_names_of_most_splits_and_jumps_within_some_rows_of_each_other_are_told(
 
 def test_transfers_stand_beside_their_references(arm_, tmp_path):
     assert "| run a | run b | base and tool | 0.380 (0.41) |" in page(arm_, tmp_path)
+
+
+def test_fewer_splits_than_the_reference_are_told(arm_, tmp_path):
+    table = pd.read_csv(arm_.folder / "protocol.csv")
+    table.loc[table["model"] == "armscope", "splits"] = [1, 3]
+    write_table(arm_.folder / "protocol.csv", table)
+    text = page(arm_, tmp_path)
+    assert "| run a | 0.250 (one split) |" in text
+    assert "| run b | 2.00 ± 0.20 (3 splits) |" in text
+
+
+def test_what_was_concealed_is_told_with_what_was_not(arm_, tmp_path):
+    proof = tmp_path / "proof"
+    rate = {"half": "both", "size": 3.0, "score": "found", "cases": 4, "right": 3, "estimate": 0.75}
+    rates = [rate | {"by": by, "of": of} for by, of in (("all", "all"), ("effect", "gear_mesh"), ("arm", "arm"))]
+    write_table(proof / "rates.csv", pd.DataFrame(rates))
+    skipped = {"set": "arm", "effect": "joint_compliance", "half": "fixed", "reason": "no load"}
+    write_table(proof / "skipped.csv", pd.DataFrame([skipped, skipped | {"half": "fresh"}]))
+    withheld = {
+        "set": "arm", "rows": "run", "withheld": "torques withheld", "load_found": False, "compliance_found": False,
+        "follows_load": None, "held_out_mm": 0.31,
+    }  # fmt: skip
+    write_table(proof / "withheld.csv", pd.DataFrame([withheld]))
+    write_real_arms(tmp_path / "page.md", [arm_, replace(arm_, name="other", title="Other")], "figures", proof)
+    text = (tmp_path / "page.md").read_text(encoding="utf-8")
+    assert "| An arm | 3 | 75 % (3/4) | – | – | – |" in text
+    assert "| gear mesh | 3 | 75 % (3/4) |" in text
+    assert "Not run for this page: Other." in text
+    assert text.count("joint compliance in An arm (no load)") == 1
+    assert "| An arm | all joints move | torques withheld | nothing | no | 0.310 |" in text

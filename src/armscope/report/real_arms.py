@@ -31,6 +31,8 @@ PAPER = "The paper's models at 85 identification rows (chosen as in the paper, l
 CONCEALMENT = """\
 One known effect at a time, added to the recordings behind a seal at 0.5, 1 and 3 times what each arm's own diagnosis
 leaves, on top of all the arm does (`snakemake -j2 proof_real`; definitions and figures in its report):"""
+WITHHELD = "The same recordings without the columns that say how loaded the arm was: is it still found to give way?"
+SCORES = {"found": "found", "right_place": "right place", "covered": "interval holds", "quiet": "no new name"}
 JUMPS = ("base_shift", "tool_shift")
 
 
@@ -79,7 +81,10 @@ def _head(arms: Sequence[RealArm], figures: str) -> str:
             ours = _row(table, run.name, ARMSCOPE)
             others = run.lowest
             verdict = "at or below" if ours["mean_mm"] <= others.mm else "**above**"
-            lines.append(f"| {arm.title} | {run.name} | {_spread(ours)} | {others.mm:g} ({others.what}) | {verdict} |")
+            lines.append(
+                f"| {arm.title} | {run.name} | {_spread(ours, run.splits)} "
+                f"| {others.mm:g} ({others.what}) | {verdict} |"
+            )
     lines += [
         "",
         f"![Every run from the nominal arm to armscope, beside the figures of others]({figures}/real-protocol.png)",
@@ -116,10 +121,14 @@ def _row(table: pd.DataFrame, run: str, model: str) -> Any:
     return found.iloc[0] if len(found) else None
 
 
-def _spread(row: Any) -> str:
+def _spread(row: Any, splits: int | None = None) -> str:
+    """Mean and standard deviation; how many splits, where these are not ``splits``."""
     if row is None:
         return "–"
-    return f"{significant(row['mean_mm'])} ± {significant(row['std_mm'], 2)}"
+    if row["splits"] == 1:
+        return f"{significant(row['mean_mm'])} (one split)"
+    fewer = "" if splits in (None, row["splits"]) else f" ({row['splits']:.0f} splits)"
+    return f"{significant(row['mean_mm'])} ± {significant(row['std_mm'], 2)}{fewer}"
 
 
 def _what_is_wrong(verdict: dict[str, Any]) -> str:
@@ -140,7 +149,8 @@ def _what_is_wrong(verdict: dict[str, Any]) -> str:
 def _how_well(table: pd.DataFrame, run: ReferenceRun) -> str:
     before, after = (_row(table, run.name, model) for model in ("nominal", ARMSCOPE))
     become = f"{significant(before['mean_mm'])} mm become {significant(after['mean_mm'])} mm"
-    return f"On configurations that took no part, {become} (3D, {run.name}, {after['splits']:.0f} splits)."
+    count = "one split" if after["splits"] == 1 else f"{after['splits']:.0f} splits"
+    return f"On configurations that took no part, {become} (3D, {run.name}, {count})."
 
 
 def _levels(table: pd.DataFrame, runs: Sequence[ReferenceRun]) -> str:
@@ -154,7 +164,7 @@ def _levels(table: pd.DataFrame, runs: Sequence[ReferenceRun]) -> str:
             row = _row(table, run.name, level)
             known = run.figures_mm.get(level)  # type: ignore[call-overload]
             cells.append(_spread(row) + (f" ({known[0]:g} ± {known[1]:g})" if known and row is not None else ""))
-        cells.append(f"**{_spread(_row(table, run.name, ARMSCOPE))}**")
+        cells.append(f"**{_spread(_row(table, run.name, ARMSCOPE), run.splits)}**")
         lines.append(f"| {run.name} | {' | '.join(cells)} | {run.lowest.mm:g} |")
     return "\n".join(lines)
 
@@ -226,25 +236,60 @@ def _transfers(table: pd.DataFrame) -> str:
 
 
 def _concealment(proof: Path, arms: Sequence[RealArm]) -> str:
-    """How often known effects that were added to these recordings were found."""
+    """How often known effects that were added to these recordings were found, and what is found with less recorded."""
     rates, titles = pd.read_csv(proof / "rates.csv"), {arm.name: arm.title.partition(",")[0] for arm in arms}
     rates = rates[rates["half"] == "both"]
-    scores = {"found": "found", "right_place": "right place", "covered": "interval holds", "quiet": "no new name"}
-    lines = [
-        "## Known effects concealed in these recordings",
-        "",
-        CONCEALMENT,
-        "",
-        "| arm | size | " + " | ".join(scores.values()) + " |",
-        "|---|---|" + "---|" * len(scores),
-    ]
-    for by, of in [("all", "all"), *(("arm", name) for name in titles)]:
+    there = set(rates[rates["by"] == "arm"]["of"])
+    missing = [title for name, title in titles.items() if name not in there]
+    lines = ["## Known effects concealed in these recordings", "", CONCEALMENT, ""]
+    lines += _rates(rates, [("all", "all"), *(("arm", name) for name in titles)], titles, "arm")
+    lines += ["", *_rates(rates, [("effect", name) for name in sorted(rates[rates["by"] == "effect"]["of"].unique())])]
+    if missing:
+        lines += ["", f"Not run for this page: {', '.join(missing)}."]
+    skipped = pd.read_csv(proof / "skipped.csv")
+    if len(skipped):
+        told = skipped.drop_duplicates(["set", "effect"])
+        lines += ["", "Not planted: "]
+        lines[-1] += "; ".join(
+            f"{effect.replace('_', ' ')} in {titles.get(name, name)} ({reason})"
+            for name, effect, reason in zip(told["set"], told["effect"], told["reason"], strict=True)
+        )
+    return "\n".join([*lines, *_withheld(proof, titles)])
+
+
+def _rates(
+    rates: pd.DataFrame, groups: list[tuple[str, str]], titles: dict[str, str] | None = None, head: str = "effect"
+) -> list[str]:
+    lines = [f"| {head} | size | " + " | ".join(SCORES.values()) + " |", "|---|---|" + "---|" * len(SCORES)]
+    for by, of in groups:
         mine = rates[(rates["by"] == by) & (rates["of"] == of)]
         for size, group in mine.groupby("size"):
             cells = group.set_index("score")
-            shown = [_rate(cells.loc[score]) if score in cells.index else "–" for score in scores]
-            lines.append(f"| {titles.get(of, of)} | {size:g} | {' | '.join(shown)} |")
-    return "\n".join(lines)
+            shown = [_rate(cells.loc[score]) if score in cells.index else "–" for score in SCORES]
+            name = (titles or {}).get(of, of.replace("_", " "))
+            lines.append(f"| {name} | {size:g} | {' | '.join(shown)} |")
+    return lines
+
+
+def _withheld(proof: Path, titles: dict[str, str]) -> list[str]:
+    path = proof / "withheld.csv"
+    table = pd.read_csv(path) if path.stat().st_size > 1 else pd.DataFrame()
+    if table.empty:
+        return []
+    lines = [
+        "",
+        WITHHELD,
+        "",
+        "| arm | rows | withheld | follows the load | joint compliance by name | held out (mm, 3D) |",
+        "|---|---|---|---|---|---|",
+    ]
+    rows = {"run": "all joints move", "payloads": "three payloads"}
+    for row in table.to_dict("records"):
+        follows = str(row["follows_load"]).replace("_", " ") if row["load_found"] else "nothing"
+        named = "yes" if row["compliance_found"] else "no"
+        cells = [titles.get(str(row["set"]), str(row["set"])), rows[str(row["rows"])], row["withheld"], follows, named]
+        lines.append(f"| {' | '.join(map(str, cells))} | {significant(float(row['held_out_mm']))} |")
+    return lines
 
 
 def _rate(row: Any) -> str:
