@@ -180,12 +180,17 @@ def _tell(result: Compensated) -> None:
     if reached.any():
         missed, left = (np.sqrt(np.mean(miss[reached] ** 2)) * 1e3 for miss in (result.uncorrected, result.residual))
         outside = result.outside[reached].max()
-        print(f"{reached.sum()} of {count} rows: predicted miss {missed:.4g} mm RMS, with correction {left:.2g} mm")
+        print(
+            f"{reached.sum()} of {count} rows: predicted miss {missed:.4g} mm RMS, with correction {_or_less(left)} mm"
+        )
         if result.pose:
             turns = (result.uncorrected_turn, result.residual_turn)
             turned, left = (np.sqrt(np.mean(turn[reached] ** 2)) * 1e3 for turn in turns)
-            print(f"orientation: predicted error {turned:.4g} mrad RMS, with correction {left:.2g} mrad")
-        print(f"up to {outside:.2g} standard deviations outside the identified range")
+            print(f"orientation: predicted error {turned:.4g} mrad RMS, with correction {_or_less(left)} mrad")
+        if outside < 0.005:
+            print("all inside the identified range")
+        else:
+            print(f"up to {outside:.2g} standard deviations outside the identified range")
     # one line per cause: how far rows lie outside differs from row to row
     causes = np.array([re.sub(r" by \S+ standard deviations", "", reason) for reason in result.reasons])
     told = np.unique(causes[~reached])
@@ -195,6 +200,11 @@ def _tell(result: Compensated) -> None:
         print(f"refused: {len(rows)} rows ({_ranges(rows + 1)}): {reason}")
     if len(told) > MOST_CAUSES:
         print(f"refused for {len(told) - MOST_CAUSES} more reasons: the table says which")
+
+
+def _or_less(value: float) -> str:
+    """Two digits; what has converged is not told to the last bit."""
+    return f"{value:.2g}" if value >= 1e-3 else "below 0.001"
 
 
 def _ranges(rows: NDArray[np.intp]) -> str:

@@ -70,7 +70,10 @@ def _draw_coverage(figure: Figure, panel: Any, recordings: Recordings, arm: Arm 
     shown = np.ma.masked_equal(counts, 0)
     motors = np.arange(recordings.n_motors + 1) + 0.5
     image = panel.pcolormesh(edges, motors, shown, cmap="Blues", norm=LogNorm(0.5, max(counts.max(), 2)))
-    figure.colorbar(image, ax=panel, label=f"rows per {BIN_DEG} degrees", pad=0.02)
+    bar = figure.colorbar(image, ax=panel, label=f"rows per {BIN_DEG} degrees", pad=0.02)
+    whole = [step * 10**power for power in range(6) for step in (1, 2, 5) if step * 10**power <= max(counts.max(), 2)]
+    bar.set_ticks(whole, labels=[str(count) for count in whole], minor=False)
+    bar.set_ticks([], minor=True)
     if arm is not None:
         for motor, limits in enumerate(np.degrees(arm.limits), start=1):
             for limit in limits[np.isfinite(limits) & (limits >= low) & (limits <= high)]:
