@@ -3,11 +3,13 @@ import re
 import shutil
 import subprocess
 
+import numpy as np
 import pytest
 
 from armscope.report.diagnosis_page import assumptions, write_report
 from armscope.report.headline import headline
 from tests.report import verdicts
+from tests.report.test_error_field import browsed
 from tests.report.verdicts import CASES
 
 PAGES = ["five", "clean", "unknowns", "cannot_tell"]
@@ -47,6 +49,14 @@ class Page(html.parser.HTMLParser):
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     return tmp_path_factory.mktemp("reports")
+
+
+@pytest.fixture(scope="module")
+def five(folder):
+    """The page with five effects, for tests that open it in a browser."""
+    case = CASES["five"]()
+    path = folder / "five" / "report.html"
+    return path if path.exists() else write_report(case.verdict, case.arm, case.recordings, folder / "five")
 
 
 @pytest.fixture(scope="module", params=PAGES)
@@ -162,8 +172,8 @@ MEASURE = """<script>addEventListener("load", () => {
 @pytest.mark.browser
 @pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
 @pytest.mark.parametrize("width", [1280, 500])
-def test_a_browser_shows_it_whole_at_desktop_and_narrow_width(folder, tmp_path, width):
-    source = (folder / "five" / "report.html").read_text()
+def test_a_browser_shows_it_whole_at_desktop_and_narrow_width(five, tmp_path, width):
+    source = five.read_text()
     measured = tmp_path / "page.html"
     measured.write_text(source.replace("</body>", f"{MEASURE}</body>"))
     flags = [
@@ -180,5 +190,32 @@ def test_a_browser_shows_it_whole_at_desktop_and_narrow_width(folder, tmp_path, 
         [CHROMIUM, *flags, *offline, f"--screenshot={shot}", "--dump-dom", measured.as_uri()],
         capture_output=True, text=True, timeout=90, check=False,
     )  # fmt: skip
-    images = len(list((folder / "five" / "figures").glob("*.svg")))
+    images = len(list((five.parent / "figures").glob("*.svg")))
     assert f"MEASURED 0 too wide, 0 broken of {images}, true at {width}" in done.stdout, done.stderr[-500:]
+
+
+LISTEN = """<script>
+const heard = [];
+addEventListener("error", e => heard.push(e.message));
+addEventListener("securitypolicyviolation", e => heard.push("asked for " + e.blockedURI));
+addEventListener("load", () => {
+  const field = document.querySelector("figure.field").field, stage = document.getElementById("field-stage");
+  const told = () => document.querySelector(".field-told").textContent, before = told();
+  stage.value = 1; stage.dispatchEvent(new Event("change"));
+  const result = { heard, before, after: told(), count: field.count, suspects: [...field.suspects.keys()] };
+  const node = Object.assign(document.createElement("pre"), { id: "result", textContent: JSON.stringify(result) });
+  document.body.replaceChildren(node);
+});</script>"""
+
+
+@pytest.mark.browser
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
+def test_the_error_field_of_a_report_says_what_the_verdict_says(five, tmp_path):
+    verdict = CASES["five"]().verdict
+    seen = browsed(five, tmp_path, LISTEN)
+    assert seen["heard"] == []
+    assert seen["count"] == verdict.rows
+    assert len(seen["suspects"]) == len(verdict.suspects)
+    for name in ("before", "after"):
+        rms = np.sqrt(np.mean(np.sum(getattr(verdict.residuals, name) ** 2, axis=1)))
+        assert f"RMS {rms:.3g} mm 3D distance" in seen[name]

@@ -152,7 +152,15 @@ def _arm_data(arm: Arm, motor_angles: Array, shares: Mapping[str, float]) -> dic
         rotation, origin = bodies[body]
         local = (line @ base_axes.T - origin) @ rotation * 1e3
         place = arm.n_joints + 1 if location == "tool" else 0 if location == "base" else int(location.split()[-1])
-        parts.append({"body": body, "line": local.tolist(), "width": 0.62 * width(place), "colour": colour(location)})
+        parts.append(
+            {
+                "body": body,
+                "line": local.tolist(),
+                "width": 0.62 * width(place),
+                "colour": colour(location),
+                "ends": location == "tool",
+            }
+        )  # the tool's line ends at the row's own point
     discs = []
     for joint in range(arm.n_joints):
         centre = (shape.centres[joint] @ base_axes.T - frames.joint_origin[0, joint]) @ frames.joint_rotation[0, joint]

@@ -21,6 +21,7 @@
     const size = Math.abs(value);
     return size === 0 ? "0" : Number(value.toPrecision(size >= 100 ? Math.ceil(Math.log10(size)) : 3)).toString().replace("-", "−");
   };
+  const fine = value => value.toFixed(Math.abs(value) < 100 ? 3 : 0).replace("-", "−");  // mm, to the micrometre
   const whole = value => value.toFixed(0).replace("-", "−");
   const nice = value => {  // the largest of 1, 2, 5, 10, ... that does not exceed the value
     const power = 10 ** Math.floor(Math.log10(Math.max(value, 1e-9)));
@@ -140,7 +141,7 @@
 
     describe(row) {
       const at = 3 * row, here = this.errors.subarray(at, at + 3), where = this.points.subarray(at, at + 3);
-      const error = Number.isFinite(here[0]) ? `error ${short(Math.hypot(...here))} mm (x ${short(here[0])}, y ${short(here[1])}, z ${short(here[2])})` : this.data.missing;
+      const error = Number.isFinite(here[0]) ? `error ${short(Math.hypot(...here))} mm (x ${fine(here[0])}, y ${fine(here[1])}, z ${fine(here[2])})` : this.data.missing;
       const name = this.data.groups[this.groups[row]];
       const bad = this.suspects.has(row) ? `; suspect: ${this.suspects.get(row)}` : "";
       return `${name ? `${name}, ` : ""}${this.data.row_word} ${this.data.ids[row]}: ${error}; at x ${whole(where[0])}, y ${whole(where[1])}, z ${whole(where[2])} mm${bad}`;
@@ -330,8 +331,10 @@
       const { arm } = this.data, { joints, bodies } = this.armPose = this.pose(this.row), things = [];
       const wide = (width, least = 2) => Math.max(least * this.ratio, 2 * this.cam.scale * width);
       const world = (body, p) => plus(bodies[body].at, apply(bodies[body].turn, p));
+      const point = this.flat(this.points.subarray(3 * this.row, 3 * this.row + 3));  // where the tool was measured
       for (const part of arm.parts) {
         const line = part.line.map(p => this.flat(world(part.body, p)));
+        if (part.ends) line[line.length - 1] = point;
         const depth = line.reduce((sum, p) => sum + p[2], 0) / line.length;
         things.push({ depth, draw: () => { this.line(line, LINE, wide(part.width) + 2 * this.ratio); this.line(line, part.colour, wide(part.width)); } });
       }
@@ -340,7 +343,7 @@
         things.push({ depth: line[1][2], draw: () => { this.line(line, LINE, 5 * this.ratio); this.line(line, arm.rod_colour, 3 * this.ratio); } });
       }
       arm.discs.forEach((disc, j) => things.push(this.disc(disc, joints[j])));
-      const tip = this.flat(world(bodies.length - 1, arm.tool)), s = 6 * this.ratio;
+      const tip = point, s = 6 * this.ratio;
       things.push({ depth: tip[2] + 1, draw: () => {
         this.line([[tip[0] - s, tip[1]], [tip[0] + s, tip[1]]], CHOSEN, 1.5 * this.ratio);
         this.line([[tip[0], tip[1] - s], [tip[0], tip[1] + s]], CHOSEN, 1.5 * this.ratio);
