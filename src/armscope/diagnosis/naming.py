@@ -51,11 +51,16 @@ def _promoted(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
     added = [number for number in others if _stands_out(problem, hypothesis, number, STANDS_OUT_NATS, STANDS_OUT)]
     if drives:
         free = _with_names(problem, hypothesis, drives, np.full(len(drives), problem.mismatch))
-        # what gives way does so along its load
-        given = [d for d in drives if _means(problem, free, d)[0] > 0]
-        added += [d for d in given if _stands_out(problem, free, d, GIVES_NATS, GIVES)]
-    sizes = np.array([np.linalg.norm(_means(problem, hypothesis, number)) for number in added])
-    return _with_names(problem, hypothesis, added, sizes)
+        added += [d for d in drives if _stands_out(problem, free, d, GIVES_NATS, GIVES)]
+    while True:
+        sizes = np.array([np.linalg.norm(_means(problem, hypothesis, number)) for number in added])
+        told = _with_names(problem, hypothesis, added, sizes)
+        # several that stand in for each other stand out only as long as the others are held small
+        lost = {d: _lost(problem, told, d) for d in added if d in drives}
+        weakest = min(lost, key=lambda d: lost[d], default=None)
+        if weakest is None or lost[weakest] > GIVES_NATS:
+            return told
+        added.remove(weakest)
 
 
 def _with_names(problem: Problem, hypothesis: Hypothesis, names: Sequence[int], rms: np.ndarray) -> Hypothesis:
@@ -68,8 +73,9 @@ def _means(problem: Problem, hypothesis: Hypothesis, number: int) -> np.ndarray:
 
 
 def _stands_out(problem: Problem, hypothesis: Hypothesis, number: int, least: float, share: float) -> bool:
-    lost = float(pinned_losses(problem, hypothesis, [problem.pool.columns[number]])[0])
-    return lost > least and bool(np.linalg.norm(_means(problem, hypothesis, number)) > share * problem.mismatch)
+    return _lost(problem, hypothesis, number) > least and bool(
+        np.linalg.norm(_means(problem, hypothesis, number)) > share * problem.mismatch
+    )
 
 
 def _unnamed(problem: Problem, hypothesis: Hypothesis) -> Iterator[int]:
@@ -82,6 +88,13 @@ def _unnamed(problem: Problem, hypothesis: Hypothesis) -> Iterator[int]:
         for number, columns in enumerate(pool.columns):
             if set(columns) <= inside and not taken & set(columns) and pool.candidates[number].key not in taken_keys:
                 yield number
+
+
+def _lost(problem: Problem, hypothesis: Hypothesis, number: int) -> float:
+    """Nats lost when a candidate's columns are held at zero; all, where a value that can't be negative is."""
+    if problem.pool.along[number] and _means(problem, hypothesis, number)[0] <= 0:
+        return -np.inf
+    return float(pinned_losses(problem, hypothesis, [problem.pool.columns[number]])[0])
 
 
 def _nearest_size(problem: Problem, rms: float) -> int:

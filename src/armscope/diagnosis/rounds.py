@@ -43,6 +43,8 @@ ROWS_OF_A_GROUP = 20
 """Rows of every run and target that the sample holds at least."""
 FLICKERING = 0.002
 """Share of the rows that may still come and go when the rounds end."""
+WITHIN = 0.3
+"""Names within a background are fitted freely, but not so freely that several could run against each other."""
 PROMISING = 60
 """How many effects beside the chosen ones are weighed again on all rows of a long table."""
 
@@ -183,16 +185,33 @@ class Rounds:
         found = search.best(starts, warm)
         self.found = search.refined(found)
         self.best, self.last = named(search, self.found), (found, self.pool)
-        effects = [(self.pool.candidates[c.candidate], float(self.problem.sizes[c.size])) for c in self.best.chosen]
-        small = list(zip(self.families, background_sizes(self.problem, self.best), strict=True))
-        turn = self.weights.turn
-        self.fit = refit(
-            model, self.recordings, self.frames, small, effects, self.uncertainty, self.noise.least_mm, turn
-        )
+        self.fit = self._fitted(model)
+        against = self._against_their_load()
+        if against:
+            self.best = search.without(self.best, against)
+            self.fit = self._fitted(model)
         new = self._scanned(search, model) if scanning else []
         self.model, self.left, self.weights = self.fit.model, self.fit.residuals, self.fit.weights
         self.uncertainty = relative_uncertainty(self.recordings, self.fit.noise)
         return new
+
+    def _fitted(self, model: FittedModel) -> Refit:
+        """The best hypothesis fitted with the exact model."""
+        effects = [
+            (self.pool.candidates[c.candidate], float(self.problem.sizes[c.size]) * (WITHIN if c.within else 1.0))
+            for c in self.best.chosen
+        ]
+        small = list(zip(self.families, background_sizes(self.problem, self.best), strict=True))
+        turn = self.weights.turn
+        return refit(model, self.recordings, self.frames, small, effects, self.uncertainty, self.noise.least_mm, turn)
+
+    def _against_their_load(self) -> list[int]:
+        """Names within a background whose fitted values turned out negative where they can't be."""
+        return [
+            c.candidate
+            for c, part in zip(self.best.chosen, self.fit.model.parts, strict=True)
+            if c.within and self.pool.along[c.candidate] and part.values[0] < 0
+        ]
 
     def selected(self) -> Selected:
         """Where the rounds stand."""

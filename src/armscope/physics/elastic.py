@@ -34,7 +34,8 @@ def has_load(arm: Arm) -> bool:
 def loaded_joints(scene: Scene) -> list[int]:
     """Motors (1-based) whose load varies by more than a trace: under less, a drive would have to be a soft spring."""
     torques = scene.torques
-    varies_by = np.std(torques, axis=0) if len(torques) > 1 else np.abs(torques[0])
+    # a single odd row is no variation
+    varies_by = np.ptp(np.quantile(torques, (0.02, 0.98), axis=0), axis=0) if len(torques) > 1 else np.abs(torques[0])
     return [int(j) for j in np.flatnonzero(varies_by > TRACE_OF_LOAD * varies_by.max(initial=1e-9)) + 1]
 
 

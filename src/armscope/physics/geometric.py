@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
-from armscope.physics.placing import moving_joints
+from armscope.physics.placing import STANDS_STILL_RAD, moving_joints
 from armscope.physics.scene import LINKAGE_JOINT
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -104,7 +104,7 @@ BACKGROUND = Effect(
 
 def _place_wobbles(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     spans = np.ptp(recordings.motor_angles @ arm.actuation.T, axis=0)
-    for j in np.flatnonzero(spans > 1e-3) + 1:
+    for j in np.flatnonzero(spans > STANDS_STILL_RAD) + 1:
         for per_turn in (1, 2):
             terms = tuple(
                 term(

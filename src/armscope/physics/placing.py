@@ -11,7 +11,7 @@ from armscope.recordings import Recordings
 
 Array = NDArray[np.float64]
 
-STANDS_STILL_RAD = 1e-3
+STANDS_STILL_RAD = 1e-2
 """A joint whose commanded angles span less than this tells nothing about what follows its angle."""
 
 
