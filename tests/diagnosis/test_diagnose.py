@@ -12,6 +12,7 @@ import pytest
 from armscope.diagnosis import Settings, diagnose, write_verdict
 from armscope.diagnosis.verdict import Verdict
 from armscope.physics.model import load_model, predict
+from armscope.poses.obstacles import Surroundings, refusals
 from armscope.recordings import read_recordings
 from armscope.robot import load_arm
 
@@ -119,6 +120,7 @@ def test_two_effects_that_look_alike_are_both_named() -> None:
     poses = verdict.next_poses
     assert poses is not None
     assert (poses.payload_kg != 10).any(), "only another payload tells them apart"
+    assert set(refusals(arm, poses.motor_angles, Surroundings())) == {""}
     # measuring what was asked for, as often as was asked for, settles it
     repeats = int(min(poses.repeats_needed, 8))
     asked = one_run(arm, len(poses.payload_kg) * repeats, seed=42)

@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from armscope.poses.body import collision_shapes, pieces
 from armscope.poses.obstacles import Surroundings, refusals, segment_distance
 from armscope.robot import chain, load_arm
 from armscope.robot.centre_line import centre_lines
@@ -60,6 +61,59 @@ def test_an_upright_arm_is_possible_and_a_folded_one_hits_itself(arm):
     assert reasons[0] == ""
     assert reasons[1] == "hits itself"
     assert reasons[2] == ""
+
+
+def test_a_pose_is_judged_alike_alone_and_among_others(arm):
+    angles = np.random.default_rng(1).uniform(arm.limits[:, 0], arm.limits[:, 1], (30, 6))
+    around = Surroundings(radius=0.15, floor=0.0, tracker=np.array([4.0, 0, 1.5]))
+    together = refusals(arm, angles, around)
+    assert len(set(together)) > 2
+    assert [refusals(arm, angle[None], around)[0] for angle in angles] == together.tolist()
+
+
+def urdf_arm(folder, collision):
+    """Three links of 1 m that fold in a plane, the axes about x in the file's frame."""
+    links = "".join(
+        f'<link name="l{n}"><collision><origin xyz="0 0 0.5"/><geometry>{collision}</geometry></collision></link>'
+        for n in (1, 2, 3)
+    )
+    joints = "".join(
+        f'<joint name="j{n}" type="revolute"><parent link="{parent}"/><child link="l{n}"/>'
+        f'<origin xyz="0 0 {0 if n == 1 else 1}"/><axis xyz="1 0 0"/>'
+        '<limit lower="-3.1" upper="3.1" effort="1" velocity="1"/></joint>'
+        for n, parent in ((1, "base"), (2, "l1"), (3, "l2"))
+    )
+    tip = '<link name="tip"/><joint name="t" type="fixed"><parent link="l3"/><child link="tip"/>'
+    content = f'<robot name="r"><link name="base"/>{links}{joints}{tip}<origin xyz="0 0 1"/></joint></robot>'
+    (folder / "arm.urdf").write_text(f'<?xml version="1.0"?>{content}')
+    (folder / "robot.yaml").write_text("name: r\nurdf: arm.urdf\ntip: tip\n")
+    return load_arm(folder / "robot.yaml")
+
+
+def test_collision_shapes_of_a_urdf_are_its_body(tmp_path):
+    """Folded by two angles of 2.3 rad, the third link crosses the first; by 1.9 only thick ones touch."""
+    angles = np.array([[0.3, 2.3, 2.3], [0.3, 0.5, 0.5], [0.3, 1.9, 1.9]])
+    thin = urdf_arm(tmp_path, '<cylinder radius="0.05" length="1"/>')
+    shapes = collision_shapes(thin.description)
+    assert shapes[0].radius == pytest.approx(0.05)
+    length = np.linalg.norm(shapes[0].end - shapes[0].start)
+    assert length == pytest.approx(0.9)  # with its caps as long as the cylinder
+    frames = chain(thin, angles)
+    body = pieces(thin, frames, shapes, 0.01)
+    for joint in range(3):  # each capsule lies half-way along its link
+        beyond = frames.tool if joint == 2 else frames.joint_origin[:, joint + 1]
+        middle = (frames.joint_origin[:, joint] + beyond) / 2
+        np.testing.assert_allclose((body[joint].start + body[joint].end) / 2, middle, atol=1e-12)
+    assert refusals(thin, angles, Surroundings()).tolist() == ["hits itself", "", ""]
+    thick = urdf_arm(tmp_path, '<box size="0.8 0.8 1"/>')
+    assert refusals(thick, angles, Surroundings())[2] == "hits itself"
+    assert refusals(thick, angles, Surroundings(radius=0.01))[2] == ""  # a stated radius counts instead
+
+
+def test_a_urdf_whose_meshes_are_missing_falls_back_to_lines(tmp_path):
+    arm = urdf_arm(tmp_path, '<mesh filename="package://nowhere/link.stl"/>')
+    assert collision_shapes(arm.description) == []
+    assert refusals(arm, np.zeros((1, 3)), Surroundings())[0] == ""
 
 
 def test_the_floor_stops_what_moves_below_it_and_not_the_base(arm):

@@ -33,7 +33,9 @@ def poses(
     criterion: Annotated[str, typer.Option(help="O1 (D-optimal), O2, O3, O4 or O5")] = "O1",
     tracker: Annotated[str | None, typer.Option(help="x,y,z in mm, base frame: poses must be in its sight")] = None,
     floor_mm: Annotated[float | None, typer.Option(help="height of the floor in the base frame")] = None,
-    radius_mm: Annotated[float | None, typer.Option(min=0, help="of the links; else 4 % of the reach")] = None,
+    radius_mm: Annotated[
+        float | None, typer.Option(min=0, help="of the links; else the URDF's shapes, or 4 % of reach")
+    ] = None,
     payload_kg: Annotated[float, typer.Option(min=0, help="half of the poses may carry it")] = 0.0,
     candidates: Annotated[int, typer.Option(min=1, help="possible poses to choose from")] = 5000,
     starts: Annotated[int, typer.Option(min=1, help="of the exchange")] = 3,
@@ -101,14 +103,15 @@ def _noise(noise_mm: float | None, sigma: float | None) -> tuple[float, str]:
 
 
 def _tell(choice: Choice, source: str, noise: float) -> None:
-    pool, arm = choice.candidates, choice.shown.arm
+    from armscope.poses.output import body_in_words
+
+    pool = choice.candidates
     refused = ", ".join(f"{count} {reason}" for reason, count in pool.refused.items() if count)
     print(f"chosen from {len(pool)} possible poses" + (f"; of {pool.drawn} drawn {refused}" if refused else ""))
     print(", ".join(f"{name} {value:.4g}" for name, value in choice.indices.items()))
     if choice.shown.hidden:
         print(f"not told apart from the others: {', '.join(choice.shown.hidden)}")
-    radius = choice.around.radius_of(arm) * 1e3
-    notes = [f"links count as capsules of {radius:.0f} mm radius around the lines between their joints"]
+    notes = [f"the arm's body: {body_in_words(choice)}"]
     notes += ["no --tracker: every pose counts as visible"] if choice.around.tracker is None else []
     notes += ["no --floor-mm: the arm may reach below its base"] if choice.around.floor is None else []
     notes += [f"noise {noise * 1e3:g} mm per axis, assumed"] if source == "assumed" else []

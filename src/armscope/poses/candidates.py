@@ -10,14 +10,12 @@ from numpy.typing import NDArray
 from scipy.stats import qmc
 
 from armscope.inputs import InputError
-from armscope.poses.obstacles import REASONS, Surroundings, refusals
+from armscope.poses.obstacles import REASONS, Surroundings, ranges, refusals
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
 Array = NDArray[np.float64]
 
-UNSTATED_RAD = np.pi
-"""A motor without stated limits is assumed to turn half a turn to either side."""
 MOST_DRAWN = 40
 """At most this many poses are drawn per candidate wanted."""
 LARGEST_GRID = 500_000
@@ -39,12 +37,6 @@ class Candidates:
 
     def __len__(self) -> int:
         return len(self.table)
-
-
-def ranges(arm: Arm) -> tuple[Array, Array]:
-    """(low, high) of each motor, rad."""
-    low, high = arm.limits.T
-    return np.where(np.isfinite(low), low, -UNSTATED_RAD), np.where(np.isfinite(high), high, UNSTATED_RAD)
 
 
 def candidates(arm: Arm, count: int, around: Surroundings, seed: int, payload_kg: float = 0.0) -> Candidates:

@@ -1,20 +1,21 @@
 """Poses that an arm can take and a tracker can see: links as capsules, a floor, a line of sight.
 
-Assumed, as no file states the arm's body: each piece of the centre line (from the kinematics, `centre_lines`) is a
-capsule of one radius, `RADIUS_SHARE` of the reach unless told. Neighbouring pieces touch by construction and are not
-compared, nor are pairs that would touch in nearly every pose (short wrists).
+The body is that of `armscope.poses.body`; without collision shapes each link is assumed to be `RADIUS_SHARE` of the
+reach thick. Neighbouring pieces touch by construction and are not compared, nor are pairs that would touch in nearly
+every pose (short wrists).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import combinations, pairwise
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import qmc
 
-from armscope.robot import Arm, Chain, chain
-from armscope.robot.centre_line import centre_lines
+from armscope.poses.body import Piece, Shape, collision_shapes, pieces
+from armscope.robot import Arm, chain
 
 Array = NDArray[np.float64]
 
@@ -22,8 +23,6 @@ RADIUS_SHARE = 0.04
 """Radius of a link as a share of the arm's reach: 100 mm for a reach of 2.5 m."""
 ALWAYS_SHARE = 0.9
 """A pair of pieces that touches in a larger share of poses does so by the assumed radius, not by the pose."""
-SHORTEST_SHARE = 0.5
-"""Pieces of the centre line shorter than this share of the radius count as part of their neighbours."""
 CLEAR_OF_TOOL = 2.0
 """The line of sight starts this many radii from the tool point: nearer by is the reflector's holder."""
 
@@ -33,7 +32,7 @@ class Surroundings:
     """What limits the poses besides the joints.
 
     Attributes:
-        radius: of the links, m; None: assumed (`RADIUS_SHARE`).
+        radius: of the links, m; None: the URDF's collision shapes, or assumed (`RADIUS_SHARE`).
         floor: height of a plane in the base frame below which nothing may be, m; None: there is none.
         tracker: (3,) where the tracker stands in the base frame, m; None: it sees everything.
     """
@@ -46,77 +45,73 @@ class Surroundings:
         """Of the links, m."""
         return RADIUS_SHARE * arm.reach if self.radius is None else self.radius
 
+    def shapes_of(self, arm: Arm) -> list[Shape]:
+        """The collision shapes that count; none where the links are lines of one radius."""
+        return collision_shapes(arm.description) if self.radius is None else []
+
+
+UNSTATED_RAD = np.pi
+"""A motor without stated limits is assumed to turn half a turn to either side."""
+PROBES = 200
+"""Poses over the whole ranges that say which pieces always touch, and which never move."""
+
+
+def ranges(arm: Arm) -> tuple[Array, Array]:
+    """(low, high) of each motor, rad."""
+    low, high = arm.limits.T
+    return np.where(np.isfinite(low), low, -UNSTATED_RAD), np.where(np.isfinite(high), high, UNSTATED_RAD)
+
 
 REASONS = ("hits itself", "hits the floor", "out of the tracker's sight")
 
 
 def refusals(arm: Arm, motor_angles: Array, around: Surroundings) -> NDArray[np.str_]:
     """(N,) one of `REASONS`, or "" for poses (N, m) rad that are possible."""
-    frames = chain(arm, motor_angles)
-    pieces, radius = _pieces(arm, frames), around.radius_of(arm)
-    reasons = np.full(len(motor_angles), "", dtype="<U30")
+    low, high = ranges(arm)
+    probes = low + qmc.Halton(arm.n_motors, scramble=False).random(PROBES) * (high - low)
+    frames = chain(arm, np.concatenate([probes, motor_angles]))
+    radius = around.radius_of(arm)
+    body = pieces(arm, frames, around.shapes_of(arm), radius)
+    reasons = np.full(PROBES + len(motor_angles), "", dtype="<U30")
     if around.tracker is not None:
-        reasons[_hidden(pieces, frames.tool, around.tracker, radius)] = REASONS[2]
+        reasons[_hidden(body, frames.tool, around.tracker, radius)] = REASONS[2]
     if around.floor is not None:
-        reasons[_below(pieces, around.floor, radius)] = REASONS[1]
-    reasons[_touches_itself(pieces, radius)] = REASONS[0]
-    return reasons
+        reasons[_below(body, around.floor)] = REASONS[1]
+    reasons[_touches_itself(body)] = REASONS[0]
+    return reasons[PROBES:]
 
 
-@dataclass(frozen=True, eq=False)
-class _Piece:
-    """A straight piece of the arm: which link, its ends (N, 3), m."""
-
-    link: int
-    start: Array
-    end: Array
-
-
-def _pieces(arm: Arm, frames: Chain) -> list[_Piece]:
-    pieces = []
-    for link, (_, line) in enumerate(centre_lines(arm, frames)):
-        for k, _ in pairwise(range(line.shape[1])):
-            pieces.append(_Piece(link, line[:, k], line[:, k + 1]))
-    return pieces
-
-
-def _long(pieces: list[_Piece], radius: float) -> list[_Piece]:
-    """Without pieces that have no length to speak of; lengths do not depend on the pose."""
-    return [each for each in pieces if np.linalg.norm(each.end[0] - each.start[0]) > SHORTEST_SHARE * radius]
-
-
-def _touches_itself(pieces: list[_Piece], radius: float) -> NDArray[np.bool_]:
+def _touches_itself(body: list[Piece]) -> NDArray[np.bool_]:
     """(N,) poses in which two pieces that are no neighbours come closer than their radii."""
-    solid = _long(pieces, radius)
-    touches = np.zeros(len(pieces[0].start), dtype=bool)
-    for first, second in combinations(range(len(solid)), 2):
-        one, other = solid[first], solid[second]
-        if second - first == 1 or other.link == one.link:
+    touches = np.zeros(len(body[0].start), dtype=bool)
+    for one, other in combinations(body, 2):
+        if abs(other.place - one.place) <= 1 or other.link == one.link:
             continue
-        close = segment_distance(one.start, one.end, other.start, other.end) < 2 * radius
-        if close.mean() < ALWAYS_SHARE:
+        close = segment_distance(one.start, one.end, other.start, other.end) < one.radius + other.radius
+        if close[:PROBES].mean() < ALWAYS_SHARE:
             touches |= close
     return touches
 
 
-def _below(pieces: list[_Piece], floor: float, radius: float) -> NDArray[np.bool_]:
-    """(N,) poses with a moving piece nearer to the floor than the radius; what never moves stands on it."""
-    lowest = np.full(len(pieces[0].start), np.inf)
-    for piece in _long(pieces, radius):
+def _below(body: list[Piece], floor: float) -> NDArray[np.bool_]:
+    """(N,) poses with a moving piece nearer to the floor than its radius; what never moves stands on it."""
+    lowest = np.full(len(body[0].start), np.inf)
+    for piece in body:
         for point in (piece.start, piece.end):
-            if np.ptp(point[:, 2]) > 1e-9:
-                lowest = np.minimum(lowest, point[:, 2])
-    return np.asarray(lowest < floor + radius)
+            if np.ptp(point[:PROBES, 2]) > 1e-9:
+                lowest = np.minimum(lowest, point[:, 2] - piece.radius)
+    return np.asarray(lowest < floor)
 
 
-def _hidden(pieces: list[_Piece], tool: Array, tracker: Array, radius: float) -> NDArray[np.bool_]:
+def _hidden(body: list[Piece], tool: Array, tracker: Array, radius: float) -> NDArray[np.bool_]:
     """(N,) poses in which a piece of the arm stands between tracker and tool."""
     away = tracker - tool
     distance = np.linalg.norm(away, axis=1, keepdims=True)
     near = tool + away / distance * np.minimum(CLEAR_OF_TOOL * radius, distance)
     hidden = np.zeros(len(tool), dtype=bool)
-    for piece in _long(pieces, radius):
-        hidden |= segment_distance(near, np.broadcast_to(tracker, near.shape), piece.start, piece.end) < radius
+    for piece in body:
+        seen_past = segment_distance(near, np.broadcast_to(tracker, near.shape), piece.start, piece.end)
+        hidden |= seen_past < piece.radius
     return hidden
 
 

@@ -11,9 +11,9 @@ import pandas as pd
 from armscope.design.indices import SOURCES
 from armscope.files import write_json, write_table
 from armscope.physics.effect import Driver
-from armscope.poses.candidates import UNSTATED_RAD
 from armscope.poses.choose import Choice
 from armscope.poses.compare import RIVALS, predicted_errors, share_won, summary
+from armscope.poses.obstacles import UNSTATED_RAD
 
 FOLLOW_APPROACH = {"approach", "lost motion"}
 
@@ -61,7 +61,7 @@ def _content(choice: Choice, compared: pd.DataFrame | None, noise: float, noise_
         "not_told_apart": list(seen.hidden),
         "candidates": {"possible": len(pool), "drawn": pool.drawn, "refused": dict(pool.refused)},
         "assumed": {
-            "link_radius_mm": around.radius_of(seen.arm) * 1e3,
+            "body": body_in_words(choice),
             "floor_mm": None if around.floor is None else around.floor * 1e3,
             "tracker_mm": None if around.tracker is None else (around.tracker * 1e3).tolist(),
             "motors_without_limits": [f"q{j + 1}: +-{np.degrees(UNSTATED_RAD):g} deg" for j in np.flatnonzero(~stated)],
@@ -78,6 +78,16 @@ def _content(choice: Choice, compared: pd.DataFrame | None, noise: float, noise_
             },
         }
     return content
+
+
+def body_in_words(choice: Choice) -> str:
+    """What the arm's body is taken to be."""
+    arm, around = choice.shown.arm, choice.around
+    radius = f"{around.radius_of(arm) * 1e3:.0f} mm radius"
+    shapes = around.shapes_of(arm)
+    if shapes:
+        return f"{len(shapes)} collision shapes of the URDF as capsules, and a tool of {radius}"
+    return f"links as capsules of {radius} around the lines between their joints"
 
 
 def _follows_approach(choice: Choice) -> bool:
