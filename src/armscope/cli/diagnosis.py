@@ -31,6 +31,9 @@ def diagnose(
     resamples: Annotated[int, typer.Option(min=0, help="how often rows are resampled; 0 saves time")] = 10,
     cross_validation: Annotated[bool, typer.Option(help="repeat the whole diagnosis on held-out folds")] = True,
     tool_per_run: Annotated[bool, typer.Option(help="the tool was taken off between runs")] = False,
+    estimate_gravity: Annotated[
+        bool, typer.Option(help="gravity's direction in the base frame is not known (an arm on a wedge)")
+    ] = False,
     report: Annotated[bool, typer.Option(help="write report.html and its figures")] = True,
 ) -> None:
     """Find where simulation and recordings differ, and which physics was left out."""
@@ -53,7 +56,7 @@ def diagnose(
     if first_id is not None:
         table = table.rows(_rows_from(table, first_id))
     _tell_problems(arm, table)
-    settings = Settings(seed, tool_per_run, resamples, cross_validation)
+    settings = Settings(seed, tool_per_run, resamples, cross_validation, estimate_gravity)
     with _progress("diagnosing") as tell:
         verdict = diagnose_arm(arm, table, settings, tell)
         write_verdict(verdict, output)

@@ -114,7 +114,7 @@ def _rms_after_frames(gram: Gram, frames: Indices) -> float:
 
 def kinds(pool: Pool) -> int:
     """How many types of effects compete."""
-    return len({placed.name for placed in pool.candidates})
+    return max(len({placed.name for placed in pool.candidates}), 1)
 
 
 def costs(pool: Pool) -> Array:

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from armscope.diagnosis.checks import FEWEST_ROWS, check_table, too_far
 from armscope.diagnosis.frames import fit_frames, other_tools
+from armscope.diagnosis.gravity import lean
 from armscope.diagnosis.judge import Evidence, judge, undecided
-from armscope.diagnosis.noise import known_noise
+from armscope.diagnosis.noise import Noise, known_noise
 from armscope.diagnosis.problem import residuals
 from armscope.diagnosis.rounds import Progress, select
 from armscope.diagnosis.validation import split
@@ -32,12 +33,14 @@ class Settings:
         tool_per_run: whether the tool offset is free in every run, not only per target.
         resamples: how many times rows are resampled for the inclusion frequencies; 0 leaves them out.
         cross_validation: whether the procedure is validated on held-out rows.
+        estimate_gravity: whether gravity's direction is free; otherwise it is as the robot's description states.
     """
 
     seed: int = 0
     tool_per_run: bool = False
     resamples: int = 10
     cross_validation: bool = True
+    estimate_gravity: bool = False
 
 
 def diagnose(
@@ -70,6 +73,9 @@ def diagnose(
     obstacle = too_far(arm, table, first) or _too_few(table, frames)
     if obstacle is not None:
         return undecided(start, table, first, noise, (*notices, obstacle), time.perf_counter() - started)
+    if settings.estimate_gravity:
+        arm, told = _gravity(start, table, noise, tool_per_run)
+        start, notices = replace(start, arm=arm), (*notices, *told)
     rng = np.random.default_rng(settings.seed)
     layout = split(table, rng)
     found = select(start, table, noise, frames, layout.of_row, tell)
@@ -106,6 +112,22 @@ def _frames(arm: Arm, table: Recordings, tool_per_run: bool) -> tuple[FittedMode
         return start, tool_per_run, []
     text = f"The tool point lies up to {exchanged[1] * 1e3:.3g} mm elsewhere from run to run: it is free in each run."
     return exchanged[0], True, [Notice("tool exchanged", text)]
+
+
+def _gravity(start: FittedModel, table: Recordings, noise: Noise, tool_per_run: bool) -> tuple[Arm, list[Notice]]:
+    """The arm with gravity's direction as estimated, and what to say of it."""
+    found = lean(start, table, noise, tool_per_run)
+    if found is None:
+        text = "Nothing speaks for another direction of gravity than stated."
+        return start.arm, [Notice("gravity as stated", text)]
+    angle, stderr = np.degrees(found.angle), np.degrees(found.stderr)
+    down = ", ".join(f"{g:.3g}" for g in found.arm.gravity)
+    text = (
+        f"Gravity leans {angle:.1f} +- {1.96 * stderr:.1f} degrees from where it is stated "
+        f"({found.evidence:.0f} nats): "
+        f"gravity_m_s2: [{down}] in the base frame was used."
+    )
+    return found.arm, [Notice("gravity estimated", text)]
 
 
 def _too_few(recordings: Recordings, frames: Sequence[Placed]) -> Notice | None:
