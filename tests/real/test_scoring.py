@@ -139,11 +139,19 @@ def test_all_that_was_planted_is_won_back_by_a_perfect_model_and_nothing_by_the_
 
 
 def test_rates_count_both_halves_and_each():
-    worlds = [original(), altered(spring()), altered(claim("gear_ratio", "joint 5"), part="fresh")]
+    other = [{"name": "compliance", "value": 2e-6, "unit": "rad/(N m)"}]
+    missed = altered(claim("gear_ratio", "joint 5"), part="fresh", truth={"parameters": other})
+    worlds = [original(), altered(spring()), missed]
     rates = tables(score(worlds))["rates"]
     shown = rates[(rates["by"] == "all") & (rates["score"] == "found")].set_index("half")
     assert shown["cases"].to_dict() == {"fixed": 1, "fresh": 1, "both": 2}
     assert shown["right"].to_dict() == {"fixed": 1, "fresh": 0, "both": 1}
+
+
+def test_the_same_recordings_in_both_halves_count_once():
+    rates = tables(score([original(), altered(spring()), altered(spring(), part="fresh")]))["rates"]
+    shown = rates[(rates["by"] == "all") & (rates["score"] == "found")].set_index("half")
+    assert shown["cases"].to_dict() == {"fixed": 1, "fresh": 1, "both": 1}
 
 
 def test_what_follows_a_load_is_told_where_columns_are_withheld():

@@ -46,7 +46,7 @@ def rates_table(scores: Scores) -> pd.DataFrame:
 def _grouped(rows: pd.DataFrame, keys: list[str], half: str) -> list[tuple[dict[str, object], pd.DataFrame]]:
     if rows.empty:
         return []
-    chosen = rows if half == "both" else rows[rows["half"] == half]
+    chosen = rows[~rows["twin"]] if half == "both" else rows[rows["half"] == half]
     found = []
     for values, group in chosen.groupby([*keys, "size"], sort=False):
         *of, size = values if isinstance(values, tuple) else (values,)

@@ -15,6 +15,9 @@ name (nothing where it does not name it, though the arm may have some: coverage 
 **New names** are names that neither the original's verdict has nor the planted effect explains: false alarms that the
 planted effect caused.
 
+**Twins.** Where both halves draw the same place and numbers, the recordings are the same: they count once in both
+halves together.
+
 **Held out.** RMS of the 3D distance on the 30 % of the configurations that nobody saw: `floor`, what the original's
 model leaves of the original readings; `without`, the same with what the planted effect adds there beyond the frames;
 `with`, what the altered verdict's model leaves of the altered readings. Recovered = (without^2 - with^2) / planted^2,
@@ -90,15 +93,20 @@ def score(worlds: Sequence[Sealed]) -> Scores:
     """
     originals = {world.set: world for world in worlds if world.truth["kind"] == "original"}
     cases, numbers, skipped = [], [], {}
+    drawn: set[tuple[str, str]] = set()
     for world in worlds:
         if world.truth["kind"] != "altered":
             continue
         if world.set not in originals:
             raise InputError("sealed", world.set, "no original", "altered recordings are compared with the original's")
         case, compared = _case(world, originals[world.set])
+        planted = world.set, str([world.truth[key] for key in ("effect", "location", "parameters")])
+        case["twin"] = planted in drawn
+        drawn.add(planted)
         cases.append(case)
         numbers += [
-            {key: case[key] for key in ("set", "half", "effect", "location", "size")} | vars(c) for c in compared
+            {key: case[key] for key in ("set", "half", "effect", "location", "size", "twin")} | vars(c)
+            for c in compared
         ]
         for each in world.truth["skipped"]:
             skipped[world.set, each["effect"], world.part] = each["reason"]
