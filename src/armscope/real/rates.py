@@ -57,7 +57,7 @@ def _grouped(rows: pd.DataFrame, keys: list[str], half: str) -> list[tuple[dict[
 def held_out_table(cases: pd.DataFrame) -> pd.DataFrame:
     """Per arm and size: medians of floor, without and with (mm), and of the share recovered."""
     rows = []
-    for (name, size), group in cases.groupby(["set", "size"], sort=False):
+    for (name, size), group in cases.groupby(["set", "size"]):
         middle = group[["floor_mm", "without_mm", "with_mm", "recovered", "size_ratio"]].median()
         rows.append({"set": name, "size": size, "cases": len(group), **middle.to_dict()})
     return pd.DataFrame(rows).replace([np.inf, -np.inf], np.nan)
