@@ -73,6 +73,20 @@ def test_a_wobble_is_told_as_amplitude_phase_and_direction() -> None:
     assert [p.value for p in told[:3]] == pytest.approx([2e-4, 0.7, -0.4], abs=1e-6)
 
 
+def test_a_wobble_of_which_half_is_hidden_has_an_interval_that_holds_the_whole() -> None:
+    """Tilts (cos d, sin d) cos(q - p): half of them turn with the joint, as a tool offset does, half against it."""
+    arm = arm_named("six-axis")
+    placed = next(p for p in library(arm, one_run(arm, 20, 1)) if p.name == "axis_wobble")
+    whole = 2e-4 * np.outer([np.cos(0.3), np.sin(0.3)], [np.cos(0.9), np.sin(0.9)])
+    turning = np.array([[1, 0, 0, 1], [0, -1, 1, 0]]) / np.sqrt(2)
+    seen = whole.reshape(-1) - turning.T @ (turning @ whole.reshape(-1))
+    covariance = (1e-6) ** 2 * np.eye(4) + (1e-4) ** 2 * turning.T @ turning
+    amplitude = parameters(placed, seen, covariance)[0]
+    assert amplitude.value == pytest.approx(1e-4, rel=0.01)
+    low, high = amplitude.interval
+    assert low < 2e-4 < high
+
+
 def test_scatter_is_found_at_its_joint_and_noise_has_no_place() -> None:
     arm, table = planted("six-axis", {}, 150, 0.0, seed=3)
     moved = levers(FittedModel(arm, {"1": Base(np.eye(3), np.zeros(3))}), table)

@@ -32,7 +32,9 @@ seen."""
 FAMILY_SIZES = 4
 """Sizes of an elastic or transmission background: none, then the smallest of the effects' sizes."""
 CROWDED_NATS = 15.0
-"""What a third effect in one joint's transmission costs more: one unknown cause is likelier than three known ones."""
+"""What every further effect that follows one joint's own angle costs more: one unknown cause is likelier than several
+known ones. (In development worlds two names for one kink beat the free curve by at most 22 nats, half of them by less
+than 10; 38 of 40 true pairs beat it by more than 15.)"""
 PERFECT = (0, 0, 0)
 SIZES = 5
 """How many effect sizes compete, evenly in the logarithm between what is barely seen and the mismatch."""
@@ -151,6 +153,7 @@ class Hypothesis:
         factor: Cholesky factor (lower) of G + noise^2 / variance.
         mean: posterior mean of the scaled coefficients.
         rss: penalised residual sum of squares, mm^2.
+        settled: whether the noise is this hypothesis' own.
     """
 
     chosen: tuple[Chosen, ...]
@@ -162,6 +165,7 @@ class Hypothesis:
     factor: Array = field(repr=False)
     mean: Array = field(repr=False)
     rss: float = field(repr=False)
+    settled: bool = True
 
     @functools.cached_property
     def inverse(self) -> Array:
@@ -180,19 +184,21 @@ class Hypothesis:
         return full
 
 
-def weigh(problem: Problem, chosen: tuple[Chosen, ...], background: Background, noise: float) -> Hypothesis:
-    """Evidence of a hypothesis; the noise starts from ``noise`` and is re-estimated (MacKay 1992)."""
+def weigh(
+    problem: Problem, chosen: tuple[Chosen, ...], background: Background, noise: float, steps: int = NOISE_STEPS
+) -> Hypothesis:
+    """Evidence of a hypothesis; the noise starts from ``noise`` and is re-estimated (MacKay 1992), or kept (1 step)."""
     prior = prior_variances(problem, chosen, background)
     columns = np.flatnonzero(prior > 0)
     variance = prior[columns]
     G, b = problem.gram.G[np.ix_(columns, columns)], problem.gram.b[columns]
-    spent = None
-    for step in range(NOISE_STEPS):
+    spent = inverse = None
+    for step in range(steps):
         factor = lower_factor(G, noise**2 / variance)
         half = forward(factor, b)
         rss = float(problem.gram.yy - half @ half)
         mean = np.asarray(dtrtrs(factor, half, lower=1, trans=1)[0])
-        if step == NOISE_STEPS - 1:
+        if step == steps - 1:
             break
         if spent is None:
             # how many values the data determine hardly changes with the noise: one inverse is enough
@@ -204,6 +210,7 @@ def weigh(problem: Problem, chosen: tuple[Chosen, ...], background: Background, 
         if abs(updated - noise) < NOISE_SETTLED * noise:
             break
         noise = updated
+    inverse = dtrtri(factor, lower=1)[0] if inverse is None else inverse
     logdet = 2 * np.sum(np.log(np.diag(factor))) + np.sum(np.log(variance)) - 2 * len(columns) * np.log(noise)
     evidence = -problem.n * np.log(noise) - 0.5 * logdet - 0.5 * rss / noise**2
     own = [c for c in chosen if not c.within]
@@ -213,7 +220,8 @@ def weigh(problem: Problem, chosen: tuple[Chosen, ...], background: Background, 
     paid += CROWDED_NATS * max(problem.pool.crowding(frozenset(c.candidate for c in own)), 0)
     if not problem.pool.stands(frozenset(c.candidate for c in chosen)):
         paid = np.inf
-    return Hypothesis(chosen, background, noise, float(evidence - paid), columns, variance, factor, mean, rss)
+    value = float(evidence - paid)
+    return Hypothesis(chosen, background, noise, value, columns, variance, factor, mean, rss, steps > 1)
 
 
 def _along(problem: Problem, chosen: Sequence[Chosen], columns: Indices, mean: Array, stderr: Array) -> float:
@@ -331,7 +339,8 @@ def gains_by_size(problem: Problem, groups: Groups, hypothesis: Hypothesis) -> A
     """(SIZES, candidates) what each candidate would add to a hypothesis' value at each size, nats.
 
     The posterior of the hypothesis is conditioned on (Schur complement), so the gain is exact up to the noise's
-    re-estimation, for which the profile of the likelihood over the noise is used.
+    re-estimation, for which the profile of the likelihood over the noise is used; a noise that is not the hypothesis'
+    own stays.
     """
     G, b = problem.gram.G, problem.gram.b
     S, noise = hypothesis.columns, hypothesis.noise
@@ -352,7 +361,11 @@ def gains_by_size(problem: Problem, groups: Groups, hypothesis: Hypothesis) -> A
         shrunk = s2[:, None, None] / (1 + s2[:, None, None] * eigenvalues)
         quadratic = np.sum(u2 * shrunk, axis=2)
         logdet = np.sum(np.log1p(s2[:, None, None] * eigenvalues), axis=2)
-        by_size[:, members] = _profiled(quadratic, chi2, problem.n, noise, problem.least_noise) - 0.5 * logdet
+        if hypothesis.settled:
+            likelier = _profiled(quadratic, chi2, problem.n, noise, problem.least_noise)
+        else:
+            likelier = 0.5 * quadratic
+        by_size[:, members] = likelier - 0.5 * logdet
     # what can't be negative and would be is not worth looking at; the others' prior is twice as dense
     for number in np.flatnonzero(problem.pool.along):
         by_size[:, number] += np.log(2) if r_all[problem.pool.columns[number][0]] > 0 else -np.inf

@@ -23,6 +23,7 @@ from armscope.diagnosis.refit import Refit
 from armscope.diagnosis.scan import when_stderr
 from armscope.diagnosis.scatter import Scattered, levers
 from armscope.diagnosis.search import Search
+from armscope.diagnosis.shares import shares
 from armscope.diagnosis.validation import Blocks, Rows, carry_over, cross_validate
 from armscope.diagnosis.verdict import (
     Answer,
@@ -95,9 +96,10 @@ def judge(
     scene = fit.model.scene(evidence.recordings)
     gram = _plain_gram(evidence)
     variance = _variance_after_frames(gram, fit.pool.frames)
+    shared, of_families = _shares(fit, gram)
     found = {
-        c.candidate: _found(evidence, search, c, part, rivals[c.candidate], often, scene, gram, variance)
-        for c, part in zip(best.chosen, fit.model.parts, strict=True)
+        c.candidate: _found(evidence, search, c, part, rivals[c.candidate], often, scene, gram, share)
+        for c, part, share in zip(best.chosen, fit.model.parts, shared, strict=True)
     }
     order = sorted(found, key=lambda c: -found[c].rms_at_tool_mm)
     held_out = HeldOut(float("nan"), float("nan"))
@@ -107,7 +109,7 @@ def judge(
         rows = Rows(evidence.point, evidence.recordings, fit.weights.row)
         held_out, waterfall = cross_validate(problem, evidence.blocks, evidence.layout, best, order, rows)
     tell("drawing the atlas", 0.9)
-    background = _backgrounds(evidence, search, gram, variance)
+    background = _backgrounds(evidence, search, gram, of_families)
     named = [_with_weight(found[c], background) for c in order]
     scattered = [s for s in _scattered(evidence, variance) if not _rest_of_a_curve(s, named)]
     over = carry_over(problem, evidence.blocks, evidence.layout, best)
@@ -170,7 +172,7 @@ def _found(
     often: dict[int, float],
     scene: Scene,
     gram: Gram,
-    variance: float,
+    share: float,
 ) -> FoundEffect:
     """One effect with everything that is known about it."""
     fit, placed = evidence.fit, part.placed
@@ -178,7 +180,6 @@ def _found(
     coefficients = np.zeros(len(fit.pool.terms))
     coefficients[fit.pool.of(placed)] = _sized(evidence, chosen, part.values, covariance)
     rms = contribution(gram, fit.pool.frames, coefficients)
-    share = rms**2 / variance if variance > 0 else 0.0
     apart = [certainty.apart(evidence.best, other, placed, rival) for _, rival, other in rivals]
     close = [rival for nats, (_, rival, _) in zip(apart, rivals, strict=True) if nats < certainty.TELLS_APART_NATS]
     named_as, title = certainty.name(placed, close)
@@ -294,7 +295,17 @@ def _weighted_rms(fit: Refit) -> float:
     return float(np.sqrt(np.mean(fit.residuals[trusted] ** 2)))
 
 
-def _backgrounds(evidence: Evidence, search: Search, gram: Gram, variance: float) -> tuple[Background, ...]:
+def _shares(fit: Refit, gram: Gram) -> tuple[list[float], list[float]]:
+    """Share of the variance after the frames of every effect, and of every family's background."""
+    members = [fit.pool.of(part.placed) for part in fit.model.parts]
+    families = [columns for columns in fit.pool.background if len(columns)]
+    told = iter(shares(gram, fit.noise**2 * fit.precision, fit.pool.frames, [*members, *families]).tolist())
+    return [next(told) for _ in members], [next(told) if len(columns) else 0.0 for columns in fit.pool.background]
+
+
+def _backgrounds(
+    evidence: Evidence, search: Search, gram: Gram, of_families: Sequence[float]
+) -> tuple[Background, ...]:
     """What each family's background amounts to, and whether the evidence asks for it."""
     fit, best = evidence.fit, evidence.best
     sizes = background_sizes(evidence.problem, best)
@@ -306,7 +317,7 @@ def _backgrounds(evidence: Evidence, search: Search, gram: Gram, variance: float
         rms = contribution(gram, fit.pool.frames, coefficients)
         without = search.resized(best, (*best.background[:number], 0, *best.background[number + 1 :]))
         present = best.background[number] > 0 and best.value - without.value > BACKGROUND_SEEN_NATS
-        told.append(Background(family, present, sizes[number], rms, rms**2 / variance if variance > 0 else 0.0))
+        told.append(Background(family, present, sizes[number], rms, of_families[number]))
     return tuple(told)
 
 

@@ -67,17 +67,23 @@ class Pool:
         )
 
     @functools.cached_property
-    def special_cases(self) -> tuple[frozenset[int], ...]:
-        """For every free curve of an angle or a load, the candidates that it contains."""
+    def special_cases(self) -> tuple[tuple[frozenset[int], int], ...]:
+        """For every free curve, the candidates that it contains, and how many of them may well stand side by side.
+
+        What follows a joint's own angle is one, as a rule; an offset and a compliance are a common pair.
+        """
         return tuple(
-            frozenset(n for n in self.clashes[number] if self.candidates[n].reading != "curve")
+            (
+                frozenset(n for n in self.clashes[number] if self.candidates[n].reading != "curve"),
+                1 if placed.variant == "angle" else 2,
+            )
             for number, placed in enumerate(self.candidates)
             if placed.reading == "curve" and not placed.fine
         )
 
     def crowding(self, candidates: frozenset[int]) -> int:
-        """By how many effects some curve's special cases at one place exceed two."""
-        return max((len(special & candidates) - 2 for special in self.special_cases), default=0)
+        """By how many effects some curve's special cases at one place exceed what is common."""
+        return max((len(special & candidates) - common for special, common in self.special_cases), default=0)
 
     @functools.cached_property
     def resting(self) -> dict[int, frozenset[int]]:

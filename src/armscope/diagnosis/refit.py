@@ -39,6 +39,7 @@ class Refit:
         model: the fitted model.
         pool: frames, background and effects that were fitted.
         gram: at the solution, mm per SI unit.
+        precision: (p,) prior precision of all values, SI units.
         covariance: (p, p) of all values, SI units.
         noise: mm per axis.
         spent: effective number of fitted values.
@@ -48,6 +49,7 @@ class Refit:
     model: FittedModel
     pool: Pool
     gram: Gram
+    precision: Array
     covariance: Array
     noise: float
     spent: float
@@ -104,7 +106,8 @@ def refit(
         if np.sqrt(np.mean((left - before) ** 2)) < max(CONVERGED_MM, CONVERGED * uncertain):
             break
     # a lucky residual does not make the instrument better than it is known to be
-    return Refit(model, parts, gram, max(noise, least_noise) ** 2 * covariance, noise, spent, RowWeights(w, turn), left)
+    covariance = max(noise, least_noise) ** 2 * covariance
+    return Refit(model, parts, gram, precision, covariance, noise, spent, RowWeights(w, turn), left)
 
 
 def _not_worse(
@@ -151,12 +154,20 @@ def _precision(parts: Pool, gram: Gram, sizes: Sequence[float], effects: Sequenc
     for number, (columns, shape, size) in enumerate(zip(parts.background, parts.background_shape, sizes, strict=True)):
         variance[columns] = (size * TOLERANCE) ** 2 if number == 0 else (size * shape / scale[columns]) ** 2
     for (placed, size), at in zip(effects, parts.columns, strict=True):
-        wide = 1.0 if placed.reading == "curve" or placed.variant == "unknown masses" else FREE
+        wide = 1.0 if _part_of_it_unseen(placed) else FREE
         variance[at] = (wide * size * np.array(placed.shape) / scale[at]) ** 2
         # nor farther than frames go, however much of it they would absorb
         variance[at] = np.minimum(variance[at], FRAME_PRIOR_MM**2 * gram.n / np.maximum(np.diag(gram.G)[at], 1e-24))
     variance[parts.frames] = (FRAME_PRIOR_MM / scale[parts.frames]) ** 2
     return np.asarray(1 / variance)
+
+
+def _part_of_it_unseen(placed: Placed) -> bool:
+    """Whether recordings may not tell some combination of an effect's values, which then stays as wide as its size.
+
+    Of an axis that wobbles once per turn, half turns with the tool, whose offset is free, where no joint follows.
+    """
+    return placed.reading == "curve" or placed.variant == "unknown masses" or placed.name == "axis_wobble"
 
 
 def _solve(A: Array, b: Array) -> tuple[Array, Array]:

@@ -15,6 +15,7 @@ import numpy as np
 from armscope.diagnosis.evidence import (
     BACKGROUND_SIZES,
     FAMILY_SIZES,
+    NOISE_STEPS,
     PERFECT,
     SURE_NATS,
     Background,
@@ -149,13 +150,13 @@ class Search:
         """The hypothesis with another background."""
         return weigh(self.problem, hypothesis.chosen, background, hypothesis.noise)
 
-    def without(self, hypothesis: Hypothesis, removed: Iterable[int]) -> Hypothesis:
-        """The hypothesis without some candidates."""
+    def without(self, hypothesis: Hypothesis, removed: Iterable[int], steps: int = NOISE_STEPS) -> Hypothesis:
+        """The hypothesis without some candidates; with one step at the noise as it is."""
         left = hypothesis.candidates - set(removed)
         # what rested on them goes with them
         left = frozenset(c for c in left if self.problem.pool.stands(left & {c} | (left - self._resting())))
         kept = tuple(c for c in hypothesis.chosen if c.candidate in left)
-        return weigh(self.problem, kept, hypothesis.background, hypothesis.noise)
+        return weigh(self.problem, kept, hypothesis.background, hypothesis.noise, steps)
 
     def _resting(self) -> frozenset[int]:
         return frozenset(self.problem.pool.resting)
@@ -207,7 +208,8 @@ class Search:
                 moves += self._split(hypothesis, c)
         groups = [(c.candidate,) for c in hypothesis.chosen] + self._regions(hypothesis)
         for removed in groups:
-            rest = self.without(hypothesis, removed)
+            # at the noise as it is: without what is taken out the noise would be larger, and fine detail worth nothing
+            rest = self.without(hypothesis, removed, steps=1)
             least = hypothesis.value - rest.value - SLACK_NATS
             moves += self.additions(rest, self.branches, without=removed, least=least)
         return [

@@ -101,7 +101,7 @@ def _unit_mass_torques(scene: Scene) -> Array:
 
     def compute() -> Array:
         ones = np.ones(len(scene))
-        return gravity_torques(scene.arm, scene.nominal, ones) - gravity_torques(scene.arm, scene.nominal)
+        return gravity_torques(scene.arm, scene.loaded, ones) - gravity_torques(scene.arm, scene.loaded)
 
     return scene.remember("unit mass torques", compute)
 
@@ -122,7 +122,7 @@ def _off_centre(scene: Scene, load: Driver, axis: int) -> Array:
 
 def _regressor(scene: Scene, j: int, *weights: float) -> Array:
     """Combination of the static torque regressor's columns of motor j: gravity torque of unknown mass moments."""
-    regressor = scene.remember("regressor", lambda: mass_moment_regressor(scene.arm, scene.nominal))
+    regressor = scene.remember("regressor", lambda: mass_moment_regressor(scene.arm, scene.loaded))
     values: Array = regressor[:, j - 1] @ np.array(weights)
     return values
 

@@ -88,7 +88,7 @@ def _mass_moment_terms(scene: Scene, j: int) -> Iterator[Term]:
 
 
 def _regressor(scene: Scene) -> Array:
-    return mass_moment_regressor(scene.arm, scene.nominal)
+    return mass_moment_regressor(scene.arm, scene.loaded)
 
 
 JOINT_COMPLIANCE = Effect(

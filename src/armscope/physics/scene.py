@@ -1,13 +1,14 @@
 """The arm at the rows of a table: what drives its effects there, how it stands with them, and how it would move.
 
 `Scene` holds what does not change (nominal frames, loads, drivers); `Posture` holds the frames with some effects in
-place, and gives the columns of further ones. Loads are taken at the nominal geometry: the difference is of
-second order.
+place, and gives the columns of further ones. Loads are taken at the nominal geometry first and then, where something
+gives way, once more where the arm stands with that: what is left is of third order.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from copy import copy
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -44,6 +45,10 @@ class Scene:
         recordings: the rows; only angles and context are used, not the measured positions.
         payload_mass: kg added to the payload at the tool point, in all rows.
         payload_offset: (3,) m, the payload's centre off the tool point, in the last frame's axes.
+
+    Attributes:
+        nominal: frames without any effect.
+        loaded: frames at which loads are taken.
     """
 
     def __init__(
@@ -52,8 +57,10 @@ class Scene:
         self.arm, self.recordings = arm, recordings
         self.payload_mass, self.payload_offset = payload_mass, payload_offset
         self.nominal: Chain = chain(arm, recordings.motor_angles)
+        self.loaded: Chain = self.nominal
         self.chain_angles: Array = recordings.motor_angles @ arm.actuation.T
         self._memory: dict[Any, Any] = {}
+        self._rigid: Scene | None = None
 
     def __len__(self) -> int:
         return len(self.recordings)
@@ -66,12 +73,20 @@ class Scene:
 
     def driver(self, driver: Driver) -> Array:
         """Values (N,) of a driver."""
+        if self._rigid is not None and not follows_load(driver):
+            return self._rigid.driver(driver)
         values: Array = self.remember(driver, lambda: drivers.evaluate(self, driver))
         return values
 
     def with_payload(self, mass: float = 0.0, offset: Array | None = None) -> Scene:
         """The same rows with the payload heavier by ``mass`` kg, or its centre off the tool point by ``offset`` m."""
-        return Scene(self.arm, self.recordings, self.payload_mass + mass, offset)
+        return Scene(self.arm, self.recordings, self.payload_mass + mass, offset)._bent(self.loaded)
+
+    def _bent(self, frames: Chain) -> Scene:
+        """The same rows with loads taken at other frames; what does not depend on them is kept here."""
+        bent = copy(self)
+        bent.loaded, bent._memory, bent._rigid = frames, {}, self
+        return bent
 
     @property
     def payload(self) -> Array:
@@ -84,10 +99,10 @@ class Scene:
         """Force and moment (N, n, 3) of gravity at each joint, base axes."""
 
         def compute() -> tuple[Array, Array]:
-            force, moment = gravity_wrenches(self.arm, self.nominal, self.payload)
+            force, moment = gravity_wrenches(self.arm, self.loaded, self.payload)
             if self.payload_offset is None:
                 return force, moment
-            off = self.nominal.tool_rotation @ self.payload_offset
+            off = self.loaded.tool_rotation @ self.payload_offset
             return force, moment + np.cross(off, self.payload[:, None] * self.arm.gravity)[:, None, :]
 
         wrenches: tuple[Array, Array] = self.remember("wrenches", compute)
@@ -99,7 +114,7 @@ class Scene:
 
         def compute() -> Array:
             _, moment = self.wrenches
-            axes = self.nominal.joint_rotation[..., 2]
+            axes = self.loaded.joint_rotation[..., 2]
             return np.einsum("nji,nji->nj", axes, moment) @ self.arm.actuation
 
         torques: Array = self.remember("gravity torques", compute)
@@ -120,9 +135,9 @@ class Scene:
             force, moment = self.wrenches
             kind, _, number = location.partition(" ")
             if kind == "base":
-                return moment[:, 0] + np.cross(self.nominal.joint_origin[:, 0], force[:, 0])
+                return moment[:, 0] + np.cross(self.loaded.joint_origin[:, 0], force[:, 0])
             j = int(number) - 1
-            return np.einsum("nba,nb->na", self.nominal.joint_rotation[:, j], moment[:, j])
+            return np.einsum("nba,nb->na", self.loaded.joint_rotation[:, j], moment[:, j])
 
         values: Array = self.remember(("moment", location), compute)
         return values
@@ -136,7 +151,7 @@ class Scene:
             j = 0 if kind == "base" else int(number) - 1
             if kind == "base":
                 return force[:, 0]
-            return np.einsum("nba,nb->na", self.nominal.joint_rotation[:, j], force[:, j])
+            return np.einsum("nba,nb->na", self.loaded.joint_rotation[:, j], force[:, j])
 
         values: Array = self.remember(("force", location), compute)
         return values
@@ -162,9 +177,9 @@ class Scene:
             step = self.beam(link)
             length = float(np.linalg.norm(step))
             e = step / length
-            rotation, origin = self.nominal.frame(self.beam_site(link))
+            rotation, origin = self.loaded.frame(self.beam_site(link))
             force, moment = self.wrenches
-            lever = self.nominal.joint_origin[:, link - 1] - origin
+            lever = self.loaded.joint_origin[:, link - 1] - origin
             at_end = moment[:, link - 1] + np.cross(lever, force[:, link - 1])
             f = np.einsum("nba,nb->na", rotation, force[:, link - 1])
             m = np.einsum("nba,nb->na", rotation, at_end)
@@ -255,8 +270,36 @@ class Scene:
 
     def posture(self, parts: Sequence[Part] = ()) -> Posture:
         """The arm with some effects (and tool offsets, as parts) in place."""
-        frames = chain(self.arm, self.recordings.motor_angles, self.twists(parts)) if parts else self.nominal
-        return Posture(self, frames, self.stretch(parts))
+        if not parts:
+            return Posture(self, self.nominal)
+        frames = chain(self.arm, self.recordings.motor_angles, self.twists(parts))
+        if not any(_gives_way(part) for part in parts) or np.abs(frames.tool - self.nominal.tool).max() > FARTHEST_M:
+            return Posture(self, frames, self.stretch(parts))
+        bent = self._bent(frames)
+        frames = chain(self.arm, self.recordings.motor_angles, bent.twists(parts))
+        return Posture(bent, frames, self.stretch(parts))
+
+
+FARTHEST_M = 0.2
+"""An arm that a fit on its way bends farther than this is loaded as if it were rigid."""
+LOADS = frozenset(
+    {"torque", "gravity torque", "payload torque", "load side", "regressor", "moment", "force", "bend"}
+    | {"heavier", "off centre"}
+)
+"""Drivers that depend on where the arm stands."""
+
+
+def follows_load(driver: Driver) -> bool:
+    """Whether a driver is a load, or a function of one."""
+    inner = (argument for argument in driver.arguments if isinstance(argument, Driver))
+    return driver.kind in LOADS or any(follows_load(argument) for argument in inner)
+
+
+def _gives_way(part: Part) -> bool:
+    """Whether a part follows a load and is there at all."""
+    return bool(np.any(part.values)) and any(
+        follows_load(product.driver) for term in part.placed.terms for product in term.products
+    )
 
 
 @dataclass(eq=False)

@@ -76,6 +76,8 @@ def _columns(arm: VirtualArm, rng: np.random.Generator) -> tuple[list[str], list
     shown = [column for column in CONTEXT if drawn[column] or column in needed]
     if any(size.effect.location == "base" and size.effect.kind.driver == "time" for size in chosen):
         shown = [column for column in shown if column != "run"]  # free base frames per run would hide it
+    if any(size.effect.kind.effect == "payload_error" for size in chosen):
+        shown = [column for column in shown if column != "torque"]  # recorded torques hold the true payload already
     left_out = sorted(needed) if spec.columns == "missing" else []
     return [column for column in shown if column not in left_out], left_out
 
