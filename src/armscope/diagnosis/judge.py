@@ -15,7 +15,7 @@ from armscope.diagnosis.evidence import Chosen, Hypothesis, Problem, background_
 from armscope.diagnosis.headline import headline
 from armscope.diagnosis.naming import worth
 from armscope.diagnosis.nextposes import next_poses
-from armscope.diagnosis.noise import Noise
+from armscope.diagnosis.noise import Growth, Noise
 from armscope.diagnosis.parameters import parameters
 from armscope.diagnosis.presence import Presence, presence
 from armscope.diagnosis.problem import Gram, accumulate, contribution
@@ -38,7 +38,6 @@ from armscope.diagnosis.verdict import (
     Verdict,
     WaterfallStep,
 )
-from armscope.diagnosis.weights import RowWeights
 from armscope.physics.backgrounds import FAMILIES
 from armscope.physics.effect import Placed
 from armscope.physics.freeform import held
@@ -82,6 +81,7 @@ class Evidence:
     best: Hypothesis
     fit: Refit
     scatter: tuple[Scattered, ...]
+    growth: Growth | None
 
 
 def judge(
@@ -106,7 +106,7 @@ def judge(
     waterfall: tuple[WaterfallStep, ...] = ()
     if cross_validation:
         tell("validating on held-out rows", 0.75)
-        rows = Rows(evidence.point, evidence.recordings, fit.weights.row)
+        rows = Rows(evidence.point, evidence.recordings, fit.weights)
         held_out, waterfall = cross_validate(problem, evidence.blocks, evidence.layout, best, order, rows)
     tell("drawing the atlas", 0.9)
     background = _backgrounds(evidence, search, gram, of_families)
@@ -130,7 +130,7 @@ def judge(
         headline="",
         mismatch=mismatch,
         noise_mm=fit.noise,
-        noise_source=evidence.noise.source,
+        noise_source=evidence.noise.source + ("; it grows with the distance" if evidence.growth else ""),
         residual_before_mm=float(np.sqrt(variance)),
         residual_after_mm=_weighted_rms(fit),
         effects=effects,
@@ -160,7 +160,7 @@ def _plain_gram(evidence: Evidence) -> Gram:
     if fit.weights.turn is None:
         return fit.gram
     one_block = np.zeros(len(evidence.recordings), dtype=np.intp)
-    return accumulate(fit.pool, fit.model, evidence.recordings, RowWeights(fit.weights.row), one_block)[0]
+    return accumulate(fit.pool, fit.model, evidence.recordings, replace(fit.weights, turn=None), one_block)[0]
 
 
 def _found(
@@ -291,7 +291,7 @@ def _variance_after_frames(gram: Gram, frames: NDArray[np.intp]) -> float:
 
 
 def _weighted_rms(fit: Refit) -> float:
-    trusted = fit.weights.row > SUSPECT_WEIGHT * np.median(fit.weights.row)
+    trusted = fit.weights.trust > SUSPECT_WEIGHT
     return float(np.sqrt(np.mean(fit.residuals[trusted] ** 2)))
 
 
@@ -373,7 +373,7 @@ def _residuals(evidence: Evidence) -> Residuals:
         points=fit.model.to_base(table.positions, table.run) * 1e3,
         before=evidence.first,
         after=fit.residuals,
-        weight=fit.weights.row,
+        weight=fit.weights.trust,
         id=table.id,
         run=table.run,
     )
@@ -381,7 +381,7 @@ def _residuals(evidence: Evidence) -> Residuals:
 
 def _suspects(evidence: Evidence) -> tuple[SuspectRow, ...]:
     fit, table = evidence.fit, evidence.recordings
-    relative = fit.weights.row / np.median(fit.weights.row)
+    relative = fit.weights.trust
     rows = np.flatnonzero(relative < SUSPECT_WEIGHT)
     size = np.linalg.norm(fit.residuals, axis=1)
     worst = rows[np.argsort(-size[rows])][:LISTED_SUSPECTS]
@@ -391,6 +391,14 @@ def _suspects(evidence: Evidence) -> tuple[SuspectRow, ...]:
 def _carefully(evidence: Evidence) -> list[Notice]:
     """What the fit itself says against too much trust."""
     notices = []
+    if evidence.growth is not None:
+        away = np.linalg.norm(evidence.recordings.positions, axis=1)
+        near, far = (f"{float(evidence.growth.at(d)):.2g} mm at {d:.1f} m" for d in (away.min(), away.max()))
+        text = (
+            f"The noise per axis grows with the distance from the instrument, from {near} to {far} "
+            f"({evidence.growth.slope_mm_per_m:.2g} mm per metre): farther rows count less."
+        )
+        notices.append(Notice("noise by distance", text))
     stated, fitted = evidence.noise.stated_mm, evidence.fit.noise
     if stated and fitted < 0.75 * stated:
         text = f"The residual ({fitted:.3g} mm) is well below the stated noise ({stated:.3g} mm): is that number right?"

@@ -94,6 +94,7 @@ def diagnose(
             found.best,
             found.fit,
             found.scatter,
+            found.growth,
         ),
         settings.resamples,
         settings.cross_validation,

@@ -27,8 +27,6 @@ Indices = NDArray[np.intp]
 CHUNK_ROWS = 1500
 KEPT_ROWS = 4000
 """Drivers of tables up to this long are kept between passes: at most some 40 MB."""
-COUNTS = 0.5
-"""Rows with a smaller weight do not count as measurements."""
 LEAST_SEEN = 0.02
 """A column of which frames absorb more than all but this share is scaled as if this share were left."""
 
@@ -246,14 +244,14 @@ def accumulate(
         X = component_rows(posture.through(lens), pool.terms)
         left = (model.to_base(recordings.positions[rows], recordings.run[rows]) - posture.tool) * 1e3
         y = np.einsum("nij,nj->in", lens, left) + (current @ X.reshape(p, -1)).reshape(3, -1)
-        counts, inside = weights.row[rows] > COUNTS, blocks[rows]
+        counts, inside = weights.count(rows), blocks[rows]
         for block in np.unique(inside):
             at = slice(None) if count == 1 else _where(inside == block)
             Xb, yb = X[:, :, at].reshape(p, -1), y[:, at].reshape(-1)
             G[block] += Xb @ Xb.T
             b[block] += Xb @ yb
             yy[block] += yb @ yb
-            n[block] += 3 * np.count_nonzero(counts[at])
+            n[block] += 3 * counts[at].sum()
     return [Gram(G[k], b[k], float(yy[k]), float(n[k])) for k in range(count)]
 
 

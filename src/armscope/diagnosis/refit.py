@@ -13,7 +13,7 @@ from armscope.diagnosis import robust
 from armscope.diagnosis.evidence import FRAME_PRIOR_MM, TOLERANCE
 from armscope.diagnosis.frames import moved_base
 from armscope.diagnosis.problem import Gram, Pool, accumulate, pool, pool_values, residuals, scales
-from armscope.diagnosis.weights import RowWeights
+from armscope.diagnosis.weights import RowNoise, RowWeights
 from armscope.physics.effect import AXES, Placed, Term
 from armscope.physics.model import FittedModel
 from armscope.physics.scene import Part
@@ -68,7 +68,7 @@ def refit(
     frames: Sequence[Placed],
     backgrounds: Sequence[tuple[Sequence[Placed], float]],
     effects: Sequence[tuple[Placed, float]],
-    uncertainty: Array,
+    rows: RowNoise,
     least_noise: float,
     turn: Array | None = None,
 ) -> Refit:
@@ -79,7 +79,7 @@ def refit(
         backgrounds: per family (effects, size): a share of the tolerance for the first, mm at the tool for the others;
             families of size 0 are left out.
         effects: (effect, size at the tool, mm).
-        uncertainty: (N,) relative uncertainty of the rows.
+        rows: relative uncertainty of the rows, and which are independent.
         turn: (N, 3, 3) whitening of rows that scatter along known directions.
     """
     named = {term for placed, _ in effects for term in placed.terms}
@@ -91,8 +91,8 @@ def refit(
     noise = least_noise
     left = residuals(model, recordings)
     for _ in range(STEPS):
-        w = robust.weights(RowWeights(uncertainty, turn).whitened(left), uncertainty, least_noise)
-        gram = accumulate(parts, model, recordings, RowWeights(w, turn), blocks)[0]
+        weights = rows.weighed(left, least_noise, turn)
+        gram = accumulate(parts, model, recordings, weights, blocks)[0]
         noise = noise or robust.scale_of(left)
         precision = _precision(parts, gram, [size for _, size in backgrounds], effects)
         A = gram.G + np.diag(noise**2 * precision)
@@ -107,7 +107,7 @@ def refit(
             break
     # a lucky residual does not make the instrument better than it is known to be
     covariance = max(noise, least_noise) ** 2 * covariance
-    return Refit(model, parts, gram, precision, covariance, noise, spent, RowWeights(w, turn), left)
+    return Refit(model, parts, gram, precision, covariance, noise, spent, weights, left)
 
 
 def _not_worse(

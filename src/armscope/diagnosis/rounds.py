@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 from armscope.diagnosis import robust
 from armscope.diagnosis.evidence import Hypothesis, Problem, background_sizes, gains, problem
 from armscope.diagnosis.naming import named
-from armscope.diagnosis.noise import Noise, relative_uncertainty
-from armscope.diagnosis.problem import COUNTS, Gram, Pool, accumulate, keep_drivers, pool, residuals, total
+from armscope.diagnosis.noise import Growth, Noise, distances, growth, independent_shares, poses, relative_uncertainty
+from armscope.diagnosis.problem import Gram, Pool, accumulate, keep_drivers, pool, residuals, total
 from armscope.diagnosis.refit import Refit, refit
 from armscope.diagnosis.scan import jumps, mesh_lines
 from armscope.diagnosis.scatter import Scattered, find_scatter, levers, noise_between, whitening
 from armscope.diagnosis.search import STARTS, Search
-from armscope.diagnosis.weights import RowWeights
+from armscope.diagnosis.weights import COUNTS, RowNoise
 from armscope.physics.backgrounds import backgrounds
 from armscope.physics.effect import Placed
 from armscope.physics.freeform import refined
@@ -41,6 +41,8 @@ SAMPLE_ROWS = 3000
 """Longer tables are diagnosed on this many of their rows first."""
 ROWS_OF_A_GROUP = 20
 """Rows of every run and target that the sample holds at least."""
+SCATTER_ROWS = 4000
+"""Scatter is looked for on this many rows at most."""
 FLICKERING = 0.002
 """Share of the rows that may still come and go when the rounds end."""
 WITHIN = 0.3
@@ -60,6 +62,7 @@ class Selected:
     best: Hypothesis
     fit: Refit
     scatter: tuple[Scattered, ...]
+    growth: Growth | None
 
 
 def select(
@@ -134,8 +137,12 @@ class Rounds:
         self.moved = levers(start, self.recordings)
         self.model, self.left = start, residuals(start, self.recordings)
         self.scatter: list[Scattered] = []
-        self.uncertainty = relative_uncertainty(recordings, robust.scale_of(self.left))
-        self.weights = RowWeights(robust.first_weights(self.left, self.uncertainty, noise.least_mm))
+        self.pose = poses(self.recordings)
+        self.growth: Growth | None = None
+        uncertainty = relative_uncertainty(self.recordings, robust.scale_of(self.left))
+        near = np.ones(len(self.recordings), dtype=bool)
+        self.rows = RowNoise(uncertainty, independent_shares(self.left, self.pose, near))
+        self.weights = self.rows.weighed_first(self.left, noise.least_mm)
         self.last: tuple[Hypothesis, Pool] | None = None
 
     def until_settled(self, of_a_sample: bool = False) -> Selected:
@@ -147,7 +154,12 @@ class Rounds:
             new = self.round(STARTS if number < FULL_ROUNDS else None, scanning=number < SCANNING_ROUNDS)
             state = self._state()
             same = previous is not None and self._alike(state, previous)
-            if not new and same and (settled or not self._rests()) and not self._scatter_changed():
+            if (
+                not new
+                and same
+                and (settled or not self._rests())
+                and not (self._noise_changed() or self._scatter_changed())
+            ):
                 break
             settled = same
             previous = state
@@ -157,19 +169,17 @@ class Rounds:
             self.candidates = [*self.candidates, *[placed for placed in fine if placed is not None]]
             self.round(None)
             # what looked like scatter may have been what the coarse curves could not follow
-            self._take_scatter(find_scatter(self.left, self.moved, self.noise.least_mm))
+            self._take_scatter(self._find_scatter())
             if not of_a_sample:
                 self.round(None)
         return self.selected()
 
     def follow(self, other: Rounds) -> None:
         """Go on from where the rounds on a sample of the rows ended."""
-        self.model, self.last, self.scatter = other.model, other.last, other.scatter
+        self.model, self.last, self.scatter, self.growth = other.model, other.last, other.scatter, other.growth
         self.left = residuals(self.model, self.recordings)
-        self.uncertainty = relative_uncertainty(self.recordings, other.fit.noise)
         turn = whitening(self.scatter, self.moved, other.fit.noise)
-        white = RowWeights(self.uncertainty, turn).whitened(self.left)
-        self.weights = RowWeights(robust.weights(white, self.uncertainty, self.noise.least_mm), turn)
+        self._weigh_rows(other.fit.noise, turn)
 
     def round(self, starts: Sequence[tuple[int, ...]] | None, scanning: bool = False) -> list[Placed]:
         """One round; returns new candidates that scanning found. Without starts it goes on from the last round."""
@@ -192,7 +202,7 @@ class Rounds:
             self.fit = self._fitted(model)
         new = self._scanned(search, model) if scanning else []
         self.model, self.left, self.weights = self.fit.model, self.fit.residuals, self.fit.weights
-        self.uncertainty = relative_uncertainty(self.recordings, self.fit.noise)
+        self._weigh_rows(self.fit.noise, self.weights.turn)
         return new
 
     def _fitted(self, model: FittedModel) -> Refit:
@@ -203,7 +213,7 @@ class Rounds:
         ]
         small = list(zip(self.families, background_sizes(self.problem, self.best), strict=True))
         turn = self.weights.turn
-        return refit(model, self.recordings, self.frames, small, effects, self.uncertainty, self.noise.least_mm, turn)
+        return refit(model, self.recordings, self.frames, small, effects, self.rows, self.noise.least_mm, turn)
 
     def _against_their_load(self) -> list[int]:
         """Names within a background whose fitted values turned out negative where they can't be."""
@@ -213,14 +223,23 @@ class Rounds:
             if c.within and self.pool.along[c.candidate] and part.values[0] < 0
         ]
 
+    def _weigh_rows(self, noise: float, turn: Array | None) -> None:
+        """What the residuals tell about the rows' noise, and their weights by it."""
+        uncertainty = relative_uncertainty(self.recordings, noise, self._by_distance())
+        alone = RowNoise(uncertainty, np.ones(len(uncertainty))).weighed(self.left, self.noise.least_mm)
+        self.rows = RowNoise(uncertainty, independent_shares(self.left, self.pose, alone.trust > COUNTS))
+        self.weights = self.rows.weighed(self.left, self.noise.least_mm, turn)
+
     def selected(self) -> Selected:
         """Where the rounds stand."""
-        return Selected(self.problem, self.blocks, self.point, self.found, self.best, self.fit, tuple(self.scatter))
+        return Selected(
+            self.problem, self.blocks, self.point, self.found, self.best, self.fit, tuple(self.scatter), self.growth
+        )
 
     def _state(self) -> State:
         """What must not change any more: the effects and the rows that do not count."""
         chosen = [self.pool.candidates[c] for c in self.best.candidates]
-        return frozenset(str(p) + p.variant for p in chosen), self.weights.row < COUNTS
+        return frozenset(str(p) + p.variant for p in chosen), self.weights.trust < COUNTS
 
     def _alike(self, state: State, previous: State) -> bool:
         """Whether two rounds ended alike: the same effects, and the same rows count but for a few of very many."""
@@ -231,21 +250,47 @@ class Rounds:
         """Whether some effect rests on others' values, which then must settle, too."""
         return any(self.pool.candidates[c].effect.rests_on for c in self.best.candidates)
 
+    def _noise_changed(self) -> bool:
+        return self._grows() or self._scatter_changed()
+
     def _scatter_changed(self) -> bool:
         """Look for scatter in what is left; take its whitening into account where it is new."""
-        found = find_scatter(self.left, self.moved, self.noise.least_mm)
+        found = self._find_scatter()
         if {s.motor for s in found} == {s.motor for s in self.scatter}:
             return False
         self._take_scatter(found)
         return True
+
+    def _by_distance(self) -> Array | None:
+        """(N,) noise of the rows, mm, where it grows with distance."""
+        if self.growth is None:
+            return None
+        return self.growth.at(np.linalg.norm(self.recordings.positions, axis=1))
+
+    def _grows(self) -> bool:
+        """Look for noise that grows with distance in what is left, where no row's own noise is stated."""
+        if self.recordings.sigma is not None or self.growth is not None or self.scatter:
+            return False
+        away = distances(self.model, self.recordings)
+        found = None if away is None else growth(self.left, away, self.weights.trust > COUNTS)
+        if found is None or found.evidence < sum(each.evidence for each in self._find_scatter()):
+            return False
+        self.growth = found
+        self._weigh_rows(self.fit.noise, self.weights.turn)
+        return True
+
+    def _find_scatter(self) -> list[Scattered]:
+        """Scatter in what is left, on as many rows as it takes."""
+        rows = np.unique(np.linspace(0, len(self.left) - 1, min(len(self.left), SCATTER_ROWS)).astype(np.intp))
+        relative = self.rows.uncertainty[rows, None]
+        return find_scatter(self.left[rows] / relative, self.moved[:, rows] / relative, self.noise.least_mm)
 
     def _take_scatter(self, found: list[Scattered]) -> None:
         """Whiten the rows by scatter of these places and sizes, and weigh them anew."""
         self.scatter = found
         between = noise_between(self.left, self.moved, found, self.noise.least_mm)
         turn = whitening(found, self.moved, between)
-        white = RowWeights(self.weights.row, turn).whitened(self.left)
-        self.weights = RowWeights(robust.weights(white, self.uncertainty, self.noise.least_mm), turn)
+        self.weights = self.rows.weighed(self.left, self.noise.least_mm, turn)
 
     def _scanned(self, search: Search, model: FittedModel) -> list[Placed]:
         """New candidates whose scanned numbers promise something, given the best hypothesis and given none."""

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from armscope.diagnosis.evidence import PERFECT, Chosen, Hypothesis, Problem, weigh
-from armscope.diagnosis.problem import COUNTS, Gram, Pool, chunks, columns, pool_values, total
+from armscope.diagnosis.problem import Gram, Pool, chunks, columns, pool_values, total
 from armscope.diagnosis.search import LARGE, STARTS, Search
 from armscope.diagnosis.verdict import HeldOut, WaterfallStep
+from armscope.diagnosis.weights import COUNTS, RowWeights
 from armscope.physics.effect import Term
 from armscope.physics.freeform import REST_OF_LOAD
 from armscope.physics.model import FittedModel
@@ -141,17 +142,17 @@ class Rows:
     Attributes:
         point: the model at which columns were taken.
         recordings: the rows.
-        weight: (N,) of the fit.
+        weights: of the fit.
     """
 
     point: FittedModel
     recordings: Recordings
-    weight: Array
+    weights: RowWeights
 
     @property
     def trusted(self) -> NDArray[np.bool_]:
         """(N,) rows that do not look like bad shots."""
-        return np.asarray(self.weight > COUNTS * np.median(self.weight))
+        return np.asarray(self.weights.trust > COUNTS)
 
 
 def left_over(rows: Rows, pool: Pool, values: Array, number: Indices | None = None) -> Array:
@@ -205,7 +206,7 @@ def _refitted(rows: Rows, terms: Sequence[Term], at: Indices, errors: Array) -> 
     table = rows.recordings.rows(at)
     X = np.concatenate([columns(posture, terms) for _, posture in chunks(rows.point, table)])
     y = np.moveaxis(errors, 0, 2).reshape(len(X), -1)
-    root = np.repeat(np.sqrt(rows.weight[at]), 3)[:, None]
+    root = np.repeat(np.sqrt(rows.weights.row[at]), 3)[:, None]
     values = np.linalg.lstsq(root * X, root * y, rcond=1e-12)[0]
     return np.asarray(np.moveaxis((y - X @ values).reshape(len(at), 3, -1), 2, 0))
 
