@@ -236,3 +236,21 @@ def test_what_carries_over_between_runs_is_said_and_what_does_not_is_too() -> No
     named = diagnose(arm, replace(same, positions=changed), QUICK).effects
     found = next(effect for effect in named if effect.effect == "joint_compliance")
     assert "different values" in found.carries_over
+
+
+def test_what_carries_over_between_payloads_and_halves_of_the_workspace_is_said() -> None:
+    arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [5e-7]}, 150, 0.02, seed=16)
+    table = replace(table, payload=np.repeat([0.0, 4.0, 8.0], 50))
+    table = recorded(arm, table, {("joint_compliance", "joint 2"): [5e-7]}, 0.02, seed=17)
+    (found,) = diagnose(arm, table, QUICK).effects
+    assert "3 payloads alone gives the same value" in found.carries_over
+    assert "2 halves of the workspace alone gives the same value" in found.carries_over
+
+
+def test_a_cause_that_differs_between_near_and_far_is_said_to() -> None:
+    arm, table = planted("six-axis", {("gear_ratio", "joint 2"): [1e-3]}, 200, 0.02, seed=16)
+    other = recorded(arm, table, {("gear_ratio", "joint 2"): [2e-3]}, 0.02, seed=17)
+    reach = np.linalg.norm(table.positions[:, :2], axis=1)
+    positions = np.where((reach > np.median(reach))[:, None], other.positions, table.positions)
+    effects = diagnose(arm, replace(table, positions=positions), QUICK).effects
+    assert any("halves of the workspace alone give different values" in effect.carries_over for effect in effects)

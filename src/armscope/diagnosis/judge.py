@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from armscope.diagnosis import certainty
 from armscope.diagnosis.atlas import atlas
+from armscope.diagnosis.carry import carry_over
 from armscope.diagnosis.curves import curve_of
 from armscope.diagnosis.evidence import Chosen, Hypothesis, Problem, background_sizes
 from armscope.diagnosis.headline import headline
@@ -24,7 +25,7 @@ from armscope.diagnosis.scan import when_stderr
 from armscope.diagnosis.scatter import Scattered, levers
 from armscope.diagnosis.search import Search
 from armscope.diagnosis.shares import shares
-from armscope.diagnosis.validation import Blocks, Rows, carry_over, cross_validate
+from armscope.diagnosis.validation import Blocks, Rows, cross_validate
 from armscope.diagnosis.verdict import (
     Answer,
     Background,
@@ -112,7 +113,7 @@ def judge(
     background = _backgrounds(evidence, search, gram, of_families)
     named = [_with_weight(found[c], background) for c in order]
     scattered = [s for s in _scattered(evidence, variance) if not _rest_of_a_curve(s, named)]
-    over = carry_over(problem, evidence.blocks, evidence.layout, best)
+    over = carry_over(problem, evidence.blocks, evidence.layout, best, evidence.point, evidence.recordings, fit.weights)
     named = [replace(e, carries_over=over.get(c, "")) for c, e in zip(order, named, strict=True)]
     effects = tuple(sorted([*named, *scattered], key=lambda effect: -effect.rms_at_tool_mm))
     named_or_spread = bool(effects) or any(family.present for family in background)

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import chi2
 
 from armscope.diagnosis.evidence import PERFECT, Chosen, Hypothesis, Problem, weigh
 from armscope.diagnosis.problem import Gram, Pool, chunks, columns, pool_values, total
@@ -15,7 +14,6 @@ from armscope.diagnosis.search import LARGE, STARTS, Search
 from armscope.diagnosis.verdict import HeldOut, WaterfallStep
 from armscope.diagnosis.weights import COUNTS, RowWeights
 from armscope.physics.effect import Term
-from armscope.physics.freeform import REST_OF_LOAD
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 
@@ -26,7 +24,6 @@ FOLDS = 5
 BLOCKS = 20
 FEWEST_ROWS_PER_RUN = 30
 FEWEST_RUNS = 3
-CHANCE = 0.99
 
 
 @dataclass(frozen=True, eq=False)
@@ -214,46 +211,6 @@ def _refitted(rows: Rows, terms: Sequence[Term], at: Indices, errors: Array) -> 
 def _rms(errors: Array) -> Array:
     """(K,) RMS per axis of errors (K, n, 3)."""
     return np.asarray(np.sqrt(np.mean(errors**2, axis=(1, 2))))
-
-
-def carry_over(problem: Problem, blocks: Sequence[Gram], split: Blocks, best: Hypothesis) -> dict[int, str]:
-    """For effects with plain parameters: whether every run alone gives the same values; empty where runs are few.
-
-    Each run's rows give their own posterior under the chosen hypothesis; the values agree where their scatter about
-    the common mean is within chance (one in a hundred).
-    """
-    if split.grouped_by != "run":
-        return {}
-    runs = [int(k) for k in np.unique(split.fold)]
-    # a line alone, without what is left of its curve: that could be another's line in each run
-    lines = tuple(c for c in best.chosen if problem.pool.candidates[c.candidate].variant != REST_OF_LOAD)
-    alone = [
-        weigh(
-            problem.with_gram(total([blocks[int(k)] for k in np.flatnonzero(split.fold == run)])),
-            lines,
-            best.background,
-            best.noise,
-        )
-        for run in runs
-    ]
-    said = {}
-    for c in lines:
-        if problem.pool.candidates[c.candidate].reading != "plain":
-            continue
-        at = [np.searchsorted(h.columns, problem.pool.columns[c.candidate]) for h in alone]
-        values = np.array([h.mean[a] for h, a in zip(alone, at, strict=True)])
-        variances = np.array(
-            [h.noise**2 * np.sum(h.inverse[:, a] ** 2, axis=0) for h, a in zip(alone, at, strict=True)]
-        )
-        mean = np.sum(values / variances, axis=0) / np.sum(1 / variances, axis=0)
-        misfit = float(np.sum((values - mean) ** 2 / variances))
-        agrees = misfit < chi2.ppf(CHANCE, values.size - values.shape[1])
-        said[c.candidate] = (
-            f"Each of the {len(runs)} runs alone gives the same value within its interval."
-            if agrees
-            else f"The {len(runs)} runs alone give different values: what is meant here may not be the cause."
-        )
-    return said
 
 
 def _steps(best: Hypothesis, order: Sequence[int]) -> list[tuple[Chosen, ...]]:
