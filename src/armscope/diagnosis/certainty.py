@@ -13,6 +13,7 @@ from armscope.diagnosis.problem import Gram
 from armscope.diagnosis.search import LARGE, Search
 from armscope.diagnosis.verdict import Alternative, Specific
 from armscope.physics.effect import Placed, region
+from armscope.physics.elastic import JOINT_COMPLIANCE
 
 LISTED_NATS = 10.0
 """Alternatives that lose more evidence than this are not listed."""
@@ -26,25 +27,37 @@ LOOKED_AT = 12
 def alternatives(search: Search, best: Hypothesis, candidate: int) -> list[tuple[float, Placed, Hypothesis]]:
     """(gap in nats, effect, hypothesis) of what could replace one effect, nearest first, each name once.
 
-    None where a background holds the effect, too: without the name, the background explains the same.
+    None where a background holds the effect, too: without the name, the background explains the same. A line taken from
+    a curve of load is rivalled by what rivals the curve; a curve of another drive's load is told as its compliance.
     """
-    if search.held(best, candidate):
-        return []
     rest = rest_of(search.problem, best, candidate)
+    if search.held(best, candidate) and not rest:
+        return []
     base = search.without(best, [candidate, *rest])
     taken = {search.placed(c).key for c in best.candidates}
     nearest: dict[tuple[str, str], tuple[float, Placed, Hypothesis]] = {}
+    paid = _price_of_curve(search, candidate) if rest else 0.0
+    lines = {p.location: p for p in search.problem.pool.candidates if p.effect is JOINT_COMPLIANCE and not p.variant}
     for other in search.additions(base, LOOKED_AT, without=[candidate]):
         placed = search.placed(other.chosen[-1].candidate)
-        gap = best.value - other.value
+        gap = best.value - other.value - paid
         curve = search.placed(candidate).reading == "curve"
         special = curve and other.chosen[-1].candidate in search.problem.pool.clashes[candidate]
         same = bool(rest) and other.chosen[-1].candidate in search.problem.pool.clashes[candidate]
         if same or placed.key in taken or gap > (LISTED_NATS_OF_SPECIAL_CASES if special else LISTED_NATS):
             continue
+        if rest and placed.variant == "load" and placed.reading == "curve":
+            placed = lines.get(placed.location, placed)
         if placed.key not in nearest or gap < nearest[placed.key][0]:
             nearest[placed.key] = (gap, placed, other)
     return sorted(nearest.values(), key=lambda entry: entry[0])
+
+
+def _price_of_curve(search: Search, line: int) -> float:
+    """What the curve that a line was taken from cost, nats: its names were free."""
+    problem = search.problem
+    curves = [n for n in problem.pool.clashes[line] if problem.pool.candidates[n].reading == "curve"]
+    return float(problem.costs[curves[0]] + np.log(len(problem.sizes))) if curves else 0.0
 
 
 def apart(best: Hypothesis, other: Hypothesis, effect: Placed, rival: Placed) -> float:
