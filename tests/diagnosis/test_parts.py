@@ -248,8 +248,8 @@ def test_what_carries_over_between_payloads_and_halves_of_the_workspace_is_said(
 
 
 def test_a_cause_that_differs_between_near_and_far_is_said_to() -> None:
-    arm, table = planted("six-axis", {("gear_ratio", "joint 2"): [1e-3]}, 200, 0.02, seed=16)
-    other = recorded(arm, table, {("gear_ratio", "joint 2"): [2e-3]}, 0.02, seed=17)
+    arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [5e-7]}, 200, 0.02, seed=16)
+    other = recorded(arm, table, {("joint_compliance", "joint 2"): [6e-7]}, 0.02, seed=17)
     reach = np.linalg.norm(table.positions[:, :2], axis=1)
     positions = np.where((reach > np.median(reach))[:, None], other.positions, table.positions)
     effects = diagnose(arm, replace(table, positions=positions), QUICK).effects
