@@ -143,7 +143,7 @@ def _what_is_wrong(verdict: dict[str, Any]) -> str:
         share = 100 * verdict["background"]["share"]
         told.append(f"small errors allowed for everywhere in the arm ({share:.0f} %)")
     before = f"{verdict['fitted_rms_mm']['before']:.2g} mm per axis, base and tool fitted"
-    return f"What the nominal arm misses ({before}) is, the largest first (shares overlap): {'; '.join(told)}."
+    return f"What the nominal arm misses ({before}) is, the largest first: {'; '.join(told)}."
 
 
 def _how_well(table: pd.DataFrame, run: ReferenceRun) -> str:
