@@ -69,6 +69,40 @@ for name, reason in SKIPPED.items():
     logger.warning(f"skipped: real arm {name}, because {reason}")
 
 
+PROOF_REAL = f"{RESULTS}/proof_real"
+CONCEALED_IN = [name for name in CONFIG.proof_real.sets or REAL if name in REAL]
+
+
+def plant_settings(wildcards):
+    """What effects are planted in the recordings of a real set, and how large."""
+    arm, chosen = CONFIG.real[wildcards.set], CONFIG.proof_real
+    return settings(
+        seed=CONFIG.seed,
+        title=wildcards.set,
+        run=arm.run,
+        first_id=arm.first_id,
+        most_rows=chosen.most_rows,
+        effects=chosen.effects,
+        sizes=chosen.sizes,
+    )
+
+
+def recordings_of(wildcards):
+    """The table of a real set."""
+    return f"{RECORDINGS}/{CONFIG.real[wildcards.set].recordings}"
+
+
+def robot_of(wildcards):
+    """The nominal arm of a real set."""
+    return f"{RECORDINGS}/{CONFIG.real[wildcards.set].robot}"
+
+
+def proof_real_batches(pattern):
+    """That file of every batch; columns can be withheld only where a load was recorded."""
+    batches = [f"{name}-{part}" for name in CONCEALED_IN for part in ("original", "fixed", "fresh")]
+    batches += [f"{name}-withheld" for name in CONCEALED_IN if CONFIG.real[name].loads_recorded]
+    return [f"{PROOF_REAL}/{pattern.format(batch=batch)}" for batch in batches]
+
 wildcard_constraints:
     study=r"paper|real/\w+/paper",
     set=r"\w+",

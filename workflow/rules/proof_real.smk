@@ -1,6 +1,4 @@
 # Concealment on real recordings: known effects are added to what real arms did, and looked for by who sees the tables only.
-PROOF_REAL = f"{RESULTS}/proof_real"
-CONCEALED_IN = [name for name in CONFIG.proof_real.sets or REAL if name in REAL]
 PROOF_REAL_TABLES = ("cases", "numbers", "rates", "held_out", "withheld", "skipped")
 PROOF_REAL_FIGURES = ("found", "sizes", "held_out")
 
@@ -8,27 +6,6 @@ PROOF_REAL_FIGURES = ("found", "sizes", "held_out")
 wildcard_constraints:
     part_real="original|fixed|fresh|withheld",
     half_real="fixed|fresh",
-
-
-def plant_settings(wildcards):
-    arm, chosen = CONFIG.real[wildcards.set], CONFIG.proof_real
-    return settings(
-        seed=CONFIG.seed,
-        title=wildcards.set,
-        run=arm.run,
-        first_id=arm.first_id,
-        most_rows=chosen.most_rows,
-        effects=chosen.effects,
-        sizes=chosen.sizes,
-    )
-
-
-def recordings_of(wildcards):
-    return f"{RECORDINGS}/{CONFIG.real[wildcards.set].recordings}"
-
-
-def robot_of(wildcards):
-    return f"{RECORDINGS}/{CONFIG.real[wildcards.set].robot}"
 
 
 use rule proof_seed as proof_real_seed with:
@@ -94,13 +71,6 @@ use rule proof_diagnose as proof_real_diagnose with:
         f"{RESULTS}/logs/proof_real/diagnose-{{set}}-{{part_real}}.log",
 
 
-def proof_real_batches(pattern):
-    """That file of every batch; columns can be withheld only where a load was recorded."""
-    batches = [f"{name}-{part}" for name in CONCEALED_IN for part in ("original", "fixed", "fresh")]
-    batches += [f"{name}-withheld" for name in CONCEALED_IN if CONFIG.real[name].loads_recorded]
-    return [f"{PROOF_REAL}/{pattern.format(batch=batch)}" for batch in batches]
-
-
 rule proof_real_score:
     # the only rule that opens the seals
     input:
@@ -111,7 +81,7 @@ rule proof_real_score:
     output:
         expand(f"{PROOF_REAL}/tables/{{table}}.csv", table=PROOF_REAL_TABLES),
     params:
-        folder=PROOF_REAL,
+        folder=subpath(output[0], ancestor=2),
         code=code("armscope.cli.real:score"),
     log:
         f"{RESULTS}/logs/proof_real/score.log",
@@ -131,7 +101,7 @@ rule proof_real_report:
             f"{PROOF_REAL}/figures/{{figure}}.{{ending}}", figure=PROOF_REAL_FIGURES, ending=("png", "svg")
         ),
     params:
-        folder=PROOF_REAL,
+        folder=subpath(output.report, parent=True),
         titles=json.dumps({name: CONFIG.real[name].title.partition(",")[0] for name in CONCEALED_IN}),
         code=code("armscope.cli.real:report"),
     log:

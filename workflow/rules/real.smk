@@ -3,8 +3,8 @@
 
 rule measure_real:
     input:
-        recordings=lambda wildcards: f"{RECORDINGS}/{CONFIG.real[wildcards.set].recordings}",
-        robot=lambda wildcards: f"{RECORDINGS}/{CONFIG.real[wildcards.set].robot}",
+        recordings=recordings_of,
+        robot=robot_of,
     output:
         poses=f"{RESULTS}/real/{{set}}/paper/poses.csv",
         errors=f"{RESULTS}/real/{{set}}/paper/errors.csv",
@@ -29,8 +29,8 @@ rule measure_real:
 rule diagnose_real:
     # what is wrong with a real arm: report page, verdict, fitted model
     input:
-        recordings=lambda wildcards: f"{RECORDINGS}/{CONFIG.real[wildcards.set].recordings}",
-        robot=lambda wildcards: f"{RECORDINGS}/{CONFIG.real[wildcards.set].robot}",
+        recordings=recordings_of,
+        robot=robot_of,
     output:
         verdict=f"{RESULTS}/real/{{set}}/verdict.json",
         report=f"{RESULTS}/real/{{set}}/report.html",
@@ -52,8 +52,8 @@ rule diagnose_real:
 rule protocol_real:
     # the reference protocol: same splits, 3D distance on rows that took no part, beside the figures of others
     input:
-        recordings=lambda wildcards: f"{RECORDINGS}/{CONFIG.real[wildcards.set].recordings}",
-        robot=lambda wildcards: f"{RECORDINGS}/{CONFIG.real[wildcards.set].robot}",
+        recordings=recordings_of,
+        robot=robot_of,
         reference=lambda wildcards: CONFIG.real[wildcards.set].reference,
     output:
         expand(f"{RESULTS}/real/{{{{set}}}}/{{table}}.csv", table=("protocol", "splits", "names", "transfer")),
