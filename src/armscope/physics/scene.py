@@ -272,9 +272,12 @@ class Scene:
         """The arm with some effects (and tool offsets, as parts) in place."""
         if not parts:
             return Posture(self, self.nominal)
-        frames = chain(self.arm, self.recordings.motor_angles, self.twists(parts))
-        if not any(_gives_way(part) for part in parts) or np.abs(frames.tool - self.nominal.tool).max() > FARTHEST_M:
+        giving = [part for part in parts if _gives_way(part)]
+        frames = chain(self.arm, self.recordings.motor_angles, self.twists(giving or parts))
+        if not giving or np.abs(frames.tool - self.nominal.tool).max() > FARTHEST_M:
+            frames = chain(self.arm, self.recordings.motor_angles, self.twists(parts)) if giving else frames
             return Posture(self, frames, self.stretch(parts))
+        # what only gives way moves the arm by little: turned frames and tools, which imitate each other, stay out of it
         bent = self._bent(frames)
         frames = chain(self.arm, self.recordings.motor_angles, bent.twists(parts))
         return Posture(bent, frames, self.stretch(parts))
