@@ -24,6 +24,7 @@ def concealed(
         comparable=comparable,
         noncentrality=float("nan") if minor else 100.0 * strength**2,
         columns=0 if minor else 1,
+        frame_numbers=0 if minor else 9,
         alternatives=tuple(alternatives),
         shape="local_bump" if effect == "unknown" else "",
     )

@@ -6,32 +6,34 @@ import numpy as np
 import pytest
 from scipy.stats import f
 
-from armscope.proof.oracle import FRAME_NUMBERS, power, reliable_noncentrality, size_in_thresholds, threshold
+from armscope.proof.oracle import power, reliable_noncentrality, size_in_thresholds, threshold
 
 
 def test_power_agrees_with_f_tests_on_simulated_rows():
     rng = np.random.default_rng(4)
-    rows, columns, noncentrality, repeats = 20, 2, 9.0, 20000
-    freedom = 3 * rows - FRAME_NUMBERS - columns
+    rows, columns, noncentrality, frame_numbers, repeats = 20, 2, 9.0, 21, 20000
+    freedom = 3 * rows - frame_numbers - columns
     # in coordinates along and across the effect, least squares is a sum of squares
     along = rng.normal(size=(repeats, columns))
     along[:, 0] += np.sqrt(noncentrality)
     rest = rng.normal(size=(repeats, freedom))
     ratio = (along**2).sum(axis=1) / columns / ((rest**2).sum(axis=1) / freedom)
     found = (f.sf(ratio, columns, freedom) < 0.01).mean()
-    assert power(noncentrality, columns, rows) == pytest.approx(found, abs=4 * np.sqrt(found * (1 - found) / repeats))
+    assert power(noncentrality, columns, rows, frame_numbers) == pytest.approx(
+        found, abs=4 * np.sqrt(found * (1 - found) / repeats)
+    )
 
 
 def test_nothing_to_see_is_found_as_often_as_false_alarms():
-    assert power(0.0, 3, 100) == pytest.approx(0.01)
+    assert power(0.0, 3, 100, 9) == pytest.approx(0.01)
 
 
 def test_sizes_are_multiples_of_the_reliable_one():
-    reliable = reliable_noncentrality(1, 100)
-    assert power(reliable, 1, 100) == pytest.approx(0.9)
-    assert size_in_thresholds(4 * reliable, 1, 100) == pytest.approx(2.0)
+    reliable = reliable_noncentrality(1, 100, 9)
+    assert power(reliable, 1, 100, 9) == pytest.approx(0.9)
+    assert size_in_thresholds(4 * reliable, 1, 100, 9) == pytest.approx(2.0)
     # one number, many rows: 2.576 + 1.282 standard errors
-    assert np.sqrt(reliable_noncentrality(1, 3000)) == pytest.approx(3.858, abs=0.01)
+    assert np.sqrt(reliable_noncentrality(1, 3000, 9)) == pytest.approx(3.858, abs=0.01)
 
 
 def test_the_threshold_of_a_known_curve_lies_in_its_interval():

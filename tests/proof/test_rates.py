@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from armscope.proof.definitions import judged
-from armscope.proof.rates import evidence_table, rate
+from armscope.proof.rates import detection_table, evidence_table, rate
 
 
 def test_intervals_are_those_of_clopper_and_pearson():
@@ -42,6 +42,24 @@ def test_names_are_counted_by_their_evidence():
     table = evidence_table(names).set_index(["seeds", "evidence_nats"])
     assert table.loc[("fresh", "below 1"), "right"] == 0
     assert table.loc[("fresh", "above 30"), "right"] == table.loc[("fresh", "above 30"), "cases"] == 2
+
+
+def test_what_is_hard_to_see_is_counted_near_the_threshold_only_and_stands_first():
+    def alone(effect, size, seen, right, category="single"):
+        return {"effect": effect, "size_in_thresholds": size, "seen": seen, "right": right, "category": category}
+
+    rows = [
+        alone("backlash", 1.2, True, True), alone("backlash", 2.5, True, False), alone("backlash", 0.9, False, False),
+        alone("gear_mesh", 1.1, False, False), alone("gear_mesh", 1.9, True, True), alone("gear_mesh", 9.0, True, True),
+        alone("servo_lag", 1.3, False, False, "multiple"),
+    ]  # fmt: skip
+    effects = pd.DataFrame(rows).assign(minor=False, world=[f"world-{n}" for n in range(len(rows))])
+    table = detection_table(effects)
+    assert list(table["effect"]) == ["gear_mesh", "gear_mesh", "backlash", "backlash"]
+    counts = table.set_index(["effect", "found"])[["right", "cases"]].to_dict("index")
+    assert counts["gear_mesh", "seen"] == counts["gear_mesh", "right"] == {"right": 1, "cases": 2}
+    assert counts["backlash", "seen"] == {"right": 2, "cases": 2}
+    assert counts["backlash", "right"] == {"right": 1, "cases": 2}
 
 
 def test_too_much_coverage_misses_the_aim_as_too_little_does():

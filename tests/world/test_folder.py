@@ -195,3 +195,13 @@ def test_the_arm_can_be_measured_again_at_poses_asked_for_later():
     assert np.std(noise) == pytest.approx(0.02, rel=0.1)
     lighter = measure_at(arm, poses.drop(columns="payload_kg"), np.random.default_rng(1))
     assert np.abs(lighter[["x_mm", "y_mm", "z_mm"]].to_numpy() - again).max() > 0.05
+
+
+def test_the_oracle_fits_a_base_in_each_run_that_the_table_shows(tmp_path):
+    shown = set()
+    for seed in range(4):
+        truth, recordings, _ = read(build(spec(seed=seed), tmp_path / str(seed), ROBOTS))
+        runs = recordings["run"].nunique() if "run" in recordings else 1
+        shown.add("run" in recordings)
+        assert truth["effects"][0]["oracle"]["frame_numbers"] == 6 * runs + 3
+    assert shown == {True, False}

@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from scipy.linalg import orth
 
+from armscope.physics import scene as physics
+from armscope.physics.frames import free_frames as contract_frames
+from armscope.recordings import Recordings
+from armscope.robot import load_arm
 from armscope.world.catalogue import KINDS
 from armscope.world.effects import LIBRARY
 from armscope.world.kinds import Concealed
 from armscope.world.rivals import Judge, rivals
-from armscope.world.strength import sized, stand
-from tests.world.by_hand import ARMS
+from armscope.world.strength import free_frames, sized, stand
+from tests.world.by_hand import ARMS, ROBOTS
 from tests.world.scenes import drawn, scene_of
 
 SIGMA = 3e-5
@@ -80,6 +87,51 @@ def test_beside_an_effect_that_shares_its_pattern_less_is_left_to_see():
 
 def test_nothing_is_an_alternative_to_what_nobody_can_see():
     assert judged("six-axis", "joint_offset", "joint 3", strength=0.01).alternatives == ()
+
+
+@pytest.mark.parametrize("arm", ARMS)
+def test_the_oracle_in_runs_fits_the_frames_that_the_diagnosis_fits(arm):
+    """A base per run and one tool point: the same displacements as the contract's free frames, by another engine."""
+    scene, tool = scene_of(arm, count=60)
+    session = scene.session
+    rows = len(session)
+    table = Recordings(
+        motor_angles=session.commanded,
+        positions=np.full((rows, 3), np.nan),
+        run=session.run.astype(str),
+        target=np.full(rows, ""),
+        id=np.arange(1, rows + 1).astype(str),
+    )
+    assert len(np.unique(table.run)) > 1
+    contract = contract_frames(table, tool_per_run=False)
+    posture = physics.Scene(load_arm(ROBOTS / f"{arm}.yaml"), table).posture()
+    given = np.column_stack([posture.column(term).ravel() for placed in contract for term in placed.terms])
+    oracle = free_frames(tool, scene.tool_turn, session.run)
+    assert oracle.shape == given.shape
+    np.testing.assert_allclose(projector(oracle), projector(given), atol=1e-6)
+
+
+def projector(columns):
+    basis = orth(columns / np.linalg.norm(columns, axis=0), rcond=1e-8)
+    return basis @ basis.T
+
+
+def test_a_shift_between_runs_is_the_frames_own_where_runs_are_told():
+    """A base that jumps when a run begins can be seen in one table without runs, and by nobody in one with them."""
+    scene, tool = scene_of("six-axis", count=120)
+    run = scene.session.run
+    twist = free_frames(tool, scene.tool_turn, run)[:, :6] @ np.full(6, 1e-4)
+    found = sized(scene, drawn(scene, "joint_offset", "joint 3"), 5 * SIGMA)
+    jump = replace(found, pattern=twist.reshape(-1, 3))
+    judge = Judge(scene, tool)
+    known = judge.visibility(jump, [], SIGMA)
+    told = judge.seen_in_runs(known, jump, [], SIGMA, run)
+    assert known.frame_numbers == 9
+    assert told.frame_numbers == 6 * len(np.unique(run)) + 3
+    assert known.noncentrality > 100
+    assert told.noncentrality < 1e-6 * known.noncentrality
+    one = judge.seen_in_runs(known, jump, [], SIGMA, np.ones_like(run))
+    assert one.noncentrality == pytest.approx(known.noncentrality)
 
 
 def test_kinds_have_distinct_names():

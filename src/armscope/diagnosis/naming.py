@@ -98,7 +98,8 @@ def _lost(problem: Problem, hypothesis: Hypothesis, number: int) -> float:
 
 
 def _nearest_size(problem: Problem, rms: float) -> int:
-    return int(np.argmin(np.abs(np.log(problem.sizes / rms))))
+    within = np.clip(rms, problem.sizes.min(), problem.sizes.max())  # what is held at zero gets the smallest
+    return int(np.argmin(np.abs(np.log(problem.sizes / within))))
 
 
 def _straightened(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:

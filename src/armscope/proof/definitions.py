@@ -27,7 +27,8 @@ other places only), `cannot tell`, `missed` (nothing said). The aim counts the f
 
 **Found** on a power curve: `seen` means that the verdict states a mismatch, whatever it names (false alarms on clean
 arms say what that is worth); `right` that the effect has an acceptable name. The oracle knows which effect to test and
-uses one F test at 1 % false alarms. Sizes are in multiples of the size at which that oracle finds the effect in nine
+uses one F test at 1 % false alarms; it fits the frames that the diagnosis must fit, too: a base in each run that the
+table tells apart, and a tool point. Sizes are in multiples of the size at which that oracle finds the effect in nine
 of ten cases in the same poses; so the 90 % point of the diagnosis's own curve, the monotone one that fits the cases
 best (isotonic regression, interval by bootstrap), is directly "times the oracle's threshold".
 

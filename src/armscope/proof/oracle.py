@@ -14,26 +14,28 @@ from armscope.proof.definitions import FALSE_ALARMS_OF_ORACLE, RELIABLE
 
 Array = NDArray[np.float64]
 
-FRAME_NUMBERS = 9
-"""Base (6) and tool point (3), which the oracle fits, too."""
 REPEATS = 400
 
 
-def power(noncentrality: float, columns: int, rows: int) -> float:
-    """Chance that an F test of ``columns`` numbers at 1 % false alarms finds an effect in ``rows`` measured points."""
-    freedom = 3 * rows - FRAME_NUMBERS - columns
+def power(noncentrality: float, columns: int, rows: int, frame_numbers: int) -> float:
+    """Chance that an F test of ``columns`` numbers at 1 % false alarms finds an effect in ``rows`` measured points.
+
+    The oracle fits free frames of ``frame_numbers`` numbers, too, those of any diagnosis: a base (6) in each run that
+    the table tells apart, and a tool point (3).
+    """
+    freedom = 3 * rows - frame_numbers - columns
     critical = f.isf(FALSE_ALARMS_OF_ORACLE, columns, freedom)
     return float(1 - ncfdtr(columns, freedom, noncentrality, critical))
 
 
-def reliable_noncentrality(columns: int, rows: int, share: float = RELIABLE) -> float:
+def reliable_noncentrality(columns: int, rows: int, frame_numbers: int, share: float = RELIABLE) -> float:
     """The noncentrality at which the oracle finds the effect in that ``share`` of cases."""
-    return float(brentq(lambda value: power(value, columns, rows) - share, 1e-3, 1e3))
+    return float(brentq(lambda value: power(value, columns, rows, frame_numbers) - share, 1e-3, 1e3))
 
 
-def size_in_thresholds(noncentrality: float, columns: int, rows: int) -> float:
+def size_in_thresholds(noncentrality: float, columns: int, rows: int, frame_numbers: int) -> float:
     """An effect's size in multiples of the size at which the oracle finds it in nine of ten cases."""
-    return float(np.sqrt(noncentrality / reliable_noncentrality(columns, rows)))
+    return float(np.sqrt(noncentrality / reliable_noncentrality(columns, rows, frame_numbers)))
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,8 @@ Row = dict[str, object]
 THRESHOLD_TEXT = "detection threshold (90 %) in multiples of the oracle's"
 POWER_BINS = (0.0, 0.6, 0.9, 1.15, 1.45, 1.9, 2.6, 5.0, 12.0, 40.0, np.inf)
 EVIDENCE_BINS = (-np.inf, 1.0, 3.0, 10.0, 30.0, np.inf)
+NEAR_THRESHOLD = (1.0, 2.6)
+"""Sizes, in multiples of the oracle's 90 % threshold, at which an oracle finds nearly all and a diagnosis may not."""
 POWER_CATEGORIES = ("single", "faint")
 OUTCOMES = ("exact", "exact_story", "silent", "held_out_close")
 
@@ -106,6 +108,20 @@ def thresholds_table(effects: pd.DataFrame, rng: np.random.Generator) -> pd.Data
                 found = detection_threshold(of_seeds(effects, seeds), column, share, rng)
                 rows.append({"seeds": seeds, "found": column, "share": share, **vars(found)})
     return pd.DataFrame(rows)
+
+
+def detection_table(effects: pd.DataFrame) -> pd.DataFrame:
+    """Of each effect alone at 1 to 2.6 of the oracle's threshold: seen and right, with rates; hardest to see first."""
+    alone = _powered(effects)
+    near = alone[alone["size_in_thresholds"].astype(float).between(*NEAR_THRESHOLD)]
+    rows: list[Row] = []
+    for effect, group in near.groupby("effect"):
+        middle = group["size_in_thresholds"].median()
+        for column in ("seen", "right"):
+            rows.append({"effect": effect, "found": column, "middle_size": middle, **vars(rate(group[column]))})
+    table = pd.DataFrame(rows, columns=["effect", "found", "middle_size", *RATE])
+    seen = table[table["found"] == "seen"].set_index("effect")["estimate"]
+    return table.sort_values("effect", key=lambda names: names.map(seen), kind="stable", ignore_index=True)
 
 
 def power_table(effects: pd.DataFrame) -> pd.DataFrame:
@@ -291,6 +307,7 @@ def tables(cases: Cases, seed: int = 0) -> dict[str, pd.DataFrame]:
         "evidence": evidence_table(cases.names),
         "power": power_table(cases.effects),
         "strength": strength_table(cases.effects),
+        "detection": detection_table(cases.effects),
         "thresholds": thresholds_table(cases.effects, rng),
         "outcomes": outcomes_table(cases),
         "effect_outcomes": effect_outcomes_table(cases),

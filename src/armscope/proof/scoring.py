@@ -24,9 +24,9 @@ COLUMNS: dict[str, tuple[str, ...]] = {
         "held_out_ratio", "price_of_fitting", "held_out_close", "noise_ratio", "seconds", "failed",
     ),
     "effects": (
-        *_COMMON, "effect", "location", "shape", "driver", "minor", "strength", "noncentrality", "columns", "rows",
-        "oracle_power", "size_in_thresholds", "seen", "outcome", "right", "ambiguous", "among_all", "said_effect",
-        "said_location", "said_driver", "driver_right",
+        *_COMMON, "effect", "location", "shape", "driver", "minor", "strength", "noncentrality", "columns",
+        "frame_numbers", "rows", "oracle_power", "size_in_thresholds", "seen", "outcome", "right", "ambiguous",
+        "among_all", "said_effect", "said_location", "said_driver", "driver_right",
     ),
     "names": (
         *_COMMON, "effect", "location", "minor", "named_as", "evidence_nats", "rms_mm", "right", "effect_right",
@@ -168,6 +168,7 @@ def outside_outcome(truth: Truth, answer: Answer, claims: Sequence[Claim]) -> st
 def _effect(world: World, found: Match, claims: Sequence[Claim]) -> dict[str, object]:
     truth, rows = found.truth, world.truth.rows
     tested = np.isfinite(truth.noncentrality) and truth.columns > 0
+    test = truth.noncentrality, truth.columns, rows, truth.frame_numbers
     claim = found.claim
     return {
         "effect": truth.effect,
@@ -178,9 +179,10 @@ def _effect(world: World, found: Match, claims: Sequence[Claim]) -> dict[str, ob
         "strength": truth.strength,
         "noncentrality": truth.noncentrality,
         "columns": truth.columns,
+        "frame_numbers": truth.frame_numbers,
         "rows": rows,
-        "oracle_power": power(truth.noncentrality, truth.columns, rows) if tested else float("nan"),
-        "size_in_thresholds": size_in_thresholds(truth.noncentrality, truth.columns, rows) if tested else float("nan"),
+        "oracle_power": power(*test) if tested else float("nan"),
+        "size_in_thresholds": size_in_thresholds(*test) if tested else float("nan"),
         "seen": bool(world.answer.mismatch),
         "outcome": found.outcome,
         "right": found.right,

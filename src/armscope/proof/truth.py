@@ -28,7 +28,7 @@ class Concealed:
         strength: RMS at the tool in multiples of the noise.
         parameters: (value, unit) by name, file units.
         comparable: whether the fitted numbers can be compared with them.
-        noncentrality, columns: of the oracle's test; NaN and 0 for the background.
+        noncentrality, columns, frame_numbers: of the oracle's test; NaN and 0 for the background.
         alternatives: names that are as good in these poses.
         shape: kind of an effect outside the library.
     """
@@ -42,6 +42,7 @@ class Concealed:
     comparable: bool
     noncentrality: float
     columns: int
+    frame_numbers: int
     alternatives: tuple[Name, ...]
     shape: str = ""
 
@@ -141,7 +142,7 @@ def _truth(world: str, content: dict[str, Any], test: pd.DataFrame) -> Truth:
 
 
 def _effect(content: dict[str, Any]) -> Concealed:
-    oracle = content.get("oracle", {"noncentrality": float("nan"), "columns": 0})
+    oracle = content.get("oracle", {"noncentrality": float("nan"), "columns": 0, "frame_numbers": 0})
     return Concealed(
         effect=content["effect"],
         location=content["location"],
@@ -152,6 +153,7 @@ def _effect(content: dict[str, Any]) -> Concealed:
         comparable=content["values_comparable"],
         noncentrality=oracle["noncentrality"],
         columns=oracle["columns"],
+        frame_numbers=oracle["frame_numbers"],
         alternatives=tuple((a["effect"], a["location"]) for a in content.get("alternatives", ())),
         shape=content.get("shape", ""),
     )

@@ -164,6 +164,7 @@ def _concealed(content: dict[str, Any]) -> Concealed:
         comparable=True,
         noncentrality=content["noncentrality"],
         columns=0,
+        frame_numbers=0,
         alternatives=tuple((effect, location) for effect, location in content["alternatives"]),
     )
 

@@ -10,6 +10,7 @@ import pandas as pd
 from markupsafe import Markup, escape
 
 from armscope.proof import definitions
+from armscope.proof.rates import NEAR_THRESHOLD
 from armscope.report.page import significant, write_page
 
 TAGS = {"met": "holds", "not met": "fails", "open": "depends", "too few cases": "depends"}
@@ -46,6 +47,8 @@ def write_proof_page(path: Path, tables: Path, figures: Path, seed: dict[str, An
         per_effect=_wide(read["per_effect"], "effect"),
         outcomes=_wide(read["outcomes"], "category"),
         thresholds=read["thresholds"],
+        detection=_detection(read["detection"]),
+        near=NEAR_THRESHOLD,
         held_out=read["held_out"],
         evidence=read["evidence"],
         false_alarms=read["false_alarms"],
@@ -110,6 +113,21 @@ def _wide(table: pd.DataFrame, index: str) -> pd.DataFrame:
         pieces.append(wide.assign(seeds=seeds).reset_index())
     both = pd.concat(pieces).sort_values([index, "seeds"], kind="stable")
     return both[[index, "seeds", *[column for column in both.columns if column not in (index, "seeds")]]]
+
+
+def _detection(table: pd.DataFrame) -> pd.DataFrame:
+    """One row per effect: how many were seen and how many named, with intervals."""
+    pieces = {
+        word: table[table["found"] == found].set_index("effect")
+        for word, found in (("seen", "seen"), ("named", "right"))
+    }
+    seen = pieces["seen"]
+    shown = pd.DataFrame({"cases": seen["cases"], "median size": seen["middle_size"].round(2)})
+    for word, piece in pieces.items():
+        bounds = zip(piece["low"], piece["high"], strict=True)
+        shown[word] = piece["right"]
+        shown[f"share {word}, 95 % interval"] = [f"{100 * low:.0f} – {100 * high:.0f} %" for low, high in bounds]
+    return shown.reset_index()
 
 
 def _wrong(table: pd.DataFrame) -> pd.DataFrame:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from armscope.world.catalogue import KINDS, Wish
 from armscope.world.kinds import LOAD, Concealed, Kind, Scene, number
@@ -119,4 +121,18 @@ def _loaded(scene: Scene, kind: Kind, place: str) -> bool:
 
 def visibilities(judge: Judge, chosen: list[Sized], sigma: float) -> list[Visibility]:
     """How well each of the concealed effects can be found beside the others."""
-    return [judge.visibility(size, [other for other in chosen if other is not size], sigma) for size in chosen]
+    return [judge.visibility(size, _others(size, chosen), sigma) for size in chosen]
+
+
+def visibilities_in_runs(
+    judge: Judge, chosen: list[Sized], known: Sequence[Visibility], sigma: float, run: NDArray[np.int64]
+) -> list[Visibility]:
+    """The same where the table says each row's run (N,), so that the base is free in each; ``known`` without it."""
+    return [
+        judge.seen_in_runs(visibility, size, _others(size, chosen), sigma, run)
+        for visibility, size in zip(known, chosen, strict=True)
+    ]
+
+
+def _others(size: Sized, chosen: list[Sized]) -> list[Sized]:
+    return [other for other in chosen if other is not size]

@@ -7,7 +7,7 @@ truth.yaml has the layout of the examples (sigma_mm, effects, frames, rms_on_tes
 scoring rule needs: category, arm, seed, rows, noise and bad rows, whether an effect is outside the library, and what
 was left out of the table. Each effect has its `strength` in multiples of the noise; whether its values can be compared
 with a fit's; the `alternatives` that are as good in these poses, with the gap of evidence in nats; and the `oracle`:
-noncentrality and columns of the F test by one who knows what to look for.
+noncentrality and columns of the F test by one who knows what to look for, and how many numbers his free frames have.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from armscope.world.effects import linear_numbers
 from armscope.world.kinds import LOAD
 from armscope.world.rivals import Visibility
 from armscope.world.strength import Sized, fit_frames, rms
-from armscope.world.virtual_arm import Measured, VirtualArm, conceal, measure_session
+from armscope.world.virtual_arm import Measured, VirtualArm, conceal, measure_session, seen_in_runs
 
 CONTEXT = ("run", "time_s", "temperature_c", "payload_kg", "approach", "speed", "torque")
 SHOWN = {
@@ -54,7 +54,7 @@ def build(spec: WorldSpec, folder: Path, robots: Path) -> Path:
     write_table(home / "visible" / "recordings.csv", table.iloc[arm.recorded])
     write_table(home / "sealed" / "test.csv", table.iloc[arm.held_out])
     write_yaml(home / "visible" / "robot.yaml", _visible_robot(robots / f"{spec.arm}.yaml", spec, robot_rng))
-    write_yaml(home / "sealed" / "truth.yaml", _truth(arm, measured, left_out))
+    write_yaml(home / "sealed" / "truth.yaml", _truth(arm, measured, columns, left_out))
     return home
 
 
@@ -123,10 +123,11 @@ def _visible_robot(source: Path, spec: WorldSpec, rng: np.random.Generator) -> d
     return content
 
 
-def _truth(arm: VirtualArm, measured: Measured, left_out: list[str]) -> dict[str, Any]:
+def _truth(arm: VirtualArm, measured: Measured, columns: list[str], left_out: list[str]) -> dict[str, Any]:
     spec, frames, chosen = arm.spec, arm.frames, arm.chosen
     story = [size for size in chosen if not size.minor]
-    known = dict(zip(map(id, story), arm.seen, strict=True))
+    seen = seen_in_runs(arm) if "run" in columns else arm.seen
+    known = dict(zip(map(id, story), seen, strict=True))
     ordered = sorted(chosen, key=lambda size: -size.rms)
     return {
         "sigma_mm": spec.sigma_mm,
@@ -178,7 +179,11 @@ def _effect(size: Sized, spec: WorldSpec, visibility: Visibility | None) -> dict
     elif kind.variant:
         content["variant"] = kind.variant
     if visibility is not None:
-        content["oracle"] = {"noncentrality": round(visibility.noncentrality, 2), "columns": visibility.columns}
+        content["oracle"] = {
+            "noncentrality": round(visibility.noncentrality, 2),
+            "columns": visibility.columns,
+            "frame_numbers": visibility.frame_numbers,
+        }
         content["alternatives"] = [
             {"effect": other.effect, "location": other.location, "gap_nats": other.gap_nats}
             for other in visibility.alternatives

@@ -8,7 +8,7 @@ and the other concealed effects, reproduce the concealed displacement up to what
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,7 @@ from scipy.linalg import orth
 from armscope.world.effects import REFERENCE_C, close_loop
 from armscope.world.kinds import Scene, joints, links_longer_than
 from armscope.world.mechanism import BASE_FREEDOMS, SEGMENTS, Layout, Mechanism, all_freedoms, segment_hinges
-from armscope.world.strength import Sized, frame_columns
+from armscope.world.strength import Sized, free_frames
 
 Array = NDArray[np.float64]
 
@@ -186,11 +186,13 @@ class Visibility:
     Attributes:
         noncentrality: squared size of its displacement, in noise units, that frames and the other effects don't take.
         columns: how many numbers an oracle that knows what to test would fit.
+        frame_numbers: how many the free frames have: six per base, three of the tool point.
         alternatives: the answers that are as good, best first; none where there is nothing to see.
     """
 
     noncentrality: float
     columns: int
+    frame_numbers: int
     alternatives: tuple[Alternative, ...]
 
 
@@ -198,7 +200,8 @@ class Judge:
     """Compares concealed effects with all rivals at the rows of a scene."""
 
     def __init__(self, scene: Scene, tool: Array) -> None:
-        self.frames = frame_columns(tool, scene.tool_turn)
+        self.tool, self.tool_turn = tool, scene.tool_turn
+        self.frames = free_frames(tool, scene.tool_turn)
         self.rivals = rivals(scene)
         self._matrix = np.concatenate([rival.columns for rival in self.rivals], axis=1)
         norms = np.linalg.norm(self._matrix, axis=0)
@@ -207,16 +210,13 @@ class Judge:
 
     def visibility(self, truth: Sized, others: list[Sized], sigma: float) -> Visibility:
         """How well ``truth`` can be found beside ``others`` at noise ``sigma`` (m per axis)."""
-        taken = [self.frames / np.linalg.norm(self.frames, axis=0), *(self._spanned(other) for other in others)]
-        nuisance = orth(np.concatenate(taken, axis=1), rcond=1e-9)
+        nuisance, pattern = self._beyond(self.frames, truth, others, sigma)
         matrix = self._matrix - nuisance @ (nuisance.T @ self._matrix)
-        pattern = truth.pattern.reshape(-1) / sigma
-        pattern = pattern - nuisance @ (nuisance.T @ pattern)
         gram, overlap = matrix.T @ matrix, matrix.T @ pattern
         energy = float(pattern @ pattern)
         own = self._columns_of(truth)
         if energy / 2 < ALTERNATIVE_NATS:
-            return Visibility(energy, own, ())
+            return Visibility(energy, own, self.frames.shape[1], ())
         found: dict[tuple[str, str], float] = {}
         for number, rival in enumerate(self.rivals):
             name = (rival.effect, rival.location)
@@ -229,7 +229,26 @@ class Judge:
             if gap < min(ALTERNATIVE_NATS, energy / 4):
                 found[name] = min(gap, found.get(name, np.inf))
         ordered = sorted(found.items(), key=lambda item: item[1])
-        return Visibility(energy, own, tuple(Alternative(*name, round(gap, 2)) for name, gap in ordered))
+        alternatives = tuple(Alternative(*name, round(gap, 2)) for name, gap in ordered)
+        return Visibility(energy, own, self.frames.shape[1], alternatives)
+
+    def seen_in_runs(
+        self, known: Visibility, truth: Sized, others: list[Sized], sigma: float, run: NDArray[np.int64]
+    ) -> Visibility:
+        """``known`` for an oracle who must fit a base in each run, as a table with runs, (N,) ``run``, asks for.
+
+        The alternatives stay those in front of one base: what a free base per run hides besides is no further answer.
+        """
+        frames = free_frames(self.tool, self.tool_turn, run)
+        _, pattern = self._beyond(frames, truth, others, sigma)
+        return replace(known, noncentrality=float(pattern @ pattern), frame_numbers=frames.shape[1])
+
+    def _beyond(self, frames: Array, truth: Sized, others: list[Sized], sigma: float) -> tuple[Array, Array]:
+        """Orthonormal (3 N, k) of what frames and other effects can do, and ``truth`` (3 N,) beyond it per noise."""
+        taken = [frames / np.linalg.norm(frames, axis=0), *(self._spanned(other) for other in others)]
+        nuisance = orth(np.concatenate(taken, axis=1), rcond=1e-9)
+        pattern = truth.pattern.reshape(-1) / sigma
+        return nuisance, pattern - nuisance @ (nuisance.T @ pattern)
 
     def _spanned(self, sized: Sized) -> Array:
         """The patterns that free numbers of a concealed effect can make, its own displacement among them."""

@@ -54,6 +54,22 @@ def frame_columns(tool: Array, tool_turn: Array) -> Array:
     return np.concatenate([np.tile(np.eye(3), (count, 1, 1)), turning, tool_turn], axis=2).reshape(3 * count, 9)
 
 
+def free_frames(tool: Array, tool_turn: Array, run: NDArray[np.int64] | None = None) -> Array:
+    """(3 N, 6 R + 3) what the frames can do that the contract leaves free: a base in each of R runs, one tool point.
+
+    Args:
+        tool: (N, 3) tool points, m.
+        tool_turn: (N, 3, 3) orientation of the tool.
+        run: (N,) run of each row, where the table says it; otherwise the whole table is one.
+    """
+    columns = frame_columns(tool, tool_turn)
+    base, point = columns[:, :6], columns[:, 6:]
+    if run is None:
+        return columns
+    bases = [np.where((run == one).repeat(3)[:, None], base, 0.0) for one in np.unique(run)]
+    return np.concatenate([*bases, point], axis=1)
+
+
 def rms(difference: Array) -> float:
     """Root mean square over all entries."""
     return float(np.sqrt(np.mean(np.square(difference))))

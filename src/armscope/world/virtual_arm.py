@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from armscope.robot.description import load_description
 from armscope.world.catalogue import LARGEST_PAYLOAD_KG, WorldSpec
-from armscope.world.choice import choose, visibilities
+from armscope.world.choice import choose, visibilities, visibilities_in_runs
 from armscope.world.kinds import Scene
 from armscope.world.rivals import Judge, Visibility
 from armscope.world.session import random_session
@@ -35,7 +35,8 @@ class VirtualArm:
         nominal: (N, 3) tool points of the nominal arm, m.
         recorded, held_out: rows for the diagnosis and rows that test.
         chosen: the concealed effects.
-        seen: how well those of the story (not `minor`) can be found, in their order.
+        seen: how well those of the story (not `minor`) can be found, in their order, if nobody says what a run is.
+        judge: who says so.
         frames: registration and tool error.
         noise: generator of the measurement noise, fresh.
     """
@@ -47,6 +48,7 @@ class VirtualArm:
     held_out: NDArray[np.intp]
     chosen: tuple[Sized, ...]
     seen: tuple[Visibility, ...]
+    judge: Judge
     frames: Frames
     noise: np.random.Generator
 
@@ -74,8 +76,15 @@ def conceal(spec: WorldSpec, robots: Path) -> VirtualArm:
     chosen = choose(seen_by_all, judge, spec.wishes, sigma, spec.category == "inseparable", effects)
     seen = visibilities(judge, [size for size in chosen if not size.minor], sigma)
     return VirtualArm(
-        spec, scene, nominal, recorded, held_out, tuple(chosen), tuple(seen), _random_frames(effects), noise
+        spec, scene, nominal, recorded, held_out, tuple(chosen), tuple(seen), judge, _random_frames(effects), noise
     )
+
+
+def seen_in_runs(arm: VirtualArm) -> tuple[Visibility, ...]:
+    """How well the story's effects can be found where the table says the runs: each has a base frame of its own."""
+    story = [size for size in arm.chosen if not size.minor]
+    run = arm.scene.session.run[arm.recorded]
+    return tuple(visibilities_in_runs(arm.judge, story, arm.seen, arm.spec.sigma_mm * 1e-3, run))
 
 
 def _random_frames(rng: np.random.Generator) -> Frames:
