@@ -50,3 +50,12 @@ def test_the_threshold_of_a_known_curve_lies_in_its_interval():
 @pytest.mark.parametrize("found", [np.ones(40, bool), np.zeros(40, bool)])
 def test_cases_that_are_all_alike_tell_no_threshold(found):
     assert np.isnan(threshold(np.linspace(1, 2, 40), found, 0.9, np.random.default_rng(0)).value)
+
+
+def test_cases_of_one_size_count_together_in_any_order():
+    size = np.repeat([1.0, 2.0, 3.0], 10)
+    found = np.arange(30) % 10 >= np.repeat([9, 5, 0], 10)  # one, five and ten of ten
+    for seed in range(3):
+        order = np.random.default_rng(seed).permutation(30)
+        values = [threshold(size[order], found[order], share, np.random.default_rng(0)).value for share in (0.5, 0.6)]
+        assert values == [2.0, 3.0]

@@ -66,8 +66,8 @@ def threshold(size: Array, found: NDArray[np.bool_], share: float, rng: np.rando
 
 
 def _read_off(size: Array, found: NDArray[np.bool_], share: float) -> float:
-    """Infinite where the curve never gets there."""
-    order = np.argsort(size)
-    curve = isotonic_regression(found[order].astype(float)).x
-    reached = np.flatnonzero(curve >= share)
-    return float(size[order][reached[0]]) if len(reached) else float("inf")
+    """Infinite where the curve never gets there; cases of one size count together, in whatever order they come."""
+    sizes, at, cases = np.unique(size, return_inverse=True, return_counts=True)
+    curve = isotonic_regression(np.bincount(at, found) / cases, weights=cases).x
+    reached = np.flatnonzero(curve >= share - 1e-12)
+    return float(sizes[reached[0]]) if len(reached) else float("inf")
