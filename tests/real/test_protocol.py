@@ -13,7 +13,7 @@ from armscope.inputs import InputError
 from armscope.real import protocol
 from armscope.real.protocol import ARMSCOPE, measure_run, paper_models, protocol_table
 from armscope.real.reference import Best, Reference, ReferenceRun, ReferenceTransfer, load_reference, rows_of_run
-from armscope.real.transfer import calibrated_transfer, measure_transfers
+from armscope.real.transfer import calibrated_transfer, learn, measure_transfers
 from armscope.recordings import as_recordings
 from tests.real.recorded import arm, table
 
@@ -84,7 +84,8 @@ def test_what_belongs_to_the_arm_carries_over_to_a_run_in_another_place():
         table(120, NOISE_MM, error_rad=offsets), table(60, NOISE_MM, seed=1, error_rad=offsets, run="two")
     )
     transfer = ReferenceTransfer(learned="one", applied="two", refitted=("base", "tool"))
-    ((_, found),) = measure_transfers(arm(), rows, [transfer])
+    verdicts = learn(arm(), rows, [transfer])
+    ((_, found),) = measure_transfers(arm(), rows, [transfer], verdicts)
     floor = NOISE_MM * np.sqrt(3)
     assert found["nominal"] > 10 * floor
     for model in ("offsets", ARMSCOPE):

@@ -5,10 +5,12 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 
+import numpy as np
 import pandas as pd
 import pytest
 
 from armscope.files import write_table, write_yaml
+from armscope.real.transfer import GEOMETRY_HERE, WITH_CURVES
 from armscope.report.real_arms import RealArm, write_real_arms
 
 
@@ -30,6 +32,7 @@ def arm_(tmp_path):
     columns = ["learned", "applied", "refitted", "model", "rms_mm", "reference_mm"]
     carried = [("run a", "run b", "base and tool", "armscope", 0.38, 0.41)]
     write_table(folder / "transfer.csv", pd.DataFrame(carried, columns=columns))
+    write_table(folder / "curves.csv", pd.DataFrame(columns=["run", "joint", "angle_rad", "turn_rad", "stderr_rad"]))
     effect = {"title": "joint compliance at joint 2", "rms_at_tool_mm": 0.5, "share": 0.8, "minor": False}
     verdict = {
         "headline": "x", "effects": [effect], "background": {"present": True, "share": 0.1},
@@ -108,3 +111,22 @@ def test_what_was_concealed_is_told_with_what_was_not(arm_, tmp_path):
     assert "Not run for this page: Other." in text
     assert text.count("joint compliance in An arm (no load)") == 1
     assert "| An arm | all joints move | torques withheld | nothing | no | 0.310 |" in text
+
+
+def test_curves_of_two_runs_are_told_with_what_they_are_worth(arm_, tmp_path):
+    columns = ["learned", "applied", "refitted", "model", "rms_mm", "reference_mm"]
+    carried = [
+        ("run a", "run b", "base and tool", model, value, None)
+        for model, value in ((GEOMETRY_HERE, 0.44), (WITH_CURVES, 0.11))
+    ]
+    write_table(arm_.folder / "transfer.csv", pd.DataFrame(carried, columns=columns))
+    at = np.linspace(-1, 1, 200)
+    curves = [
+        pd.DataFrame({"run": run, "joint": "joint 3", "angle_rad": at, "turn_rad": np.sin(12 * at), "stderr_rad": 0.0})
+        for run in ("run a", "run b")
+    ]
+    write_table(arm_.folder / "curves.csv", pd.concat(curves))
+    text = page(arm_, tmp_path)
+    assert "on run b with the curves of run a 0.440 mm become 0.110 mm" in text
+    assert "joint 3 1.00 over 115°" in text
+    assert "figures/real-arm-curves.png" in text

@@ -56,7 +56,7 @@ rule protocol_real:
         robot=robot_of,
         reference=lambda wildcards: CONFIG.real[wildcards.set].reference,
     output:
-        expand(f"{RESULTS}/real/{{{{set}}}}/{{table}}.csv", table=("protocol", "splits", "names", "transfer")),
+        expand(f"{RESULTS}/real/{{{{set}}}}/{{table}}.csv", table=("protocol", "splits", "names", "transfer", "curves")),
         f"{RESULTS}/real/{{set}}/protocol.png",
     params:
         folder=subpath(output[0], parent=True),

@@ -28,9 +28,10 @@ def protocol(
     import pandas as pd
 
     from armscope.files import write_table
+    from armscope.real.curves import curve_table
     from armscope.real.protocol import measure_run, protocol_table
     from armscope.real.reference import load_reference
-    from armscope.real.transfer import measure_transfers, transfer_table
+    from armscope.real.transfer import learn, measure_transfers, transfer_table
     from armscope.recordings import read_recordings
     from armscope.report.protocol_figure import draw_protocol
     from armscope.report.style import save_figure
@@ -45,7 +46,9 @@ def protocol(
     beside = pd.concat([protocol_table(splits, run) for run in stated.runs], ignore_index=True)
     write_table(output / "protocol.csv", beside, digits=6)
     save_figure(draw_protocol([(arm.name, beside)]), output / "protocol.png")
-    carried = measure_transfers(arm, table, stated.transfers, _tell)
+    verdicts = learn(arm, table, stated.transfers)
+    write_table(output / "curves.csv", curve_table(verdicts), digits=6)
+    carried = measure_transfers(arm, table, stated.transfers, verdicts, _tell)
     write_table(output / "transfer.csv", transfer_table(carried), digits=6)
 
 
@@ -143,7 +146,9 @@ def page(
 
     import pandas as pd
 
+    from armscope.real.curves import shared
     from armscope.real.settings import PageSettings
+    from armscope.report.curves_figure import draw_shared_curves
     from armscope.report.protocol_figure import draw_protocol
     from armscope.report.real_arms import RealArm, write_real_arms
     from armscope.report.style import save_figure
@@ -153,6 +158,8 @@ def page(
     figures = output.parent / "figures"
     for arm in arms:
         shutil.copy(arm.folder / "figures" / "arm.png", figures / f"real-{arm.name}.png")
+        if curves := shared(pd.read_csv(arm.folder / "curves.csv")):
+            save_figure(draw_shared_curves(curves), figures / f"real-{arm.name}-curves.png", formats=("png",))
     tables = [(arm.title.partition(",")[0], pd.read_csv(arm.folder / "protocol.csv")) for arm in arms]
     save_figure(draw_protocol(tables), figures / "real-protocol.png", formats=("png",))
     write_real_arms(output, arms, figures.name, None if chosen.proof is None else Path(chosen.proof))

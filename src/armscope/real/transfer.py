@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 
 from armscope.calibration.fit import least_squares, placed, rms_distance
+from armscope.calibration.held_out import held_out
 from armscope.calibration.model import LEVELS, Level, SetUp, State, set_up
 from armscope.calibration.solve import Priors, solve
 from armscope.diagnosis import Settings, Verdict, diagnose
 from armscope.diagnosis import transfer as carry_over
+from armscope.real.curves import turned_by_curves
 from armscope.real.protocol import ARMSCOPE
 from armscope.real.reference import ReferenceTransfer, rows_of_run
 from armscope.recordings import Recordings
@@ -21,6 +23,9 @@ from armscope.robot import Arm
 COMPLIANCES = "compliances"
 """Compliances alone are carried over; the rest of the arm stays nominal."""
 ARMSCOPE_ELASTIC = "armscope, elastic part alone"
+GEOMETRY_HERE, WITH_CURVES = "geometric, fitted here", "geometric, fitted here, other run's curves"
+"""Held out: every D-H value is fitted to training rows of the run itself, without and with curves learned elsewhere."""
+SPLITS, MOST_ROWS = (0, 1, 2), 3000
 
 
 def calibrated_transfer(arm: Arm, recordings: Recordings, transfer: ReferenceTransfer) -> dict[str, float]:
@@ -52,20 +57,42 @@ def diagnosed_transfer(learned: Verdict, rows: Recordings, transfer: ReferenceTr
     return found
 
 
+def curves_transfer(arm: Arm, learned: Verdict, rows: Recordings) -> dict[str, float]:
+    """Held-out RMS of the 3D distance (mm) on the other run with its own geometry, without and with learned curves.
+
+    A curve and the geometry beside which it was learned imitate each other in part, so curves are judged beside a
+    geometry that is fitted where they are used.
+    """
+    turned = turned_by_curves(learned.model, rows)
+    if turned is None:
+        return {}
+    found = {}
+    for name, table in ((GEOMETRY_HERE, rows), (WITH_CURVES, turned)):
+        found[name] = 1e3 * held_out(arm, table, ["geometric"], SPLITS, most_rows=MOST_ROWS)[0].mean
+    return found
+
+
+def learn(arm: Arm, recordings: Recordings, transfers: Sequence[ReferenceTransfer]) -> dict[str, Verdict]:
+    """The verdict of every run that something is learned on."""
+    settings = Settings(resamples=0, cross_validation=False)
+    runs = dict.fromkeys(transfer.learned for transfer in transfers)
+    return {run: diagnose(arm, rows_of_run(recordings, run), settings) for run in runs}
+
+
 def measure_transfers(
     arm: Arm,
     recordings: Recordings,
     transfers: Sequence[ReferenceTransfer],
+    verdicts: Mapping[str, Verdict],
     tell: Callable[[str], None] = lambda text: None,
 ) -> list[tuple[ReferenceTransfer, dict[str, float]]]:
-    """RMS of the 3D distance (mm) on all rows of the other run, by model; each run is diagnosed once."""
-    settings = Settings(resamples=0, cross_validation=False)
-    verdicts = {run: diagnose(arm, rows_of_run(recordings, run), settings) for run in {t.learned for t in transfers}}
+    """RMS of the 3D distance (mm) on rows of the other run, by model; ``verdicts`` as `learn` gives them."""
     found = []
     for transfer in transfers:
         rows = rows_of_run(recordings, transfer.applied)
         by_model = calibrated_transfer(arm, recordings, transfer)
         by_model |= diagnosed_transfer(verdicts[transfer.learned], rows, transfer)
+        by_model |= curves_transfer(arm, verdicts[transfer.learned], rows)
         tell(f"{transfer.learned} to {transfer.applied}: " + ", ".join(f"{k} {v:.3f}" for k, v in by_model.items()))
         found.append((transfer, by_model))
     return found

@@ -12,8 +12,10 @@ import numpy as np
 import pandas as pd
 
 from armscope.files import write_text
+from armscope.real.curves import shared
 from armscope.real.protocol import ARMSCOPE, UNCORRECTED
 from armscope.real.reference import Reference, ReferenceRun, load_reference
+from armscope.real.transfer import GEOMETRY_HERE, SPLITS, WITH_CURVES
 from armscope.report.page import significant
 
 LEVELS = ("nominal", "offsets", "geometric", "compliance")
@@ -108,7 +110,8 @@ def _section(arm: RealArm, figures: str) -> str:
     transfers = pd.read_csv(arm.folder / "transfer.csv")
     if len(transfers):
         parts += ["Learned on one run, applied to another, where only the frames named are fitted again:"]
-        parts += [_transfers(transfers)]
+        parts += [_transfers(transfers[~transfers["model"].isin([GEOMETRY_HERE, WITH_CURVES])])]
+        parts += [_curves(arm, transfers, figures)]
     return "\n\n".join(part for part in parts if part)
 
 
@@ -233,6 +236,29 @@ def _transfers(table: pd.DataFrame) -> str:
             cells.append(significant(row["rms_mm"].iloc[0]) + (f" ({known:g})" if np.isfinite(known) else ""))
         lines.append(f"| {' | '.join(map(str, key))} | {' | '.join(cells)} |")
     return "\n".join(lines)
+
+
+def _curves(arm: RealArm, transfers: pd.DataFrame, figures: str) -> str:
+    """Whether curves of joints' own angles are the same on two runs, and what the other run's are worth."""
+    lines = []
+    for (learned, applied), group in transfers.groupby(["learned", "applied"], sort=False):
+        values = group.set_index("model")["rms_mm"]
+        if WITH_CURVES in values:
+            without, with_them = significant(values[GEOMETRY_HERE]), significant(values[WITH_CURVES])
+            lines.append(f"on {applied} with the curves of {learned} {without} mm become {with_them} mm")
+    if not lines:
+        return ""
+    text = (
+        "Curves of joints' own angles, learned on one run and used unchanged on another beside a geometry that is "
+        f"fitted there (held out, {len(SPLITS)} splits): {'; '.join(lines)}. A curve is known only at the angles where "
+        "it was learned; beyond, it keeps its end's value."
+    )
+    both = shared(pd.read_csv(arm.folder / "curves.csv"))
+    if both:
+        told = [f"{c.joint} {c.correlation:.2f} over {np.degrees(c.in_common):.0f}°" for c in both]
+        text += f" Where both runs know it, the two curves of a joint correlate by: {', '.join(told)}."
+        text += f"\n\n![{arm.title}: curves of joints as two runs tell them]({figures}/real-{arm.name}-curves.png)"
+    return text
 
 
 def _concealment(proof: Path, arms: Sequence[RealArm]) -> str:

@@ -1,0 +1,118 @@
+"""Free curves of joints' own angles: are they the same on two runs, and what do they turn on rows of another?"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from armscope.diagnosis import Verdict
+from armscope.physics.model import FittedModel
+from armscope.physics.scene import Part, Scene
+from armscope.recordings import Recordings
+
+Array = NDArray[np.float64]
+
+STEP = np.radians(0.5)
+LEAST_IN_COMMON = np.radians(30.0)
+"""Below this, what is left of a curve without its slow part says little."""
+KNOWN = 0.5
+"""A curve is known where its standard error is below this share of its standard deviation."""
+SLOW_DEGREE = 3
+"""Geometry and the rest of a curve imitate each other up to about such a polynomial of the angle."""
+
+
+@dataclass(frozen=True, eq=False)
+class Shared:
+    """One joint's curve as two runs tell it, over the angles that both cover, without its slow part.
+
+    Attributes:
+        joint: "joint 3".
+        runs: the two runs.
+        at: (K,) angle of the joint, rad, evenly spaced.
+        one, other: (K,) turn of the joint, rad; NaN where one of the runs hardly knows it.
+    """
+
+    joint: str
+    runs: tuple[str, str]
+    at: Array
+    one: Array
+    other: Array
+
+    @property
+    def correlation(self) -> float:
+        """Of the two curves, where both are known."""
+        known = np.isfinite(self.one)
+        return float(np.corrcoef(self.one[known], self.other[known])[0, 1])
+
+    @property
+    def in_common(self) -> float:
+        """How much of the joint's range both runs know, rad."""
+        return float(STEP * np.count_nonzero(np.isfinite(self.one)))
+
+
+def turned_by_curves(model: FittedModel, rows: Recordings) -> Recordings | None:
+    """Rows with the motor angles that a model's curves of own angles make of the commanded ones; None without curves.
+
+    Beyond the range in which it was learned a curve keeps its end's value.
+    """
+    parts = [part for part in model.parts if _follows_own_angle(part)]
+    if not parts:
+        return None
+    twists = Scene(model.arm, rows).twists(parts)
+    joints = len(model.arm.actuation)
+    turns = np.column_stack(
+        [twists[name][:, 5] if (name := f"joint {j + 1}") in twists else np.zeros(len(rows)) for j in range(joints)]
+    )
+    motors = np.linalg.lstsq(model.arm.actuation, turns.T, rcond=None)[0].T
+    return replace(rows, motor_angles=rows.motor_angles + motors)
+
+
+def _follows_own_angle(part: Part) -> bool:
+    return part.placed.reading == "curve" and part.placed.driver == f"angle of {part.placed.location}"
+
+
+def curve_table(verdicts: Mapping[str, Verdict]) -> pd.DataFrame:
+    """Every curve of a joint's own angle: run, joint, angle_rad, turn_rad, stderr_rad."""
+    columns = ["run", "joint", "angle_rad", "turn_rad", "stderr_rad"]
+    pieces = [
+        pd.DataFrame({"run": run, "joint": e.location, "angle_rad": c.at, "turn_rad": c.value, "stderr_rad": c.stderr})
+        for run, verdict in verdicts.items()
+        for e in verdict.effects
+        if (c := e.curve) is not None and e.effect == "unknown" and e.driver == f"angle of {e.location}"
+    ]
+    return pd.concat(pieces, ignore_index=True) if pieces else pd.DataFrame(columns=columns)
+
+
+def shared(table: pd.DataFrame) -> list[Shared]:
+    """The curves of `curve_table` that two runs know over enough angles in common."""
+    found = []
+    for joint, of_joint in table.groupby("joint"):
+        by_run = {str(run): rows for run, rows in of_joint.groupby("run", sort=False)}
+        for one, other in combinations(by_run, 2):
+            at = np.arange(*_overlap(by_run[one]["angle_rad"], by_run[other]["angle_rad"]), STEP)
+            known = _known(at, by_run[one]) & _known(at, by_run[other])
+            if STEP * np.count_nonzero(known) > LEAST_IN_COMMON:
+                values = [_without_slow_part(at, by_run[run], known) for run in (one, other)]
+                found.append(Shared(str(joint), (one, other), at, *values))
+    return found
+
+
+def _overlap(one: Iterable[float], other: Iterable[float]) -> tuple[float, float]:
+    return max(min(one), min(other)), min(max(one), max(other))
+
+
+def _known(at: Array, curve: pd.DataFrame) -> NDArray[np.bool_]:
+    """Where a curve's standard error is small beside what the curve does."""
+    stderr = np.interp(at, curve["angle_rad"], curve["stderr_rad"])
+    return np.asarray(stderr < KNOWN * curve["turn_rad"].std())
+
+
+def _without_slow_part(at: Array, curve: pd.DataFrame, known: NDArray[np.bool_]) -> Array:
+    value = np.interp(at, curve["angle_rad"], curve["turn_rad"])
+    slow = np.polynomial.Polynomial.fit(at[known], value[known], SLOW_DEGREE)
+    return np.where(known, value - slow(at), np.nan)
