@@ -69,8 +69,8 @@ def test_one_error_names_place_value_and_rule(tmp_path, changes, words):
     [
         ("name: [unclosed", ["line"]),
         ("name: a\nname: b", ["line 2", "'name' twice"]),
-        ("- just\n- a list", ["valid dictionary"]),
-        ("", ["valid dictionary"]),
+        ("- just\n- a list", ["a list", "key: value"]),
+        ("", ["found nothing", "key: value"]),
     ],
 )
 def test_broken_yaml_is_an_input_error(tmp_path, text, words):

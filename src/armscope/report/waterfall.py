@@ -34,7 +34,7 @@ def draw_waterfall(
     limit = 1.24 * max([largest, *(min(rms, 1.6 * largest) for _, rms in shown)])
     n_bars = len(steps) + len(shown)
     with styled():
-        figure, axes = plt.subplots(figsize=(8.2, 0.36 * n_bars + (0.6 if shown else 0) + 1.35))
+        figure, axes = plt.subplots(figsize=(8.2, 0.36 * n_bars + (0.6 if shown else 0) + 1.5))
         for place, (_, rms) in enumerate(steps):
             ends = place in (0, len(steps) - 1)
             if ends:
@@ -52,7 +52,8 @@ def draw_waterfall(
                 axes.plot([rms, rms], [place - 0.31, place + 1.31], color=GREY, linewidth=0.7, zorder=2)
         start = len(steps) + 0.75
         if shown:
-            axes.text(0, start - 0.72, "for comparison, fitted to the same rows:", fontsize=8.5, color="#5C6670")
+            text = "for comparison, fitted to the same rows:"
+            axes.text(0, start - 0.72, text, fontsize=8.5, color="#5C6670", zorder=7, bbox=CLEAR)
         for place, (_, rms) in enumerate(shown):
             axes.barh(start + place, min(rms, limit), height=0.62, color="#C9CFD5", zorder=3)
             beyond = rms > limit
@@ -71,7 +72,7 @@ def draw_waterfall(
         axes.set_yticks(ticks, [name for name, _ in steps] + [name for name, _ in shown])
         axes.set_ylim(start + len(shown) - 0.3 if shown else len(steps) - 0.4, -0.6)
         axes.set_xlim(0, limit)
-        whiskers = "; whiskers: standard deviation from fold to fold" if _any(spreads) else ""
+        whiskers = "\nwhiskers: standard deviation from fold to fold" if _any(spreads) else ""
         axes.set_xlabel(f"RMS on held-out rows, per axis (mm){whiskers}")
         axes.tick_params(axis="y", length=0)
         axes.spines["left"].set_visible(False)
