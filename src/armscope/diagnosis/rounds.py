@@ -5,7 +5,7 @@ A long table is diagnosed on a sample of its rows first; all rows then weigh wha
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,11 +17,12 @@ from armscope.diagnosis.naming import named
 from armscope.diagnosis.noise import Growth, Noise, distances, growth, independent_shares, poses, relative_uncertainty
 from armscope.diagnosis.problem import Gram, Pool, accumulate, keep_drivers, pool, residuals, total
 from armscope.diagnosis.refit import Refit, refit
-from armscope.diagnosis.scan import jumps, mesh_lines
+from armscope.diagnosis.scan import jumps, mesh_lines, pauses
 from armscope.diagnosis.scatter import Scattered, find_scatter, levers, noise_between, whitening
 from armscope.diagnosis.search import STARTS, Search
 from armscope.diagnosis.weights import COUNTS, RowNoise
 from armscope.physics.backgrounds import backgrounds
+from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import Placed
 from armscope.physics.freeform import refined
 from armscope.physics.model import FittedModel
@@ -301,7 +302,23 @@ class Rounds:
             for placed in scan(self.problem, given, model, self.recordings, self.weights):
                 if (placed.key, placed.variant) not in known:
                     new[(placed.key, placed.variant)] = placed
+        for placed in self._paused(search, model):
+            if (placed.key, placed.variant) not in known:
+                new[(placed.key, placed.variant)] = placed
         return list(new.values())
+
+    def _paused(self, search: Search, model: FittedModel) -> Iterator[Placed]:
+        """Drifts with one pause more, where the best hypothesis has a drift by the order of rows."""
+        chosen = {c: self.pool.candidates[c] for c in self.best.candidates}
+        drifts = [
+            c for c, placed in chosen.items() if placed.effect is BASE_DRIFT and placed.variant.startswith("rows")
+        ]
+        if drifts:
+            # what else moves the base may be the drift's pauses: all of it, or one of it beside a jump that is one
+            beside = [c for c, placed in chosen.items() if placed.location == "base" and c not in drifts]
+            for replaced in sorted({(), tuple(beside), *((one,) for one in beside)}):
+                rest = search.without(self.best, replaced)
+                yield from pauses(self.problem, rest, drifts[0], model, self.recordings, self.weights)
 
 
 def _payload(model: FittedModel, recordings: Recordings) -> tuple[FittedModel, list[Placed]]:

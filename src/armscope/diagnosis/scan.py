@@ -7,11 +7,11 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.diagnosis.evidence import Hypothesis, Problem
+from armscope.diagnosis.evidence import Hypothesis, Problem, forward
 from armscope.diagnosis.extra import Blocks, conditioned, weigh_blocks
 from armscope.diagnosis.problem import chunks, columns, pool_values
 from armscope.diagnosis.weights import RowWeights
-from armscope.physics.drift import BASE_SHIFT, base_shift, row_number, tool_shift
+from armscope.physics.drift import BASE_SHIFT, Pause, base_shift, drift_with_pauses, pauses_of, row_number, tool_shift
 from armscope.physics.effect import Placed
 from armscope.physics.model import FittedModel
 from armscope.physics.placing import moving_joints
@@ -27,6 +27,11 @@ LINES_KEPT = 2
 SHORTEST_PIECE = 8
 """Rows on either side of a jump."""
 MOST_TIMES = 600
+LENGTHS_OF_PAUSES = 20
+"""How many lengths of a pause compete at each row: one number's price, 3 nats."""
+MOST_PAUSES = 4
+WORTH_SETTING_RIGHT = 1.0
+"""Nats that better lengths of known pauses must promise."""
 WORTH_A_LOOK = 8.0
 """Nats that a scanned number must promise before its price to go on to compete."""
 
@@ -104,6 +109,103 @@ def jumps(
         for found in best:
             if found is not None and found[0] > WORTH_A_LOOK + np.log(tried):
                 yield found[1]
+
+
+def pauses(
+    problem: Problem,
+    drifting: Hypothesis,
+    drift: int,
+    model: FittedModel,
+    recordings: Recordings,
+    weights: RowWeights,
+) -> Iterator[Placed]:
+    """A drift by the order of rows with one, two, ... pauses, where nobody recorded when rows were measured.
+
+    In a pause the base moves on the way that it moves all the time: one number, where a jump has six. It never moves
+    back.
+
+    Args:
+        drifting: a hypothesis with the drift, without what pauses may stand for.
+        drift: the drift's number among the candidates.
+    """
+    placed, at = problem.pool.candidates[drift], problem.pool.columns[drift]
+    way = drifting.mean[np.searchsorted(drifting.columns, at)] / problem.scale[at]
+    known = pauses_of(placed)
+    passed = _rows_passed(recordings, known)
+    pieces = list(_pieces(recordings))
+    ways_to_pause = LENGTHS_OF_PAUSES * sum(len(cuts) for _, cuts in pieces)
+    factor, half = _in_si(problem, drifting)
+    for rows, cuts in pieces:
+        sums = _step_sums(problem, drifting.columns, model, recordings, weights, rows, cuts, base_shift)
+        V = forward(factor, (sums.cross @ way).T)
+        alone = np.einsum("mij,i,j->m", sums.own, way, way)
+        # two steps have the rows behind the later one in common
+        own = alone[np.maximum.outer(np.arange(len(cuts)), np.arange(len(cuts)))] - V.T @ V
+        line = passed[rows] - passed[rows].mean()
+        run, pull = str(recordings.run[rows[0]]), sums.b @ way - V.T @ half
+        before = [(run, row_number(recordings, int(row))) for row in rows[cuts]]
+        fitted = [before.index((p.run, p.row)) for p in known if (p.run, p.row) in before]
+        for chosen, length in _steps(own, pull, drifting, fitted, np.log(ways_to_pause)):
+            # the drift has taken its share of every step: as large as a line's share of it
+            taken = sum(
+                a * float(line[cut:].sum() / (line @ line)) for a, cut in zip(length, cuts[chosen], strict=True)
+            )
+            if taken < 1:
+                new = [Pause(before[n][1], run, 1e3 * a / (1 - taken)) for a, n in zip(length, chosen, strict=True)]
+                together = _together(known, new)
+                if all(p.rows > 0 for p in together):
+                    yield drift_with_pauses(together, ways_to_pause ** len(together))
+
+
+def _steps(
+    own: Array, pull: Array, given: Hypothesis, fitted: Sequence[int], price: float
+) -> Iterator[tuple[list[int], Array]]:
+    """Steps and their sizes, one more each time: that which explains most beside the others, if it promises enough.
+
+    Args:
+        own: (m, m) products of the steps once the hypothesis is conditioned on.
+        pull: (m,) their products with what is left to explain.
+        fitted: steps that the hypothesis has already; their sizes are set right first.
+        price: nats of one step more.
+    """
+    chosen, size = list(fitted), _sizes(own, pull, fitted)
+    if len(chosen) and 0.5 * size @ pull[chosen] / given.noise**2 > WORTH_SETTING_RIGHT:
+        yield list(chosen), size
+    while len(chosen) < MOST_PAUSES:
+        left, inside = pull - own[:, chosen] @ size, own[np.ix_(chosen, chosen)]
+        beside = np.diag(own) - np.einsum("mi,im->m", own[:, chosen], np.linalg.pinv(inside) @ own[chosen])
+        seen = beside > 1e-6 * np.diag(own)
+        gain = np.where(seen & (left > 0), 0.5 * left**2 / np.where(seen, beside, 1.0) / given.noise**2, 0.0)
+        best = int(np.argmax(gain))
+        if gain[best] < WORTH_A_LOOK + price:
+            return
+        chosen.append(best)
+        size = _sizes(own, pull, chosen)
+        if np.any(size[len(fitted) :] <= 0):
+            return
+        yield list(chosen), size
+
+
+def _sizes(own: Array, pull: Array, chosen: Sequence[int]) -> Array:
+    """Sizes of steps that explain most together."""
+    return np.asarray(np.linalg.solve(own[np.ix_(chosen, chosen)], pull[list(chosen)]), dtype=np.float64)
+
+
+def _together(known: Sequence[Pause], new: Sequence[Pause]) -> list[Pause]:
+    """All pauses in order; those before one row are one."""
+    rows: dict[tuple[str, float], float] = {}
+    for each in (*known, *new):
+        rows[each.run, each.row] = rows.get((each.run, each.row), 0.0) + each.rows
+    return [Pause(row, run, length) for (run, row), length in sorted(rows.items())]
+
+
+def _rows_passed(recordings: Recordings, known: Sequence[Pause]) -> Array:
+    """(N,) thousands of rows, pauses included."""
+    number = np.array([row_number(recordings, row) for row in range(len(recordings))])
+    passed = number / 1e3
+    for p in known:
+        passed = passed + p.rows / 1e3 * ((number >= p.row) & (recordings.run == p.run))
+    return passed
 
 
 def when_stderr(

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Term, term
+from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term, term
 from armscope.physics.placing import varies
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -36,6 +37,48 @@ def _place_drift(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
         # assumed: rows stand in the order in which they were measured
         terms = six_terms("base", Driver("rows"), "/1000 rows")
         yield Placed(BASE_DRIFT, "base", terms, (1.0,) * 6, "order of rows", variant="rows")
+
+
+@dataclass(frozen=True)
+class Pause:
+    """Time that passed before a row, in which nothing was measured, as rows that would have filled it.
+
+    Attributes:
+        row: the first row afterwards, as `row_number` counts.
+        run: its run.
+        rows: how many rows would have filled it.
+    """
+
+    row: float
+    run: str
+    rows: float
+
+
+def drift_with_pauses(pauses: Sequence[Pause], tried: int) -> Placed:
+    """A base that moves steadily in time, of which only the order of rows is known, and where it paused."""
+    terms = tuple(
+        replace(
+            each,
+            products=(
+                *each.products,
+                *(
+                    Product(each.products[0].direction, Driver("after row", (p.row, p.run)), p.rows / 1e3)
+                    for p in pauses
+                ),
+            ),
+        )
+        for each in six_terms("base", Driver("rows"), "/1000 rows")
+    )
+    rows = ", ".join(f"{p.row:g}" for p in pauses)
+    told = f"order of rows, with a pause before row{'s' if len(pauses) > 1 else ''} {rows}"
+    variant = " ".join(["rows", *(f"{p.row:g}/{p.run}+{p.rows:.1f}" for p in pauses)])
+    return Placed(BASE_DRIFT, "base", terms, (1.0,) * 6, told, tried=tried, variant=variant)
+
+
+def pauses_of(placed: Placed) -> list[Pause]:
+    """The pauses of a drift that follows the order of rows."""
+    steps = [product for product in placed.terms[0].products if product.driver.kind == "after row"]
+    return [Pause(float(p.driver.arguments[0]), str(p.driver.arguments[1]), p.factor * 1e3) for p in steps]  # type: ignore[arg-type]
 
 
 BASE_DRIFT = Effect(

@@ -178,6 +178,8 @@ def clash(one: Placed, other: Placed) -> bool:
     Several mesh lines or jumps can (their scanned numbers or runs differ), and curves of different drivers.
     """
     if one.name == other.name:
+        if one.name == "base_drift":
+            return True  # one base moves one way; with pauses or without is the same motion
         several = one.tried > 2 or one.reading == "curve" or one.family == "drift"
         return one.variant == other.variant if several else True
     for curve, special in ((one, other), (other, one)):

@@ -178,7 +178,9 @@ def _jump(effect: FoundEffect, parameters: Parameters) -> str:
 
 def _drift(effect: FoundEffect, parameters: Parameters) -> str:
     size = math.sqrt(sum(parameters[axis].value ** 2 for axis in "xyz" if axis in parameters))
-    return f"the base drifts by {rounded(size)} mm per hour"
+    in_rows = any("rows" in parameter.unit for parameter in parameters.values())
+    _, comma, paused = effect.driver.partition(", ")
+    return f"the base drifts by {rounded(size)} mm per {'1000 rows' if in_rows else 'hour'}{comma}{paused}"
 
 
 def _payload(effect: FoundEffect, parameters: Parameters) -> str:
