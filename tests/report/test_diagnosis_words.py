@@ -271,3 +271,10 @@ def test_a_number_that_the_poses_leave_open_gets_no_digits():
 def test_an_effect_that_resampling_rarely_finds_is_said_to_be_one_way_of_putting_it():
     assert "not as the cause" in chosen_how_often(0.2)
     assert chosen_how_often(0.9) == "chosen in 90 % of the resampled data sets"
+
+
+def test_a_drift_that_follows_the_rows_is_not_told_per_hour():
+    told = [Parameter(axis, "mm/1000 rows", 0.1, 0.01) for axis in "xyz"]
+    drift = found("base_drift", "base", *told, driver="order of rows, with a pause before row 56")
+    said = headline(verdicts.case(effects=(drift,)).verdict)
+    assert said.startswith("The base drifts by 0.17 mm per 1000 rows, with a pause before row 56")

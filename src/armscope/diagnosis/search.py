@@ -32,6 +32,7 @@ from armscope.diagnosis.evidence import (
 )
 from armscope.diagnosis.problem import Pool
 from armscope.physics.backgrounds import FAMILIES
+from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import Placed, region
 from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
 
@@ -206,7 +207,7 @@ class Search:
         for c in hypothesis.chosen:
             if self.placed(c.candidate).reading == "curve":
                 moves += self._split(hypothesis, c)
-        groups = [(c.candidate,) for c in hypothesis.chosen] + self._regions(hypothesis)
+        groups = [(c.candidate,) for c in hypothesis.chosen] + self._regions(hypothesis) + self._drifting(hypothesis)
         for removed in groups:
             # at the noise as it is: without what is taken out the noise would be larger, and fine detail worth nothing
             rest = self.without(hypothesis, removed, steps=1)
@@ -291,6 +292,13 @@ class Search:
         for c in hypothesis.chosen:
             by_region.setdefault(region(self.placed(c.candidate)), []).append(c.candidate)
         return [tuple(members) for members in by_region.values() if len(members) > 1]
+
+    def _drifting(self, hypothesis: Hypothesis) -> list[tuple[int, ...]]:
+        """A drift and one more effect of the base, which a drift with other pauses may hold, where there are such."""
+        base = [c.candidate for c in hypothesis.chosen if self.placed(c.candidate).location == "base"]
+        drifts = [c for c in base if self.placed(c).effect is BASE_DRIFT]
+        with_pauses = any(p.effect is BASE_DRIFT and p.tried > 1 for p in self.problem.pool.candidates)
+        return [(drift, other) for drift in drifts for other in base if other != drift] if with_pauses else []
 
     def refined(self, hypothesis: Hypothesis) -> Hypothesis:
         """With the finer form of a curve in its place wherever the evidence is for it."""
