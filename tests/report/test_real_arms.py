@@ -32,7 +32,9 @@ def arm_(tmp_path):
     columns = ["learned", "applied", "refitted", "model", "rms_mm", "reference_mm"]
     carried = [("run a", "run b", "base and tool", "armscope", 0.38, 0.41)]
     write_table(folder / "transfer.csv", pd.DataFrame(carried, columns=columns))
-    write_table(folder / "curves.csv", pd.DataFrame(columns=["run", "joint", "angle_rad", "turn_rad", "stderr_rad"]))
+    write_table(
+        folder / "curves_by_run.csv", pd.DataFrame(columns=["run", "joint", "angle_rad", "turn_rad", "stderr_rad"])
+    )
     effect = {"title": "joint compliance at joint 2", "rms_at_tool_mm": 0.5, "share": 0.8, "minor": False}
     verdict = {
         "headline": "x", "effects": [effect], "background": {"present": True, "share": 0.1},
@@ -125,7 +127,7 @@ def test_curves_of_two_runs_are_told_with_what_they_are_worth(arm_, tmp_path):
         pd.DataFrame({"run": run, "joint": "joint 3", "angle_rad": at, "turn_rad": np.sin(12 * at), "stderr_rad": 0.0})
         for run in ("run a", "run b")
     ]
-    write_table(arm_.folder / "curves.csv", pd.concat(curves))
+    write_table(arm_.folder / "curves_by_run.csv", pd.concat(curves))
     text = page(arm_, tmp_path)
     assert "on run b with the curves of run a 0.440 mm become 0.110 mm" in text
     assert "joint 3 1.00 over 115°" in text

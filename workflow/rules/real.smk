@@ -56,7 +56,7 @@ rule protocol_real:
         robot=robot_of,
         reference=lambda wildcards: CONFIG.real[wildcards.set].reference,
     output:
-        expand(f"{RESULTS}/real/{{{{set}}}}/{{table}}.csv", table=("protocol", "splits", "names", "transfer", "curves")),
+        expand(f"{RESULTS}/real/{{{{set}}}}/{{table}}.csv", table=("protocol", "splits", "names", "transfer", "curves_by_run")),
         f"{RESULTS}/real/{{set}}/protocol.png",
     params:
         folder=subpath(output[0], parent=True),

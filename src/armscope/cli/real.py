@@ -47,7 +47,7 @@ def protocol(
     write_table(output / "protocol.csv", beside, digits=6)
     save_figure(draw_protocol([(arm.name, beside)]), output / "protocol.png")
     verdicts = learn(arm, table, stated.transfers)
-    write_table(output / "curves.csv", curve_table(verdicts), digits=6)
+    write_table(output / "curves_by_run.csv", curve_table(verdicts), digits=6)
     carried = measure_transfers(arm, table, stated.transfers, verdicts, _tell)
     write_table(output / "transfer.csv", transfer_table(carried), digits=6)
 
@@ -158,7 +158,7 @@ def page(
     figures = output.parent / "figures"
     for arm in arms:
         shutil.copy(arm.folder / "figures" / "arm.png", figures / f"real-{arm.name}.png")
-        if curves := shared(pd.read_csv(arm.folder / "curves.csv")):
+        if curves := shared(pd.read_csv(arm.folder / "curves_by_run.csv")):
             save_figure(draw_shared_curves(curves), figures / f"real-{arm.name}-curves.png", formats=("png",))
     tables = [(arm.title.partition(",")[0], pd.read_csv(arm.folder / "protocol.csv")) for arm in arms]
     save_figure(draw_protocol(tables), figures / "real-protocol.png", formats=("png",))

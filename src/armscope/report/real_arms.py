@@ -253,7 +253,7 @@ def _curves(arm: RealArm, transfers: pd.DataFrame, figures: str) -> str:
         f"fitted there (held out, {len(SPLITS)} splits): {'; '.join(lines)}. A curve is known only at the angles where "
         "it was learned; beyond, it keeps its end's value."
     )
-    both = shared(pd.read_csv(arm.folder / "curves.csv"))
+    both = shared(pd.read_csv(arm.folder / "curves_by_run.csv"))
     if both:
         told = [f"{c.joint} {c.correlation:.2f} over {np.degrees(c.in_common):.0f}°" for c in both]
         text += f" Where both runs know it, the two curves of a joint correlate by: {', '.join(told)}."
