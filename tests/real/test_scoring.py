@@ -71,6 +71,15 @@ def test_an_interval_that_misses_both_together_does_not_hold():
     assert not scores.numbers.iloc[0]["covered"]
 
 
+def test_a_drive_with_masses_unknown_is_told_by_what_it_moves():
+    own, grown, alike = (
+        claim("joint_compliance", "joint 2", parameters={"moment_x": (value, 1e-7, "rad")}, rms=rms)
+        for value, rms in ((1e-5, 0.2), (2e-5, 0.4), (1e-5, 0.202))
+    )
+    assert case(original(own), altered(grown))["outcome"] == "named"
+    assert case(original(own), altered(alike))["outcome"] == "missed"
+
+
 def test_a_number_that_went_the_other_way_is_not_found():
     assert case(original(spring(3e-6)), altered(spring(2e-6)))["outcome"] == "missed"
 
