@@ -26,14 +26,19 @@ def separating(
     chosen: list[int] = []
     separation: list[float] = []
     left = apart.copy()
-    for _ in range(min(count, len(apart))):
-        blocks = jacobian @ covariance @ np.swapaxes(jacobian, 1, 2) + noise**2 * np.eye(3)
+    n, _, p = jacobian.shape
+    # each choice changes the covariance by rank three, so that nothing but these products has to follow it
+    spread = (jacobian.reshape(3 * n, p) @ covariance).reshape(n, 3, p)
+    blocks = spread @ np.swapaxes(jacobian, 1, 2) + noise**2 * np.eye(3)
+    for _ in range(min(count, n)):
         score = np.einsum("ni,ni->n", left, np.linalg.solve(blocks, left[:, :, None])[:, :, 0])
         score[chosen] = -1
         pose = int(np.argmax(score))
         chosen.append(pose)
         separation.append(float(np.linalg.norm(left[pose])))
-        gain = covariance @ jacobian[pose].T @ np.linalg.inv(blocks[pose])
-        left = left - jacobian @ (gain @ left[pose])
-        covariance = covariance - gain @ jacobian[pose] @ covariance
+        across = (spread.reshape(3 * n, p) @ jacobian[pose].T).reshape(n, 3, 3)
+        gain = across @ np.linalg.inv(blocks[pose])
+        left = left - gain @ left[pose]
+        spread = spread - (gain.reshape(3 * n, 3) @ spread[pose]).reshape(n, 3, p)
+        blocks = blocks - gain @ np.swapaxes(across, 1, 2)
     return np.array(chosen), np.array(separation)
