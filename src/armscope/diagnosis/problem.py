@@ -25,8 +25,8 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 CHUNK_ROWS = 1500
-KEPT_ROWS = 4000
-"""Drivers of tables up to this long are kept between passes: at most some 40 MB."""
+KEPT_ROWS = 15_000
+"""Drivers of tables up to this long are kept between passes: at most some 150 MB."""
 LEAST_SEEN = 0.02
 """A column of which frames absorb more than all but this share is scaled as if this share were left."""
 
