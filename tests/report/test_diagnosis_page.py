@@ -47,24 +47,31 @@ class Page(html.parser.HTMLParser):
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    return tmp_path_factory.mktemp("reports")
+def pages(tmp_path_factory):
+    """Where the page of a case is; it is written when it is first asked for, whichever test asks."""
+    folder = tmp_path_factory.mktemp("reports")
+
+    def page(name):
+        path = folder / name / "report.html"
+        if not path.exists():
+            case = CASES[name]()
+            write_report(case.verdict, case.arm, case.recordings, path.parent)
+        return path
+
+    return page
 
 
 @pytest.fixture(scope="module")
-def five(folder):
+def five(pages):
     """The page with five effects, for tests that open it in a browser."""
-    case = CASES["five"]()
-    path = folder / "five" / "report.html"
-    return path if path.exists() else write_report(case.verdict, case.arm, case.recordings, folder / "five")
+    return pages("five")
 
 
 @pytest.fixture(scope="module", params=PAGES)
-def written(request, folder):
-    case = CASES[request.param]()
-    path = write_report(case.verdict, case.arm, case.recordings, folder / request.param)
+def written(request, pages):
+    path = pages(request.param)
     source = path.read_text()
-    return case, path, source, Page(source)
+    return CASES[request.param](), path, source, Page(source)
 
 
 def test_the_page_needs_nothing_but_itself(written):
@@ -112,24 +119,24 @@ def test_the_figures_are_files_too(written):
     assert page.tags.count("img") == len(names)
 
 
-def test_suspect_rows_and_next_poses_are_listed(folder):
-    page = Page((folder / "five" / "report.html").read_text())
+def test_suspect_rows_and_next_poses_are_listed(pages):
+    page = Page(pages("five").read_text())
     assert "These rows fit so badly" in page.words
     assert re.search(r"\b17\s+0\.430\s+0\.06", page.words)
-    undecided = Page((folder / "cannot_tell" / "report.html").read_text())
+    undecided = Page(pages("cannot_tell").read_text())
     assert undecided.words.count("pose") > 5
     assert "Measuring each about 3 times would settle it." in undecided.words
 
 
-def test_text_from_outside_is_shown_not_run(folder):
+def test_text_from_outside_is_shown_not_run(pages):
     """A notice (or a name in a table) may hold anything."""
-    source = (folder / "cannot_tell" / "report.html").read_text()
+    source = pages("cannot_tell").read_text()
     assert "<no name>" not in source
     assert "&lt;no name&gt;" in source
 
 
-def test_a_limit_of_the_verdict_stands_before_its_details(folder):
-    page = Page((folder / "cannot_tell" / "report.html").read_text())
+def test_a_limit_of_the_verdict_stands_before_its_details(pages):
+    page = Page(pages("cannot_tell").read_text())
     assert page.words.index("40 rows are fewer") < page.words.index("Where the trouble is")
 
 
@@ -146,17 +153,17 @@ def test_what_was_not_recorded_is_said():
     assert "masses that robot.yaml states" in told
 
 
-def test_where_nothing_was_fitted_nothing_is_promised(folder):
+def test_where_nothing_was_fitted_nothing_is_promised(pages):
     """No model, no number for it, no validation, no advice to act on."""
-    page = Page((folder / "cannot_tell" / "report.html").read_text())
+    page = Page(pages("cannot_tell").read_text())
     assert "No effect was fitted" in page.words
     assert "mismatch with the fitted model" not in page.words
 
 
-def test_the_same_verdict_gives_the_same_page(folder, tmp_path):
+def test_the_same_verdict_gives_the_same_page(pages, tmp_path):
     case = CASES["cannot_tell"]()
     again = write_report(case.verdict, case.arm, case.recordings, tmp_path)
-    assert again.read_bytes() == (folder / "cannot_tell" / "report.html").read_bytes()
+    assert again.read_bytes() == pages("cannot_tell").read_bytes()
 
 
 MEASURE = """<script>addEventListener("load", () => {
