@@ -121,16 +121,17 @@ def test_two_effects_that_look_alike_are_both_named() -> None:
     assert poses is not None
     assert (poses.payload_kg != 10).any(), "only another payload tells them apart"
     assert set(refusals(arm, poses.motor_angles, Surroundings())) == {""}
-    # measuring what was asked for, as often as was asked for, settles it
-    repeats = int(min(poses.repeats_needed, 8))
+    # measuring what was asked for, as often as was asked for, settles it, whatever the noise of the day
+    repeats = int(poses.repeats_needed)
     asked = one_run(arm, len(poses.payload_kg) * repeats, seed=42)
     asked = replace(
         asked, motor_angles=np.tile(poses.motor_angles, (repeats, 1)), payload=np.tile(poses.payload_kg, repeats)
     )
-    more = recorded(arm, asked, {("joint_compliance", "joint 2"): [2e-7]}, 0.03, seed=43)
-    (settled,) = diagnose(arm, joined(table, more), QUICK).effects
-    assert (settled.effect, settled.location) == ("joint_compliance", "joint 2")
-    assert settled.named_as == "effect"
+    for seed in range(200, 204):
+        more = recorded(arm, asked, {("joint_compliance", "joint 2"): [2e-7]}, 0.03, seed=seed)
+        (settled,) = diagnose(arm, joined(table, more), QUICK).effects
+        assert (settled.effect, settled.location) == ("joint_compliance", "joint 2")
+        assert settled.named_as == "effect"
 
 
 def test_the_same_seed_gives_the_same_verdict_and_files_follow_the_contract(tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.design.separation import separating
+from armscope.design.separation import nats_apart, separating
 from armscope.diagnosis.certainty import TELLS_APART_NATS, apart
 from armscope.diagnosis.evidence import FRAME_PRIOR_MM, Hypothesis
 from armscope.diagnosis.problem import columns
@@ -29,6 +29,8 @@ ASKED = 12
 DECISIVE_NATS = 10.5
 """What the asked measurements should tell two readings apart by on average. An expected D nats scatter by sqrt(2 D), so
 this much exceeds the 3 nats of 20 to 1 in 95 of 100 cases."""
+MOST_REPEATS = 200
+"""Nobody measures a pose more often than this."""
 PAYLOAD_KG = 10.0
 """Tried on top of no payload where the recordings never carried one, kg."""
 
@@ -71,8 +73,14 @@ def next_poses(
     with_base[k:, k:] = np.eye(6) * (FRAME_PRIOR_MM * 1e-3) ** 2
     adapting = np.concatenate([X[:, :, other.columns], new_base], axis=2)
     chosen, separation = separating(adapting, between, with_base, other.noise, ASKED)
-    nats = float(np.sum(separation**2)) / (2 * other.noise**2)
-    repeats = float(np.ceil(DECISIVE_NATS / nats)) if nats > 1e-6 else float("inf")
+    repeats = next(
+        (
+            float(k)
+            for k in range(1, MOST_REPEATS + 1)
+            if nats_apart(adapting[chosen], between[chosen], with_base, other.noise / np.sqrt(k)) >= DECISIVE_NATS
+        ),
+        float("inf"),
+    )
     payload = np.zeros(len(chosen)) if table.payload is None else table.payload[chosen]
     first = str(search.placed(candidate))
     return NextPoses(table.motor_angles[chosen], payload, separation, first, str(placed), repeats)
