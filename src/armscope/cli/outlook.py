@@ -21,19 +21,28 @@ if TYPE_CHECKING:
 
 app = typer.Typer()
 
+Robot = Annotated[Path, typer.Argument(help="robot.yaml")]
+Poses = Annotated[Path, typer.Option(help="poses.csv of `armscope paper measure`")]
+Errors = Annotated[Path, typer.Option(help="errors.csv")]
+Robots = Annotated[Path, typer.Option(help="robots.csv: the anchored robot's geometric errors")]
+Models = Annotated[list[str] | None, typer.Option(help="models; may be given several times")]
+Products = Annotated[list[str] | None, typer.Option(help="models to fit with products, too")]
+Regions = Annotated[list[str] | None, typer.Option(help="models to divide: 'FDP(CI)=4', four regions")]
+Picture = Annotated[Path | None, typer.Option(help="picture of the table")]
+
 
 @app.command("closed-loop", rich_help_panel=EXPERIMENTS)
 def closed_loop(
-    robot: Annotated[Path, typer.Argument(help="robot.yaml")],
-    poses: Annotated[Path, typer.Option(help="poses.csv of `armscope paper measure`")],
-    errors: Annotated[Path, typer.Option(help="errors.csv")],
-    robots: Annotated[Path, typer.Option(help="robots.csv: the anchored robot's geometric errors")],
+    robot: Robot,
+    poses: Poses,
+    errors: Errors,
+    robots: Robots,
     fits: Annotated[Path, typer.Option(help="fits.json.gz: the models, fitted")],
     output: Annotated[Path, typer.Option("--output", "-o", help="table: model, trajectory, stage, axis, rms_mm")],
     points: Annotated[Path | None, typer.Option(help="table of the error left at every point")] = None,
-    figure: Annotated[Path | None, typer.Option(help="picture of the table")] = None,
-    products: Annotated[list[str] | None, typer.Option(help="models to fit with products, too")] = None,
-    regions: Annotated[list[str] | None, typer.Option(help="models to divide: 'FDP(CI)=4', four regions")] = None,
+    figure: Picture = None,
+    products: Products = None,
+    regions: Regions = None,
     diagnosed: Annotated[bool, typer.Option(help="diagnose the identification rows, too")] = True,
 ) -> None:
     """Compensate the paper's test paths with every model and let the virtual arm follow the commands."""
@@ -60,14 +69,14 @@ def closed_loop(
 
 @app.command("full-pose", rich_help_panel=EXPERIMENTS)
 def full_pose(
-    robot: Annotated[Path, typer.Argument(help="robot.yaml")],
-    poses: Annotated[Path, typer.Option(help="poses.csv of `armscope paper measure`: the tool points")],
-    errors: Annotated[Path, typer.Option(help="errors.csv")],
-    robots: Annotated[Path, typer.Option(help="robots.csv: the anchored robot's geometric errors")],
+    robot: Robot,
+    poses: Poses,
+    errors: Errors,
+    robots: Robots,
     output: Annotated[Path, typer.Option("--output", "-o", help="table: model, trajectory, stage, rms_mm, rms_mrad")],
-    model: Annotated[list[str] | None, typer.Option(help="models; may be given several times")] = None,
-    products: Annotated[list[str] | None, typer.Option(help="models to fit with products, too")] = None,
-    regions: Annotated[list[str] | None, typer.Option(help="models to divide: 'FDP(CI)=4', four regions")] = None,
+    model: Models = None,
+    products: Products = None,
+    regions: Regions = None,
     seed: Annotated[int, typer.Option(help="of the identification poses and the noise")] = 0,
 ) -> None:
     """Position and orientation by every model, predicted and in closed loop, with the virtual arm's wrist bent."""
@@ -90,8 +99,8 @@ def cross_table_(
     virtual: Annotated[Path, typer.Argument(help="closed_loop.csv of `armscope closed-loop`")],
     output: Annotated[Path, typer.Option("--output", "-o", help="table: arm, model, trajectory, stage, axis, rms_mm")],
     real: Annotated[list[Path] | None, typer.Option(help="folders with poses.csv, errors.csv, fits.json.gz")] = None,
-    products: Annotated[list[str] | None, typer.Option(help="models to fit with products, too")] = None,
-    regions: Annotated[list[str] | None, typer.Option(help="models to divide: 'FDP(CI)=4', four regions")] = None,
+    products: Products = None,
+    regions: Regions = None,
 ) -> None:
     """Model by trajectory by stage for the virtual arm and for real ones, whose held-out rows stand in for paths."""
     import pandas as pd
@@ -124,11 +133,11 @@ def _divided(regions: list[str] | None) -> list[tuple[ModelSpec, int]]:
 
 @app.command("regions", rich_help_panel=EXPERIMENTS)
 def regions_(
-    poses: Annotated[Path, typer.Option(help="poses.csv of `armscope paper measure`")],
-    errors: Annotated[Path, typer.Option(help="errors.csv")],
+    poses: Poses,
+    errors: Errors,
     output: Annotated[Path, typer.Option("--output", "-o", help="table: model, regions, held_out_rms_mm, ...")],
-    model: Annotated[list[str] | None, typer.Option(help="models; may be given several times")] = None,
-    figure: Annotated[Path | None, typer.Option(help="picture of the table")] = None,
+    model: Models = None,
+    figure: Picture = None,
     seed: Annotated[int, typer.Option(help="of the folds")] = 0,
 ) -> None:
     """Error against the number of blended sub-volumes, chosen by cross-validation on the identification rows."""
@@ -147,10 +156,10 @@ def regions_(
 
 @app.command("products", rich_help_panel=EXPERIMENTS)
 def products_(
-    poses: Annotated[Path, typer.Option(help="poses.csv of `armscope paper measure`")],
-    errors: Annotated[Path, typer.Option(help="errors.csv")],
+    poses: Poses,
+    errors: Errors,
     output: Annotated[Path, typer.Option("--output", "-o", help="table: model, kind, terms, held_out_rms_mm, ...")],
-    model: Annotated[list[str] | None, typer.Option(help="models; may be given several times")] = None,
+    model: Models = None,
     seed: Annotated[int, typer.Option(help="of the folds")] = 0,
 ) -> None:
     """Sums of one-input terms against a sparse choice of their products, on held-out rows and the test paths."""

@@ -79,11 +79,11 @@ def _basis(placed: Placed, inside: Sequence[int], at: Array) -> Array:
 def _value(driver: Driver, at: Array) -> Array:
     """A driver as a function of its source's values."""
     if driver.kind == "sine":
-        return np.sin(float(driver.arguments[1]) * at)  # type: ignore[arg-type]
+        return np.sin(driver.number(1) * at)
     if driver.kind == "cosine":
-        return np.cos(float(driver.arguments[1]) * at)  # type: ignore[arg-type]
+        return np.cos(driver.number(1) * at)
     if driver.kind == "spline":
-        return cubic_spline(at, float(driver.arguments[1]), float(driver.arguments[2]))  # type: ignore[arg-type]
+        return cubic_spline(at, driver.number(1), driver.number(2))
     return np.ones_like(at) if driver == ONE else at
 
 
@@ -93,7 +93,7 @@ def _periods(placed: Placed, values: Array) -> tuple[tuple[float, float], ...]:
     for term, value in zip(placed.terms, values, strict=True):
         driver = term.products[0].driver
         if driver.kind in ("sine", "cosine"):
-            count = float(driver.arguments[1])  # type: ignore[arg-type]
+            count = driver.number(1)
             lines[count] = lines.get(count, 0.0) + float(value) ** 2
     strongest = sorted(lines.items(), key=lambda line: -line[1])[:5]
     return tuple((count, float(np.sqrt(power))) for count, power in strongest)

@@ -8,10 +8,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from armscope.diagnosis.case import Evidence
 from armscope.diagnosis.checks import FEWEST_ROWS, check_table, too_far
 from armscope.diagnosis.frames import fit_frames, other_tools
 from armscope.diagnosis.gravity import lean
-from armscope.diagnosis.judge import Evidence, judge, undecided
+from armscope.diagnosis.judge import judge, undecided
 from armscope.diagnosis.noise import Noise, known_noise
 from armscope.diagnosis.problem import residuals
 from armscope.diagnosis.rounds import Progress, select

@@ -78,7 +78,7 @@ def drift_with_pauses(pauses: Sequence[Pause], tried: int) -> Placed:
 def pauses_of(placed: Placed) -> list[Pause]:
     """The pauses of a drift that follows the order of rows."""
     steps = [product for product in placed.terms[0].products if product.driver.kind == "after row"]
-    return [Pause(float(p.driver.arguments[0]), str(p.driver.arguments[1]), p.factor * 1e3) for p in steps]  # type: ignore[arg-type]
+    return [Pause(p.driver.number(0), str(p.driver.arguments[1]), p.factor * 1e3) for p in steps]
 
 
 BASE_DRIFT = Effect(

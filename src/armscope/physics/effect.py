@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from numbers import Real
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -45,6 +46,12 @@ class Driver:
 
     kind: str
     arguments: tuple[object, ...] = ()
+
+    def number(self, place: int) -> float:
+        """The argument at a place, which is a number."""
+        value = self.arguments[place]
+        assert isinstance(value, Real), self
+        return float(value)
 
 
 ONE = Driver("one")
