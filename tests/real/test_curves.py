@@ -56,6 +56,20 @@ def test_an_arm_without_curves_has_nothing_to_carry_over(learned):
     assert curves_transfer(arm(), replace(learned, model=replace(learned.model, parts=())), rows) == {}
 
 
+def test_a_curve_of_a_joint_that_the_other_run_does_not_turn_is_not_carried_over(learned):
+    rows = as_recordings(table(100, NOISE_MM, seed=2), "made up", 6)
+    rng = np.random.default_rng(3)
+    held = rows.motor_angles.copy()
+    held[:, 2] = 0.4 + rng.normal(0, 5e-4, len(rows))  # servo noise
+    beyond = rows.motor_angles.copy()
+    beyond[:, 2] = rng.uniform(4.0, 5.0, len(rows))  # moves, but where nothing was learned: the curve's end for all
+    assert turned_by_curves(learned.model, rows) is not None
+    for angles in (held, beyond):
+        still = replace(rows, motor_angles=angles)
+        assert turned_by_curves(learned.model, still) is None
+        assert curves_transfer(arm(), learned, still) == {}
+
+
 def test_curves_are_compared_only_where_both_runs_have_been(learned):
     one = curve_table({"one": learned})
     assert set(one["joint"]) == {"joint 3"}

@@ -12,12 +12,15 @@ from numpy.typing import NDArray
 
 from armscope.diagnosis import Verdict
 from armscope.physics.model import FittedModel
+from armscope.physics.placing import moving_joints
 from armscope.physics.scene import Part, Scene
 from armscope.recordings import Recordings
 
 Array = NDArray[np.float64]
 
 STEP = np.radians(0.5)
+NO_TURN = 1e-12
+"""rad; rounding, not a turn."""
 LEAST_IN_COMMON = np.radians(30.0)
 """Below this, what is left of a curve without its slow part says little."""
 KNOWN = 0.5
@@ -56,11 +59,14 @@ class Shared:
 
 
 def turned_by_curves(model: FittedModel, rows: Recordings) -> Recordings | None:
-    """Rows with the motor angles that a model's curves of own angles make of the commanded ones; None without curves.
+    """Rows with the motor angles that a model's curves of own angles make of the commanded ones.
 
-    Beyond the range in which it was learned a curve keeps its end's value.
+    Beyond the range in which it was learned a curve keeps its end's value. None without curves, and where no row is
+    turned differently from another (the curves' joints stand still, or stay where no curve was learned): a constant
+    turn is an encoder's zero, which every calibration fits anyway.
     """
-    parts = [part for part in model.parts if _follows_own_angle(part)]
+    moving = {f"joint {motor}" for motor in moving_joints(rows)}
+    parts = [part for part in model.parts if _follows_own_angle(part) and part.placed.location in moving]
     if not parts:
         return None
     twists = Scene(model.arm, rows).twists(parts)
@@ -68,6 +74,8 @@ def turned_by_curves(model: FittedModel, rows: Recordings) -> Recordings | None:
     turns = np.column_stack(
         [twists[name][:, 5] if (name := f"joint {j + 1}") in twists else np.zeros(len(rows)) for j in range(joints)]
     )
+    if np.ptp(turns, axis=0).max() < NO_TURN:
+        return None
     motors = np.linalg.lstsq(model.arm.actuation, turns.T, rcond=None)[0].T
     return replace(rows, motor_angles=rows.motor_angles + motors)
 
