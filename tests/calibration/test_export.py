@@ -1,5 +1,8 @@
 """What is exported loads back to the calibrated positions."""
 
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
 import mujoco
 import numpy as np
 import pinocchio as pin
@@ -10,6 +13,8 @@ from armscope.calibration import calibrate
 from armscope.calibration.export import export
 from armscope.inputs import InputError
 from armscope.robot import chain, forward_kinematics, load_arm
+from armscope.robot.arm import build_arm
+from armscope.robot.description import RobotDescription
 from tests.calibration.test_calibrate import ARMS, arm  # noqa: F401 - the arms in every form
 from tests.calibration.worlds import far_away, measured, planted, poses, ur_like
 
@@ -95,6 +100,31 @@ def test_masses_and_limits_go_along(tmp_path):
         np.testing.assert_allclose(again.masses, calibration.arm.masses)
         np.testing.assert_allclose(again.centres, calibration.arm.centres, atol=1e-8)
         np.testing.assert_allclose(again.limits, nominal.limits)
+
+
+def test_a_corrected_urdf_keeps_all_else_and_finds_its_meshes(tmp_path):
+    (tmp_path / "from").mkdir()
+    text = (Path(__file__).parents[1] / "robot" / "torso_arm.urdf").read_text()
+    (tmp_path / "from" / "arm.urdf").write_text(text)
+    urdf = str(tmp_path / "from" / "arm.urdf")
+    nominal = build_arm(RobotDescription(name="t", urdf=urdf, tip="flange", hold_joints={"torso_lift": 0.1}))
+    rng = np.random.default_rng(6)
+    calibration = calibrate(
+        nominal, measured(planted(nominal, rng), poses(rng, 60, 6), far_away(rng), {"": [0, 0, 0.1]})
+    )
+    export(calibration, tmp_path / "to")
+    before, after = (ET.parse(path).getroot() for path in (urdf, tmp_path / "to" / "robot.urdf"))
+    meshes = [mesh.get("filename") for mesh in after.iter("mesh")]
+    assert meshes == ["package://torso_description/meshes/torso.stl", "../from/meshes/shoulder.stl"]
+    for robot in (before, after):
+        for element in robot.iter():
+            element.text = element.tail = None
+            if element.tag in ("origin", "mesh"):
+                element.attrib.clear()
+    assert ET.tostring(before) == ET.tostring(after)
+    again = load_arm(tmp_path / "to" / "robot.yaml")
+    np.testing.assert_array_equal(again.masses, nominal.masses)
+    np.testing.assert_array_equal(again.limits, nominal.limits)
 
 
 def test_an_unknown_target_is_named(tmp_path):

@@ -3,7 +3,7 @@ import itertools
 import numpy as np
 import pytest
 
-from armscope.design.exchange import d_optimal, optimal
+from armscope.design.exchange import _Information, d_optimal, optimal
 from armscope.design.indices import SOURCES, all_indices
 from armscope.design.separation import nats_apart, separating
 
@@ -52,6 +52,17 @@ def test_each_index_is_larger_for_its_own_choice_than_for_random_ones(jacobian, 
     random = [all_indices(jacobian[rng.choice(40, 8, replace=False)])[index] for _ in range(200)]
     assert mine >= by_d * (1 - 1e-12)
     assert mine > max(random)
+
+
+def test_the_updated_inverse_stays_that_of_the_sum():
+    """Poses that show new and known directions at once, from a weak start: the Panda's geometry broke it once."""
+    poses = np.random.default_rng(0).normal(size=(3, 30, 20))
+    weak = 1e-6 * np.eye(20)
+    information, total = _Information.of(poses, weak), weak
+    for row in range(30):
+        information, total = information.changed(row, 1.0), total + poses[:, row].T @ poses[:, row]
+        exact = np.linalg.inv(total)
+        assert np.abs(information.inverse - exact).max() < 1e-7 * np.abs(exact).max()
 
 
 def test_each_pose_is_taken_once_and_impossible_requests_are_refused(jacobian):

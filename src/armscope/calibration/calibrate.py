@@ -101,10 +101,14 @@ class Calibration:
     def text(self) -> str:
         """The calibration in words, lengths in mm and angles in mrad."""
         n_rows, suspects = len(self.set_up), self.ids[self.suspects]
+        arm = self.set_up.arm
         lines = [
-            f"{self.set_up.arm.name}: {self.level} calibration on {n_rows} rows, {int(self.free.sum())} parameters",
+            f"{arm.name}: {self.level} calibration on {n_rows} rows, {int(self.free.sum())} parameters",
             f"RMS of the 3D distance {self.rms_distance * 1e3:.4g} mm after {self.steps} steps; {self.reason}",
         ]
+        if arm.description.urdf is not None and arm.description.actuation is None:
+            motors = ", ".join(f"q{motor} {name}" for motor, name in enumerate(arm.joint_names, start=1))
+            lines.append(f"motors: {motors}")
         if self.note:
             lines.append(self.note)
         if self.held:

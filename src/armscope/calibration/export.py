@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import xml.etree.ElementTree as ET
 from pathlib import Path
 from typing import Any
@@ -43,7 +44,7 @@ def export(calibration: Calibration, folder: Path | str, target: str | None = No
     common = _common(calibration.arm, tool)
     by_urdf = {"urdf": "robot.urdf"}
     if calibration.arm.description.dh is None:
-        write_text(folder / "robot.urdf", _corrected_urdf(calibration))
+        write_text(folder / "robot.urdf", _corrected_urdf(calibration, folder))
         tip = {"tip": calibration.arm.description.tip, "hold_joints": calibration.arm.description.hold_joints}
         write_yaml(folder / "robot.yaml", {"name": common.pop("name"), **by_urdf, **tip, **common})
         written = ["robot.yaml", "robot.urdf"]
@@ -145,10 +146,15 @@ def _add_point_mass(link: ET.Element, mass: float, centre: Array) -> None:
     ET.SubElement(inertial, "inertia", ixx="0", ixy="0", ixz="0", iyy="0", iyz="0", izz="0")
 
 
-def _corrected_urdf(calibration: Calibration) -> str:
+def _corrected_urdf(calibration: Calibration, folder: Path) -> str:
     """The nominal URDF with the origins of the chain's joints corrected; meshes, names and other joints stay."""
     nominal, arm = calibration.set_up.arm, calibration.arm
-    robot = ET.parse(str(nominal.description.urdf)).getroot()
+    file = Path(str(nominal.description.urdf))
+    robot = ET.parse(file).getroot()
+    for mesh in robot.iter("mesh"):
+        name = mesh.get("filename", "")
+        if "://" not in name and not Path(name).is_absolute():  # beside the nominal file: seen from the new one
+            mesh.set("filename", Path(os.path.relpath(file.parent / name, folder.resolve())).as_posix())
     elements = {element.get("name"): element for element in robot.findall("joint")}
     turn = np.eye(4)
     for joint in range(arm.n_joints):

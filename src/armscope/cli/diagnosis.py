@@ -117,18 +117,29 @@ def _progress(title: str) -> Iterator[Callable[[str, float], None]]:
 
 @app.command()
 def predict(
-    model: Annotated[Path, typer.Argument(help="model.yaml of `armscope diagnose`, or errormodel.json")],
+    model: Annotated[
+        Path,
+        typer.Argument(
+            help="model.yaml of `armscope diagnose`, errormodel.json, or a robot.yaml: the arm as it states"
+        ),
+    ],
     poses: Annotated[Path, typer.Argument(help="a table of motor angles and whatever context the model follows")],
     output: Annotated[Path, typer.Option("--output", "-o", help="table to write: id, run, x_mm, y_mm, z_mm")],
     pose: Annotated[bool, typer.Option(help="orientations qw, qx, qy, qz, too")] = False,
 ) -> None:
-    """Predict where the arm's tool point will be, in the measurement frame; with --pose how the tool is turned."""
+    """Predict where the tool point will be, in the measurement frame (by a robot.yaml: in the base frame)."""
     import pandas as pd
     from scipy.spatial.transform import Rotation
 
     from armscope.files import write_table
+    from armscope.inputs import read_yaml
 
-    points, rotations, rows = (_by_black_box if model.suffix == ".json" else _by_physics)(model, poses, pose)
+    if model.suffix == ".json":
+        points, rotations, rows = _by_black_box(model, poses, pose)
+    elif isinstance(content := read_yaml(model), dict) and {"dh", "urdf"} & set(content):
+        points, rotations, rows = _by_description(model, poses, pose)
+    else:
+        points, rotations, rows = _by_physics(model, poses, pose)
     table = pd.DataFrame({"id": rows.id, "run": rows.run})
     table[["x_mm", "y_mm", "z_mm"]] = points * 1e3
     if rotations is not None:
@@ -150,6 +161,19 @@ def _by_physics(
     for run in fitted.unknown_runs(rows):
         print(f"run {run!r} is not in the model: its base is taken from run {list(fitted.bases)[-1]!r}")
     return predicted_points(fitted, rows), predict_orientation(fitted, rows) if pose else None, rows
+
+
+def _by_description(
+    robot: Path, poses: Path, pose: bool
+) -> tuple[NDArray[np.float64], NDArray[np.float64] | None, Recordings]:
+    """As `_by_physics` for an arm that does what its robot.yaml says, nominal or calibrated; in its base frame."""
+    from armscope.recordings import read_recordings
+    from armscope.robot import chain, load_arm
+
+    arm = load_arm(robot)
+    rows = read_recordings(poses, arm.n_motors, measured=False)
+    frames = chain(arm, rows.motor_angles)
+    return frames.tool, frames.tool_rotation if pose else None, rows
 
 
 def _by_black_box(

@@ -111,8 +111,9 @@ class _Information:
         """With one pose more (sign 1) or less (-1): rank three (Sherman, Morrison & Woodbury)."""
         pose = self.whitened[:, row]
         toward = self.inverse @ pose.T
-        root = np.linalg.cholesky(np.linalg.inv(np.eye(3) + sign * pose @ toward))
-        step = toward @ root
+        # by the factor of the sum, not of its inverse: a pose that shows new and known at once has both large and small
+        root = np.linalg.cholesky(np.eye(3) + sign * pose @ toward)
+        step = np.linalg.solve(root, toward.T).T
         change = _inner(self.whitened @ step)
         return _Information(self.whitened, self.inverse - sign * step @ step.T, self.variance - sign * change)
 

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from armscope.robot import Arm, Chain, chain
 from armscope.robot.centre_line import centre_lines
 from armscope.robot.description import RobotDescription
+from armscope.robot.urdf import cut, read_urdf
 
 Array = NDArray[np.float64]
 
@@ -94,20 +95,14 @@ def collision_shapes(description: RobotDescription) -> list[Shape]:
     """The collision shapes of an arm's URDF; none for D-H arms, where there are none, or if meshes are missing."""
     if description.urdf is None:
         return []
-    full = pin.buildModelFromUrdf(description.urdf)
+    full = read_urdf(description.urdf)
     folders = [str(folder) for folder in Path(description.urdf).resolve().parents]
     try:
         geometry = pin.buildGeomFromUrdf(full, description.urdf, pin.GeometryType.COLLISION, package_dirs=folders)
     except (ValueError, RuntimeError):
         return []
-    on_chain = set(full.supports[full.frames[full.getFrameId(description.tip)].parentJoint].tolist()) - {0}
-    neutral = pin.neutral(full)
-    for name, value in description.hold_joints.items():
-        joint = full.getJointId(name)
-        neutral[full.joints[joint].idx_q] = value
-        on_chain.discard(joint)
-    locked = [joint for joint in range(1, full.njoints) if joint not in on_chain]
-    _, reduced = pin.buildReducedModel(full, geometry, locked, neutral)
+    locked, configuration = cut(description, full)
+    _, reduced = pin.buildReducedModel(full, geometry, locked, configuration)
     return [_capsule(each) for each in reduced.geometryObjects]
 
 

@@ -67,6 +67,11 @@ class Arm:
         return self.actuation.shape[1]
 
     @property
+    def joint_names(self) -> tuple[str, ...]:
+        """The chain's joints from the base to the tool, as the URDF calls them; "joint 1", ... for D-H rows."""
+        return tuple(self.model.names)[1:]
+
+    @property
     def has_masses(self) -> bool:
         """Whether any link's mass is stated: without, gravity loads are known up to unknown mass moments only."""
         return bool(np.any(self.masses > 0))
@@ -96,6 +101,8 @@ def build_arm(description: RobotDescription) -> Arm:
     """The arm of a description."""
     model = pinocchio_model(description)
     n_joints = model.njoints - 1
+    if description.dh is None:
+        _check_motors(description, model)
     before, axis_turns = _joint_frames(model)
     tip = model.frames[model.getFrameId(TIP)].placement.homogeneous
     return Arm(
@@ -114,6 +121,14 @@ def build_arm(description: RobotDescription) -> Arm:
         limits=_limits(description, model),
         sigma=None if description.instrument is None else description.instrument.sigma_mm * 1e-3,
     )
+
+
+def _check_motors(description: RobotDescription, model: pin.Model) -> None:
+    try:
+        description.check_motors(model.njoints - 1, "joints of the chain")
+    except ValueError as error:
+        chain = ", ".join(list(model.names)[1:])
+        raise InputError(description.urdf, "joints of the chain", chain, str(error)) from error
 
 
 def _joint_frames(model: pin.Model) -> tuple[Array, Array]:
@@ -169,7 +184,14 @@ def _limits(description: RobotDescription, model: pin.Model) -> Array:
     if description.joint_limits_deg is not None:
         return np.radians(np.array(description.joint_limits_deg))
     limits = np.tile([-np.inf, np.inf], (n_motors, 1))
-    if description.urdf is not None and model.nq == n_motors:
-        limits = np.column_stack([model.lowerPositionLimit, model.upperPositionLimit])
-        limits[limits[:, 0] >= limits[:, 1]] = [-np.inf, np.inf]
+    if description.urdf is None:
+        return limits
+    matrix = _actuation_matrix(description, model.njoints - 1)
+    for number, row in enumerate(matrix, start=1):
+        joint, motors = model.joints[number], np.flatnonzero(row)
+        # a joint without limits is stored as cosine and sine; one that several motors turn limits none of them
+        if joint.nq == 1 and len(motors) == 1 and row[motors[0]] == 1:
+            low, high = model.lowerPositionLimit[joint.idx_q], model.upperPositionLimit[joint.idx_q]
+            if low < high:
+                limits[motors[0]] = max(limits[motors[0], 0], low), min(limits[motors[0], 1], high)
     return limits

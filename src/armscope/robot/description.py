@@ -97,6 +97,8 @@ class RobotDescription(Strict):
             raise ValueError("`urdf` needs `tip`, the name of the frame that carries the tool")
         if self.urdf is not None and self.links is not None:
             raise ValueError("a URDF brings its own masses: leave out `links`")
+        if self.urdf is not None and self.parallelogram is not None:
+            raise ValueError("`parallelogram` needs `dh` rows: its angles count from their axes")
         if self.dh is None:
             return self
         n_joints = len(self.dh.joints)
@@ -106,19 +108,27 @@ class RobotDescription(Strict):
             raise ValueError(
                 f"`links` needs one entry for each of the {n_joints} rows of `dh`, it has {len(self.links)}"
             )
-        self._check_actuation(n_joints)
+        self.check_motors(n_joints, "rows of `dh`")
         return self
 
-    def _check_actuation(self, n_joints: int) -> None:
-        n_motors = self.n_motors(n_joints)
+    def check_motors(self, n_joints: int, joints: str) -> None:
+        """Whether what is said by motor fits the number of joints, which for a URDF only its file tells.
+
+        Raises:
+            ValueError: it does not; ``joints`` is what the joints are called in the message.
+        """
         if self.actuation is not None and len(self.actuation) != n_joints:
             raise ValueError(
-                f"`actuation` needs one entry for each of the {n_joints} rows of `dh`, it has {len(self.actuation)}"
+                f"`actuation` needs one entry for each of the {n_joints} {joints}, it has {len(self.actuation)}"
             )
         for row, combination in enumerate(self.actuation or ()):
             for motor in combination:
                 if not re.fullmatch(r"q[1-9]\d*", motor):
                     raise ValueError(f"`actuation[{row}]` names {motor!r}; motor angles are called q1, q2, ...")
+        n_motors = self.n_motors(n_joints)
+        turning = {motor for row in self.actuation or () for motor, coefficient in row.items() if coefficient != 0}
+        if idle := [f"q{k + 1}" for k in range(n_motors) if self.actuation is not None and f"q{k + 1}" not in turning]:
+            raise ValueError(f"`actuation` has motors up to q{n_motors}, but {', '.join(idle)} turns no joint")
         if self.joint_limits_deg is not None:
             if len(self.joint_limits_deg) != n_motors:
                 raise ValueError(
@@ -149,5 +159,6 @@ def load_description(path: Path | str) -> RobotDescription:
         urdf = Path(path).parent / description.urdf
         if not urdf.is_file():
             raise InputError(path, "urdf", description.urdf, "the URDF must be a readable file", f"Looked for {urdf}.")
-        description = description.model_copy(update={"urdf": str(urdf)})
+        # in full: a model.yaml that names it is read from other folders, too
+        description = description.model_copy(update={"urdf": str(urdf.resolve())})
     return description

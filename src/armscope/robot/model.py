@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import xml.etree.ElementTree as ET
-
 import numpy as np
 import pinocchio as pin
 
-from armscope.inputs import InputError, nearest
 from armscope.robot.description import DHRow, RobotDescription
+from armscope.robot.urdf import cut, read_urdf, refuse_other_than_turning
 
 TIP = "armscope_tip"
 
@@ -59,58 +57,15 @@ def _from_dh(description: RobotDescription) -> pin.Model:
 
 
 def _from_urdf(description: RobotDescription) -> pin.Model:
-    full = pin.buildModelFromUrdf(description.urdf)
-    if not full.existFrame(description.tip):
-        names = [frame.name for frame in full.frames]
-        raise InputError(
-            description.urdf, "tip", description.tip, "no frame of that name", nearest(str(description.tip), names)
-        )
-    on_chain = set(full.supports[full.frames[full.getFrameId(description.tip)].parentJoint].tolist()) - {0}
-    neutral = pin.neutral(full)
-    for name, value in description.hold_joints.items():
-        if not full.existJointName(name):
-            raise InputError(description.urdf, "hold_joints", name, "no joint of that name", nearest(name, full.names))
-        joint = full.getJointId(name)
-        held = full.joints[joint]
-        # a joint without limits is stored as cosine and sine of its angle
-        neutral[held.idx_q : held.idx_q + held.nq] = value if held.nq == 1 else [np.cos(value), np.sin(value)]
-        on_chain.discard(joint)
-    _refuse_followers(description, full, on_chain)
-    locked = [joint for joint in range(1, full.njoints) if joint not in on_chain]
-    model = pin.buildReducedModel(full, locked, neutral)
-    for joint in range(1, model.njoints):
-        kind = model.joints[joint].shortname()
-        if "Revolute" not in kind and not kind.startswith(("JointModelR", "JointModelRU")):
-            raise InputError(
-                description.urdf,
-                f"joint {model.names[joint]}",
-                kind,
-                "only turning joints can be diagnosed",
-                f"Hold it: `hold_joints: {{{model.names[joint]}: 0}}`.",
-            )
+    assert description.urdf is not None
+    full = read_urdf(description.urdf)
+    model = pin.buildReducedModel(full, *cut(description, full))
+    refuse_other_than_turning(description.urdf, model)
     tip = model.frames[model.getFrameId(description.tip)]
     model.addFrame(pin.Frame(TIP, tip.parentJoint, 0, tip.placement, pin.FrameType.OP_FRAME))
     _append_tool_load(model, description)
     model.gravity.linear = np.array(description.gravity_m_s2)
     return model
-
-
-def _refuse_followers(description: RobotDescription, full: pin.Model, on_chain: set[int]) -> None:
-    """A joint that mimics another has no motor of its own.
-
-    Raises:
-        InputError: the chain has one.
-    """
-    for joint in ET.parse(str(description.urdf)).getroot().iter("joint"):
-        mimic, name = joint.find("mimic"), joint.get("name", "")
-        if mimic is not None and full.existJointName(name) and full.getJointId(name) in on_chain:
-            raise InputError(
-                description.urdf,
-                f"joint {name}",
-                f"mimic of {mimic.get('joint')}",
-                "every joint of the chain needs a motor of its own",
-                f"Hold it (`hold_joints: {{{name}: 0}}`), or describe the arm by D-H rows with `actuation`.",
-            )
 
 
 def _append_tool_load(model: pin.Model, description: RobotDescription) -> None:
