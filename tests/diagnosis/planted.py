@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from armscope.physics.model import Base, FittedModel, predict
+from armscope.physics.model import Base, FittedModel, predict, predict_orientation
 from armscope.physics.registry import library
 from armscope.physics.scene import Part
 from armscope.recordings import Recordings
@@ -19,8 +19,19 @@ from ..physics.scenes import arm_named, full_table
 Wanted = Mapping[tuple[str, str], list[float]]
 
 
-def recorded(arm: Arm, table: Recordings, wanted: Wanted, noise_mm: float, seed: int, far: bool = False) -> Recordings:
-    """``table`` with measured positions; ``wanted`` gives SI values of the terms by (effect, location)."""
+def recorded(
+    arm: Arm,
+    table: Recordings,
+    wanted: Wanted,
+    noise_mm: float,
+    seed: int,
+    far: bool = False,
+    turn_noise_mrad: float | None = None,
+) -> Recordings:
+    """``table`` with measured positions; ``wanted`` gives SI values of the terms by (effect, location).
+
+    With ``turn_noise_mrad`` also with orientations, of a tool that is turned on the flange anyhow.
+    """
     rng = np.random.default_rng(seed)
     parts = []
     for key, values in wanted.items():
@@ -32,7 +43,13 @@ def recorded(arm: Arm, table: Recordings, wanted: Wanted, noise_mm: float, seed:
     base = Base(turn, (8.0 if far else 4e-3) * rng.normal(size=3))
     model = FittedModel(arm, {str(run): base for run in np.unique(table.run)}, (), tuple(parts))
     points = predict(model, table)
-    return replace(table, positions=points + 1e-3 * noise_mm * rng.normal(size=points.shape))
+    measured = replace(table, positions=points + 1e-3 * noise_mm * rng.normal(size=points.shape))
+    if turn_noise_mrad is None:
+        return measured
+    tool = Rotation.random(1, rng)[0]
+    tool_turns = Rotation.from_matrix(predict_orientation(model, table)) * tool
+    noise = Rotation.from_rotvec(1e-3 * turn_noise_mrad * rng.normal(size=points.shape))
+    return replace(measured, orientation=(noise * tool_turns).as_quat(scalar_first=True))
 
 
 def one_run(arm: Arm, rows: int, seed: int) -> Recordings:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from armscope.physics.backgrounds import backgrounds
 from armscope.physics.drift import base_shift, tool_shift
@@ -12,10 +15,15 @@ from armscope.physics.elastic import JOINT_COMPLIANCE
 from armscope.physics.frames import free_frames
 from armscope.physics.payload import payload_errors
 from armscope.physics.registry import EFFECTS, library
-from armscope.physics.scene import Part, Scene
+from armscope.physics.scene import Lens, Part, Scene
 from armscope.physics.transmission import mesh
+from armscope.recordings import Recordings
 
 from .scenes import ARMS, arm_named, full_table
+
+
+def with_orientations(table: Recordings) -> Recordings:
+    return replace(table, orientation=np.tile([1.0, 0.0, 0.0, 0.0], (len(table), 1)))
 
 
 def every_placed(scene: Scene) -> list[Placed]:
@@ -35,7 +43,7 @@ def every_placed(scene: Scene) -> list[Placed]:
 @pytest.mark.parametrize("name", ARMS)
 def test_columns_are_the_slope_of_the_exact_model(name: str) -> None:
     arm = arm_named(name)
-    scene = Scene(arm, full_table(arm, 24, seed=5))
+    scene = Scene(arm, with_orientations(full_table(arm, 24, seed=5)))
     posture = scene.posture()
     seen = set()
     for placed in every_placed(scene):
@@ -51,9 +59,36 @@ def test_columns_are_the_slope_of_the_exact_model(name: str) -> None:
             slope = (ahead - behind) / (2 * step[n])
             # metres near 1 with 1e-16 rounding over a displacement of 2e-6
             assert np.abs(slope - column).max() < 3e-6 * size, (str(placed), term.name)
-    expected = {effect.name for effect in EFFECTS} | {"base_frame", "tool_frame"}
+    expected = {effect.name for effect in EFFECTS} | {"base_frame", "tool_frame", "tool_turn"}
     expected -= {"parallelogram_geometry"} if arm.description.parallelogram is None else set()
     assert seen == expected
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_columns_of_turns_are_the_slope_of_the_exact_orientation(name: str) -> None:
+    arm = arm_named(name)
+    scene = Scene(arm, with_orientations(full_table(arm, 24, seed=5)))
+    posture = scene.posture()
+    seen = posture.through(Lens(np.tile(np.eye(3), (24, 1, 1)), np.ones(24)))
+    turning = set()
+    for placed in every_placed(scene):
+        for n, term in enumerate(placed.terms):
+            column = seen.column(term)
+            np.testing.assert_array_equal(column[:, :3], posture.column(term))
+            size = np.abs(column[:, 3:]).max()
+            if size == 0:
+                continue
+            turning.add(placed.name)
+            step = np.zeros(len(placed.terms))
+            step[n] = 1e-5 / size
+            ahead, behind = (
+                Rotation.from_matrix(scene.posture([Part(placed, sign * step)]).frames.tool_rotation)
+                for sign in (1, -1)
+            )
+            slope = (ahead * behind.inv()).as_rotvec() / (2 * step[n])
+            assert np.abs(slope - column[:, 3:]).max() < 1e-5 * size, (str(placed), term.name)
+    assert "tool_turn" in turning
+    assert not turning & {"instrument_scale", "tool_frame"}
 
 
 def test_every_effect_says_what_happens_how_to_confirm_and_how_to_cure() -> None:

@@ -34,6 +34,7 @@ def diagnose(
     estimate_gravity: Annotated[
         bool, typer.Option(help="gravity's direction in the base frame is not known (an arm on a wedge)")
     ] = False,
+    orientation: Annotated[bool, typer.Option(help="use measured orientations (qw, qx, qy, qz), too")] = True,
     report: Annotated[bool, typer.Option(help="write report.html and its figures")] = True,
 ) -> None:
     """Find where simulation and recordings differ, and which physics was left out."""
@@ -56,7 +57,7 @@ def diagnose(
     if first_id is not None:
         table = table.rows(_rows_from(table, first_id))
     _tell_problems(arm, table)
-    settings = Settings(seed, tool_per_run, resamples, cross_validation, estimate_gravity)
+    settings = Settings(seed, tool_per_run, resamples, cross_validation, estimate_gravity, orientation)
     with _progress("diagnosing") as tell:
         verdict = diagnose_arm(arm, table, settings, tell)
         write_verdict(verdict, output)

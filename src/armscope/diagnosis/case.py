@@ -14,6 +14,7 @@ from armscope.diagnosis.refit import Refit
 from armscope.diagnosis.scatter import Scattered
 from armscope.diagnosis.validation import Blocks
 from armscope.diagnosis.verdict import Notice
+from armscope.diagnosis.weights import Missed
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 
@@ -24,12 +25,13 @@ Array = NDArray[np.float64]
 class Evidence:
     """Everything that the rounds of selection leave behind.
 
-    ``point`` is where ``blocks`` were linearised; ``best`` is ``found`` with names.
+    ``first`` is what the free frames alone leave; ``point`` is where ``blocks`` were linearised; ``best`` is ``found``
+    with names.
     """
 
     start: FittedModel
     recordings: Recordings
-    first: Array
+    first: Missed
     noise: Noise
     notices: tuple[Notice, ...]
     layout: Blocks

@@ -20,6 +20,8 @@ FEWEST_ROWS = 15
 """Below, frames and a handful of effects take up all there is."""
 TOO_FAR = 0.03
 """Share of the arm's reach beyond which a residual is no calibration error."""
+TURNED_TOO_FAR = 0.05
+"""Median turn (rad) between modelled and measured orientations beyond which they are not the tool's."""
 FLAT = 1e-3
 SAME_VALUE_ROWS = 4
 LARGEST_ROW_SHIFT = 3
@@ -63,7 +65,7 @@ def _without_empty_context(recordings: Recordings) -> Recordings:
     """Context that no row of this table recorded is no context."""
     empty: dict[str, Any] = {
         name: None
-        for name in ("time", "temperature", "payload", "approach", "speed", "torque", "sigma")
+        for name in ("time", "temperature", "payload", "approach", "speed", "torque", "sigma", "orientation")
         if getattr(recordings, name) is not None and np.isnan(getattr(recordings, name)).all()
     }
     return replace(recordings, **empty) if empty else recordings
@@ -154,6 +156,28 @@ def too_far(arm: Arm, recordings: Recordings, residuals: Array) -> Notice | None
         "do not belong together."
     )
     return Notice("wrong robot", text)
+
+
+def with_orientations(recordings: Recordings, turns: Array | None) -> tuple[Recordings, list[Notice]]:
+    """The table with its orientations, if they are the arm's; and what to say of them.
+
+    Args:
+        turns: (N, 3) rad, between modelled and measured orientations after the free frames, NaN where not measured.
+    """
+    if turns is None:
+        return recordings, []
+    size = np.linalg.norm(turns[np.isfinite(turns).all(axis=1)], axis=1)
+    bare = replace(recordings, orientation=None)
+    if len(size) < FEWEST_ROWS:
+        text = f"Only {len(size)} rows hold an orientation: positions alone were used."
+        return bare, [Notice("few orientations", text)]
+    if np.median(size) > TURNED_TOO_FAR:
+        text = (
+            f"The measured orientations lie {np.degrees(np.median(size)):.3g} degrees (median) from the arm's, however "
+            "the tool is turned: positions alone were used. Are the quaternions in the order w, x, y, z?"
+        )
+        return bare, [Notice("orientations not the arm's", text)]
+    return recordings, []
 
 
 def _spread(points: Array) -> float:

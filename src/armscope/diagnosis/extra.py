@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.diagnosis.evidence import forward
-from armscope.diagnosis.problem import Pool, chunks, component_rows, pool_values
+from armscope.diagnosis.problem import Pool, chunks, component_rows, pool_values, response
 from armscope.diagnosis.weights import RowWeights
 from armscope.physics.effect import Term
 from armscope.physics.model import FittedModel
@@ -52,8 +52,7 @@ def weigh_blocks(
     for rows, posture in chunks(model, recordings):
         lens = weights.lens(rows)
         seen = posture.through(lens)
-        left = (model.to_base(recordings.positions[rows], recordings.run[rows]) - posture.tool) * 1e3
-        y = np.einsum("nij,nj->in", lens, left).reshape(-1)
+        y = response(model, posture, lens).T.reshape(-1)
         if present:
             # the response before any effect, also of those that are not among the columns inside
             y = y + values[active] @ component_rows(seen, present).reshape(len(present), -1)

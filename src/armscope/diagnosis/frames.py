@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from armscope.diagnosis.problem import residuals
+from armscope.diagnosis.problem import missed
 from armscope.diagnosis.robust import scale_of
-from armscope.physics.frames import TOOL_FRAME, free_frames, tool_keys
+from armscope.physics.frames import TOOL_FRAME, ToolKey, free_frames, tool_keys
 from armscope.physics.model import Base, FittedModel
 from armscope.physics.scene import Part
 from armscope.recordings import Recordings
@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 STEPS = 12
 CONVERGED_M = 1e-9
 HUBER = 2.0
+TURN_STEPS = 3
 WORSE, EXCHANGED = 2.0, 3.0
 """A tool counts as exchanged when one tool for all runs leaves this many times the residual, and the tool points lie
 this many times that residual apart."""
@@ -47,14 +48,44 @@ def fit_frames(arm: Arm, recordings: Recordings, tool_per_run: bool = False) -> 
         arm,
         {str(run): base for run, base in zip(runs, bases, strict=True)},
         _tool_parts(recordings, tool_per_run, tools),
+        tool_turns=_tool_turns(recordings, frames.tool_rotation, bases, which_run, keys, which_tool),
     )
 
 
-def other_tools(arm: Arm, recordings: Recordings, shared: FittedModel) -> tuple[FittedModel, float] | None:
-    """The arm with its tool free in every run, and how far the tool points of a target lie apart (m), where they must.
+def _tool_turns(
+    recordings: Recordings,
+    modelled: Array,
+    bases: list[Base],
+    which_run: NDArray[np.intp],
+    keys: list[ToolKey],
+    which_tool: NDArray[np.intp],
+) -> dict[ToolKey, Array]:
+    """How each tool is turned on the last frame (N, 3, 3): the mean of its rows without those far off."""
+    if recordings.orientation is None:
+        return {}
+    known = np.isfinite(recordings.orientation).all(axis=1)
+    turns = {}
+    for number, key in enumerate(keys):
+        rows = np.flatnonzero(known & (which_tool == number))
+        if not len(rows):
+            continue
+        placed = np.array([bases[r].rotation for r in which_run[rows]]) @ modelled[rows]
+        measured = Rotation.from_quat(recordings.orientation[rows], scalar_first=True)
+        on_flange = Rotation.from_matrix(placed).inv() * measured
+        mean = on_flange.mean()
+        for _ in range(TURN_STEPS):
+            away = (mean.inv() * on_flange).magnitude()
+            far = HUBER * max(float(np.median(away)), 1e-12)
+            mean = on_flange.mean(np.minimum(1.0, far / np.maximum(away, 1e-15)))
+        turns[key] = np.asarray(mean.as_matrix())
+    return turns
 
-    A tool that was exchanged between runs leaves a multiple of what else there is; lesser shifts are effects and
-    compete with the others.
+
+def other_tools(arm: Arm, recordings: Recordings, shared: FittedModel) -> tuple[FittedModel, str] | None:
+    """The arm with its tool free in every run, and how far a target's tools lie apart, in words, where they must.
+
+    A tool that was exchanged between runs leaves a multiple of what else there is, in its points or in its
+    orientations; lesser shifts are effects and compete with the others.
 
     Args:
         shared: the arm with one tool for all runs.
@@ -62,12 +93,35 @@ def other_tools(arm: Arm, recordings: Recordings, shared: FittedModel) -> tuple[
     if len(shared.bases) < 2:
         return None
     free = fit_frames(arm, recordings, tool_per_run=True)
-    before, after = scale_of(residuals(shared, recordings)), scale_of(residuals(free, recordings))
-    apart = max(
-        float(np.ptp([part.values for part in free.tools if part.placed.variant == target], axis=0).max())
-        for target in np.unique(recordings.target)
-    )
-    return (free, apart) if before > WORSE * after and apart * 1e3 > EXCHANGED * after else None
+    before, after = missed(shared, recordings), missed(free, recordings)
+    targets = [str(target) for target in np.unique(recordings.target)]
+    told = []
+    apart = max(_points_apart(free, target) for target in targets)
+    if _exchanged(1e3 * apart, before.shift, after.shift):
+        told.append(f"its point up to {apart * 1e3:.3g} mm")
+    if before.turn is not None and after.turn is not None:
+        apart = max(_turns_apart(free, target) for target in targets)
+        known = np.isfinite(before.turn).all(axis=1)
+        if known.any() and _exchanged(apart, before.turn[known], after.turn[known]):
+            told.append(f"its axes up to {np.degrees(apart):.3g} degrees")
+    return (free, " and ".join(told)) if told else None
+
+
+def _exchanged(apart: float, before: Array, after: Array) -> bool:
+    """Whether tools lie apart, seen by residuals (N, 3) with one tool for all runs and with one per run."""
+    left = scale_of(after)
+    return scale_of(before) > WORSE * left and apart > EXCHANGED * left
+
+
+def _points_apart(model: FittedModel, target: str) -> float:
+    """Largest difference of a coordinate between a target's tool points, m."""
+    return float(np.ptp([part.values for part in model.tools if part.placed.variant == target], axis=0).max())
+
+
+def _turns_apart(model: FittedModel, target: str) -> float:
+    """Largest angle between a target's tool and its tool in the first run, rad."""
+    turns = Rotation.from_matrix([turn for (of, _), turn in model.tool_turns.items() if of == target] or [np.eye(3)])
+    return float((turns[0].inv() * turns).magnitude().max())
 
 
 def _tool_parts(recordings: Recordings, per_run: bool, tools: Array) -> tuple[Part, ...]:

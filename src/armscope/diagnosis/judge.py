@@ -29,6 +29,7 @@ from armscope.diagnosis.verdict import (
     FoundEffect,
     HeldOut,
     Notice,
+    Orientations,
     Residuals,
     SuspectRow,
     Unexplained,
@@ -101,12 +102,13 @@ def judge(
         unexplained=unexplained,
         held_out=held_out,
         waterfall=waterfall,
-        atlas=atlas(fit.pool, fit.model, evidence.recordings, fit.weights),
+        atlas=atlas(fit.pool, fit.model, evidence.recordings, replace(fit.weights, turns=None)),
         residuals=_residuals(evidence),
         suspects=_suspects(evidence),
         next_poses=separating,
         notices=(*evidence.notices, *_carefully(evidence)),
         model=_held(fit.model, evidence.recordings),
+        orientations=_orientations(evidence),
     )
     return replace(draft, headline=headline(draft))
 
@@ -117,12 +119,12 @@ def _held(model: FittedModel, recordings: Recordings) -> FittedModel:
 
 
 def _plain_gram(evidence: Evidence) -> Gram:
-    """The fit's sums without the whitening of scatter."""
+    """The fit's sums over the points as they were measured: without whitening and orientations."""
     fit = evidence.fit
-    if fit.weights.turn is None:
+    if fit.weights.whitening is None and fit.weights.turns is None:
         return fit.gram
     one_block = np.zeros(len(evidence.recordings), dtype=np.intp)
-    return accumulate(fit.pool, fit.model, evidence.recordings, replace(fit.weights, turn=None), one_block)[0]
+    return accumulate(fit.pool, fit.model, evidence.recordings, fit.weights.of_points, one_block)[0]
 
 
 def _variance_after_frames(gram: Gram, frames: NDArray[np.intp]) -> float:
@@ -160,11 +162,24 @@ def _residuals(evidence: Evidence) -> Residuals:
     table, fit = evidence.recordings, evidence.fit
     return Residuals(
         points=fit.model.to_base(table.positions, table.run) * 1e3,
-        before=evidence.first,
+        before=evidence.first.shift,
         after=fit.residuals,
         weight=fit.weights.trust,
         id=table.id,
         run=table.run,
+    )
+
+
+def _orientations(evidence: Evidence) -> Orientations | None:
+    fit, before = evidence.fit, evidence.first.turn
+    if fit.missed.turn is None or fit.weights.turns is None or before is None:
+        return None
+    trusted = fit.weights.turns.row > SUSPECT_WEIGHT * np.asarray(fit.weights.turns.clean)
+    return Orientations(
+        rows=int(np.isfinite(fit.missed.turn).all(axis=1).sum()),
+        noise_mrad=1e3 * float(np.sqrt(np.mean(fit.missed.turn[trusted] ** 2))),
+        lever_mm=1e3 * fit.weights.lever,
+        before_mrad=1e3 * float(np.sqrt(np.mean(before[trusted] ** 2))),
     )
 
 

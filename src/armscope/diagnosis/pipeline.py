@@ -9,12 +9,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from armscope.diagnosis.case import Evidence
-from armscope.diagnosis.checks import FEWEST_ROWS, check_table, too_far
+from armscope.diagnosis.checks import FEWEST_ROWS, check_table, too_far, with_orientations
 from armscope.diagnosis.frames import fit_frames, other_tools
 from armscope.diagnosis.gravity import lean
 from armscope.diagnosis.judge import judge, undecided
 from armscope.diagnosis.noise import Noise, known_noise
-from armscope.diagnosis.problem import residuals
+from armscope.diagnosis.problem import missed
 from armscope.diagnosis.rounds import Progress, select
 from armscope.diagnosis.validation import split
 from armscope.diagnosis.verdict import Notice, Verdict
@@ -34,6 +34,7 @@ class Settings:
         tool_per_run: whether the tool offset is free in every run, not only per target.
         resamples: how many times rows are resampled for the inclusion frequencies; 0 leaves them out.
         cross_validation: whether the procedure is validated on held-out rows.
+        orientation: whether measured orientations are used, where there are some.
         estimate_gravity: whether gravity's direction is free; otherwise it is as the robot's description states.
     """
 
@@ -42,6 +43,7 @@ class Settings:
     resamples: int = 10
     cross_validation: bool = True
     estimate_gravity: bool = False
+    orientation: bool = True
 
 
 def diagnose(
@@ -64,16 +66,17 @@ def diagnose(
     settings, tell = settings or Settings(), progress or (lambda text, share: None)
     started = time.perf_counter()
     checked = check_table(arm, recordings)
-    table = checked.recordings
+    table = checked.recordings if settings.orientation else replace(checked.recordings, orientation=None)
     tell("fitting base and tool", 0.02)
     start, tool_per_run, told = _frames(arm, table, settings.tool_per_run)
-    notices = (*checked.notices, *told)
-    first = residuals(start, table)
+    first = missed(start, table)
+    table, told_of_turns = with_orientations(table, first.turn)
+    notices = (*checked.notices, *told, *told_of_turns)
     noise = known_noise(arm, table)
     frames = free_frames(table, tool_per_run)
-    obstacle = too_far(arm, table, first) or _too_few(table, frames)
+    obstacle = too_far(arm, table, first.shift) or _too_few(table, frames)
     if obstacle is not None:
-        return undecided(start, table, first, noise, (*notices, obstacle), time.perf_counter() - started)
+        return undecided(start, table, first.shift, noise, (*notices, obstacle), time.perf_counter() - started)
     if settings.estimate_gravity:
         arm, told = _gravity(start, table, noise, tool_per_run)
         start, notices = replace(start, arm=arm), (*notices, *told)
@@ -112,7 +115,7 @@ def _frames(arm: Arm, table: Recordings, tool_per_run: bool) -> tuple[FittedMode
     exchanged = None if tool_per_run else other_tools(arm, table, start)
     if exchanged is None:
         return start, tool_per_run, []
-    text = f"The tool point lies up to {exchanged[1] * 1e3:.3g} mm elsewhere from run to run: it is free in each run."
+    text = f"From run to run the tool lies elsewhere, {exchanged[1]}: it is free in each run."
     return exchanged[0], True, [Notice("tool exchanged", text)]
 
 

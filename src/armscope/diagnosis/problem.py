@@ -15,10 +15,10 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.diagnosis.weights import RowWeights
+from armscope.diagnosis.weights import Missed, RowWeights
 from armscope.physics.effect import Placed, Term, clash
 from armscope.physics.model import FittedModel
-from armscope.physics.scene import Posture, Scene
+from armscope.physics.scene import Lens, Posture, Scene
 from armscope.recordings import Recordings
 
 Array = NDArray[np.float64]
@@ -198,8 +198,8 @@ def _scenes(model: FittedModel, recordings: Recordings) -> Iterator[tuple[Indice
 
 
 def columns(posture: Posture, terms: Sequence[Term]) -> Array:
-    """(3N, p) columns in mm per SI unit of each term."""
-    stacked = np.empty((len(terms), len(posture.scene), 3))
+    """(3N or 6N, p) columns in mm per SI unit of each term, as the posture's lens shows them."""
+    stacked = np.empty((len(terms), len(posture.scene), posture.numbers))
     for number, term in enumerate(terms):
         stacked[number] = posture.column(term)
     stacked *= 1e3
@@ -207,8 +207,8 @@ def columns(posture: Posture, terms: Sequence[Term]) -> Array:
 
 
 def component_rows(posture: Posture, terms: Sequence[Term]) -> Array:
-    """(p, 3, N) the same columns, lying, a component of all rows side by side: fast to fill and to multiply."""
-    stacked = np.empty((len(terms), 3, len(posture.scene)))
+    """(p, 3 or 6, N) the same columns, lying, a component of all rows side by side: fast to fill and to multiply."""
+    stacked = np.empty((len(terms), posture.numbers, len(posture.scene)))
     for number, term in enumerate(terms):
         stacked[number] = posture.column(term).T
     stacked *= 1e3
@@ -219,8 +219,32 @@ def residuals(model: FittedModel, recordings: Recordings) -> Array:
     """(N, 3) measured minus modelled tool points, base axes, mm."""
     left = np.empty((len(recordings), 3))
     for rows, posture in chunks(model, recordings):
-        left[rows] = (model.to_base(recordings.positions[rows], recordings.run[rows]) - posture.tool) * 1e3
+        left[rows] = _shift(model, posture)
     return left
+
+
+def missed(model: FittedModel, recordings: Recordings) -> Missed:
+    """What a model leaves of every row: measured minus modelled tool points, and the turns between orientations."""
+    if recordings.orientation is None:
+        return Missed(residuals(model, recordings))
+    shift, turn = np.empty((len(recordings), 3)), np.empty((len(recordings), 3))
+    for rows, posture in chunks(model, recordings):
+        shift[rows], turn[rows] = _shift(model, posture), model.missed_turns(posture)
+    return Missed(shift, turn)
+
+
+def _shift(model: FittedModel, posture: Posture) -> Array:
+    """(n, 3) measured minus modelled tool points of a posture's rows, base axes, mm."""
+    table = posture.scene.recordings
+    return np.asarray((model.to_base(table.positions, table.run) - posture.tool) * 1e3)
+
+
+def response(model: FittedModel, posture: Posture, lens: Lens) -> Array:
+    """(n, 3 or 6) what a model leaves of a posture's rows, as a lens shows it: W^1/2 y, mm."""
+    shift = _shift(model, posture)
+    if lens.turn is None:
+        return lens.through(shift, shift)
+    return lens.through(shift, 1e3 * np.nan_to_num(model.missed_turns(posture)))
 
 
 def accumulate(
@@ -242,16 +266,15 @@ def accumulate(
     for rows, posture in chunks(model, recordings, order):
         lens = weights.lens(rows)
         X = component_rows(posture.through(lens), pool.terms)
-        left = (model.to_base(recordings.positions[rows], recordings.run[rows]) - posture.tool) * 1e3
-        y = np.einsum("nij,nj->in", lens, left) + (current @ X.reshape(p, -1)).reshape(3, -1)
-        counts, inside = weights.count(rows), blocks[rows]
+        y = response(model, posture, lens).T + (current @ X.reshape(p, -1)).reshape(X.shape[1:])
+        numbers, inside = weights.numbers(rows), blocks[rows]
         for block in np.unique(inside):
             at = slice(None) if count == 1 else _where(inside == block)
             Xb, yb = X[:, :, at].reshape(p, -1), y[:, at].reshape(-1)
             G[block] += Xb @ Xb.T
             b[block] += Xb @ yb
             yy[block] += yb @ yb
-            n[block] += 3 * counts[at].sum()
+            n[block] += numbers[at].sum()
     return [Gram(G[k], b[k], float(yy[k]), float(n[k])) for k in range(count)]
 
 

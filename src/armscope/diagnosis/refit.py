@@ -8,13 +8,15 @@ from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from armscope.diagnosis import robust
 from armscope.diagnosis.evidence import FRAME_PRIOR_MM, TOLERANCE
 from armscope.diagnosis.frames import moved_base
-from armscope.diagnosis.problem import Gram, Pool, accumulate, pool, pool_values, residuals, scales
-from armscope.diagnosis.weights import RowNoise, RowWeights
+from armscope.diagnosis.problem import Gram, Pool, accumulate, missed, pool, pool_values, scales
+from armscope.diagnosis.weights import Missed, RowNoise, RowWeights
 from armscope.physics.effect import AXES, Placed, Term
+from armscope.physics.frames import ToolKey, tool_key
 from armscope.physics.model import FittedModel
 from armscope.physics.scene import Part
 from armscope.recordings import Recordings
@@ -43,7 +45,7 @@ class Refit:
         covariance: (p, p) of all values, SI units.
         noise: mm per axis.
         spent: effective number of fitted values.
-        residuals: (N, 3) mm, base axes.
+        missed: what the model leaves.
     """
 
     model: FittedModel
@@ -54,7 +56,12 @@ class Refit:
     noise: float
     spent: float
     weights: RowWeights
-    residuals: Array
+    missed: Missed
+
+    @property
+    def residuals(self) -> Array:
+        """(N, 3) mm, base axes."""
+        return self.missed.shift
 
     def covariance_of(self, placed: Placed) -> Array:
         """Covariance of one effect's terms, SI units."""
@@ -70,7 +77,7 @@ def refit(
     effects: Sequence[tuple[Placed, float]],
     rows: RowNoise,
     least_noise: float,
-    turn: Array | None = None,
+    whitening: Array | None = None,
 ) -> Refit:
     """Gauss-Newton on the exact model, weights and noise re-estimated at each step.
 
@@ -80,7 +87,7 @@ def refit(
             families of size 0 are left out.
         effects: (effect, size at the tool, mm).
         rows: relative uncertainty of the rows, and which are independent.
-        turn: (N, 3, 3) whitening of rows that scatter along known directions.
+        whitening: (N, 3, 3) of rows that scatter along known directions.
     """
     named = {term for placed, _ in effects for term in placed.terms}
     kept = [[b for placed in family if size and (b := _without(placed, named))] for family, size in backgrounds]
@@ -89,11 +96,11 @@ def refit(
     model = _start(model, background, effects)
     blocks = np.zeros(len(recordings), dtype=np.intp)
     noise = least_noise
-    left = residuals(model, recordings)
+    left = missed(model, recordings)
     for _ in range(STEPS):
-        weights = rows.weighed(left, least_noise, turn)
+        weights = rows.weighed(left, least_noise, whitening)
         gram = accumulate(parts, model, recordings, weights, blocks)[0]
-        noise = noise or robust.scale_of(left)
+        noise = noise or robust.scale_of(left.shift)
         precision = _precision(parts, gram, [size for _, size in backgrounds], effects)
         A = gram.G + np.diag(noise**2 * precision)
         values, covariance = _solve(A, gram.b)
@@ -103,7 +110,7 @@ def refit(
         before = left
         model, left = _not_worse(partial(_updated, model, parts, background, effects, values), recordings, left)
         uncertain = noise * np.sqrt(spent / max(gram.n, 1.0))
-        if np.sqrt(np.mean((left - before) ** 2)) < max(CONVERGED_MM, CONVERGED * uncertain):
+        if np.sqrt(np.mean((left.shift - before.shift) ** 2)) < max(CONVERGED_MM, CONVERGED * uncertain):
             break
     # a lucky residual does not make the instrument better than it is known to be
     covariance = max(noise, least_noise) ** 2 * covariance
@@ -111,14 +118,14 @@ def refit(
 
 
 def _not_worse(
-    updated: Callable[[float], FittedModel], recordings: Recordings, left: Array
-) -> tuple[FittedModel, Array]:
-    """The model after a step that is shortened until it does not lead away, and its residuals (N, 3), mm."""
-    share, here = 1.0, robust.scale_of(left)
+    updated: Callable[[float], FittedModel], recordings: Recordings, left: Missed
+) -> tuple[FittedModel, Missed]:
+    """The model after a step that is shortened until it does not lead away, and what it leaves."""
+    share, here = 1.0, robust.scale_of(left.shift)
     while True:
         model = updated(share)
-        new = residuals(model, recordings)
-        if share < SHORTEST_STEP or robust.scale_of(new) < LEADS_AWAY * here:
+        new = missed(model, recordings)
+        if share < SHORTEST_STEP or robust.scale_of(new.shift) < LEADS_AWAY * here:
             return model, new
         share /= 2
 
@@ -204,14 +211,21 @@ def _updated(
 def moved_frames(model: FittedModel, steps: Mapping[Term, float]) -> FittedModel:
     """The model with its bases and tools moved by steps (SI units) of the free frames' terms; others don't count."""
     twists: dict[str, Array] = {}
+    turns: dict[ToolKey, Array] = {}
     for term, value in steps.items():
         product = term.products[0]
+        axis = AXES.index(product.direction.axis) if product.direction.axis in AXES else -1
         if product.driver.kind == "in run" and product.direction.location == "base":
-            twist = twists.setdefault(str(product.driver.arguments[0]), np.zeros(6))
-            twist[AXES.index(product.direction.axis)] = value
+            twists.setdefault(str(product.driver.arguments[0]), np.zeros(6))[axis] = value
+        elif product.driver.kind.startswith("on target") and product.direction.location == "tool" and axis >= 3:
+            turns.setdefault(tool_key(product.driver), np.zeros(3))[axis - 3] = value
     bases = {run: moved_base(base, twists.get(run, np.zeros(6))) for run, base in model.bases.items()}
     tools = tuple(
         Part(part.placed, part.values + np.array([steps.get(term, 0.0) for term in part.placed.terms]))
         for part in model.tools
     )
-    return replace(model, bases=bases, tools=tools)
+    turned = {
+        key: Rotation.from_rotvec(turns.get(key, np.zeros(3))).as_matrix() @ turn
+        for key, turn in model.tool_turns.items()
+    }
+    return replace(model, bases=bases, tools=tools, tool_turns=turned)

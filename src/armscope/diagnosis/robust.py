@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Rule = Callable[[Array, Array, float], Array]
+"""(N,) weights of residuals (N, 3), by their relative uncertainty (N,) and the least noise."""
 
 MEDIAN_OF_CHI3 = 1.5381722
 """Median length of a 3-vector of unit normals."""

@@ -15,7 +15,7 @@ from armscope.diagnosis import robust
 from armscope.diagnosis.evidence import Hypothesis, Problem, background_sizes, gains, problem
 from armscope.diagnosis.naming import named
 from armscope.diagnosis.noise import Growth, Noise, distances, growth, independent_shares, poses, relative_uncertainty
-from armscope.diagnosis.problem import Gram, Pool, accumulate, keep_drivers, pool, residuals, total
+from armscope.diagnosis.problem import Gram, Pool, accumulate, keep_drivers, missed, pool, total
 from armscope.diagnosis.refit import Refit, refit
 from armscope.diagnosis.scan import jumps, mesh_lines, pauses
 from armscope.diagnosis.scatter import Scattered, find_scatter, levers, noise_between, whitening
@@ -136,14 +136,14 @@ class Rounds:
         self.candidates = library(start.arm, recordings) if candidates is None else list(candidates)
         self.families = list(backgrounds(start.arm, recordings).values())
         self.moved = levers(start, self.recordings)
-        self.model, self.left = start, residuals(start, self.recordings)
+        self.model, self.missed = start, missed(start, self.recordings)
         self.scatter: list[Scattered] = []
         self.pose = poses(self.recordings)
         self.growth: Growth | None = None
         uncertainty = relative_uncertainty(self.recordings, robust.scale_of(self.left))
         near = np.ones(len(self.recordings), dtype=bool)
         self.rows = RowNoise(uncertainty, independent_shares(self.left, self.pose, near))
-        self.weights = self.rows.weighed_first(self.left, noise.least_mm)
+        self.weights = self.rows.weighed_first(self.missed, noise.least_mm)
         self.last: tuple[Hypothesis, Pool] | None = None
 
     def until_settled(self, of_a_sample: bool = False) -> Selected:
@@ -178,9 +178,13 @@ class Rounds:
     def follow(self, other: Rounds) -> None:
         """Go on from where the rounds on a sample of the rows ended."""
         self.model, self.last, self.scatter, self.growth = other.model, other.last, other.scatter, other.growth
-        self.left = residuals(self.model, self.recordings)
-        turn = whitening(self.scatter, self.moved, other.fit.noise)
-        self._weigh_rows(other.fit.noise, turn)
+        self.missed = missed(self.model, self.recordings)
+        self._weigh_rows(other.fit.noise, whitening(self.scatter, self.moved, other.fit.noise))
+
+    @property
+    def left(self) -> Array:
+        """(N, 3) mm, what the model leaves of the points."""
+        return self.missed.shift
 
     def round(self, starts: Sequence[tuple[int, ...]] | None, scanning: bool = False) -> list[Placed]:
         """One round; returns new candidates that scanning found. Without starts it goes on from the last round."""
@@ -202,8 +206,8 @@ class Rounds:
             self.best = search.without(self.best, against)
             self.fit = self._fitted(model)
         new = self._scanned(search, model) if scanning else []
-        self.model, self.left, self.weights = self.fit.model, self.fit.residuals, self.fit.weights
-        self._weigh_rows(self.fit.noise, self.weights.turn)
+        self.model, self.missed, self.weights = self.fit.model, self.fit.missed, self.fit.weights
+        self._weigh_rows(self.fit.noise, self.weights.whitening)
         return new
 
     def _fitted(self, model: FittedModel) -> Refit:
@@ -213,8 +217,8 @@ class Rounds:
             for c in self.best.chosen
         ]
         small = list(zip(self.families, background_sizes(self.problem, self.best), strict=True))
-        turn = self.weights.turn
-        return refit(model, self.recordings, self.frames, small, effects, self.rows, self.noise.least_mm, turn)
+        white = self.weights.whitening
+        return refit(model, self.recordings, self.frames, small, effects, self.rows, self.noise.least_mm, white)
 
     def _against_their_load(self) -> list[int]:
         """Names within a background whose fitted values turned out negative where they can't be."""
@@ -224,12 +228,12 @@ class Rounds:
             if c.within and self.pool.along[c.candidate] and part.values[0] < 0
         ]
 
-    def _weigh_rows(self, noise: float, turn: Array | None) -> None:
+    def _weigh_rows(self, noise: float, white: Array | None) -> None:
         """What the residuals tell about the rows' noise, and their weights by it."""
         uncertainty = relative_uncertainty(self.recordings, noise, self._by_distance())
-        alone = RowNoise(uncertainty, np.ones(len(uncertainty))).weighed(self.left, self.noise.least_mm)
+        alone = RowNoise(uncertainty, np.ones(len(uncertainty))).weighed(self.missed, self.noise.least_mm)
         self.rows = RowNoise(uncertainty, independent_shares(self.left, self.pose, alone.trust > COUNTS))
-        self.weights = self.rows.weighed(self.left, self.noise.least_mm, turn)
+        self.weights = self.rows.weighed(self.missed, self.noise.least_mm, white)
 
     def selected(self) -> Selected:
         """Where the rounds stand."""
@@ -277,7 +281,7 @@ class Rounds:
         if found is None or found.evidence < sum(each.evidence for each in self._find_scatter()):
             return False
         self.growth = found
-        self._weigh_rows(self.fit.noise, self.weights.turn)
+        self._weigh_rows(self.fit.noise, self.weights.whitening)
         return True
 
     def _find_scatter(self) -> list[Scattered]:
@@ -290,8 +294,8 @@ class Rounds:
         """Whiten the rows by scatter of these places and sizes, and weigh them anew."""
         self.scatter = found
         between = noise_between(self.left, self.moved, found, self.noise.least_mm)
-        turn = whitening(found, self.moved, between)
-        self.weights = self.rows.weighed(self.left, self.noise.least_mm, turn)
+        white = whitening(found, self.moved, between)
+        self.weights = self.rows.weighed(self.missed, self.noise.least_mm, white)
 
     def _scanned(self, search: Search, model: FittedModel) -> list[Placed]:
         """New candidates whose scanned numbers promise something, given the best hypothesis and given none."""

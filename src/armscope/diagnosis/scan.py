@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from armscope.diagnosis.evidence import Hypothesis, Problem, forward
 from armscope.diagnosis.extra import Blocks, conditioned, weigh_blocks
-from armscope.diagnosis.problem import chunks, columns, pool_values
+from armscope.diagnosis.problem import chunks, columns, pool_values, response
 from armscope.diagnosis.weights import RowWeights
 from armscope.physics.drift import BASE_SHIFT, Pause, base_shift, drift_with_pauses, pauses_of, row_number, tool_shift
 from armscope.physics.effect import Placed
@@ -276,12 +276,12 @@ def _step_sums(
     own, cross, b = np.zeros((len(cuts) + 1, c, c)), np.zeros((len(cuts) + 1, k, c)), np.zeros((len(cuts) + 1, c))
     for part, posture in chunks(model, table):
         here = rows[part]
-        seen = posture.through(weights.lens(here))
-        y = weights.times(here, (model.to_base(table.positions[part], table.run[part]) - posture.tool) * 1e3)
+        lens = weights.lens(here)
+        seen, y = posture.through(lens), response(model, posture, lens)
         if present:
             # the response before any effect
-            y = y + (columns(seen, present) @ values[active]).reshape(-1, 3)
-        X, E = (columns(seen, wanted).reshape(len(part), 3, -1) for wanted in (model_terms, terms))
+            y = y + (columns(seen, present) @ values[active]).reshape(y.shape)
+        X, E = (columns(seen, wanted).reshape(*y.shape, -1) for wanted in (model_terms, terms))
         np.add.at(own, segment[part], np.einsum("nic,nid->ncd", E, E))
         np.add.at(cross, segment[part], np.einsum("nik,nic->nkc", X, E, optimize=True))
         np.add.at(b, segment[part], np.einsum("ni,nic->nc", y, E))

@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.diagnosis.evidence import PERFECT, Chosen, Hypothesis, Problem, weigh
-from armscope.diagnosis.problem import Gram, Pool, chunks, columns, pool_values, total
+from armscope.diagnosis.problem import Gram, Pool, chunks, columns, pool_values, response, total
 from armscope.diagnosis.search import LARGE, STARTS, Search
 from armscope.diagnosis.verdict import HeldOut, WaterfallStep
 from armscope.diagnosis.weights import COUNTS, RowWeights
 from armscope.physics.effect import Term
 from armscope.physics.model import FittedModel
+from armscope.physics.scene import Lens, Posture
 from armscope.recordings import Recordings
 
 Array = NDArray[np.float64]
@@ -94,6 +95,7 @@ def cross_validate(
         [_rms(errors[:, told & (fold_of == fold)]) for fold in folds if (told & (fold_of == fold)).any()]
     )
     held, held_all = _rms(errors[:, told]), _rms(errors[:, np.isin(fold_of, folds)])
+    turns = _rms(errors[:, told], TURNS)
     spread = per_fold.std(axis=0, ddof=1) if len(per_fold) > 1 else np.full(len(held), np.nan)
     labels = ["free frames", *[str(problem.pool.candidates[c]) for c in order], "tolerances everywhere"]
     waterfall = tuple(
@@ -109,6 +111,8 @@ def cross_validate(
             before_all_rows=float(held_all[0]),
             after_all_rows=float(held_all[-1]),
             spread=float(spread[-1]),
+            turn_before=float(turns[0]),
+            turn_after=float(turns[-1]),
         ),
         waterfall,
     )
@@ -153,7 +157,7 @@ class Rows:
 
 
 def left_over(rows: Rows, pool: Pool, values: Array, number: Indices | None = None) -> Array:
-    """(K, N, 3) what K readings leave of every row, base axes, mm.
+    """(K, N, 3) what K readings leave of every row, base axes, mm; (K, N, 6) with turns, mrad, where measured.
 
     Args:
         values: (K, p) values of the pool's terms, SI units; or (F, K, p): each row takes those of its ``number``.
@@ -162,21 +166,30 @@ def left_over(rows: Rows, pool: Pool, values: Array, number: Indices | None = No
     values = values if number is not None else values[None]
     number = np.zeros(len(rows.recordings), dtype=np.intp) if number is None else number
     current = pool_values(pool, rows.point)
-    left = np.empty((values.shape[1], len(rows.recordings), 3))
+    left = np.empty((values.shape[1], len(rows.recordings), 3 if rows.recordings.orientation is None else 6))
     for part, posture in chunks(rows.point, rows.recordings):
-        X = columns(posture, pool.terms)
-        y = rows.point.to_base(rows.recordings.positions[part], rows.recordings.run[part]) - posture.tool
+        lens = _plain(posture)
+        X, y = columns(posture.through(lens), pool.terms), response(rows.point, posture, lens)
         for f in np.unique(number[part]):
             inside = number[part] == f
-            modelled = X[np.repeat(inside, 3)] @ (values[f] - current).T
-            left[:, part[inside]] = y[inside] * 1e3 - np.moveaxis(modelled.reshape(-1, 3, len(left)), 2, 0)
+            modelled = X[np.repeat(inside, lens.numbers)] @ (values[f] - current).T
+            left[:, part[inside]] = y[inside] - np.moveaxis(modelled.reshape(-1, lens.numbers, len(left)), 2, 0)
+    if rows.recordings.orientation is not None:
+        left[:, ~np.isfinite(rows.recordings.orientation).all(axis=1), 3:] = np.nan
     return left
+
+
+def _plain(posture: Posture) -> Lens:
+    """Every row as it is: mm, and mrad where orientations were measured."""
+    count = len(posture.scene)
+    turns = None if posture.scene.recordings.orientation is None else np.ones(count)
+    return Lens(np.broadcast_to(np.eye(3), (count, 3, 3)), turns)
 
 
 def _held_out_errors(
     problem: Problem, blocks: Sequence[Gram], split: Blocks, rows: Rows, values: Mapping[int, Array]
 ) -> Array:
-    """(K, N, 3) errors, mm, of every row under the readings of the fold that it took no part in.
+    """(K, N, 3 or 6) errors, mm and mrad, of every row under the readings of the fold that it took no part in.
 
     Where whole runs are held out, the frames that only they have are refitted on them.
     """
@@ -199,18 +212,28 @@ def _held_out_errors(
 
 
 def _refitted(rows: Rows, terms: Sequence[Term], at: Indices, errors: Array) -> Array:
-    """Errors (K, n, 3) of rows ``at`` once their own frames are fitted to them."""
+    """Errors (K, n, 3 or 6) of rows ``at`` once their own frames are fitted to them."""
     table = rows.recordings.rows(at)
-    X = np.concatenate([columns(posture, terms) for _, posture in chunks(rows.point, table)])
+    X = np.concatenate([columns(posture.through(_plain(posture)), terms) for _, posture in chunks(rows.point, table)])
     y = np.moveaxis(errors, 0, 2).reshape(len(X), -1)
-    root = np.repeat(np.sqrt(rows.weights.row[at]), 3)[:, None]
-    values = np.linalg.lstsq(root * X, root * y, rcond=1e-12)[0]
-    return np.asarray(np.moveaxis((y - X @ values).reshape(len(at), 3, -1), 2, 0))
+    weights = [np.sqrt(rows.weights.row[at])] * 3
+    if rows.weights.turns is not None:
+        weights += [rows.weights.lever * np.sqrt(rows.weights.turns.row[at])] * 3
+    root = np.stack(weights, axis=1).reshape(-1, 1)
+    values = np.linalg.lstsq(root * X, root * np.nan_to_num(y), rcond=1e-12)[0]
+    return np.asarray(np.moveaxis((y - X @ values).reshape(len(at), -1, y.shape[1]), 2, 0))
 
 
-def _rms(errors: Array) -> Array:
-    """(K,) RMS per axis of errors (K, n, 3)."""
-    return np.asarray(np.sqrt(np.mean(errors**2, axis=(1, 2))))
+POINTS, TURNS = slice(0, 3), slice(3, 6)
+
+
+def _rms(errors: Array, which: slice = POINTS) -> Array:
+    """(K,) RMS per axis of the points, or of the turns, of errors (K, n, 3 or 6); NaN where none was measured."""
+    squares = errors[:, :, which] ** 2
+    known = np.isfinite(squares)
+    sums = np.sum(np.where(known, squares, 0.0), axis=(1, 2))
+    counts = np.count_nonzero(known, axis=(1, 2))
+    return np.sqrt(np.divide(sums, counts, out=np.full(len(errors), np.nan), where=counts > 0))
 
 
 def _steps(best: Hypothesis, order: Sequence[int]) -> list[tuple[Chosen, ...]]:

@@ -150,7 +150,8 @@ class HeldOut:
     """Cross-validation of the whole procedure; RMS per axis on rows that took no part, mm. NaN: it was not possible.
 
     ``before`` and ``after`` leave out the rows that look like bad shots; the same of all rows stands beside them.
-    ``spread``: standard deviation of ``after`` from fold to fold.
+    ``spread``: standard deviation of ``after`` from fold to fold. ``turn_before``, ``turn_after``: of orientations,
+    mrad, where they were measured.
     """
 
     before: float
@@ -160,6 +161,25 @@ class HeldOut:
     before_all_rows: float = float("nan")
     after_all_rows: float = float("nan")
     spread: float = float("nan")
+    turn_before: float = float("nan")
+    turn_after: float = float("nan")
+
+
+@dataclass(frozen=True)
+class Orientations:
+    """What the measured orientations say; RMS per axis, mrad.
+
+    Attributes:
+        rows: that hold one.
+        noise_mrad: what the fitted model leaves of them.
+        lever_mm: by which a turn counts beside a shift of the point: the ratio of their noises.
+        before_mrad: after the free frames alone.
+    """
+
+    rows: int
+    noise_mrad: float
+    lever_mm: float
+    before_mrad: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -247,6 +267,7 @@ class Verdict:
     next_poses: NextPoses | None
     notices: tuple[Notice, ...]
     model: FittedModel
+    orientations: Orientations | None = None
     seconds: float = 0.0
     settings: dict[str, Any] = field(default_factory=dict)
 
@@ -281,6 +302,7 @@ class Verdict:
                 "folds": self.held_out.folds,
                 "grouped_by": self.held_out.grouped_by,
             },
+            "orientation": None if self.orientations is None else self._told_of_turns(self.orientations),
             "fitted_rms_mm": {"before": self.residual_before_mm, "after": self.residual_after_mm},
             "waterfall": [vars(step) for step in self.waterfall],
             "suspects": [vars(row) for row in self.suspects],
@@ -289,6 +311,10 @@ class Verdict:
             "runs": list(self.runs),
             "settings": self.settings,
         }
+
+    def _told_of_turns(self, seen: Orientations) -> dict[str, Any]:
+        held_out = {"before": self.held_out.turn_before, "after": self.held_out.turn_after}
+        return {**vars(seen), "held_out_rms_mrad": held_out}
 
 
 def _effect(found: FoundEffect) -> dict[str, Any]:

@@ -99,8 +99,13 @@ def _place_tool_of_run(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     for run in targets:
         others = set().union(*(seen for other, seen in targets.items() if other != run))
         if run != str(runs[0]) and targets[run] & others:
-            terms = six_terms("tool", Driver("in run", (run,)), axes=AXES[:3])
-            yield Placed(TOOL_SHIFT, "tool", terms, (1.0,) * 3, f"run {run}", variant=f"run {run}")
+            terms = six_terms("tool", Driver("in run", (run,)), axes=_axes_of_tool(recordings))
+            yield Placed(TOOL_SHIFT, "tool", terms, (1.0,) * len(terms), f"run {run}", variant=f"run {run}")
+
+
+def _axes_of_tool(recordings: Recordings) -> tuple[str, ...]:
+    """How a tool that moved on the flange is seen to have moved: its point, and its turn where that was measured."""
+    return AXES[:3] if recordings.orientation is None else AXES
 
 
 def base_shift(recordings: Recordings, row: int, tried: int) -> Placed:
@@ -109,8 +114,8 @@ def base_shift(recordings: Recordings, row: int, tried: int) -> Placed:
 
 
 def tool_shift(recordings: Recordings, row: int, tried: int) -> Placed:
-    """The tool point jumps before a row (0-based) and stays so until the end of the row's run."""
-    return _shift(TOOL_SHIFT, "tool", AXES[:3], recordings, row, tried)
+    """The tool jumps before a row (0-based) and stays so until the end of the row's run."""
+    return _shift(TOOL_SHIFT, "tool", _axes_of_tool(recordings), recordings, row, tried)
 
 
 def _shift(

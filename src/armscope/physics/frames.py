@@ -1,4 +1,4 @@
-"""The two frames that are always free: where the instrument stands (per run), where the tool point is (per target)."""
+"""The frames that are always free: where the instrument stands (per run), where and how the tool is (per target)."""
 
 from __future__ import annotations
 
@@ -28,9 +28,19 @@ TOOL_FRAME = Effect(
 )
 
 
+TOOL_TURN = Effect(
+    "tool_turn",
+    "frame",
+    lambda arm, recordings: iter(()),
+    "How the measured tool frame is turned against the arm's last frame.",
+    "It is fitted anew for every target whose orientation was measured.",
+    "Nothing to cure.",
+)
+
+
 def free_frames(recordings: Recordings, tool_per_run: bool) -> list[Placed]:
-    """A base twist per run, and a tool translation per target (and run, where asked)."""
-    return [*_bases(recordings), *_tools(recordings, tool_per_run)]
+    """A base twist per run, and per target (and run, where asked) a tool translation, and its turn where measured."""
+    return [*_bases(recordings), *_tools(recordings, tool_per_run), *_tool_turns(recordings, tool_per_run)]
 
 
 def _bases(recordings: Recordings) -> Iterator[Placed]:
@@ -41,14 +51,37 @@ def _bases(recordings: Recordings) -> Iterator[Placed]:
 
 
 def _tools(recordings: Recordings, per_run: bool) -> Iterator[Placed]:
-    axes = AXES[:3]
-    for target, run in tool_keys(recordings, per_run):
-        driver = Driver("on target", (target,)) if run is None else Driver("on target in run", (target, run))
-        yield Placed(TOOL_FRAME, "tool", six_terms("tool", driver, axes=axes), (1.0,) * 3, "target", variant=target)
+    for key in tool_keys(recordings, per_run):
+        terms = six_terms("tool", _with_tool(key), axes=AXES[:3])
+        yield Placed(TOOL_FRAME, "tool", terms, (1.0,) * 3, "target", variant=key[0])
 
 
-def tool_keys(recordings: Recordings, per_run: bool) -> list[tuple[str, str | None]]:
-    """(target, run) of every tool offset; run is None where a tool is the same in all runs."""
+def _tool_turns(recordings: Recordings, per_run: bool) -> Iterator[Placed]:
+    if recordings.orientation is None:
+        return
+    oriented = recordings.rows(np.flatnonzero(np.isfinite(recordings.orientation).all(axis=1)))
+    for key in tool_keys(oriented, per_run):
+        terms = six_terms("tool", _with_tool(key), axes=AXES[3:])
+        yield Placed(TOOL_TURN, "tool", terms, (1.0,) * 3, "target", variant=key[0])
+
+
+ToolKey = tuple[str, str | None]
+"""(target, run) of a tool; run is None where it is the same in all runs."""
+
+
+def _with_tool(key: ToolKey) -> Driver:
+    target, run = key
+    return Driver("on target", (target,)) if run is None else Driver("on target in run", (target, run))
+
+
+def tool_key(driver: Driver) -> ToolKey:
+    """The tool that a free frame's driver stands for."""
+    target, *run = driver.arguments
+    return str(target), str(run[0]) if run else None
+
+
+def tool_keys(recordings: Recordings, per_run: bool) -> list[ToolKey]:
+    """The tools of a table."""
     if not per_run:
         return [(str(target), None) for target in np.unique(recordings.target)]
     return sorted({(str(t), str(r)) for t, r in zip(recordings.target, recordings.run, strict=True)})

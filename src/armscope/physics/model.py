@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from armscope.files import write_yaml
 from armscope.inputs import InputError, read_yaml, validate
 from armscope.physics.effect import Direction, Driver, Effect, Placed, Product, Term
-from armscope.physics.frames import BASE_FRAME, TOOL_FRAME
+from armscope.physics.frames import BASE_FRAME, TOOL_FRAME, ToolKey
 from armscope.physics.geometric import BACKGROUND
 from armscope.physics.registry import EFFECTS
 from armscope.physics.scene import Part, Posture, Scene
@@ -44,6 +45,7 @@ class FittedModel:
         tools: tool offsets as parts.
         parts: the effects, SI units.
         background: geometric errors of tolerance size, as parts.
+        tool_turns: (3, 3) the arm's last frame from the measured tool frame, by tool, where orientations were measured.
     """
 
     arm: Arm
@@ -51,6 +53,7 @@ class FittedModel:
     tools: tuple[Part, ...] = ()
     parts: tuple[Part, ...] = ()
     background: tuple[Part, ...] = ()
+    tool_turns: Mapping[ToolKey, Array] = field(default_factory=dict)
 
     def scene(self, recordings: Recordings) -> Scene:
         """The arm at the rows of a table."""
@@ -81,6 +84,32 @@ class FittedModel:
             base = self.base_of(str(run))
             points[rows] = (measured[rows] - base.translation) @ base.rotation
         return points
+
+    def missed_turns(self, posture: Posture) -> Array:
+        """(N, 3) rotation vectors from modelled to measured orientations, base axes, rad; NaN where not measured."""
+        recordings = posture.scene.recordings
+        missed = np.full((len(recordings), 3), np.nan)
+        if recordings.orientation is None:
+            return missed
+        known = np.isfinite(recordings.orientation).all(axis=1)
+        measured = Rotation.from_quat(recordings.orientation[known], scalar_first=True).as_matrix()
+        bases = self._base_turns(recordings.run[known])
+        modelled = posture.frames.tool_rotation[known] @ self._tool_turns(recordings)[known]
+        turned = np.swapaxes(bases, 1, 2) @ measured @ np.swapaxes(modelled, 1, 2)
+        missed[known] = Rotation.from_matrix(turned).as_rotvec()
+        return missed
+
+    def _base_turns(self, runs: NDArray[np.str_]) -> Array:
+        """(N, 3, 3) measurement frame from base frame."""
+        names, which = np.unique(runs, return_inverse=True)
+        return np.array([self.base_of(str(run)).rotation for run in names])[which] if len(runs) else np.empty((0, 3, 3))
+
+    def _tool_turns(self, recordings: Recordings) -> Array:
+        """(N, 3, 3) last frame from measured tool frame; unturned where the model knows none."""
+        tools = np.stack([recordings.target, recordings.run], axis=1)
+        keys, which = np.unique(tools, axis=0, return_inverse=True)
+        turns = [self.tool_turns.get((str(t), None), self.tool_turns.get((str(t), str(r)), np.eye(3))) for t, r in keys]
+        return np.array(turns)[which.reshape(-1)]
 
     def unknown_runs(self, recordings: Recordings) -> list[str]:
         """Runs of a table whose base the model does not know."""
@@ -122,6 +151,10 @@ def save_model(path: Path | str, model: FittedModel, extra: Mapping[str, Any] | 
                 for run, base in model.bases.items()
             },
             "tools": [_part_out(part) for part in model.tools],
+            "tool_turns": [
+                {"target": target, "run": run, "rotation": turn.tolist()}
+                for (target, run), turn in model.tool_turns.items()
+            ],
             "effects": [_part_out(part) for part in model.parts],
             "background": [_part_out(part) for part in model.background],
         },
@@ -151,6 +184,10 @@ def load_model(path: Path | str) -> FittedModel:
             tools=tuple(_part_in(part) for part in content["tools"]),
             parts=tuple(_part_in(part) for part in content["effects"]),
             background=tuple(_part_in(part) for part in content["background"]),
+            tool_turns={
+                (turn["target"], turn["run"]): np.array(turn["rotation"], dtype=float)
+                for turn in content.get("tool_turns", [])
+            },
         )
     except KeyError as error:
         raise InputError(path, str(error.args[0]), "nothing", "this key is missing", "Was the file edited?") from error

@@ -20,7 +20,7 @@ from armscope.physics.effect import AXES, Direction, Driver, Placed, Term
 from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain, twist_jacobian
 from armscope.robot.gravity import gravity_wrenches
-from armscope.robot.kinematics import joint_jacobian
+from armscope.robot.kinematics import joint_axes, joint_jacobian, turn_jacobian
 from armscope.robot.parallelogram import Linkage, forearm_deviation
 
 Array = NDArray[np.float64]
@@ -305,6 +305,31 @@ def _gives_way(part: Part) -> bool:
     )
 
 
+@dataclass(frozen=True, eq=False)
+class Lens:
+    """How much of a row's motion counts.
+
+    Attributes:
+        shift: (N, 3, 3) what displacements are multiplied by: the root of a row's weight, and its whitening.
+        turn: (N,) m/rad, by which turns of the tool count beside displacements; None: turns don't count.
+    """
+
+    shift: Array
+    turn: Array | None = None
+
+    @property
+    def numbers(self) -> int:
+        """How many numbers a row has."""
+        return 3 if self.turn is None else 6
+
+    def through(self, shift: Array, turn: Array) -> Array:
+        """(N, 3 or 6) displacements (N, 3), and turns (N, 3) rad where they count, as they are seen."""
+        shifted = np.einsum("nij,nj->ni", self.shift, shift)
+        if self.turn is None:
+            return shifted
+        return np.concatenate([shifted, self.turn[:, None] * turn], axis=1)
+
+
 @dataclass(eq=False)
 class Posture:
     """An arm's frames at N rows with some effects in place, and the columns of further small effects there.
@@ -313,13 +338,13 @@ class Posture:
         scene: rows and drivers.
         frames: where the frames stand, base axes.
         stretch: relative length error of the instrument.
-        lens: (N, 3, 3) through which displacements are seen: a row's weight, and the whitening of its scatter.
+        lens: through which displacements and turns are seen; None: displacements as they are.
     """
 
     scene: Scene
     frames: Chain
     stretch: float = 0.0
-    lens: Array | None = None
+    lens: Lens | None = None
     _levers: dict[Direction, Array] = field(default_factory=dict, repr=False)
 
     @property
@@ -328,32 +353,39 @@ class Posture:
         return self.frames.tool * (1 + self.stretch)
 
     def lever(self, direction: Direction) -> Array:
-        """(N, 3) displacement of the tool point per unit of a direction, m."""
+        """(N, 3) displacement of the tool point per unit of a direction, m; (N, 3 or 6) as a lens shows it."""
         if direction not in self._levers:
-            for each, moved in self._levers_at(direction.location):
-                seen = moved if self.lens is None else np.einsum("nij,nj->ni", self.lens, moved)
+            for each, moved, turned in self._levers_at(direction.location):
+                seen = moved if self.lens is None else self.lens.through(moved, turned)
                 # one component of all rows side by side: products with drivers run along the rows
                 self._levers[each] = np.asfortranarray(seen)
         return self._levers[direction]
 
-    def _levers_at(self, location: str) -> Iterator[tuple[Direction, Array]]:
+    def _levers_at(self, location: str) -> Iterator[tuple[Direction, Array, Array]]:
+        """Each direction at a location, the tool point's displacement and the tool's turn per unit of it."""
         if location == "instrument":
-            yield Direction(location, "scale"), self.frames.tool
+            yield Direction(location, "scale"), self.frames.tool, np.zeros_like(self.frames.tool)
         elif location.startswith("motor"):
             by_motor = joint_jacobian(self.frames) @ self.scene.arm.actuation
+            turned = joint_axes(self.frames) @ self.scene.arm.actuation
             for j in range(by_motor.shape[2]):
-                yield Direction(f"motor {j + 1}", "turn"), by_motor[:, :, j]
+                yield Direction(f"motor {j + 1}", "turn"), by_motor[:, :, j], turned[:, :, j]
         else:
-            jacobian = twist_jacobian(self.frames, location)
+            jacobian, turned = twist_jacobian(self.frames, location), turn_jacobian(self.frames, location)
             for axis, name in enumerate(AXES):
-                yield Direction(location, name), jacobian[:, :, axis]
+                yield Direction(location, name), jacobian[:, :, axis], turned[:, :, axis]
 
-    def through(self, lens: Array) -> Posture:
-        """The same frames, displacements seen through a lens (N, 3, 3)."""
+    @property
+    def numbers(self) -> int:
+        """How many numbers a row's motion has, as it is seen."""
+        return 3 if self.lens is None else self.lens.numbers
+
+    def through(self, lens: Lens) -> Posture:
+        """The same frames, their motions seen through a lens."""
         return replace(self, lens=lens, _levers={})
 
     def column(self, term: Term) -> Array:
-        """(N, 3) displacement of the tool point per SI unit of a term, m."""
+        """(N, 3) displacement of the tool point per SI unit of a term, m; (N, 3 or 6) as a lens shows it."""
         products = term.products
         total = self._product(0, products)
         for number in range(1, len(products)):

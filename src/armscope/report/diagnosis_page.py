@@ -171,6 +171,14 @@ def _tiles(verdict: Verdict) -> list[tuple[str, str, str]]:
     ]
 
 
+def _turns_improved(verdict: Verdict) -> str:
+    """What becomes of the error of orientations, where they were measured."""
+    before, after = verdict.held_out.turn_before, verdict.held_out.turn_after
+    if not (math.isfinite(before) and math.isfinite(after)):
+        return ""
+    return f" Of the orientations it goes from {rounded(before)} to {rounded(after)} mrad RMS per axis."
+
+
 def improvement(verdict: Verdict) -> str:
     """One sentence: how much smaller the error becomes on rows that took no part."""
     before, after = verdict.held_out.before, verdict.held_out.after
@@ -194,7 +202,8 @@ def improvement(verdict: Verdict) -> str:
         spread, everything = verdict.held_out.spread, verdict.held_out.after_all_rows
         apart = f" (± {rounded(spread)} mm from part to part)" if math.isfinite(spread) else ""
         shots = f" With the suspected bad shots it is {millimetres(everything)}." if everything > 1.05 * after else ""
-        return f"{start}falls from {millimetres(before)} to {millimetres(after)} RMS per axis{apart}{noise}.{shots}"
+        falls = f"{start}falls from {millimetres(before)} to {millimetres(after)} RMS per axis{apart}{noise}.{shots}"
+        return f"{falls}{_turns_improved(verdict)}"
     return f"{start}stays where it is: {millimetres(before)} before, {millimetres(after)} after."
 
 
@@ -277,6 +286,14 @@ def assumptions(verdict: Verdict, arm: Arm, recordings: Recordings) -> list[str]
         "Joint angles are the commanded ones, lengths hold at 20 °C, the arm stands still or moves slowly, and each "
         "effect is small: it is found in a linear picture and then fitted exactly.",
     ]
+    if verdict.orientations is not None:
+        seen = verdict.orientations
+        sentences.append(
+            f"Measured orientations ({seen.rows} rows) take part: a turn of the tool counts as much as a shift at a "
+            f"lever of {seen.lever_mm:.0f} mm, the ratio of what the model leaves of points and of orientations "
+            f"({rounded(seen.noise_mrad)} mrad per axis). How the tool is turned on the flange is free. Sizes in mm, "
+            "the atlas and the waterfall speak of the tool point alone."
+        )
     if missing:
         sentences.append(f"Not recorded, so nothing that follows it can be seen: {', '.join(missing)}.")
     if still:

@@ -102,6 +102,18 @@ def twist_jacobian(frames: Chain, location: str) -> Array:
     return jacobian
 
 
+def turn_jacobian(frames: Chain, location: str) -> Array:
+    """(N, 3, 6) turn of the tool, in base axes, by a unit twist in the axes of the frame at ``location``."""
+    jacobian = np.zeros((len(frames.tool), 3, 6))
+    jacobian[..., 3:] = frames.frame(location)[0]
+    return jacobian
+
+
+def joint_axes(frames: Chain) -> Array:
+    """(N, 3, n) axes of the chain's joints in base axes: the turn of the tool by unit turns of the joints."""
+    return np.swapaxes(frames.joint_rotation[..., 2], 1, 2)
+
+
 def joint_jacobian(frames: Chain) -> Array:
     """(N, 3, n) displacement of the tool point by unit turns of the chain's joints, m/rad, in base axes."""
     axes = frames.joint_rotation[..., 2]
