@@ -8,7 +8,7 @@ from armscope.diagnosis.verdict import Parameter
 from armscope.report.arm_picture import draw_arm, share_colours, shares_by_place
 from armscope.report.arm_shape import arm_shape, typical_pose
 from armscope.report.atlas_figure import draw_atlas
-from armscope.report.diagnosis_figures import atlas_tables, curve_of, location_shares, waterfall_steps
+from armscope.report.diagnosis_figures import atlas_tables, curve_of, gathered, location_shares, waterfall_steps
 from armscope.report.pose_figure import draw_poses
 from armscope.report.residual_vectors import draw_along_joints, draw_vectors, evenly, nice, running_mean
 from armscope.report.waterfall import draw_waterfall
@@ -152,6 +152,13 @@ def test_steps_are_in_words_and_a_step_that_nobody_asked_for_is_left_out():
     ]  # fmt: skip
     ordinary = verdicts.case(effects=(found("backlash", "joint 1"),), waterfall=steps).verdict
     assert len(waterfall_steps(ordinary)) == 3
+
+
+def test_minor_steps_in_a_row_are_drawn_as_one():
+    steps = [verdicts.WaterfallStep(f"+ {n}", 1.0, 1.0 - n / 10, minor=n in (2, 4, 5)) for n in range(7)]
+    drawn = gathered(steps)
+    assert [s.label for s in drawn] == ["+ 0", "+ 1", "+ 2", "+ 3", "+ 2 minor effects", "+ 6"]
+    assert drawn[4].held_out_mm == 0.5
 
 
 def test_arrows_have_the_stated_scale_and_long_tables_are_thinned():

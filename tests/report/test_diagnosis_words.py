@@ -1,4 +1,5 @@
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ from hypothesis import strategies as st
 from armscope.diagnosis.verdict import Curve, Parameter
 from armscope.physics.registry import EFFECTS
 from armscope.report.diagnosis_figures import location_shares
-from armscope.report.effect_cards import card, chosen_how_often, told_parameters
+from armscope.report.effect_cards import card, chosen_how_often, title_of, told_parameters
 from armscope.report.headline import exact_phrase, headline
 from armscope.report.page import unbroken
 from armscope.report.reference_models import held_out_rms
@@ -278,3 +279,13 @@ def test_a_drift_that_follows_the_rows_is_not_told_per_hour():
     drift = found("base_drift", "base", *told, driver="order of rows, with a pause before row 56")
     said = headline(verdicts.case(effects=(drift,)).verdict)
     assert said.startswith("The base drifts by 0.17 mm per 1000 rows, with a pause before row 56")
+
+
+def test_a_jump_is_told_with_the_row_and_the_run_in_which_it_happened():
+    shift = replace(
+        found("base_shift", "base", Parameter("x", "mm", 1.0, 0.1), Parameter("row", "", 163.0, 0.5)),
+        driver="order of rows, run monday", title="base shift at base",
+    )  # fmt: skip
+    assert title_of(shift) == "base shift at base, from row 163 of run monday"
+    assert title_of(replace(shift, driver="order of rows")) == "base shift at base, from row 163"
+    assert title_of(replace(shift, effect="base_drift")) == "base shift at base"

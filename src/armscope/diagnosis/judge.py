@@ -74,6 +74,7 @@ def judge(
     tell("drawing the atlas", 0.9)
     background = told_backgrounds(evidence, search, gram, of_families)
     named = [with_weight(found[c], background) for c in order]
+    waterfall = _with_weights(waterfall, named)
     scattered = [s for s in scattered_effects(evidence, variance) if not rest_of_a_curve(s, named)]
     over = carry_over(problem, evidence.blocks, evidence.layout, best, evidence.point, evidence.recordings, fit.weights)
     named = [replace(e, carries_over=over.get(c, "")) for c, e in zip(order, named, strict=True)]
@@ -111,6 +112,12 @@ def judge(
         orientations=_orientations(evidence),
     )
     return replace(draft, headline=headline(draft))
+
+
+def _with_weights(waterfall: Sequence[WaterfallStep], named: Sequence[FoundEffect]) -> tuple[WaterfallStep, ...]:
+    """The steps, which start with no effect and add one each, with those of minor effects told."""
+    minor = [False, *(effect.minor for effect in named)]
+    return tuple(replace(step, minor=n < len(minor) and minor[n]) for n, step in enumerate(waterfall))
 
 
 def _held(model: FittedModel, recordings: Recordings) -> FittedModel:

@@ -136,13 +136,15 @@ class Background:
 class WaterfallStep:
     """RMS per axis with one effect more than in the step before: on the fitted rows and on held-out rows, mm.
 
-    ``spread_mm``: standard deviation of the held-out RMS from fold to fold; NaN with a single fold.
+    ``spread_mm``: standard deviation of the held-out RMS from fold to fold; NaN with a single fold. ``minor``: the
+    effect is apart from the story.
     """
 
     label: str
     fitted_mm: float
     held_out_mm: float
     spread_mm: float = float("nan")
+    minor: bool = False
 
 
 @dataclass(frozen=True)

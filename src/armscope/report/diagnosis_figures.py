@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -64,7 +65,7 @@ def save_all(
     if verdict.atlas is not None and np.isfinite(verdict.atlas.share).any():
         shares, left, marked = atlas_tables(verdict.atlas, verdict.effects)
         keep("atlas", draw_atlas(shares, marked, left), "Map of the share of the mismatch by location and driver")
-    known = [step for step in waterfall_steps(verdict) if np.isfinite(step.held_out_mm)]
+    known = gathered([step for step in waterfall_steps(verdict) if np.isfinite(step.held_out_mm)])
     if known:
         noise = verdict.noise_mm if np.isfinite(verdict.noise_mm) else None
         steps, spreads = [(step.label, step.held_out_mm) for step in known], [step.spread_mm for step in known]
@@ -119,6 +120,17 @@ def waterfall_steps(verdict: Verdict) -> list[WaterfallStep]:
         replace(step, label=f"+ {plain(step.label)}" if number else "base and tool placed, no effect")
         for number, step in enumerate(steps)
     ]
+
+
+def gathered(steps: Sequence[WaterfallStep]) -> list[WaterfallStep]:
+    """The steps with minor effects that follow one another taken as one: together they are hardly to be seen."""
+    together: list[WaterfallStep] = []
+    for minor, group in itertools.groupby(steps, lambda step: step.minor):
+        members = list(group)
+        if minor and len(members) > 1:
+            members = [replace(members[-1], label=f"+ {len(members)} minor effects")]
+        together += members
+    return together
 
 
 def worth_drawing(effect: FoundEffect) -> bool:

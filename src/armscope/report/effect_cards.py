@@ -108,7 +108,17 @@ def title_of(effect: FoundEffect) -> str:
     """The name at the level that the evidence allows; a free curve is told by what it follows."""
     if effect.effect == "unknown" and effect.named_as == "effect" and effect.curve is not None:
         return f"{effect.location}: unexplained curve that follows the {effect.driver}"
-    return plain(effect.title) or effect_in_words(effect.effect, effect.location)
+    return (plain(effect.title) or effect_in_words(effect.effect, effect.location)) + _since(effect)
+
+
+def _since(effect: FoundEffect) -> str:
+    """From when on a jump holds: several of one kind differ in nothing else."""
+    moment = next((p for p in effect.parameters if p.name in ("row", "time")), None)
+    if not effect.effect.endswith("_shift") or moment is None:
+        return ""
+    run = effect.driver.partition(", run ")[2]
+    at = f"row {moment.value:g}" if moment.name == "row" else f"{moment.value:g} s"
+    return f", from {at} of run {run}" if run else f", from {at}"
 
 
 def reading_of(parameter: Parameter, effect: FoundEffect) -> Reading:
