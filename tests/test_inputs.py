@@ -1,5 +1,7 @@
 """One clear error: file, place, value, rule, cure."""
 
+from typing import Annotated, Literal
+
 import pydantic
 import pytest
 import yaml
@@ -59,9 +61,51 @@ def test_a_key_that_stands_twice_is_not_silently_dropped(tmp_path):
         read_yaml(written(tmp_path, "a: 1\na: 2\n"))
 
 
+def test_a_key_that_can_not_be_one_is_an_error_with_its_place(tmp_path):
+    with pytest.raises(InputError, match=r"line 1, column 3.*\['a', 'b'\]"):
+        read_yaml(written(tmp_path, "? [a, b]\n: 1\n"))
+
+
+def test_a_misspelt_key_is_named_before_what_is_then_missing(tmp_path):
+    with pytest.raises(InputError, match=r"rows\[0\].a_m: .*Did you mean 'a_mm'"):
+        load(Outer, written(tmp_path, "name: arm\nrows: [{a_m: 1}]\n"))
+
+
+class Round(Strict):
+    kind: Literal["round"]
+    radius: float
+
+
+class Square(Strict):
+    kind: Literal["square"]
+    side: float
+
+
+class Shapes(Strict):
+    shapes: tuple[Annotated[Round | Square, pydantic.Field(discriminator="kind")], ...]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("shapes: [{kind: round, radius: a}]", r"shapes\[0\].radius: found 'a'"),
+        ("shapes: [{kind: round, radios: 1}]", r"shapes\[0\].radios: .*Did you mean 'radius'"),
+        ("shapes: [{kind: round}]", r"shapes\[0\].radius: found nothing"),
+        ("shapes: 1", "shapes: found 1; input should be a list"),
+    ],
+)
+def test_a_place_is_as_the_user_wrote_it_whatever_alternatives_were_tried(tmp_path, text, message):
+    with pytest.raises(InputError, match=message):
+        load(Shapes, written(tmp_path, text))
+
+
 def test_a_missing_file_is_named(tmp_path):
     with pytest.raises(InputError, match="no_such"):
         read_yaml(tmp_path / "no_such.yaml")
+
+
+def test_the_nearest_name_differs_in_capitals_first():
+    assert nearest("q2_rad", ["q1_rad", "Q2_Rad", "q3_rad"]) == "Did you mean 'Q2_Rad'?"
 
 
 def test_nearest_lists_what_is_known_when_nothing_is_close():

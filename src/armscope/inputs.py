@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Hashable, Iterable
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -40,7 +40,8 @@ def _quote(value: object) -> str:
 def nearest(name: str, known: Iterable[str]) -> str:
     """A sentence that names the known spelling closest to ``name``, or lists what is known."""
     known = sorted(known)
-    close = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
+    in_small = [each for each in known if each.strip().lower() == name.strip().lower()]
+    close = in_small or difflib.get_close_matches(name, known, n=1, cutoff=0.5)
     return f"Did you mean {close[0]!r}?" if close else "Known: " + ", ".join(known) + "."
 
 
@@ -74,6 +75,8 @@ class _UniqueKeyLoader(yaml.SafeLoader):
         seen = set()
         for key_node, _ in node.value:
             key = self.construct_object(key_node, deep=True)
+            if not isinstance(key, Hashable):
+                raise yaml.constructor.ConstructorError(None, None, f"the key {key!r}", key_node.start_mark)
             if key in seen:
                 raise yaml.constructor.ConstructorError(None, None, f"the key {key!r} twice", key_node.start_mark)
             seen.add(key)
@@ -85,14 +88,15 @@ def validate(model: type[Model], content: Any, file: object) -> Model:
     try:
         return model.model_validate(content)
     except pydantic.ValidationError as error:
-        problem = error.errors()[0]
-        place = _dotted(problem["loc"])
+        # a key that is misspelt comes before what is then missing
+        problem = min(error.errors(), key=lambda each: each["type"] != "extra_forbidden")
+        place = _dotted(_as_written(content, problem["loc"]))
         if problem["type"] == "extra_forbidden":
             known = _keys_at(model, problem["loc"][:-1])
             key = str(problem["loc"][-1])
             raise InputError(file, place, key, "this key is not known here", nearest(key, known)) from error
-        found = "nothing" if problem["type"] == "missing" else problem["input"]
-        rule = problem["msg"].removeprefix("Value error, ")
+        found = "nothing" if problem["type"] == "missing" else problem["input"] if place else "no consistent content"
+        rule = problem["msg"].removeprefix("Value error, ").replace("valid tuple", "list")
         raise InputError(file, place, found, rule[0].lower() + rule[1:]) from error
 
 
@@ -110,6 +114,25 @@ def folder_of(path: Path | str, what: str) -> Path:
     if not path.is_dir():
         raise InputError(path, "", "no folder", f"the folder of {what} is needed here")
     return path
+
+
+def _as_written(content: Any, location: tuple[int | str, ...]) -> tuple[int | str, ...]:
+    """A location without the names of the alternatives that a value was tried as."""
+    written: list[int | str] = []
+    for number, part in enumerate(location):
+        if isinstance(part, str) and isinstance(content, dict) and part not in content and number + 1 < len(location):
+            continue
+        if not (isinstance(part, str) and not isinstance(content, dict)):
+            written.append(part)
+        content = _inside(content, part)
+    return tuple(written)
+
+
+def _inside(content: Any, part: int | str) -> Any:
+    try:
+        return content[part]
+    except (KeyError, IndexError, TypeError):
+        return content
 
 
 def _dotted(location: tuple[int | str, ...]) -> str:

@@ -70,7 +70,11 @@ def complaint(file, **options):
         pytest.param(table(*ROWS).replace(",", ";"), ["line 1", "commas"], id="semicolons"),
         pytest.param("", ["line 1", "nothing", "names the columns"], id="empty file"),
         pytest.param(HEADER + "\n", ["row 2", "nothing", "one measured row"], id="header only"),
-        pytest.param(table(ROWS[0], "", ROWS[1]), ["row 3", "nothing"], id="blank line"),
+        pytest.param(table(ROWS[0], "", ROWS[1]), ["row 3", "nothing", "blank line"], id="blank line"),
+        pytest.param(changed(1, "x_mm", '"101'), ["quotation mark"], id="a quotation mark that is never closed"),
+        pytest.param(table('"' + ROWS[0], *ROWS * 20_000), ["line", "quotation mark"], id="never closed, long file"),
+        pytest.param(changed(1, "x_mm", "1e308"), ["row 3", "x_mm", "1e+308", "no recorded value"], id="huge"),
+        pytest.param(changed(1, "x_mm", "1.5e7"), ["row 3", "x_mm", "10 km"], id="beyond any instrument"),
     ],
 )
 def test_one_error_that_says_where_what_and_how_to_mend_it(tmp_path, text, words):
@@ -86,7 +90,13 @@ def test_one_error_that_says_where_what_and_how_to_mend_it(tmp_path, text, words
         ({"qw": 1, "qx": 0, "qy": 0, "qz": 1}, ["row 2", "quaternion", "length"]),
         ({"approach1": 1}, ["no column approach2"]),
         ({"approach1": 1, "approach2": 3}, ["row 2", "approach2", "3", "-1 or +1"]),
-        ({"sigma_mm": -1}, ["row 2", "sigma", "-1", "not negative"]),
+        ({"qw": 1, "qx": 0, "qy": 0, "qz": ""}, ["row 2", "qw ... qz", "3 of 4", "whole"]),
+        ({"sigma_mm": -1}, ["row 2", "sigma_mm", "-1", "not negative"]),
+        ({"sigma_mm": 1e12}, ["row 2", "sigma_mm", "10 km"]),
+        ({"sigma_mm": 1, "sigma_x_mm": 1, "sigma_y_mm": 1, "sigma_z_mm": 1}, ["sigma_mm and sigma_x_mm"]),
+        ({"payload_kg": -2}, ["row 2", "payload_kg", "-2", "not negative"]),
+        ({"temperature_c": -300}, ["row 2", "temperature_c", "-300", "absolute zero"]),
+        ({"tau1_nm": 1e200, "tau2_nm": 0}, ["row 2", "tau1_nm", "no recorded value"]),
         ({"sigma_x_mm": 1}, ["no column sigma_y_mm"]),
         ({"temperature_c": "warm"}, ["row 2", "temperature_c", "'warm'", "number"]),
         ({"payload_kg": "1,5"}, ["payload_kg"]),
@@ -118,12 +128,46 @@ def test_a_file_that_is_not_text(tmp_path):
     assert "UTF-8" in complaint(file)
 
 
+def test_words_that_pandas_takes_for_nothing_stay_words(tmp_path):
+    text = table(*[row + ",NA,None" for row in ROWS], header=HEADER + ",run,target").replace("\n1,", "\nnull,")
+    read = read_recordings(write(tmp_path, text))
+    assert read.run.tolist() == ["NA"] * 3
+    assert read.target.tolist() == ["None"] * 3
+    assert read.id.tolist() == ["null", "2", "3"]
+
+
 def test_a_broken_gzip_file(tmp_path):
     file = tmp_path / "recordings.csv.gz"
-    file.write_bytes(gzip.compress(table(*ROWS * 200).encode())[:-20])
-    complaint(file)
-    file.write_bytes(table(*ROWS).encode())
-    complaint(file)
+    whole = gzip.compress(table(*ROWS * 200).encode())
+    for broken in (whole[:-20], whole[:30], whole[:5], whole[:40] + b"something else"):
+        file.write_bytes(broken)
+        assert "no readable file" in complaint(file)
+
+
+def test_compression_is_told_by_the_content_whatever_the_name(tmp_path):
+    plain = write(tmp_path, table(*ROWS), name="recordings.csv.gz")
+    packed = tmp_path / "recordings.csv"
+    packed.write_bytes(gzip.compress(table(*ROWS).encode()))
+    assert len(read_recordings(plain)) == len(read_recordings(packed)) == 3
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"PK\x03\x04" + bytes(range(200)), ["Excel", "Save the sheet as CSV"]),
+        (b"MATLAB 5.0 MAT-file" + bytes(200), ["MATLAB file", "armscope import"]),
+        (table(*ROWS).encode("utf-16"), ["UTF-16", "Save it as UTF-8"]),
+        (b"\x80\x04\x95", ["never loaded"]),
+        (b"\x93NUMPY\x01\x00", ["never loaded"]),
+        (table(*ROWS, "4,0.1,0.2,\u00b0,2,3").encode("latin-1"), ["line 5", "0xb0", "UTF-8"]),
+    ],
+)
+def test_another_kind_of_file_is_named_by_what_it_is(tmp_path, content, words):
+    file = tmp_path / "recordings.csv"
+    file.write_bytes(content)
+    message = complaint(file)
+    for word in words:
+        assert word in message, message
 
 
 def test_half_an_angle_unit_is_an_error(tmp_path):
@@ -134,7 +178,7 @@ def test_half_an_angle_unit_is_an_error(tmp_path):
 @pytest.mark.parametrize("second", ["q1_deg", "y_m"])
 def test_one_quantity_in_two_units_is_ambiguous(tmp_path, second):
     text = table(*[row + ",5" for row in ROWS], header=f"{HEADER},{second}")
-    assert f"{second}; one unit" in complaint(write(tmp_path, text)).replace("'", "")
+    assert f"{second}; one column" in complaint(write(tmp_path, text)).replace("'", "")
 
 
 def test_nothing_of_this_touches_a_good_table(tmp_path):

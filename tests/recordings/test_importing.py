@@ -140,6 +140,27 @@ def test_time_stamps_become_seconds_since_the_first_row_of_their_run(tmp_path):
     assert table["time_s"].tolist() == [0, 62, -1]
 
 
+def test_time_stamps_count_from_the_first_one_there_is_whatever_their_zone(tmp_path):
+    mapping = with_columns(time={"column": "t", "format": "%Y-%m-%dT%H:%M:%S%z"})
+    raw = "t,j1,j2,x,y,z\n,0,0,1,2,3\n2024-01-01T10:00:00+0100,0,0,1,2,3\n2024-01-01T10:00:00+0000,0,0,1,2,3\n"
+    _, table = convert(tmp_path, raw, mapping)
+    assert np.isnan(table["time_s"][0])
+    assert table["time_s"][1:].tolist() == [0, 3600]
+
+
+def test_seconds_since_1970_keep_their_milliseconds(tmp_path):
+    mapping = with_columns(time={"column": "t", "unit": "ms"})
+    _, table = convert(tmp_path, "t,j1,j2,x,y,z\n1732190000123,0,0,1,2,3\n,0,0,1,2,3\n", mapping)
+    assert table["time_s"][0] == 1732190000.123
+    assert np.isnan(table["time_s"][1])
+
+
+def test_a_run_may_have_a_text_format_of_its_own(tmp_path):
+    mapping = SIMPLE | {"runs": [{"run": "r", "file": "raw.csv", "format": {"delimiter": ";", "decimal": ","}}]}
+    _, table = convert(tmp_path, "j1;j2;x;y;z\n0;0;1,5;2;3\n", mapping)
+    assert table["x_mm"].tolist() == [1.5]
+
+
 def test_a_wrong_time_stamp_is_named(tmp_path):
     mapping = with_columns(time={"column": "t", "format": "%Y%m%d%H%M%S"})
     with pytest.raises(InputError, match=r"line 2, column t.*'2,02011E\+13'"):
@@ -198,8 +219,8 @@ def test_rows_of_a_file_beside_are_repeated_for_the_points_of_each_configuration
 
 
 def test_the_table_that_comes_out_is_one_that_the_reader_takes(tmp_path):
-    mapping = with_columns(orientation={"quaternion": ["x", "y", "z", "w"], "order": "xyzw"})
-    convert(tmp_path, "j1,j2,x,y,z,w\n0,0,0.6,0,0,0.8\n", mapping, "out.csv.gz")
+    mapping = with_columns(orientation={"quaternion": ["a", "b", "c", "w"], "order": "xyzw"})
+    convert(tmp_path, "j1,j2,x,y,z,a,b,c,w\n0,0,1,2,3,0.6,0,0,0.8\n", mapping, "out.csv.gz")
     assert gzip.decompress((tmp_path / "out.csv.gz").read_bytes()).startswith(b"id,run,q1_rad")
     recordings = read_recordings(tmp_path / "out.csv.gz", n_motors=2)
     np.testing.assert_allclose(recordings.orientation, [[0.8, 0.6, 0, 0]])
@@ -307,6 +328,6 @@ def test_matrices_that_are_no_poses_are_refused(tmp_path):
 
 
 def test_a_quaternion_that_is_not_of_unit_length_is_refused(tmp_path):
-    mapping = with_columns(orientation={"quaternion": ["x", "y", "z", "w"], "order": "xyzw"})
+    mapping = with_columns(orientation={"quaternion": ["a", "b", "c", "w"], "order": "xyzw"})
     with pytest.raises(InputError, match=r"line 2.*length 1, this one 1\.26"):
-        convert(tmp_path, "j1,j2,x,y,z,w\n0,0,0.6,0,0,1.1091\n", mapping)
+        convert(tmp_path, "j1,j2,x,y,z,a,b,c,w\n0,0,1,2,3,0.6,0,0,1.1091\n", mapping)

@@ -26,6 +26,38 @@ SHARED = ROOT.parent / "shared" / "recordings"
         ("j1,j2,x,y,z\n0;0;1;2;3\n", SIMPLE, "line 2.*delimiter really"),
         ("j1,j2,x,y,z\n0,0,1,2,3\n0,0,one,2,3\n", SIMPLE, "line 3, column x: found 'one'"),
         ("j1,j2,x,y,z\n0,0,inf,2,3\n", SIMPLE, "finite"),
+        ("j1,j2,x,y,z\n0,0,1e308,2,3\n", SIMPLE, "line 2, column x: found '1e308'; no recorded value.*`missing`"),
+        ("j1,j2,x,y,z\n0,0,1,2e8,3\n", SIMPLE, r"line 2, column y: found '2e\+08'.*10 km.*really mm"),
+        ("j1,j2,x,y,z\n0,0,1,2,3\n", SIMPLE | {"format": {"delimiter": "tab"}}, "no column j1.*delimiter really 'tab'"),
+        ('j1,j2,x,y,z\n0,0,"1,2,3\n0,0,1,2,3\n', SIMPLE, "line 2: found '3 values'.*quotation mark"),
+        ('j1,j2,x,y,z\n0,0,1,2,3\n"' + "0,0,1,2,3\n" * 20_000, SIMPLE, "line 3: .*quotation mark"),
+        (
+            "j1,j2,x,y,z,a,b,c\n0,0,1,2,3,,1,2\n",
+            with_columns(orientation={"euler": ["a", "b", "c"], "sequence": "XYZ", "unit": "deg"}),
+            "line 2, column a: found nothing.*whole",
+        ),
+        (
+            "j1,j2,x,y,z,a,b,c,d\n0,0,1,2,3,,,,\n0,0,1,2,3,1,0,0,\n",
+            with_columns(orientation={"quaternion": ["a", "b", "c", "d"], "order": "wxyz"}),
+            "line 3, column d: found nothing.*whole",
+        ),
+        (
+            "j1,j2,x,y,z,a,b,c\n0,0,1,2,3,0,170,2\n",
+            with_columns(orientation={"euler": ["a", "b", "c"], "sequence": "XYZ", "unit": "rad"}),
+            "line 2, column b: found '170'.*unit: deg",
+        ),
+        (
+            "j1,j2,x,y,z,a,b\n0,0,1,2,3,1,2\n",
+            with_columns(approach={"columns": ["a", "b"]}),
+            "line 2, column b: found '2'.*-1 or",
+        ),
+        (
+            "j1,j2,x,y,z,s\n0,0,1,2,3,-1\n",
+            with_columns(sigma={"columns": ["s", "s", "s"], "unit": "mm"}),
+            "line 2, column s: found '-1'.*not negative",
+        ),
+        ("j1,j2,x,y,z\n0,0,1,2,3\n", with_columns(payload={"constant": -2}), "found '-2'; a payload is not negative"),
+        ("j1,j2,x,y,z\n0,0,1,2,-300\n", with_columns(temperature={"column": "z"}), "column z.*absolute zero"),
         ("j1,j2,x,y,z\n0,0,1_0,2,3\n", SIMPLE, "'1_0'"),
         ("j1;j2;x;y;z\n0;0;1,5;2.5;3\n", with_format(delimiter=";", decimal=","), r"column y: found '2\.5'.*another"),
         ("j1;j2;x;y;z\n0;0;1.5;2,5;3\n", with_format(delimiter=";"), "column y: found '2,5'.*another"),
@@ -69,6 +101,33 @@ def test_bad_raw_files_are_one_clear_error_and_nothing_is_written(raw, mapping, 
         ({"runs": [{"run": "a", "file": "other.csv"}]}, "no file other.csv"),
         ({"runs": [{"run": "a", "file": "raw.csv"}, {"run": "a", "file": "raw.csv"}]}, "stands twice"),
         ({"rows": [{"first_of": ["x"], "drop_missing": ["x"]}]}, "one rule"),
+        ({"rows": [{"between": {"column": "x"}}]}, "`low`, `high` or both"),
+        ({"rows": [{"between": {"column": "x", "low": 2, "high": 1}}]}, "above `high`"),
+        (
+            {"columns": {**SIMPLE["columns"], "angles": {"colums": ["j1", "j2"], "unit": "rad"}}},
+            "Did you mean 'columns'",
+        ),
+        (
+            {"columns": {**SIMPLE["columns"], "angles": {"columns": ["j1", "j1"], "unit": "rad"}}},
+            "'j1' is one quantity",
+        ),
+        ({"columns": {**SIMPLE["columns"], "angles": {"columns": ["j1", "x"], "unit": "rad"}}}, "'x' is one quantity"),
+        (with_columns(time={"column": "x", "format": "%Q"}), "directives of strftime: 'Q'"),
+        (
+            {
+                "runs": [
+                    {"run": "a", "file": "raw.csv"},
+                    {"run": "b", "file": "b.csv", "columns": {"angles": {"columns": ["j1"], "unit": "rad"}}},
+                ]
+            },
+            "no consistent content; .*not a: 2, b: 1",
+        ),
+        (
+            with_columns(angles={"columns": ["w:j1", "w:j2"], "unit": "rad"})
+            | {"runs": [{"run": "a", "file": "raw.csv", "beside": [{"file": "raw.csv", "name": "angles"}]}]},
+            "no file beside is called 'w' .*Known: angles",
+        ),
+        (with_columns(id={"row_of": "angles"}), "no file beside is called 'angles'.*no `beside`"),
     ],
 )
 def test_a_mapping_that_can_not_be_is_one_clear_error(change, message, tmp_path):
@@ -86,10 +145,53 @@ def test_a_raw_file_that_no_run_wants_is_named(tmp_path):
 
 def test_a_broken_archive_is_one_clear_error(tmp_path):
     whole = gzip.compress(b"j1,j2,x,y,z\n0,0,1,2,3\n" * 50)
-    for content in (whole[: len(whole) // 2], b"j1,j2,x,y,z\n0,0,1,2,3\n"):
+    for content in (whole[: len(whole) // 2], whole[:5], whole[:30] + b"something else entirely"):
         (tmp_path / "raw.csv.gz").write_bytes(content)
-        with pytest.raises(InputError, match="plain or gzipped"):
+        with pytest.raises(InputError, match=r"plain or gzipped|no readable file"):
             convert_files(tmp_path, [tmp_path / "raw.csv.gz"], SIMPLE)
+        assert not (tmp_path / "out.csv").exists()
+
+
+@pytest.mark.parametrize("name", ["raw.csv", "raw.csv.gz", "raw.txt"])
+@pytest.mark.parametrize("packed", [True, False])
+def test_compression_is_told_by_the_content_whatever_the_name(name, packed, tmp_path):
+    text = b"j1,j2,x,y,z\n0,0,1,2,3\n"
+    (tmp_path / name).write_bytes(gzip.compress(text) if packed else text)
+    assert len(convert_files(tmp_path, [tmp_path / name], SIMPLE)[1]) == 1
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b"PK\x03\x04" + bytes(200), "Excel workbook.*Save the sheet as CSV"),
+        (b"MATLAB 5.0 MAT-file" + bytes(200), "MATLAB file.*kind: matlab"),
+        ("j1,j2,x,y,z\n".encode("utf-16"), "UTF-16.*encoding: utf-16"),
+        (b"j1,j2,x,y,z\n0,0,1,2,3\n0,0,1,2,\xb0\n", r"line 3.*0xb0 after '0,0,1,2,'.*encoding"),
+    ],
+)
+def test_another_kind_of_file_is_named_by_what_it_is(content, message, tmp_path):
+    (tmp_path / "raw.csv").write_bytes(content)
+    with pytest.raises(InputError, match=message):
+        convert_files(tmp_path, [tmp_path / "raw.csv"], SIMPLE)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "UTF8", "utf-8-sig"])
+def test_a_byte_order_mark_is_passed_over_however_utf8_is_spelt(encoding, tmp_path):
+    (tmp_path / "raw.csv").write_bytes(b"\xef\xbb\xbfj1,j2,x,y,z\n0,0,1,2,3\n")
+    assert len(convert_files(tmp_path, [tmp_path / "raw.csv"], with_format(encoding=encoding))[1]) == 1
+
+
+def test_utf_16_is_read_where_it_is_declared(tmp_path):
+    (tmp_path / "raw.csv").write_bytes("j1,j2,x,y,z\n0,0,1,2,3\n".encode("utf-16"))
+    assert len(convert_files(tmp_path, [tmp_path / "raw.csv"], with_format(encoding="utf-16"))[1]) == 1
+
+
+@pytest.mark.parametrize("output", ["raw.csv", "mapping.yaml", "."])
+def test_an_import_never_writes_over_what_it_reads(output, tmp_path):
+    with pytest.raises(InputError, match="is written to a file"):
+        convert(tmp_path, "j1,j2,x,y,z\n0,0,1,2,3\n", SIMPLE, output)
+    assert (tmp_path / "raw.csv").read_text().startswith("j1")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["mapping.yaml", "raw.csv"]
 
 
 def test_text_that_is_not_utf8_asks_for_its_encoding_and_is_read_with_it(tmp_path):

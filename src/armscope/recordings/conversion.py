@@ -12,7 +12,7 @@ from armscope.inputs import InputError
 from armscope.recordings.mapping import Column, Columns, Label, Orientation, Scalar, Time
 from armscope.recordings.orientations import NotARotation, from_euler, from_matrices, from_quaternions
 from armscope.recordings.pieces import Piece
-from armscope.recordings.table import LARGEST_ANGLE_RAD, UNITS
+from armscope.recordings.table import ABSOLUTE_ZERO_C, LARGEST_ANGLE_RAD, LARGEST_POSITION_M, UNITS
 
 Array = NDArray[np.float64]
 TIME_UNITS = {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0}
@@ -95,12 +95,19 @@ class Converter:
             orientation: Array | None = self._rotation(
                 piece, columns.pose.matrix, lambda: from_matrices(matrix[:, :3, :3])
             )
+            self._check_lengths(piece, tuple(columns.pose.matrix[k] for k in (3, 7, 11)), position, columns.pose.unit)
         else:
             assert columns.position is not None
             position = self._required(piece, columns.position.columns) * UNITS[columns.position.unit]
+            self._check_lengths(piece, columns.position.columns, position, columns.position.unit)
             orientation = None if columns.orientation is None else self._orientation(piece, columns.orientation)
         measured = _named(["x_mm", "y_mm", "z_mm"], position * 1e3)
         return measured if orientation is None else measured | _named(["qw", "qx", "qy", "qz"], orientation)
+
+    def _check_lengths(self, piece: Piece, columns: tuple[Column, ...], lengths: Array, unit: str) -> None:
+        rule = f"a measured point lies within {LARGEST_POSITION_M / 1e3:g} km of its frame's origin"
+        cure = f"Is its unit really {unit}?"
+        _refuse(piece, columns, lengths / UNITS[unit], np.abs(lengths) > LARGEST_POSITION_M, rule, cure)
 
     def _check_last_row(self, piece: Piece, matrix: Array) -> None:
         assert self.columns.pose is not None
@@ -118,14 +125,18 @@ class Converter:
         if group.quaternion is not None:
             assert group.order is not None
             order = group.order
-            values = piece.stack(group.quaternion)
+            values = _whole(piece, group.quaternion)
             return self._rotation(piece, group.quaternion, lambda: from_quaternions(values, order))
         if group.euler is not None:
             assert group.unit is not None
             assert group.sequence is not None
-            return from_euler(piece.stack(group.euler) * UNITS[group.unit], group.sequence)
+            angles = _whole(piece, group.euler)
+            cure = "Are these degrees? Then say unit: deg." if group.unit == "rad" else ""
+            far = np.abs(angles * UNITS[group.unit]) > LARGEST_ANGLE_RAD
+            _refuse(piece, group.euler, angles, far, f"an Euler angle in {group.unit} lies within two turns", cure)
+            return from_euler(angles * UNITS[group.unit], group.sequence)
         assert group.matrix is not None
-        matrices = piece.stack(group.matrix).reshape(-1, 3, 3)
+        matrices = _whole(piece, group.matrix).reshape(-1, 3, 3)
         return self._rotation(piece, group.matrix, lambda: from_matrices(matrices))
 
     def _rotation(self, piece: Piece, columns: tuple[Column, ...], convert: object) -> Array:
@@ -148,15 +159,20 @@ class Converter:
             context |= _named([f"dq{j + 1}_rad_s" for j in range(speeds.shape[1])], speeds)
         if columns.approach is not None:
             sides = piece.stack(columns.approach.columns)
+            wrong = ~np.isin(sides, [-1, 0, 1]) & ~np.isnan(sides)
+            _refuse(piece, columns.approach.columns, sides, wrong, "the side of approach is -1 or +1")
             context |= _named([f"approach{j + 1}" for j in range(sides.shape[1])], sides)
         if columns.payload is not None:
-            context["payload_kg"] = _scalar(piece, columns.payload)
+            context["payload_kg"] = _scalar(piece, columns.payload, 0.0, "a payload is not negative")
         if columns.time is not None:
             context["time_s"] = self._time(piece, columns.time)
         if columns.temperature is not None:
-            context["temperature_c"] = _scalar(piece, columns.temperature)
+            rule = "no temperature is below absolute zero"
+            context["temperature_c"] = _scalar(piece, columns.temperature, ABSOLUTE_ZERO_C, rule)
         if columns.sigma is not None:
             sigma = piece.stack(columns.sigma.columns) * UNITS[columns.sigma.unit] * 1e3
+            rule = "an uncertainty is not negative"
+            _refuse(piece, columns.sigma.columns, sigma, (sigma < 0) | (sigma > LARGEST_POSITION_M * 1e3), rule)
             context |= _named([f"sigma_{axis}_mm" for axis in "xyz"], sigma)
         return context
 
@@ -164,25 +180,55 @@ class Converter:
         if group.unit is not None:
             return piece.numbers(group.column) * TIME_UNITS[group.unit]
         words = pd.Series(piece.words(group.column), dtype=object)
-        stamps = pd.to_datetime(words, format=group.format, errors="coerce")
+        stamps = self._stamps(piece, group, words)
+        if self.start is None:
+            if not stamps.notna().any():
+                return np.full(len(piece), np.nan)
+            self.start = stamps[stamps.first_valid_index()]
+        return np.asarray((stamps - self.start).dt.total_seconds(), dtype=float)
+
+    @staticmethod
+    def _stamps(piece: Piece, group: Time, words: pd.Series) -> pd.Series:
+        """Time stamps, one zone for all; NaT where there is none."""
+        stamps = pd.to_datetime(words, format=group.format, errors="coerce", utc=True)
         wrong = np.flatnonzero(stamps.isna() & (words != ""))
         if len(wrong):
             place = piece.place(int(wrong[0]), (group.column,))
             rule = f"a time stamp is written as {group.format}"
             raise InputError(piece.rows.source, place, words[wrong[0]], rule, "Correct `format`, or leave `time` out.")
-        if self.start is None:
-            self.start = stamps.iloc[0]
-        return np.asarray((stamps - self.start).dt.total_seconds(), dtype=float)
+        return stamps
 
 
 def _named(names: list[str], values: Array) -> dict[str, Array]:
     return {name: values[:, column] for column, name in enumerate(names)}
 
 
-def _scalar(piece: Piece, group: Scalar) -> Array:
-    if group.column is None:
-        return np.full(len(piece), group.constant)
-    return piece.numbers(group.column)
+def _refuse(
+    piece: Piece, columns: tuple[Column, ...], values: Array, wrong: NDArray[np.bool_], rule: str, cure: str = ""
+) -> None:
+    """Name the first of ``values`` (N, columns) that is ``wrong``."""
+    if wrong.any():
+        row, column = np.argwhere(wrong)[0]
+        place = piece.place(int(row), (columns[column],))
+        raise InputError(piece.rows.source, place, f"{values[row, column]:g}", rule, cure)
+
+
+def _whole(piece: Piece, columns: tuple[Column, ...]) -> Array:
+    """(N, columns) the parts of an orientation: all there, or none."""
+    values = piece.stack(columns)
+    missing = np.isnan(values)
+    partly = np.flatnonzero(missing.any(axis=1) & ~missing.all(axis=1))
+    if len(partly):
+        place = piece.place(int(partly[0]), tuple(columns[k] for k in np.flatnonzero(missing[partly[0]])))
+        raise InputError(piece.rows.source, place, "nothing", "an orientation is there as a whole or not at all")
+    return values
+
+
+def _scalar(piece: Piece, group: Scalar, low: float, rule: str) -> Array:
+    constant = group.constant
+    values = np.full(len(piece), constant, dtype=float) if group.column is None else piece.numbers(group.column)
+    _refuse(piece, (group.column or "constant",), values[:, None], values[:, None] < low, rule)
+    return values
 
 
 def _label(piece: Piece, group: Label) -> list[str]:

@@ -14,13 +14,14 @@ from typing import IO
 import pandas as pd
 
 from armscope.files import replacing
-from armscope.inputs import InputError
+from armscope.inputs import InputError, nearest
 from armscope.recordings.conversion import Converter
-from armscope.recordings.mapping import Mapping, Run, load_mapping, runs_for
+from armscope.recordings.mapping import Mapping, Run, load_mapping
 from armscope.recordings.pieces import BesideFiles, Filter, LeftOut, Piece
 from armscope.recordings.rawfiles import read_pieces
 
 DIGITS = 10
+TIME_DIGITS = 15
 NAMED_ROWS = 8
 
 
@@ -72,6 +73,7 @@ def import_recordings(raw_files: list[Path], mapping_file: Path | str, output: P
     Raises:
         InputError: anything that can't be converted, with file, line, column, value, rule and cure.
     """
+    _check_output(Path(output), [*raw_files, Path(mapping_file)])
     mapping = load_mapping(mapping_file)
     runs = runs_for(mapping, [Path(path) for path in raw_files], mapping_file)
     columns = _table_columns(mapping, [run for run, _ in runs])
@@ -81,10 +83,57 @@ def import_recordings(raw_files: list[Path], mapping_file: Path | str, output: P
         for run, paths in runs:
             report.runs.append(RunReport(run.run, run.file))
             for piece in convert_run(mapping, run, paths, report.runs[-1]):
+                if "time_s" in piece:  # seconds since 1970 need more digits than anything measured
+                    piece["time_s"] = piece["time_s"].map(f"{{:.{TIME_DIGITS}g}}".format, na_action="ignore")
                 piece.reindex(columns=columns).to_csv(
                     stream, index=False, header=False, float_format=f"%.{DIGITS}g", lineterminator="\n"
                 )
     return report
+
+
+def runs_for(mapping: Mapping, raw_files: list[Path], source: Path | str) -> list[tuple[Run, dict[str, Path]]]:
+    """Each run with the paths of its files, by the names that the mapping uses.
+
+    Raises:
+        InputError: a run without its file, or a file that no run wants.
+    """
+    by_name = {path.name: path for path in raw_files}
+    if len(by_name) < len(raw_files):
+        names = [path.name for path in raw_files]
+        twice = next(name for name in names if names.count(name) > 1)
+        raise InputError(
+            source, "raw files", twice, "two raw files have this name, so the mapping can't tell them apart"
+        )
+    if not mapping.runs:
+        stems = [Path(path.name.removesuffix(".gz")).stem for path in raw_files]
+        shared = next((stem for stem in stems if stems.count(stem) > 1), None)
+        if shared is not None:
+            rule = "runs are named by their files' stems, and two files have this one"
+            raise InputError(source, "raw files", shared, rule, "Name the runs in the mapping: `runs`.")
+        return [(Run(run=stem, file=path.name), {path.name: path}) for stem, path in zip(stems, raw_files, strict=True)]
+    wanted = [(run, [run.file, *(beside.file for beside in run.beside)]) for run in mapping.runs]
+    for run, names in wanted:
+        for name in names:
+            if name not in by_name:
+                cure = nearest(name, by_name) if by_name else "No raw file was given."
+                raise InputError(source, f"run {run.run}", f"no file {name}", "each run needs its raw files", cure)
+    all_wanted = {name for _, names in wanted for name in names}
+    for name in by_name:
+        if name not in all_wanted:
+            raise InputError(
+                source, "runs", name, "no run of the mapping uses this raw file", nearest(name, all_wanted)
+            )
+    return [(run, {name: by_name[name] for name in names}) for run, names in wanted]
+
+
+def _check_output(output: Path, inputs: list[Path]) -> None:
+    """An import never writes over what it reads."""
+    if output.is_dir():
+        rule = "the table is written to a file"
+        raise InputError(output, "", "a folder", rule, f"Say where in it: {output / 'recordings.csv'}.")
+    for path in inputs:
+        if output.exists() and path.exists() and output.samefile(path):
+            raise InputError(output, "", "a file that is read", "the table is written to a file of its own")
 
 
 @contextlib.contextmanager
@@ -103,10 +152,7 @@ def _writing(path: Path) -> Iterator[IO[str]]:
 def _table_columns(mapping: Mapping, runs: list[Run]) -> list[str]:
     """The columns of the table, in the contract's order: those that any run has."""
     stated = [mapping.columns.with_own(run.columns) for run in runs]
-    counts = {len(columns.angles.columns) for columns in stated if columns.angles is not None}
-    motors = range(1, max(counts) + 1)
-    if len(counts) > 1:
-        raise InputError("mapping", "angles", f"{sorted(counts)} motors", "every run has the same motors")
+    motors = range(1, max(len(columns.angles.columns) for columns in stated if columns.angles is not None) + 1)
 
     def any_has(*groups: str) -> bool:
         return any(getattr(columns, group) is not None for columns in stated for group in groups)

@@ -7,13 +7,15 @@ all runs and again for a run, where the run's own count.
 from __future__ import annotations
 
 import re
+from collections import Counter
+from datetime import datetime
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
 import pydantic
 from pydantic import Field
 
-from armscope.inputs import InputError, Strict, load, nearest
+from armscope.inputs import Strict, load, nearest
 
 AngleUnit = Literal["rad", "deg"]
 LengthUnit = Literal["mm", "m"]
@@ -56,7 +58,11 @@ class MatlabFormat(Strict):
     variable: str | None = None
 
 
-Format = Annotated[TextFormat | MatlabFormat, Field(discriminator="kind")]
+def _text_unless_said(value: object) -> object:
+    return {"kind": "text", **value} if isinstance(value, dict) and "kind" not in value else value
+
+
+Format = Annotated[TextFormat | MatlabFormat, Field(discriminator="kind"), pydantic.BeforeValidator(_text_unless_said)]
 
 
 class Angles(Strict):
@@ -141,7 +147,17 @@ class Time(Strict):
     def _one_way(self) -> Self:
         if (self.unit is None) == (self.format is None):
             raise ValueError("a time has a `unit` (numbers) or a `format` (time stamps), one of the two")
+        if self.format is not None:
+            self._check_directives(self.format)
         return self
+
+    @staticmethod
+    def _check_directives(style: str) -> None:
+        try:
+            datetime.strptime("", style)
+        except ValueError as error:
+            if "bad directive" in str(error) or "stray %" in str(error):
+                raise ValueError(f"`format` is written with the directives of strftime: {error}") from error
 
 
 class Scalar(Strict):
@@ -206,13 +222,43 @@ class Columns(Strict):
         stated = {name: getattr(own, name) for name in own.model_fields_set}
         return self.model_copy(update=stated)
 
+    def measured(self) -> list[Column]:
+        """The columns of which none can stand for two quantities: angles, position, orientation, torque and speed."""
+        ways = [self.angles, self.position, self.torque, self.speed]
+        found = [column for way in ways if way is not None for column in way.columns]
+        found += self.pose.matrix if self.pose is not None else ()
+        turned = self.orientation
+        return [*found, *((turned.quaternion or turned.euler or turned.matrix or ()) if turned is not None else ())]
+
+    def check_beside(self, known: set[str], of_run: str) -> None:
+        """Columns called "name:column" and ``row_of`` must name a file beside, where there are such files.
+
+        Raises:
+            ValueError: no file beside has this name.
+        """
+        wanted = {column.partition(":")[0] for column in self.measured() if isinstance(column, str) and ":" in column}
+        wanted = wanted if known else set()
+        if self.id is not None and self.id.row_of is not None:
+            wanted.add(self.id.row_of)
+        for name in sorted(wanted - known):
+            cure = nearest(name, known) if known else "The run has no `beside`."
+            raise ValueError(f"no file beside is called {name!r}{of_run}. {cure}".rstrip("."))
+
 
 class Range(Strict):
-    """Numbers of a column from ``low`` to ``high``, both included; either may be left open."""
+    """Numbers of a column from ``low`` to ``high``, both included; one of them may be left open."""
 
     column: Column
     low: float | None = None
     high: float | None = None
+
+    @pydantic.model_validator(mode="after")
+    def _bounded(self) -> Self:
+        if self.low is None and self.high is None:
+            raise ValueError("`between` needs `low`, `high` or both")
+        if self.low is not None and self.high is not None and self.low > self.high:
+            raise ValueError("`low` is above `high`, so that no row would be left")
+        return self
 
 
 class Equal(Strict):
@@ -274,24 +320,26 @@ class Mapping(Strict):
     rows: tuple[RowFilter, ...] = ()
     runs: tuple[Run, ...] = ()
 
-    @pydantic.field_validator("format", mode="before")
-    @classmethod
-    def _text_unless_said(cls, value: object) -> object:
-        return {"kind": "text", **value} if isinstance(value, dict) and "kind" not in value else value
-
     @pydantic.model_validator(mode="after")
     def _complete(self) -> Self:
         for run in self.runs or (Run(run="", file=""),):
-            self._check_run(self.columns.with_own(run.columns), run.run)
+            self._check_run(self.columns.with_own(run.columns), run)
+        self._check_motors()
         names = [run.run for run in self.runs]
         twice = next((name for name in names if names.count(name) > 1), None)
         if twice is not None:
             raise ValueError(f"the run {twice!r} stands twice; join its files with `beside`, or name them differently")
         return self
 
+    def _check_motors(self) -> None:
+        motors = {run.run: len(self.columns.with_own(run.columns).angles.columns) for run in self.runs}  # type: ignore[union-attr]
+        if len(set(motors.values())) > 1:
+            counts = ", ".join(f"{run}: {count}" for run, count in motors.items())
+            raise ValueError(f"every run has the same number of motor angles, not {counts}")
+
     @staticmethod
-    def _check_run(columns: Columns, run: str) -> None:
-        of_run = f" (run {run!r})" if run else ""
+    def _check_run(columns: Columns, run: Run) -> None:
+        of_run = f" (run {run.run!r})" if run.run else ""
         if columns.angles is None:
             raise ValueError(f"no column for the motor angles: `angles` is needed{of_run}")
         if (columns.position is None) == (columns.pose is None):
@@ -304,6 +352,10 @@ class Mapping(Strict):
                 raise ValueError(
                     f"`{group}` names {len(per_motor.columns)} columns for {len(columns.angles.columns)} motors{of_run}"
                 )
+        twice = next((column for column, count in Counter(columns.measured()).items() if count > 1), None)
+        if twice is not None:
+            raise ValueError(f"the column {twice!r} is one quantity, and stands in two places{of_run}")
+        columns.check_beside({beside.name for beside in run.beside}, of_run)
 
 
 def load_mapping(path: Path | str) -> Mapping:
@@ -313,38 +365,3 @@ def load_mapping(path: Path | str) -> Mapping:
         InputError: a key, unit or group that can't be; it names the place, the rule and the nearest known key.
     """
     return load(Mapping, path)
-
-
-def runs_for(mapping: Mapping, raw_files: list[Path], source: Path | str) -> list[tuple[Run, dict[str, Path]]]:
-    """Each run with the paths of its files, by the names that the mapping uses.
-
-    Raises:
-        InputError: a run without its file, or a file that no run wants.
-    """
-    by_name = {path.name: path for path in raw_files}
-    if len(by_name) < len(raw_files):
-        names = [path.name for path in raw_files]
-        twice = next(name for name in names if names.count(name) > 1)
-        raise InputError(
-            source, "raw files", twice, "two raw files have this name, so the mapping can't tell them apart"
-        )
-    if not mapping.runs:
-        stems = [Path(path.name.removesuffix(".gz")).stem for path in raw_files]
-        shared = next((stem for stem in stems if stems.count(stem) > 1), None)
-        if shared is not None:
-            rule = "runs are named by their files' stems, and two files have this one"
-            raise InputError(source, "raw files", shared, rule, "Name the runs in the mapping: `runs`.")
-        return [(Run(run=stem, file=path.name), {path.name: path}) for stem, path in zip(stems, raw_files, strict=True)]
-    wanted = [(run, [run.file, *(beside.file for beside in run.beside)]) for run in mapping.runs]
-    for run, names in wanted:
-        for name in names:
-            if name not in by_name:
-                cure = nearest(name, by_name) if by_name else "No raw file was given."
-                raise InputError(source, f"run {run.run}", f"no file {name}", "each run needs its raw files", cure)
-    all_wanted = {name for _, names in wanted for name in names}
-    for name in by_name:
-        if name not in all_wanted:
-            raise InputError(
-                source, "runs", name, "no run of the mapping uses this raw file", nearest(name, all_wanted)
-            )
-    return [(run, {name: by_name[name] for name in names}) for run, names in wanted]

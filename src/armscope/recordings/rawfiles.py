@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import csv
-import gzip
 import zlib
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import IO
 
 import numpy as np
 import scipy.io
@@ -17,11 +17,13 @@ from scipy.io.matlab import MatReadError
 
 from armscope.inputs import InputError, nearest
 from armscope.recordings.mapping import Column, Format, MatlabFormat, TextFormat
+from armscope.recordings.opening import open_text, refuse_other_than_text, refuse_pickles, start_of, undecodable
+from armscope.recordings.table import LARGEST_NUMBER
 
 Array = NDArray[np.float64]
 ROWS_PER_PIECE = 20_000
 DELIMITERS = {"tab": "\t"}
-PICKLE_SUFFIXES = {".pickle", ".pkl", ".joblib", ".npy", ".npz", ".pt"}
+TOO_LARGE = f"no recorded value reaches {LARGEST_NUMBER:.0e}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +51,7 @@ class TextRows:
 
     def words(self, column: Column) -> list[str]:
         """The words of a column, blanks around them removed."""
-        index = _index(self.source, self.names, len(self.cells[0]) if self.cells else 0, column)
+        index = _index(self.source, self.names, len(self.cells[0]) if self.cells else 0, column, self.format)
         return [row[index].strip() for row in self.cells]
 
     def numbers(self, column: Column) -> Array:
@@ -63,8 +65,10 @@ class TextRows:
     def _number(self, row: int, column: Column, word: str) -> float:
         if word in self.format.missing:
             return np.nan
-        wrong_sign = "," if self.format.decimal == "." else "."
+        rule, wrong_sign = "this must be a finite number", "," if self.format.decimal == "." else "."
         cure = "The header stands here a second time: remove this line." if word == str(column) else ""
+        if not self.names and self.numbers_of_rows[row] == 1:
+            cure = "If this line names the columns, leave out `header: false`."
         if wrong_sign in word:
             cure = (
                 f"The mapping declares decimal: {self.format.decimal!r} for the whole file, this number uses another."
@@ -75,11 +79,12 @@ class TextRows:
             except ValueError:
                 pass
             else:
-                if np.isfinite(value):
+                if abs(value) <= LARGEST_NUMBER:
                     return value
                 cure = "Declare it under `missing` if it stands for no value."
+                rule = TOO_LARGE if np.isfinite(value) else rule
         place = f"line {self.lines[row]}, column {column}"
-        raise InputError(self.source, place, word, "this must be a finite number", cure)
+        raise InputError(self.source, place, word, rule, cure)
 
     def take(self, which: NDArray[np.intp]) -> TextRows:
         """Some of the rows, in that order."""
@@ -98,7 +103,7 @@ def _to_floats(words: list[str], style: TextFormat) -> Array | None:
         values = np.fromiter(map(float, words), dtype=float, count=len(words))
     except ValueError:
         return None
-    return values if np.isfinite(values).all() else None
+    return values if (np.abs(values) <= LARGEST_NUMBER).all() else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,9 +125,11 @@ class MatrixRows:
     def numbers(self, column: Column) -> Array:
         """The numbers of a column; NaN stands for no value."""
         values = self.values[:, _index(self.source, (), self.values.shape[1], column)]
-        if np.isinf(values).any():
-            row = self.numbers_of_rows[np.isinf(values).argmax()]
-            raise InputError(self.source, f"row {row}, column {column}", "Inf", "this must be a finite number")
+        beyond = np.abs(values) > LARGEST_NUMBER
+        if beyond.any():
+            row = int(beyond.argmax())
+            place = f"row {self.numbers_of_rows[row]}, column {column}"
+            raise InputError(self.source, place, f"{values[row]:g}", TOO_LARGE, "Write NaN where there is no value.")
         return values
 
     def words(self, column: Column) -> list[str]:
@@ -137,7 +144,9 @@ class MatrixRows:
 RawRows = TextRows | MatrixRows
 
 
-def _index(source: Path, names: tuple[str, ...], n_columns: int, column: Column) -> int:
+def _index(
+    source: Path, names: tuple[str, ...], n_columns: int, column: Column, style: TextFormat | None = None
+) -> int:
     if isinstance(column, int):
         if column > n_columns:
             raise InputError(
@@ -149,9 +158,10 @@ def _index(source: Path, names: tuple[str, ...], n_columns: int, column: Column)
         raise InputError(source, "", column, rule, f"Use numbers: 1 ... {n_columns}.")
     count = names.count(column)
     if count == 0:
-        raise InputError(
-            source, "header", f"no column {column}", "the mapping names this column", nearest(column, names)
-        )
+        cure = nearest(column, names)
+        if style is not None and len(names) == 1 and any(sign in names[0] for sign in ",;\t| "):
+            cure = f"The header is {names[0][:40]!r}: is its delimiter really {style.delimiter!r}?"
+        raise InputError(source, "header", f"no column {column}", "the mapping names this column", cure)
     if count > 1:
         rule = f"the header has this name {count} times"
         raise InputError(source, "header", column, rule, "Name the column by its number, counted from 1.")
@@ -169,10 +179,12 @@ def read_pieces(path: Path, style: Format, notes: Counter[str]) -> Iterator[RawR
     Raises:
         InputError: the file can't be read, or a row has too few or too many values.
     """
-    _refuse_pickles(path)
+    start = start_of(path, "a raw file")
+    refuse_pickles(path, start)
     if isinstance(style, MatlabFormat):
         yield read_matrix(path, style)
         return
+    refuse_other_than_text(path, start, style.encoding, "Declare `encoding: utf-16` in the mapping's format.")
     yield from _read_text(path, style, notes)
 
 
@@ -190,38 +202,21 @@ def read_whole(path: Path, style: Format, notes: Counter[str]) -> RawRows:
     )
 
 
-def _refuse_pickles(path: Path) -> None:
-    try:
-        with path.open("rb") as stream:
-            start = stream.read(2)
-    except OSError as error:
-        raise InputError(path, "", "no readable file", "a raw file is needed here", error.strerror or "") from error
-    if path.suffix.lower() in PICKLE_SUFFIXES or (start[:1] == b"\x80" and start[1:] in (b"\2", b"\3", b"\4", b"\5")):
-        raise InputError(
-            path,
-            "",
-            "a Python object file",
-            "pickles and their kin are never loaded, since loading one may run any code",
-            "Save the numbers as text or as a MATLAB matrix where the file comes from.",
-        )
-
-
 def _read_text(path: Path, style: TextFormat, notes: Counter[str]) -> Iterator[TextRows]:
-    opener = gzip.open if path.suffix == ".gz" else open
     try:
-        with opener(path, "rt", encoding=style.encoding, newline="") as stream:
-            rows = _split(stream, style)
-            yield from _gather(path, style, rows, notes)
+        with open_text(path, style.encoding) as stream:
+            yield from _gather(path, style, _split(path, stream, style), notes)
     except LookupError as error:
         raise InputError(path, "format.encoding", style.encoding, "no encoding of this name", "Try utf-8.") from error
     except UnicodeError as error:
+        place, found = undecodable(path, style.encoding, error)
         rule = f"the text is not {style.encoding.removesuffix('-sig')}"
-        raise InputError(path, "", str(error), rule, "Declare `encoding` in the mapping, e.g. latin-1.") from error
-    except (csv.Error, EOFError, zlib.error, gzip.BadGzipFile) as error:
+        raise InputError(path, place, found, rule, "Declare `encoding` in the mapping, e.g. latin-1.") from error
+    except (OSError, EOFError, zlib.error) as error:
         raise InputError(path, "", str(error), "this must be delimited text, plain or gzipped") from error
 
 
-def _split(stream: Iterator[str], style: TextFormat) -> Iterator[tuple[int, list[str]]]:
+def _split(path: Path, stream: IO[str], style: TextFormat) -> Iterator[tuple[int, list[str]]]:
     """Line numbers and words of the lines that are neither skipped nor comments."""
     for _ in range(style.skip_lines):
         next(stream, None)
@@ -229,11 +224,23 @@ def _split(stream: Iterator[str], style: TextFormat) -> Iterator[tuple[int, list
         rows: Iterator[list[str]] = (line.split() for line in stream)
         numbered: Iterator[tuple[int, list[str]]] = enumerate(rows, start=style.skip_lines + 1)
     else:
-        reader = csv.reader(stream, delimiter=DELIMITERS.get(style.delimiter, style.delimiter), skipinitialspace=True)
-        numbered = ((style.skip_lines + reader.line_num, row) for row in reader)
+        numbered = _separated(path, stream, style)
     for number, row in numbered:
         if style.comment is None or not (row and row[0].startswith(style.comment)):
             yield number, row
+
+
+def _separated(path: Path, stream: IO[str], style: TextFormat) -> Iterator[tuple[int, list[str]]]:
+    """The line that each row starts in, and its words; quotation marks may hold delimiters and ends of lines."""
+    reader = csv.reader(stream, delimiter=DELIMITERS.get(style.delimiter, style.delimiter), skipinitialspace=True)
+    line = style.skip_lines + 1
+    try:
+        for row in reader:
+            yield line, row
+            line = style.skip_lines + reader.line_num + 1
+    except csv.Error as error:
+        cure = "Is there a quotation mark that is never closed?"
+        raise InputError(path, f"line {line}", str(error), "this must be delimited text", cure) from error
 
 
 def _gather(
@@ -274,7 +281,7 @@ def _why_ragged(style: TextFormat, row: list[str], width: int) -> str:
         return f"Is its delimiter really {style.delimiter!r}?"
     if style.delimiter == "," and len(row) > width:
         return "A decimal comma splits a number in two where the delimiter is a comma as well."
-    return "Was the file cut off while it was written?"
+    return "Was the file cut off while it was written, or is a quotation mark never closed?"
 
 
 def read_matrix(path: Path, style: MatlabFormat) -> MatrixRows:
@@ -289,7 +296,9 @@ def read_matrix(path: Path, style: MatlabFormat) -> MatrixRows:
         cure = "Save it with -v7 in MATLAB."
         raise InputError(path, "", "a MATLAB 7.3 file", "MATLAB files up to version 7.2 are read", cure) from error
     except (OSError, ValueError, TypeError, KeyError, IndexError, MatReadError) as error:
-        raise InputError(path, "", str(error) or "nothing", "this must be a MATLAB file") from error
+        found = f"no readable matrix ({error})"
+        cure = "If it is text, leave `kind: matlab` out of the format."
+        raise InputError(path, "", found, "this must be a MATLAB file", cure) from error
     variables = {name: value for name, value in content.items() if not name.startswith("__")}
     name = style.variable
     if name is None:

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import csv
-import gzip
 import re
-import zlib
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -15,11 +12,20 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from armscope.inputs import InputError, nearest
+from armscope.recordings.textfile import read_text_table
 
 Array = NDArray[np.float64]
 
 LARGEST_ANGLE_RAD = 4 * np.pi
 """Beyond two turns either way no arm's joint stands, so a larger number is not in radians."""
+
+LARGEST_POSITION_M = 1e4
+"""No instrument sees further, and tables with ten digits hold less than a micrometre up to here."""
+
+LARGEST_NUMBER = 1e15
+"""No recorded quantity reaches it in its unit; what lies beyond stands for no value, or overflows when squared."""
+
+ABSOLUTE_ZERO_C = -273.15
 
 UNITS: dict[str, float] = {"rad": 1.0, "deg": np.pi / 180, "mm": 1e-3, "m": 1.0}
 CONTEXT = r"q[1-9]\d*_(rad|deg)|approach[1-9]\d*|dq[1-9]\d*_rad_s|tau[1-9]\d*_nm"
@@ -132,8 +138,8 @@ def as_recordings(
         id=reader.text("id") if "id" in table else np.arange(1, len(table) + 1).astype(str),
         orientation=reader.orientation(),
         time=reader.optional(["time_s"], 1.0, squeeze=True),
-        temperature=reader.optional(["temperature_c"], 1.0, squeeze=True),
-        payload=reader.optional(["payload_kg"], 1.0, squeeze=True),
+        temperature=reader.at_least("temperature_c", ABSOLUTE_ZERO_C, "no temperature is below absolute zero"),
+        payload=reader.at_least("payload_kg", 0.0, "a payload is not negative"),
         approach=reader.approach(count),
         speed=reader.optional([f"dq{j}_rad_s" for j in range(1, count + 1)], 1.0),
         torque=reader.optional([f"tau{j}_nm" for j in range(1, count + 1)], 1.0),
@@ -144,71 +150,6 @@ def as_recordings(
     unknown = [name for name in table.columns if name not in PLAIN and not re.fullmatch(CONTEXT, name)]
     notes = (f"columns kept but not used: {', '.join(unknown)}",) if unknown else ()
     return replace(recordings, extra=table[unknown] if unknown else None, notes=notes)
-
-
-def read_text_table(path: Path) -> pd.DataFrame:
-    """A CSV file (``.gz`` allowed) with a header and equally long rows; id, run and target stay text.
-
-    Raises:
-        InputError: it is no such table.
-    """
-    opener = gzip.open if path.suffix == ".gz" else open
-    try:
-        with opener(path, "rt", encoding="utf-8-sig", newline="") as stream:
-            rows = csv.reader(stream)
-            header = next(rows, None)
-            counts = [len(row) for row in rows]
-    except (OSError, EOFError, zlib.error) as error:
-        cure = getattr(error, "strerror", None) or str(error)
-        raise InputError(path, "", "no readable file", "a recordings table (CSV) is needed here", cure) from error
-    except UnicodeDecodeError as error:
-        raise InputError(
-            path, f"byte {error.start}", "no UTF-8 text", "tables are UTF-8", "Save it as UTF-8."
-        ) from error
-    except csv.Error as error:
-        raise InputError(path, "", str(error), "this must be a comma-separated table") from error
-    if not header:
-        raise InputError(path, "line 1", "nothing", "the first line names the columns", "Is the file empty?")
-    _check_header(path, header)
-    _check_lengths(path, header, counts)
-    table = pd.read_csv(
-        path,
-        encoding="utf-8-sig",
-        index_col=False,
-        skip_blank_lines=False,
-        dtype={name: str for name in ("id", "run", "target") if name in header},
-        low_memory=False,
-    )
-    if table.empty:
-        raise InputError(path, "row 2", "nothing", "at least one measured row is needed")
-    return table
-
-
-def _check_lengths(path: Path, header: list[str], counts: list[int]) -> None:
-    for row, count in enumerate(counts, start=2):
-        if count != len(header):
-            cure = "A decimal comma splits a number in two: use points." if count > len(header) else ""
-            raise InputError(
-                path,
-                f"row {row}",
-                f"{count} values" if count else "nothing",
-                f"every row has the {len(header)} values that line 1 names",
-                cure,
-            )
-
-
-def _check_header(path: Path, header: list[str]) -> None:
-    if len(header) == 1 and re.search(r"[;\t|]", header[0]):
-        raise InputError(
-            path, "line 1", header[0], "columns are separated by commas", "Convert it with `armscope import`."
-        )
-    seen: set[str] = set()
-    for name in header:
-        if name in seen:
-            raise InputError(
-                path, "line 1", name, "column names must differ, this one stands twice", "Rename one of them."
-            )
-        seen.add(name)
 
 
 class _Reader:
@@ -233,8 +174,13 @@ class _Reader:
                 raise self.error(int(wrong[0]), column, str(found), "this must be a number", cure)
             values = parsed
         numbers = values.to_numpy(dtype=float)
-        if np.isinf(numbers).any():
-            raise self.error(int(np.flatnonzero(np.isinf(numbers))[0]), column, "inf", "this must be a finite number")
+        beyond = np.flatnonzero(np.abs(numbers) > LARGEST_NUMBER)
+        if len(beyond):
+            value = float(numbers[beyond[0]])
+            rule = (
+                "this must be a finite number" if np.isinf(value) else f"no recorded value reaches {LARGEST_NUMBER:g}"
+            )
+            raise self.error(int(beyond[0]), column, f"{value:g}", rule, "Leave it empty where there is no value.")
         if required and np.isnan(numbers).any():
             row = int(np.flatnonzero(np.isnan(numbers))[0])
             raise self.error(
@@ -246,6 +192,14 @@ class _Reader:
         if column not in self.table:
             return np.full(len(self.table), "")
         return self.table[column].fillna("").astype(str).to_numpy(dtype=str)
+
+    def at_least(self, column: str, low: float, rule: str) -> Array | None:
+        """(N,) an optional quantity that can't be below ``low``."""
+        values = self.optional([column], 1.0, squeeze=True)
+        if values is not None and (values < low).any():
+            row = int(np.argmax(values < low))
+            raise self.error(row, column, values[row], rule)
+        return values
 
     def optional(self, columns: list[str], scale: float, squeeze: bool = False) -> Array | None:
         present = [name for name in columns if name in self.table]
@@ -300,7 +254,7 @@ class _Reader:
     def _check_one_unit(self, one: str, other: str) -> None:
         if one in self.table and other in self.table:
             raise InputError(
-                self.source, "line 1", f"{one} and {other}", "one unit per quantity", "Remove one of them."
+                self.source, "line 1", f"{one} and {other}", "one column per quantity", "Remove one of them."
             )
 
     def _angles(self, column: str) -> Array:
@@ -325,7 +279,7 @@ class _Reader:
             columns = [f"{axis}_{unit}" for axis in "xyz"]
             present = [name for name in columns if name in self.table]
             if len(present) == 3:
-                return np.column_stack([self.numbers(name, required=measured) for name in columns]) * UNITS[unit]
+                return np.column_stack([self._lengths(name, measured) for name in columns])
             if present:
                 missing = next(name for name in columns if name not in present)
                 raise InputError(
@@ -345,10 +299,24 @@ class _Reader:
             )
         return np.full((len(self.table), 3), np.nan)
 
+    def _lengths(self, column: str, required: bool) -> Array:
+        values = self.numbers(column, required) * UNITS[column.rsplit("_", 1)[1]]
+        beyond = np.flatnonzero(np.abs(values) > LARGEST_POSITION_M)
+        if len(beyond):
+            row = int(beyond[0])
+            rule = f"a measured point lies within {LARGEST_POSITION_M / 1e3:g} km of its frame's origin"
+            raise self.error(row, column, self.table[column].iloc[row], rule, "Subtract what all points share.")
+        return values
+
     def orientation(self) -> Array | None:
         quaternion = self.optional(["qw", "qx", "qy", "qz"], 1.0)
         if quaternion is None:
             return None
+        known = np.isfinite(quaternion).sum(axis=1)
+        partly = np.flatnonzero((known > 0) & (known < 4))
+        if len(partly):
+            row = int(partly[0])
+            raise self.error(row, "qw ... qz", f"{known[row]} of 4 values", "an orientation is whole or left out")
         norm = np.linalg.norm(quaternion, axis=1)
         wrong = np.flatnonzero(np.abs(norm - 1) > 0.01)
         if len(wrong):
@@ -374,15 +342,16 @@ class _Reader:
         return approach
 
     def sigma(self) -> Array | None:
+        self._check_one_unit("sigma_mm", "sigma_x_mm")
         isotropic = self.optional(["sigma_mm"], UNITS["mm"])
         sigma = self.optional([f"sigma_{axis}_mm" for axis in "xyz"], UNITS["mm"])
         if sigma is None and isotropic is not None:
             sigma = np.repeat(isotropic, 3, axis=1)
-        if sigma is not None and (sigma < 0).any():
-            row, axis = np.argwhere(sigma < 0)[0]
-            raise self.error(
-                int(row), f"sigma_{'xyz'[axis]}_mm", sigma[row, axis] * 1e3, "an uncertainty is not negative"
-            )
+        if sigma is not None and ((sigma < 0) | (sigma > LARGEST_POSITION_M)).any():
+            row, axis = np.argwhere((sigma < 0) | (sigma > LARGEST_POSITION_M))[0]
+            column = "sigma_mm" if "sigma_mm" in self.table else f"sigma_{'xyz'[axis]}_mm"
+            rule = f"an uncertainty is not negative, and at most {LARGEST_POSITION_M / 1e3:g} km"
+            raise self.error(int(row), column, sigma[row, axis] * 1e3, rule)
         return sigma
 
     def check_duplicates(self, recordings: Recordings) -> None:

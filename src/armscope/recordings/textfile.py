@@ -1,0 +1,99 @@
+"""A comma-separated file as a table of cells: equally long rows under a header whose names differ."""
+
+from __future__ import annotations
+
+import csv
+import re
+import zlib
+from pathlib import Path
+
+import pandas as pd
+
+from armscope.inputs import InputError
+from armscope.recordings.opening import open_text, refuse_other_than_text, start_of, undecodable
+
+WORDS = ("id", "run", "target")
+"""Columns that are words, even where they look like numbers or like a name for no value."""
+
+NO_VALUE = ("", "NaN", "nan", "NA", "N/A", "n/a", "#N/A", "null", "NULL", "None", "-nan", "-NaN", "<NA>")
+"""What stands for no value in a column of numbers."""
+
+
+def read_text_table(path: Path) -> pd.DataFrame:
+    """A CSV file (gzipped or not) with a header and equally long rows; id, run and target stay text.
+
+    Raises:
+        InputError: it is no such table.
+    """
+    refuse_other_than_text(path, start_of(path, "a recordings table (CSV)"), "utf-8", "Save it as UTF-8.")
+    header, counts = _shape(path)
+    if not header:
+        raise InputError(path, "line 1", "nothing", "the first line names the columns", "Is the file empty?")
+    _check_header(path, header)
+    _check_lengths(path, header, counts)
+    with open_text(path, "utf-8") as stream:
+        table = pd.read_csv(
+            stream,
+            index_col=False,
+            skip_blank_lines=False,
+            dtype={name: str for name in WORDS if name in header},
+            keep_default_na=False,
+            na_values={name: list(NO_VALUE) for name in header if name not in WORDS},
+            low_memory=False,
+        )
+    if table.empty:
+        raise InputError(path, "row 2", "nothing", "at least one measured row is needed")
+    return table
+
+
+def _shape(path: Path) -> tuple[list[str] | None, list[int]]:
+    """The header, and how many values each row has."""
+    rows = None
+    try:
+        with open_text(path, "utf-8") as stream:
+            rows = csv.reader(stream)
+            return next(rows, None), [len(row) for row in rows]
+    except UnicodeDecodeError as error:
+        place, found = undecodable(path, "utf-8", error)
+        raise InputError(path, place, found, "tables are UTF-8 text", "Save it as UTF-8.") from error
+    except (OSError, EOFError, zlib.error) as error:
+        cure = getattr(error, "strerror", None) or str(error)
+        raise InputError(path, "", "no readable file", "a recordings table (CSV) is needed here", cure) from error
+    except csv.Error as error:
+        place = f"line {rows.line_num}" if rows else ""
+        cure = "Is there a quotation mark that is never closed?"
+        raise InputError(path, place, str(error), "this must be a comma-separated table", cure) from error
+
+
+def _check_lengths(path: Path, header: list[str], counts: list[int]) -> None:
+    for row, count in enumerate(counts, start=2):
+        if count != len(header):
+            raise InputError(
+                path,
+                f"row {row}",
+                f"{count} values" if count else "nothing",
+                f"every row has the {len(header)} values that line 1 names",
+                _why_ragged(count, len(header)),
+            )
+
+
+def _why_ragged(count: int, width: int) -> str:
+    if count > width:
+        return "A decimal comma splits a number in two: use points."
+    if count == 0:
+        return "Remove the blank line."
+    return "Was the file cut off while it was written, or is a quotation mark never closed?"
+
+
+def _check_header(path: Path, header: list[str]) -> None:
+    if len(header) == 1 and re.search(r"[;\t|]", header[0]):
+        raise InputError(
+            path, "line 1", header[0], "columns are separated by commas", "Convert it with `armscope import`."
+        )
+    seen: set[str] = set()
+    for name in header:
+        if name in seen:
+            raise InputError(
+                path, "line 1", name, "column names must differ, this one stands twice", "Rename one of them."
+            )
+        seen.add(name)
