@@ -204,6 +204,9 @@ def _shifted(table: Recordings, shift: int) -> Recordings:
 
 def _best_explanation(arm: Arm, table: Recordings, share: float, spread: float) -> Suspicion:
     tried = []
+    # what no trial looks at need not be copied in each
+    unused = ("orientation", "time", "temperature", "payload", "approach", "speed", "torque", "sigma", "extra")
+    table = replace(table, **dict.fromkeys(unused))
     for trial in _trials(arm):
         rows = set_up(arm, _spread_evenly(trial.undo(table)))
         tried.append((_share_left(rows, placed(rows, MOST_STEPS)), trial))

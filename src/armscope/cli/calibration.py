@@ -32,7 +32,8 @@ def check(
         from armscope.report.check_figure import draw_check
         from armscope.report.style import save_figure
 
-        save_figure(draw_check(table, arm), figure)
+        named = figure if figure.suffix in (".png", ".svg", ".pdf") else figure.with_name(f"{figure.name}.png")
+        print("\n".join(str(path) for path in save_figure(draw_check(table, arm), named)))
     if found.has_problems:
         raise typer.Exit(1)
 

@@ -12,7 +12,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from armscope.inputs import InputError, nearest
-from armscope.recordings.textfile import read_text_table
+from armscope.recordings.textfile import WORDS, read_text_table
 
 Array = NDArray[np.float64]
 
@@ -357,12 +357,13 @@ class _Reader:
     def check_duplicates(self, recordings: Recordings) -> None:
         if "id" not in self.table:
             return
-        keys = pd.DataFrame({"run": recordings.run, "id": recordings.id, "target": recordings.target})
-        keys["id"] = keys["id"].where(keys["id"] != "", pd.Series(np.arange(len(keys)).astype(str)))
-        twice = np.flatnonzero(keys.duplicated())
-        if len(twice):
-            row = int(twice[0])
-            first = int(np.flatnonzero((keys == keys.iloc[row]).all(axis=1))[0])
+        named = np.flatnonzero(recordings.id != "")
+        keys = self.table[[name for name in WORDS if name in self.table]].iloc[named]
+        twice = keys.duplicated().to_numpy()
+        if twice.any():
+            row = int(named[twice.argmax()])
+            group = keys.groupby(list(keys.columns), dropna=False).ngroup().to_numpy()
+            first = int(named[np.argmax(group == group[twice.argmax()])])
             raise self.error(
                 row,
                 "id",

@@ -15,6 +15,8 @@ from armscope.recordings.opening import open_text, refuse_other_than_text, start
 WORDS = ("id", "run", "target")
 """Columns that are words, even where they look like numbers or like a name for no value."""
 
+ROWS_PER_PIECE = 50_000
+
 NO_VALUE = ("", "NaN", "nan", "NA", "N/A", "n/a", "#N/A", "null", "NULL", "None", "-nan", "-NaN", "<NA>")
 """What stands for no value in a column of numbers."""
 
@@ -32,8 +34,9 @@ def read_text_table(path: Path) -> pd.DataFrame:
     _check_header(path, header)
     _check_lengths(path, header, counts)
     with open_text(path, "utf-8") as stream:
-        table = pd.read_csv(
+        pieces = pd.read_csv(
             stream,
+            chunksize=ROWS_PER_PIECE,
             index_col=False,
             skip_blank_lines=False,
             dtype={name: str for name in WORDS if name in header},
@@ -41,6 +44,7 @@ def read_text_table(path: Path) -> pd.DataFrame:
             na_values={name: list(NO_VALUE) for name in header if name not in WORDS},
             low_memory=False,
         )
+        table = pd.concat(pieces, ignore_index=True)  # in pieces, since text takes several times the memory of numbers
     if table.empty:
         raise InputError(path, "row 2", "nothing", "at least one measured row is needed")
     return table

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -10,6 +11,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from armscope.recordings import Recordings
 from armscope.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, legend_above, styled
@@ -20,6 +22,12 @@ Array = NDArray[np.float64]
 RUN_COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
 BIN_DEG = 10
 MOST_POINTS = 4000
+FARTHEST_LIMIT_DEG = 400
+ONE_POINT = 2e-3
+"""Points within so many metres of each other are one point in the figure."""
+
+VISIBLE = 0.01
+"""Share of the workspace below which points can't be told apart in the figure."""
 
 
 def draw_check(recordings: Recordings, arm: Arm | None = None) -> Figure:
@@ -31,30 +39,67 @@ def draw_check(recordings: Recordings, arm: Arm | None = None) -> Figure:
             different measurement frames can be compared, and joint limits are marked. None draws measured points.
     """
     fits = arm is not None and arm.n_motors == recordings.n_motors
-    points = forward_kinematics(arm, recordings.motor_angles) if arm is not None and fits else recordings.positions
     frame = "arm base frame, nominal" if fits else "measurement frame"
+    runs = _points_by_run(recordings, arm if fits else None)
     with styled():
         figure = plt.figure(figsize=(8.2, 2.9 + 0.22 * recordings.n_motors))
         panels = figure.subplot_mosaic([["above", "coverage"], ["side", "coverage"]], width_ratios=[1, 1.35])
         for name, (across, up) in (("above", (0, 1)), ("side", (0, 2))):
-            _draw_points(panels[name], recordings, points, across, up)
+            _draw_points(panels[name], runs, across, up)
         panels["above"].set_title(f"Tool points ({frame})", loc="left")
         _draw_coverage(figure, panels["coverage"], recordings, arm if fits else None)
-        runs = list(dict.fromkeys(recordings.run.tolist()))
         if len(runs) > 1:
-            legend_above(
-                figure, [Line2D([], [], marker="o", linestyle="", color=_colour(k)) for k in range(len(runs))], runs
-            )
+            styles = [_style(number, run) for number, run in enumerate(runs)]
+            plain = [style | {"alpha": 1.0, "markersize": max(style["markersize"], 4)} for style in styles]
+            legend_above(figure, [Line2D([], [], **style) for style in plain], [run.name for run in runs])
     return figure
 
 
-def _draw_points(panel: Any, recordings: Recordings, points: Array, across: int, up: int) -> None:
-    step = max(1, len(points) // MOST_POINTS)
-    for number, run in enumerate(dict.fromkeys(recordings.run.tolist())):
-        rows = np.flatnonzero(recordings.run == run)[::step]
-        panel.plot(points[rows, across], points[rows, up], ".", color=_colour(number), markersize=2.5, alpha=0.6)
+@dataclass(frozen=True)
+class _Run:
+    """A run's points (N, 3), m, thinned where there are many.
+
+    ``shared``: how many earlier runs have the same points; ``still``: all its points are one, measured again.
+    """
+
+    name: str
+    points: Array
+    shared: int
+    still: bool
+
+
+def _points_by_run(recordings: Recordings, arm: Arm | None) -> list[_Run]:
+    step = max(1, len(recordings) // MOST_POINTS)
+    found: list[_Run] = []
+    for name in dict.fromkeys(recordings.run.tolist()):
+        rows = np.flatnonzero(recordings.run == name)[::step]
+        points = recordings.positions[rows] if arm is None else forward_kinematics(arm, recordings.motor_angles[rows])
+        shared = sum(_mostly_same(points, other.points) for other in found)
+        found.append(_Run(name, points, shared, bool(np.ptp(points, axis=0).max() < ONE_POINT)))
+    return found
+
+
+def _mostly_same(points: Array, others: Array) -> bool:
+    """Whether most points lie on others, as far as a figure can show, so that these would be hidden."""
+    distance, _ = cKDTree(others).query(points)
+    return bool(np.median(distance) < VISIBLE * np.ptp(others, axis=0).max())
+
+
+def _draw_points(panel: Any, runs: list[_Run], across: int, up: int) -> None:
+    for number, run in enumerate(runs):
+        panel.plot(run.points[:, across], run.points[:, up], **_style(number, run))
     panel.set(xlabel=f"{'xyz'[across]} (m)", ylabel=f"{'xyz'[up]} (m)")
     panel.set_aspect("equal", adjustable="datalim")
+
+
+def _style(number: int, run: _Run) -> dict[str, Any]:
+    """Dots; a diamond for one point; where earlier runs have the same points rings about theirs."""
+    look = {"marker": "o", "linestyle": "", "color": _colour(number), "markeredgewidth": 0.7}
+    if run.shared:
+        return look | {"markerfacecolor": "none", "markersize": 1.6 + 1.9 * run.shared}
+    if run.still:
+        return look | {"marker": "D", "markersize": 4.5, "markeredgecolor": "white", "zorder": 3}
+    return look | {"markersize": 1.6, "alpha": 0.6}
 
 
 def _colour(run: int) -> str:
@@ -63,8 +108,10 @@ def _colour(run: int) -> str:
 
 def _draw_coverage(figure: Figure, panel: Any, recordings: Recordings, arm: Arm | None) -> None:
     angles = np.degrees(recordings.motor_angles)
-    low = BIN_DEG * np.floor(min(-180.0, angles.min()) / BIN_DEG)
-    high = BIN_DEG * np.ceil(max(180.0, angles.max()) / BIN_DEG)
+    limits = np.empty((0, 2)) if arm is None else np.degrees(arm.limits)
+    shown_limits = limits[np.abs(limits) < FARTHEST_LIMIT_DEG]
+    low = BIN_DEG * np.floor(min(-180.0, angles.min(), *shown_limits) / BIN_DEG)
+    high = BIN_DEG * np.ceil(max(180.0, angles.max(), *shown_limits) / BIN_DEG)
     edges = np.arange(low, high + BIN_DEG, BIN_DEG)
     counts = np.stack([np.histogram(column, edges)[0] for column in angles.T]).astype(float)
     shown = np.ma.masked_equal(counts, 0)
@@ -74,13 +121,11 @@ def _draw_coverage(figure: Figure, panel: Any, recordings: Recordings, arm: Arm 
     whole = [step * 10**power for power in range(6) for step in (1, 2, 5) if step * 10**power <= max(counts.max(), 2)]
     bar.set_ticks(whole, labels=[str(count) for count in whole], minor=False)
     bar.set_ticks([], minor=True)
-    if arm is not None:
-        for motor, limits in enumerate(np.degrees(arm.limits), start=1):
-            for limit in limits[np.isfinite(limits) & (limits >= low) & (limits <= high)]:
-                panel.plot([limit, limit], [motor - 0.42, motor + 0.42], color=VERMILION, linewidth=2.5)
+    for motor, of_motor in enumerate(limits, start=1):
+        for limit in of_motor[np.abs(of_motor) < FARTHEST_LIMIT_DEG]:
+            panel.plot([limit] * 2, [motor - 0.42, motor + 0.42], color=VERMILION, linewidth=2.5, clip_on=False)
     panel.hlines(motors[1:-1], low, high, color=GREY, linewidth=0.5)
     panel.set(xlim=(low, high), ylim=(recordings.n_motors + 0.5, 0.5), xlabel="joint angle (degrees)")
     panel.set_yticks(range(1, recordings.n_motors + 1), [f"q{motor}" for motor in range(1, recordings.n_motors + 1)])
     panel.grid(visible=False)
-    limits_drawn = arm is not None and np.isfinite(arm.limits).any()
-    panel.set_title("Joint coverage" + (" (vermilion bars: limits)" if limits_drawn else ""), loc="left")
+    panel.set_title("Joint coverage" + (" (vermilion bars: limits)" if len(shown_limits) else ""), loc="left")
