@@ -7,6 +7,7 @@ from pathlib import Path
 from armscope.config import Config
 from armscope.inputs import InputError, validate
 from armscope.provenance import digest
+from armscope.recordings.fetching import load_source
 
 # `snakemake` may be called by its path, without the environment being activated
 shell.prefix(f"set -euo pipefail; export PATH={shlex.quote(str(Path(sys.executable).parent))}:$PATH; ")
@@ -95,6 +96,12 @@ def recordings_of(wildcards):
 def robot_of(wildcards):
     """The nominal arm of a real set."""
     return f"{RECORDINGS}/{CONFIG.real[wildcards.set].robot}"
+
+
+def raw_files(wildcards):
+    """The raw files of a set; other files may lie beside them, such as one that was kept aside."""
+    source = load_source(f"config/recordings/{wildcards.public_set}/source.yaml")
+    return [f"{RESULTS}/recordings/{wildcards.public_set}/raw/{file.name}" for file in source.files]
 
 
 def proof_real_batches(pattern):
