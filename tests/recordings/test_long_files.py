@@ -1,8 +1,10 @@
 """Long files are converted, read and looked through within bounded memory, through the command line."""
 
 import resource
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -47,3 +49,16 @@ def test_a_long_file_is_imported_and_checked_within_its_memory(long_file):
         done = subprocess.run(command, cwd=long_file, capture_output=True, text=True, preexec_fn=limited, check=False)
         assert done.returncode == code, done.stderr[-2000:]
         assert str(ROWS) in done.stdout
+
+
+@pytest.mark.parametrize("end", [signal.SIGTERM, signal.SIGINT])
+def test_an_import_that_is_ended_midway_leaves_nothing(long_file, end):
+    command = [sys.executable, "-c", "from armscope.cli import main; main()"]
+    command += ["import", "raw.csv", "--mapping", "mapping.yaml", "-o", "ended/out.csv.gz"]
+    running = subprocess.Popen(command, cwd=long_file, stderr=subprocess.DEVNULL)
+    while not list(long_file.glob("ended/.out*")):
+        assert running.poll() is None
+        time.sleep(0.02)
+    running.send_signal(end)
+    assert running.wait(timeout=20) != 0
+    assert list((long_file / "ended").iterdir()) == []

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
+import signal
+import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated
 
@@ -10,6 +14,16 @@ import typer
 from armscope.cli.panels import EXPERIMENTS
 
 app = typer.Typer()
+
+
+@contextlib.contextmanager
+def _tidy_when_ended() -> Iterator[None]:
+    """A request to end, as workflow engines send it, leaves no file half-written behind."""
+    before = signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 @app.command("import")
@@ -21,7 +35,8 @@ def import_(
     """Convert raw files to a recordings table by a declarative mapping."""
     from armscope.recordings.importing import import_recordings
 
-    print(import_recordings(files, mapping, output).text())
+    with _tidy_when_ended():
+        print(import_recordings(files, mapping, output).text())
 
 
 @app.command(rich_help_panel=EXPERIMENTS)
@@ -33,4 +48,5 @@ def fetch(
     """Fetch the raw files of a public data set and check their checksums."""
     from armscope.recordings.fetching import fetch_recordings
 
-    print(fetch_recordings(source, output, recordings_dir).text())
+    with _tidy_when_ended():
+        print(fetch_recordings(source, output, recordings_dir).text())
