@@ -9,7 +9,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -205,8 +205,10 @@ def _shifted(table: Recordings, shift: int) -> Recordings:
 def _best_explanation(arm: Arm, table: Recordings, share: float, spread: float) -> Suspicion:
     tried = []
     # what no trial looks at need not be copied in each
-    unused = ("orientation", "time", "temperature", "payload", "approach", "speed", "torque", "sigma", "extra")
-    table = replace(table, **dict.fromkeys(unused))
+    unused: dict[str, Any] = dict.fromkeys(
+        ("orientation", "time", "temperature", "payload", "approach", "speed", "torque", "sigma", "extra")
+    )
+    table = replace(table, **unused)
     for trial in _trials(arm):
         rows = set_up(arm, _spread_evenly(trial.undo(table)))
         tried.append((_share_left(rows, placed(rows, MOST_STEPS)), trial))
