@@ -8,12 +8,14 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.spatial.transform import Rotation
 
 from armscope.proof.reading import ALLOWED
 from armscope.proof.truth import unsealed
 from armscope.provenance import sources
 from armscope.real.making import Places, make_altered, make_original, make_withheld
-from armscope.real.staging import AXES_MM, stage, with_payload
+from armscope.real.staging import AXES_MM, QUATERNION, stage, with_payload
+from armscope.recordings import as_recordings
 from tests.real.recorded import ROBOT, arm, table
 
 RULES = (Path(__file__).parents[2] / "workflow" / "rules" / "proof_real.smk").read_text(encoding="utf-8")
@@ -46,6 +48,23 @@ def test_only_recordings_robot_and_poses_without_readings_are_visible(made):
         assert not any(name in path.as_posix() for name in (*EFFECTS, "truth"))
         if path.name == "test_poses.csv":
             assert not set(AXES_MM) & set(pd.read_csv(path).columns)
+
+
+def test_measured_orientations_turn_with_the_points(tmp_path):
+    mine = stage(arm(), table(turn_noise_rad=1e-4), 1000)
+    make_altered(mine, ("joint_coupling",), (3.0,), 1e-4, (7,), places(tmp_path))
+    (world,) = (tmp_path / "visible").iterdir()
+    after = as_recordings(pd.read_csv(world / "recordings.csv"), "after", 6)
+    before = mine.recordings.rows(mine.train)
+    turn = (
+        Rotation.from_quat(after.orientation, scalar_first=True)
+        * Rotation.from_quat(before.orientation, scalar_first=True).inv()
+    )
+    assert turn.magnitude().max() > 1e-4
+    assert not set(QUATERNION) & set(pd.read_csv(world / "test_poses.csv").columns)
+    # a coupling turns the tool about one joint's axis, and the point with it: as far as the lever reaches
+    moved = np.linalg.norm(after.positions - before.positions, axis=1)
+    assert np.all(moved <= turn.magnitude() * arm().reach * 1.01 + 1e-7)
 
 
 def test_altered_and_original_differ_in_the_measured_points_alone(made):

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from armscope.real.planting import CannotPlantError, Theatre, plant, truth_of
 from armscope.real.staging import AXES_MM, stage
-from armscope.robot import forward_kinematics
+from armscope.robot import chain, forward_kinematics
 from armscope.robot.arm import build_arm
 from armscope.world.strength import rms
 from tests.real.recorded import BASE, arm, table
@@ -75,6 +76,23 @@ def test_without_recorded_torques_gravity_of_the_mass_table_turns_it(theatre):
     expected = turned(by_mass, joint, found.effect.values["compliance"] * load)
     # equilibrium: the load is that of the turned arm
     assert np.abs(found.moved - expected).max() < 0.01 * np.abs(expected).max()
+
+
+def test_the_tool_turns_with_the_arm_that_the_effect_moves(theatre):
+    (found,) = planted(theatre, "joint_coupling")
+    joint, other = (int(found.effect.location.split()[k]) - 1 for k in (1, -1))
+    angles = theatre.stage.recordings.motor_angles
+    moved = angles.copy()
+    moved[:, joint] += found.effect.values["coupling"] * angles[:, other]
+    before, after = (Rotation.from_matrix(chain(arm(), q).tool_rotation) for q in (angles, moved))
+    expected = BASE * after * before.inv() * BASE.inv()
+    assert (Rotation.from_matrix(found.turned) * expected.inv()).magnitude().max() < 1e-8
+    assert expected.magnitude().max() > 1e-5
+
+
+def test_a_longer_scale_of_the_instrument_turns_nothing(theatre):
+    (found,) = planted(theatre, "instrument_scale")
+    assert Rotation.from_matrix(found.turned).magnitude().max() < 1e-12
 
 
 def test_a_shift_moves_nothing_before_and_everything_rigidly_after(theatre):

@@ -18,12 +18,13 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from scipy.spatial.transform import Rotation
 
 from armscope.files import write_table, write_yaml
 from armscope.proof.making import TEST_POSES
 from armscope.proof.truth import seal
 from armscope.real.planting import CannotPlantError, Planted, Theatre, plant, truth_of
-from armscope.real.staging import AXES_MM, Stage
+from armscope.real.staging import AXES_MM, QUATERNION, Stage
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,7 @@ def _write_world(
     shutil.copy(places.robot, visible / "robot.yaml")
     write_table(visible / "recordings.csv", table.iloc[stage.train])
     test = table.iloc[stage.test]
-    write_table(visible / TEST_POSES, test.drop(columns=AXES_MM))
+    write_table(visible / TEST_POSES, test.drop(columns=[*AXES_MM, *QUATERNION], errors="ignore"))
     left = np.zeros((len(test), 3)) if planted is None else planted.left[stage.test] * 1e3
     readings = pd.concat([test[AXES_MM].reset_index(drop=True), pd.DataFrame(left, columns=LEFT_MM)], axis=1)
     write_table(home / "sealed" / "test.csv", readings)
@@ -112,9 +113,17 @@ def make_altered(
 
 
 def moved_table(stage: Stage, planted: Planted) -> pd.DataFrame:
-    """The recordings with every measured point moved by what the effect does there."""
+    """The recordings with every measured point, and orientation, moved by what the effect does there."""
     points = stage.table[AXES_MM].to_numpy(dtype=float) + planted.moved * 1e3
-    return stage.table.assign(**{name: points[:, axis].round(5) for axis, name in enumerate(AXES_MM)})
+    table = stage.table.assign(**{name: points[:, axis].round(5) for axis, name in enumerate(AXES_MM)})
+    if stage.recordings.orientation is None:
+        return table
+    quaternions = stage.recordings.orientation.copy()
+    known = np.isfinite(quaternions).all(axis=1)
+    measured = Rotation.from_quat(quaternions[known], scalar_first=True)
+    turned = Rotation.from_matrix(planted.turned[known]) * measured
+    quaternions[known] = turned.as_quat(canonical=True, scalar_first=True)
+    return table.assign(**{name: quaternions[:, k].round(9) for k, name in enumerate(QUATERNION)})
 
 
 def make_withheld(stages: Mapping[str, Stage], places: Places) -> None:

@@ -1,7 +1,7 @@
-"""A known effect added to real recordings: the measured points are moved by what it does to the nominal arm.
+"""A known effect added to real recordings: points, and orientations where measured, move by what it does to the arm.
 
-The displacement is the difference between the nominal arm with and without the effect, both simulated by the engine of
-the virtual worlds (`armscope.world`) at the recorded joint angles, and turned into the measurement frame. Where joint
+The motion is the difference between the nominal arm with and without the effect, both simulated by the engine of the
+virtual worlds (`armscope.world`) at the recorded joint angles, and turned into the measurement frame. Where joint
 torques were recorded, they are what a compliant joint gives way under; elsewhere it is gravity's torque by the mass
 table, in equilibrium.
 """
@@ -42,6 +42,7 @@ class Planted:
         size: RMS at the tool in multiples of what the arm leaves unexplained.
         rms: per axis, after the frames, over the training rows, m.
         moved: (N, 3) displacement of every row, measurement frame, m.
+        turned: (N, 3, 3) turn of the tool in every row, measurement frame.
         left: (N, 3) what frames fitted to the training rows leave of it, m.
         visibility: noncentrality, and what else could stand in its place.
     """
@@ -50,6 +51,7 @@ class Planted:
     size: float
     rms: float
     moved: Array
+    turned: Array
     left: Array
     visibility: Visibility
 
@@ -65,7 +67,7 @@ class Theatre:
         self.stage = stage
         self.rows = [np.flatnonzero(stage.target == k) for k in range(len(stage.targets))]
         self.scenes, self.nominal = [], np.empty((len(stage.table), 3))
-        self.turns = np.empty((len(stage.table), 3, 3))
+        self.turns, self.straight = np.empty((2, len(stage.table), 3, 3))
         session = _session(stage)
         for rows, tool in zip(self.rows, stage.tools, strict=True):
             x, y, z = (float(value) for value in tool * 1e3)
@@ -73,10 +75,16 @@ class Theatre:
             scene, points = make_scene(description, session.rows(rows))
             self.scenes.append(scene)
             self.nominal[rows], self.turns[rows] = points, scene.tool_turn
+            true = balance(scene.geometry, scene.session, Hidden.nothing(scene.geometry, scene.session))
+            self.straight[rows] = true.tool_turn
 
     def moved(self, effect: Concealed) -> Array:
         """(N, 3) displacement of the tool point by an effect, base axes, m."""
-        points = np.empty_like(self.nominal)
+        return self.motion(effect)[0]
+
+    def motion(self, effect: Concealed) -> tuple[Array, Array]:
+        """(N, 3) displacement of the tool point by an effect, m, and (N, 3, 3) turn of the tool, base axes."""
+        points, turns = np.empty_like(self.nominal), np.empty_like(self.straight)
         torque = self.stage.recordings.torque
         for rows, scene in zip(self.rows, self.scenes, strict=True):
             hidden = Hidden.nothing(scene.geometry, scene.session)
@@ -85,8 +93,9 @@ class Theatre:
                 hidden.motor[:, joint] += effect.values["compliance"] * np.nan_to_num(torque[rows, joint])
             else:
                 effect.hide(hidden, scene)
-            points[rows] = balance(scene.geometry, scene.session, hidden).tool
-        return points - self.nominal
+            stands = balance(scene.geometry, scene.session, hidden)
+            points[rows], turns[rows] = stands.tool, stands.tool_turn
+        return points - self.nominal, turns @ np.swapaxes(self.straight, 1, 2)
 
     def left(self, moved: Array) -> Array:
         """(N, 3) what base and tools, fitted to the training rows, leave of a displacement."""
@@ -204,12 +213,13 @@ def _sized(
         if total > largest_factor or raw * factor > LARGEST_RAW_M:
             return None
         effect = effect.scaled(factor)
-    moved = theatre.moved(effect)
+    moved, turned = theatre.motion(effect)
     left = theatre.left(moved)
     visibility = _visibility(theatre, judge, effect, moved, rms(left[train]), level)
     rotations = theatre.stage.rotations
     in_measurement, left_there = (np.einsum("nij,nj->ni", rotations, each) for each in (moved, left))
-    return Planted(effect, size, rms(left[train]), in_measurement, left_there, visibility)
+    turned = rotations @ turned @ np.swapaxes(rotations, 1, 2)
+    return Planted(effect, size, rms(left[train]), in_measurement, turned, left_there, visibility)
 
 
 def _visibility(

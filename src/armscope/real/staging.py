@@ -3,7 +3,7 @@
 All tables of an arm, altered or not, hold the same rows and the same columns. Two columns are not the source's:
 `approach` follows from the order of recording (sign of each joint's step from the configuration before), and
 `temperature_c` is made up (a slow swing), so that effects which follow them can be concealed and found; nothing in the
-real arm follows the latter. Left out are times (rows stand in order) and orientations: only points are altered.
+real arm follows the latter. Left out are times: rows stand in order.
 """
 
 from __future__ import annotations
@@ -26,8 +26,9 @@ SWING_K = 8.0
 """Span of the made-up temperature."""
 TURNS_OF_SWING = 1.3
 STILL_RAD = 1e-6
-KEPT = r"id|run|target|q\d+_rad|[xyz]_mm|tau\d+_nm|payload_kg|sigma_[xyz]_mm|approach\d+|temperature_c"
+KEPT = r"id|run|target|q\d+_rad|[xyz]_mm|q[wxyz]|tau\d+_nm|payload_kg|sigma_[xyz]_mm|approach\d+|temperature_c"
 AXES_MM = ["x_mm", "y_mm", "z_mm"]
+QUATERNION = ["qw", "qx", "qy", "qz"]
 
 
 @dataclass(frozen=True, eq=False)

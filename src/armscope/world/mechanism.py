@@ -159,6 +159,10 @@ class Mechanism:
         """Tool point (3,) in the base frame, m, at the last `stand` or `load`."""
         return np.array(self.data.site_xpos[self.tool_site])
 
+    def tool_turn(self) -> Array:
+        """(3, 3) orientation of the tool in the base frame at the last `stand` or `load`."""
+        return np.array(self.data.site_xmat[self.tool_site]).reshape(3, 3)
+
     def tool_jacobian(self) -> Array:
         """(3, n_freedoms) displacement of the tool point per unit of each freedom, at the last `load`."""
         jacobian = np.zeros((3, self.model.nv))

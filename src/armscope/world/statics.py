@@ -122,11 +122,13 @@ class Balance:
         tool: (N, 3) tool point in the base frame, m, by the instrument's scale.
         motor_torque: (N, m) gravity's torque on each motor there, N m.
         residual: largest force left over on a spring, as a share of the largest load on any spring.
+        tool_turn: (N, 3, 3) orientation of the tool in the base frame.
     """
 
     tool: Array
     motor_torque: Array
     residual: float
+    tool_turn: Array
 
 
 def balance(geometry: Geometry, session: Session, hidden: Hidden) -> Balance:
@@ -138,7 +140,7 @@ def balance(geometry: Geometry, session: Session, hidden: Hidden) -> Balance:
     mechanism = Mechanism(geometry, hidden.layout)
     start = _prescribed(mechanism, session, hidden)
     springs = _Springs(mechanism)
-    tool = np.empty((len(session), 3))
+    tool, turn = np.empty((len(session), 3)), np.empty((len(session), 3, 3))
     torque = np.zeros((len(session), geometry.n_motors))
     residual = largest = 0.0
     needs_load = springs.count > 0 or bool(hidden.curves)
@@ -151,8 +153,8 @@ def balance(geometry: Geometry, session: Session, hidden: Hidden) -> Balance:
                 residual, largest = max(residual, left), max(largest, load)
             else:
                 mechanism.stand(start[row])
-            tool[row] = mechanism.tool()
-    return Balance(tool * (1 + hidden.scale), torque, residual / largest if largest > 0 else 0.0)
+            tool[row], turn[row] = mechanism.tool(), mechanism.tool_turn()
+    return Balance(tool * (1 + hidden.scale), torque, residual / largest if largest > 0 else 0.0, turn)
 
 
 def _prescribed(mechanism: Mechanism, session: Session, hidden: Hidden) -> Array:
