@@ -129,6 +129,7 @@ class RealSet(Strict):
     reference: str | None = Field(None, description="reference.yaml: the protocol and figures of others")
     loads_recorded: bool = Field(False, description="torques or payloads were recorded, and can be withheld")
     diagnosed_splits: Count | None = Field(None, description="splits on which the diagnosis is repeated; null: all")
+    oriented_splits: Count | None = Field(None, description="of these, repeated with orientations, too; null: all")
 
 
 class Proof(Strict):

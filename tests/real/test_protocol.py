@@ -11,7 +11,7 @@ import pytest
 from armscope.calibration.splits import split
 from armscope.inputs import InputError
 from armscope.real import protocol
-from armscope.real.protocol import ARMSCOPE, measure_run, paper_models, protocol_table
+from armscope.real.protocol import ARMSCOPE, ORIENTED, measure_run, paper_models, protocol_table
 from armscope.real.reference import Best, Reference, ReferenceRun, ReferenceTransfer, load_reference, rows_of_run
 from armscope.real.transfer import calibrated_transfer, learn, measure_transfers
 from armscope.recordings import as_recordings
@@ -48,12 +48,28 @@ def test_a_known_arm_is_predicted_to_its_noise(measured):
     assert {"joint 2", "joint 3", "joint 5"} <= set(found.names["location"])
 
 
+def test_orientations_are_learned_from_in_a_row_of_its_own():
+    run = ReferenceRun(name="one", run="one", splits=2, figures_mm={"nominal": (1.5, 0.1)})
+    rows = recordings(table(60, 0.3, error_rad=offsets, turn_noise_rad=1e-4))
+    found = measure_run(arm(), rows, run, oriented_splits=1)
+    table_ = protocol_table(found.splits, run).set_index("model")
+    assert table_["splits"][ARMSCOPE] == 2
+    assert table_["splits"][ORIENTED] == 1
+    assert np.isnan(table_["turn_mrad"][ARMSCOPE])
+    # the angle has three components, and joints' zeros are found far better than their noise
+    assert table_["turn_mrad"][ORIENTED] == pytest.approx(0.1 * np.sqrt(3), rel=0.2)
+    first = found.splits[found.splits["split"] == 0].set_index("model")["rms_mm"]
+    assert first[ORIENTED] < 1.02 * first[ARMSCOPE]
+    assert set(found.names["model"]) == {ARMSCOPE, ORIENTED}
+
+
 def test_the_diagnosis_never_sees_a_test_row(measured, monkeypatch):
     run, _ = measured
     rows = recordings(table(60, NOISE_MM, error_rad=offsets))
     seen = []
 
     def spying(arm_, table_, settings):
+        assert not settings.orientation
         seen.append(set(table_.id))
         raise KeyboardInterrupt
 

@@ -21,14 +21,19 @@ def arm_(tmp_path):
         ("run a", "nominal", 1.2, 0.04), ("run a", "armscope", 0.25, 0.01), ("run a", "FDP(CI)", 0.9, 0.0),
         ("run b", "nominal", 3.0, 0.1), ("run b", "armscope", 2.0, 0.2), ("run b", "FDP(CI)", 2.9, 0.0),
     ]  # fmt: skip
-    table = pd.DataFrame(rows, columns=["run", "model", "mean_mm", "std_mm"]).assign(splits=5)
+    rows.insert(2, ("run a", "armscope, orientations too", 0.22, 0.02))
+    table = pd.DataFrame(rows, columns=["run", "model", "mean_mm", "std_mm"]).assign(splits=5, turn_mrad=np.nan)
+    table.loc[2, ["splits", "turn_mrad"]] = [2, 0.31]
     write_table(folder / "protocol.csv", table)
     splits = pd.DataFrame([{"run": "run a", "model": "armscope", "split": k, "rms_mm": 0.25} for k in range(5)])
-    write_table(folder / "splits.csv", splits)
-    named = [("run a", k, "joint_compliance", "joint 2", None) for k in range(4)]
-    named += [("run a", k, "base_shift", "base", 86 + k) for k in range(5)]
-    named += [("run a", 0, "gear_ratio", "joint 3", None)]
-    write_table(folder / "names.csv", pd.DataFrame(named, columns=["run", "split", "effect", "location", "row"]))
+    too = splits.iloc[:2].assign(model="armscope, orientations too")
+    write_table(folder / "splits.csv", pd.concat([splits, too]))
+    named = [("armscope", k, "joint_compliance", "joint 2", None) for k in range(4)]
+    named += [("armscope", k, "base_shift", "base", 86 + k) for k in range(5)]
+    named += [("armscope", 0, "gear_ratio", "joint 3", None)]
+    named += [("armscope, orientations too", k, "bearing_compliance", "joint 5", None) for k in range(2)]
+    names = pd.DataFrame(named, columns=["model", "split", "effect", "location", "row"]).assign(run="run a")
+    write_table(folder / "names.csv", names)
     columns = ["learned", "applied", "refitted", "model", "rms_mm", "reference_mm"]
     carried = [("run a", "run b", "base and tool", "armscope", 0.38, 0.41)]
     write_table(folder / "transfer.csv", pd.DataFrame(carried, columns=columns))
@@ -64,20 +69,27 @@ def page(arm_, tmp_path):
 
 def test_every_run_stands_beside_the_best_figure_of_others(arm_, tmp_path):
     text = page(arm_, tmp_path)
-    assert "| An arm, a tracker | run a | 0.250 ± 0.010 | 0.27 (one split) | at or below |" in text
-    assert "| An arm, a tracker | run b | 2.00 ± 0.20 | 1.9 (nominal) | **above** |" in text
+    assert (
+        "| An arm, a tracker | run a | 0.250 ± 0.010 | 0.27 (one split) | at or below | 0.220 ± 0.020 (2 splits) |"
+        in text
+    )
+    assert "| An arm, a tracker | run b | 2.00 ± 0.20 | 1.9 (nominal) | **above** | – |" in text
 
 
 def test_the_largest_effect_and_what_becomes_of_the_error_are_told(arm_, tmp_path):
     text = page(arm_, tmp_path)
     assert "joint compliance at joint 2 (0.5 mm, 80 %)" in text
-    assert "1.20 mm become 0.250 mm (3D, run a, 5 splits)" in text
+    learned = "learned from points – from orientations, too, 0.220 ± 0.020 mm"
+    assert f"1.20 mm become 0.250 mm (3D, run a, 5 splits; {learned})" in text
+    assert "| **0.250 ± 0.010** | 0.220 ± 0.020 (2 splits) | 0.310 | 0.27 |" in text
 
 
 def test_names_of_most_splits_and_jumps_within_some_rows_of_each_other_are_told(arm_, tmp_path):
     text = page(arm_, tmp_path)
     assert "joint compliance joint 2 (4/5)" in text
     assert "gear ratio" not in text
+    assert "run a, orientations too: bearing compliance joint 5 (2/2)" in text
+    assert "bearing compliance joint 5 (2/5)" not in text
     assert "base at id 86–90 (5/5)" in text
 
 

@@ -60,10 +60,10 @@ rule protocol_real:
         f"{RESULTS}/real/{{set}}/protocol.png",
     params:
         folder=subpath(output[0], parent=True),
-        splits=lambda wildcards: (
-            f"--diagnosed-splits {CONFIG.real[wildcards.set].diagnosed_splits}"
-            if CONFIG.real[wildcards.set].diagnosed_splits
-            else ""
+        splits=lambda wildcards: " ".join(
+            f"--{kind}-splits {count}"
+            for kind in ("diagnosed", "oriented")
+            if (count := getattr(CONFIG.real[wildcards.set], f"{kind}_splits"))
         ),
         code=code("armscope.cli.real:protocol"),
     log:

@@ -23,6 +23,7 @@ def protocol(
     reference: Annotated[Path, typer.Argument(help="reference.yaml: runs, splits and figures of others")],
     output: Output,
     diagnosed_splits: Annotated[int | None, typer.Option(help="diagnose on so many splits only")] = None,
+    oriented_splits: Annotated[int | None, typer.Option(help="of these, so many with orientations, too")] = None,
 ) -> None:
     """Held-out figures in the reference protocol: plain calibrations, the paper's models, armscope; and transfers."""
     import pandas as pd
@@ -39,7 +40,7 @@ def protocol(
 
     arm, stated = load_arm(robot), load_reference(reference)
     table = read_recordings(recordings, arm.n_motors)
-    found = [measure_run(arm, table, run, diagnosed_splits, _tell) for run in stated.runs]
+    found = [measure_run(arm, table, run, diagnosed_splits, oriented_splits, _tell) for run in stated.runs]
     splits = pd.concat([each.splits for each in found], ignore_index=True)
     write_table(output / "splits.csv", splits, digits=6)
     write_table(output / "names.csv", pd.concat([each.names for each in found], ignore_index=True), digits=6)

@@ -1,8 +1,10 @@
 """Held-out numbers of real runs in the reference protocol: plain calibrations, the paper's models, and the diagnosis.
 
 Every figure is the test RMS of the 3D distance in mm. The diagnosis is repeated from the beginning on the training
-rows of every split. The paper's models see 85 identification rows chosen by their observability, as in the paper, and
-all other rows test them; they are fitted by least squares, which their swarms approach to a fraction of a per cent.
+rows of every split, and like the reference it sees points alone; where orientations were measured, it is repeated once
+more with them, in a row of its own. The paper's models see 85 identification rows chosen by their observability, as in
+the paper, and all other rows test them; they are fitted by least squares, which their swarms approach to a fraction of
+a per cent.
 """
 
 from __future__ import annotations
@@ -26,7 +28,7 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm
 
 Array = NDArray[np.float64]
-ARMSCOPE, UNCORRECTED = "armscope", "frames only"
+ARMSCOPE, ORIENTED, UNCORRECTED = "armscope", "armscope, orientations too", "frames only"
 PAPER_ROWS = 85
 
 
@@ -35,8 +37,9 @@ class Measured:
     """What was found on a run.
 
     Attributes:
-        splits: one row per model and split: run, model, split, train, test (rows), rms_mm, seconds.
-        names: one row per effect that a split's verdict names: run, split, effect, location, named_as, minor,
+        splits: one row per model and split: run, model, split, train, test (rows), rms_mm, seconds, turn_mrad (RMS of
+            the angle between predicted and measured orientation, where orientations were learned, too).
+        names: one row per effect that a split's verdict names: run, model, split, effect, location, named_as, minor,
             rms_at_tool_mm, title, row (of a jump of base or tool: the first id after it).
     """
 
@@ -49,6 +52,7 @@ def measure_run(
     recordings: Recordings,
     reference: ReferenceRun,
     diagnosed_splits: int | None = None,
+    oriented_splits: int | None = None,
     tell: Callable[[str], None] = lambda text: None,
 ) -> Measured:
     """A run in the reference protocol.
@@ -58,6 +62,7 @@ def measure_run(
         recordings: all runs of a set.
         reference: which rows, and how they are split.
         diagnosed_splits: on how many of the splits the diagnosis is repeated; None takes all.
+        oriented_splits: on how many of these it is repeated with orientations, too; None takes all.
         tell: hears what is being done.
     """
     table = rows_of_run(recordings, reference.run, reference.first_id)
@@ -69,16 +74,22 @@ def measure_run(
         for seed, value in zip(seeds, level.per_split, strict=True)
     ]
     names: list[dict[str, object]] = []
-    for seed in list(seeds)[:diagnosed_splits]:
+    diagnosed = list(seeds)[:diagnosed_splits]
+    models = {ARMSCOPE: diagnosed} | ({} if table.orientation is None else {ORIENTED: diagnosed[:oriented_splits]})
+    for model, seed in ((model, seed) for model, chosen in models.items() for seed in chosen):
         train, test = split(table, seed)
-        verdict = diagnose(arm, table.rows(train), Settings(seed=seed, resamples=0, cross_validation=False))
-        found = rms_distance_mm(verdict, table.rows(test))
-        tell(f"{reference.name}: split {seed}, armscope {found:.3f} mm in {verdict.seconds:.0f} s")
+        settings = Settings(seed=seed, resamples=0, cross_validation=False, orientation=model == ORIENTED)
+        verdict = diagnose(arm, table.rows(train), settings)
+        left = {
+            "rms_mm": rms_distance_mm(verdict, table.rows(test)),
+            "turn_mrad": rms_turn_mrad(verdict, table.rows(test)),
+        }
+        tell(f"{reference.name}: split {seed}, {model} {left['rms_mm']:.3f} mm in {verdict.seconds:.0f} s")
         sizes = {"train": len(train), "test": len(test), "seconds": verdict.seconds}
-        rows.append({"run": reference.name, "model": ARMSCOPE, "split": seed, "rms_mm": found, **sizes})
-        names += [{"run": reference.name, "split": seed, **effect} for effect in named(verdict)]
+        rows.append({"run": reference.name, "model": model, "split": seed, **left, **sizes})
+        names += [{"run": reference.name, "model": model, "split": seed, **effect} for effect in named(verdict)]
     rows += [{"run": reference.name, **row} for row in paper_models(arm, table)]
-    columns = ["run", "split", "effect", "location", "named_as", "minor", "rms_at_tool_mm", "title", "row"]
+    columns = ["run", "model", "split", "effect", "location", "named_as", "minor", "rms_at_tool_mm", "title", "row"]
     return Measured(pd.DataFrame(rows), pd.DataFrame(names, columns=columns))
 
 
@@ -86,6 +97,14 @@ def rms_distance_mm(verdict: Verdict, recordings: Recordings) -> float:
     """RMS of the 3D distance between what a diagnosis predicts and what was measured, mm."""
     missed = predict(verdict.model, recordings) - recordings.positions
     return 1e3 * float(np.sqrt(np.mean(np.sum(missed**2, axis=1))))
+
+
+def rms_turn_mrad(verdict: Verdict, recordings: Recordings) -> float:
+    """RMS of the angle between predicted and measured orientations, mrad; NaN where the diagnosis learned none."""
+    if not verdict.model.tool_turns:
+        return float("nan")
+    turns = verdict.model.missed_turns(verdict.model.posture(verdict.model.scene(recordings)))
+    return 1e3 * float(np.sqrt(np.nanmean(np.sum(turns**2, axis=1))))
 
 
 def named(verdict: Verdict) -> list[dict[str, object]]:
@@ -136,6 +155,7 @@ def protocol_table(splits: pd.DataFrame, reference: ReferenceRun) -> pd.DataFram
                 "mean_mm": group["rms_mm"].mean(),
                 "std_mm": group["rms_mm"].std(ddof=0),
                 "median_mm": group["rms_mm"].median(),
+                "turn_mrad": group["turn_mrad"].mean(),
                 "reference_mm": figure[0] if figure else np.nan,
                 "reference_std_mm": figure[1] if figure else np.nan,
                 "best_mm": reference.lowest.mm if model == ARMSCOPE else np.nan,

@@ -73,8 +73,8 @@ def curves_transfer(arm: Arm, learned: Verdict, rows: Recordings) -> dict[str, f
 
 
 def learn(arm: Arm, recordings: Recordings, transfers: Sequence[ReferenceTransfer]) -> dict[str, Verdict]:
-    """The verdict of every run that something is learned on."""
-    settings = Settings(resamples=0, cross_validation=False)
+    """The verdict of every run that something is learned on: from points alone, as what stands beside it."""
+    settings = Settings(resamples=0, cross_validation=False, orientation=False)
     runs = dict.fromkeys(transfer.learned for transfer in transfers)
     return {run: diagnose(arm, rows_of_run(recordings, run), settings) for run in runs}
 

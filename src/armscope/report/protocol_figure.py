@@ -11,14 +11,17 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import NullFormatter
 
-from armscope.real.protocol import ARMSCOPE
-from armscope.report.style import BLUE, GREEN, GREY, ORANGE, SKY, VERMILION, legend_above, styled
+from armscope.real.protocol import ARMSCOPE, ORIENTED
+from armscope.report.style import BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, legend_above, styled
 
 MODELS = {
     "nominal": (GREY, "o", "nominal"), "offsets": (SKY, "v", "offsets"), "geometric": (ORANGE, "s", "geometric"),
-    "compliance": (GREEN, "^", "+ compliance"), ARMSCOPE: (BLUE, "D", "armscope"),
+    "compliance": (GREEN, "^", "+ compliance"), ARMSCOPE: (BLUE, "D", "armscope (points alone, as the others)"),
+    ORIENTED: (PURPLE, "P", "armscope, orientations too"),
 }  # fmt: skip
 TICKS_MM = (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10)
+BESIDE = 0.28
+"""How far below its line the model stands that learned from more than the others."""
 BEST = "best figure of others"
 
 
@@ -51,7 +54,8 @@ def _line(axes: Axes, at: float, rows: pd.DataFrame) -> None:
     for model, mean, std, best in zip(rows["model"], rows["mean_mm"], rows["std_mm"], rows["best_mm"], strict=True):
         if model in MODELS:
             colour, marker, _ = MODELS[model]
-            axes.plot([max(mean - std, 0.3 * mean), mean + std], [at, at], color=colour, lw=1.2)
-            axes.plot(mean, at, marker, color=colour, ms=5)
+            height = at - BESIDE if model == ORIENTED else at
+            axes.plot([max(mean - std, 0.3 * mean), mean + std], [height, height], color=colour, lw=1.2)
+            axes.plot(mean, height, marker, color=colour, ms=5)
         if model == ARMSCOPE:
             axes.plot(best, at, "|", color=VERMILION, ms=13, mew=2)

@@ -13,7 +13,7 @@ import pandas as pd
 
 from armscope.files import write_text
 from armscope.real.curves import shared
-from armscope.real.protocol import ARMSCOPE, UNCORRECTED
+from armscope.real.protocol import ARMSCOPE, ORIENTED, UNCORRECTED
 from armscope.real.reference import Reference, ReferenceRun, load_reference
 from armscope.real.transfer import GEOMETRY_HERE, SPLITS, WITH_CURVES
 from armscope.report.page import significant
@@ -27,10 +27,12 @@ What armscope says about public recordings of real arms, in the protocol of the 
 configurations split at random (70 % to learn from), RMS of the 3D distance in mm on the rest, mean ± standard deviation
 over the splits; in brackets what others reached. *nominal* fits base and tool only, *offsets* every joint's zero,
 *geometric* every D-H value, *+ compliance* one spring per joint. *armscope* is the whole diagnosis, repeated from the
-beginning on the rows of every split. No row of a test part is seen by the diagnosis that is tested on it. What that
-does not exclude: these recordings were in view while armscope was built, and one constant (a joint's bearing is
-expected to give half as much as its drive, not a third) was settled on the iiwa's 2016-11-18. The recordings are not
-part of this repository: `snakemake -j2 fetch_recordings`."""
+beginning on the rows of every split; it sees points alone, as the figures beside it did. *orientations too* is the same
+where the tool's orientation was recorded and is learned from, too: again the distance of points, and what is left of
+the angle between predicted and measured orientation. No row of a test part is seen by the diagnosis that is tested on
+it. What that does not exclude: these recordings were in view while armscope was built, and one constant (a joint's
+bearing is expected to give half as much as its drive, not a third) was settled on the iiwa's 2016-11-18. The recordings
+are not part of this repository: `snakemake -j2 fetch_recordings`."""
 PAPER = "The paper's models at 85 identification rows (chosen as in the paper, least squares; the rest tests them):"
 CONCEALMENT = """\
 One known effect at a time, added to the recordings behind a seal at 0.5, 1 and 3 times what each arm's own diagnosis
@@ -76,8 +78,8 @@ def _head(arms: Sequence[RealArm], figures: str) -> str:
         "",
         INTRODUCTION,
         "",
-        "| arm | run | armscope | best figure of others | |",
-        "|---|---|---|---|---|",
+        "| arm | run | armscope | best figure of others | armscope beside it | orientations too |",
+        "|---|---|---|---|---|---|",
     ]
     for arm in arms:
         table, reference = _read(arm)
@@ -87,7 +89,7 @@ def _head(arms: Sequence[RealArm], figures: str) -> str:
             verdict = "at or below" if ours["mean_mm"] <= others.mm else "**above**"
             lines.append(
                 f"| {arm.title} | {run.name} | {_spread(ours, run.splits)} "
-                f"| {others.mm:g} ({others.what}) | {verdict} |"
+                f"| {others.mm:g} ({others.what}) | {verdict} | {_oriented(table, run)} |"
             )
     lines += [
         "",
@@ -126,6 +128,12 @@ def _row(table: pd.DataFrame, run: str, model: str) -> Any:
     return found.iloc[0] if len(found) else None
 
 
+def _oriented(table: pd.DataFrame, run: ReferenceRun) -> str:
+    """The diagnosis that learned from orientations, too; a dash where none were recorded."""
+    row = _row(table, run.name, ORIENTED)
+    return _spread(row, run.splits) if row is not None else "–"
+
+
 def _spread(row: Any, splits: int | None = None) -> str:
     """Mean and standard deviation; how many splits, where these are not ``splits``."""
     if row is None:
@@ -152,17 +160,18 @@ def _what_is_wrong(verdict: dict[str, Any]) -> str:
 
 
 def _how_well(table: pd.DataFrame, run: ReferenceRun) -> str:
-    before, after = (_row(table, run.name, model) for model in ("nominal", ARMSCOPE))
+    before, after, turned = (_row(table, run.name, model) for model in ("nominal", ARMSCOPE, ORIENTED))
     become = f"{significant(before['mean_mm'])} mm become {significant(after['mean_mm'])} mm"
     count = "one split" if after["splits"] == 1 else f"{after['splits']:.0f} splits"
-    return f"On configurations that took no part, {become} (3D, {run.name}, {count})."
+    too = "" if turned is None else f"; learned from points – from orientations, too, {_spread(turned)} mm"
+    return f"On configurations that took no part, {become} (3D, {run.name}, {count}{too})."
 
 
 def _levels(table: pd.DataFrame, runs: Sequence[ReferenceRun]) -> str:
-    lines = [
-        "| run | nominal | offsets | geometric | + compliance | armscope | best of others |",
-        "|---|---|---|---|---|---|---|",
-    ]
+    turned = ORIENTED in set(table["model"])
+    head = ["run", *("+ compliance" if level == "compliance" else level for level in LEVELS), "armscope"]
+    head += ["orientations too", "angle left (mrad)"] if turned else []
+    lines = [f"| {' | '.join([*head, 'best of others'])} |", "|---|" + "---|" * len(head)]
     for run in runs:
         cells = []
         for level in LEVELS:
@@ -170,6 +179,9 @@ def _levels(table: pd.DataFrame, runs: Sequence[ReferenceRun]) -> str:
             known = run.figures_mm.get(level)  # type: ignore[call-overload]
             cells.append(_spread(row) + (f" ({known[0]:g} ± {known[1]:g})" if known and row is not None else ""))
         cells.append(f"**{_spread(_row(table, run.name, ARMSCOPE), run.splits)}**")
+        if turned:
+            row = _row(table, run.name, ORIENTED)
+            cells += [_oriented(table, run), "–" if row is None else significant(row["turn_mrad"])]
         lines.append(f"| {run.name} | {' | '.join(cells)} | {run.lowest.mm:g} |")
     return "\n".join(lines)
 
@@ -180,18 +192,23 @@ def _agreement(arm: RealArm, runs: Sequence[ReferenceRun]) -> str:
     splits = pd.read_csv(arm.folder / "splits.csv")
     sentences = []
     for run in runs:
-        count = int(((splits["run"].astype(str) == run.name) & (splits["model"] == ARMSCOPE)).sum())
-        mine = names[names["run"].astype(str) == run.name]
-        name = mine["effect"].str.replace("_", " ") + " " + mine["location"]
-        steady = mine[~mine["effect"].isin(JUMPS)].groupby(name)["split"].nunique()
-        steady = steady[steady >= AGREED * count].sort_values(ascending=False, kind="stable")
-        told = [f"{name} ({times}/{count})" for name, times in steady.items()]
-        jumps = mine[mine["effect"].isin(JUMPS) & mine["row"].notna()]
-        text = f"- {run.name}: " + (", ".join(told) if told else "no name in most splits")
-        if len(jumps):
-            text += "; set-up changes: " + ", ".join(_jumps(jumps, count))
-        sentences.append(text)
+        for model, learned in ((ARMSCOPE, ""), (ORIENTED, ", orientations too")):
+            count = int(((splits["run"].astype(str) == run.name) & (splits["model"] == model)).sum())
+            mine = names[(names["run"].astype(str) == run.name) & (names["model"] == model)]
+            if count:
+                sentences.append(f"- {run.name}{learned}: {_steady(mine, count)}")
     return "Named in most splits (how often):\n\n" + "\n".join(sentences)
+
+
+def _steady(names: pd.DataFrame, count: int) -> str:
+    """What most of so many splits name."""
+    name = names["effect"].str.replace("_", " ") + " " + names["location"]
+    steady = names[~names["effect"].isin(JUMPS)].groupby(name)["split"].nunique()
+    steady = steady[steady >= AGREED * count].sort_values(ascending=False, kind="stable")
+    told = [f"{name} ({times}/{count})" for name, times in steady.items()]
+    jumps = names[names["effect"].isin(JUMPS) & names["row"].notna()]
+    text = ", ".join(told) if told else "no name in most splits"
+    return text + ("; set-up changes: " + ", ".join(_jumps(jumps, count)) if len(jumps) else "")
 
 
 def _jumps(jumps: pd.DataFrame, count: int) -> list[str]:
@@ -210,7 +227,7 @@ def _jumps(jumps: pd.DataFrame, count: int) -> list[str]:
 
 
 def _paper(table: pd.DataFrame, runs: Sequence[ReferenceRun]) -> str:
-    models = [m for m in table["model"].unique() if m not in (*LEVELS, ARMSCOPE)]
+    models = [m for m in table["model"].unique() if m not in (*LEVELS, ARMSCOPE, ORIENTED)]
     names = {UNCORRECTED: "none (frames only)"}
     lines = ["| run | " + " | ".join(names.get(m, m) for m in models) + " |", "|---|" + "---|" * len(models)]
     for run in runs:
