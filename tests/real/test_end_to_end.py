@@ -24,11 +24,14 @@ def call(*words):
     assert result.exception is None, (words, result.exception, result.stdout)
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
+@pytest.fixture(scope="module", params=[None, 1e-4], ids=["points", "orientations too"])
+def folder(request, tmp_path_factory):
     home = tmp_path_factory.mktemp("concealed")
     # an arm with errors of its own: two zeros are off and a gear is out of round
-    own = table(120, 0.02, error_rad=lambda q, rng: np.array([0, 1e-3, 0, -2e-3, 0, 0]) + 2e-4 * np.cos(q))
+    own = table(
+        120, 0.02, error_rad=lambda q, rng: np.array([0, 1e-3, 0, -2e-3, 0, 0]) + 2e-4 * np.cos(q),
+        turn_noise_rad=request.param,
+    )  # fmt: skip
     own.to_csv(home / "recordings.csv", index=False)
     for part in ("original", "fixed"):
         places = ("--visible", home / "visible" / f"arm-{part}", "--sealed", home / "sealed" / f"arm-{part}.tar.gz")
