@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from scipy.spatial.transform import Rotation
 
@@ -60,6 +62,15 @@ def table(angles, rows, run) -> Recordings:
         content |= {f"{axis}_m": points[:, k] for k, axis in enumerate("xyz")}
         parts.append(pd.DataFrame(content))
     return as_recordings(pd.concat(parts, ignore_index=True))
+
+
+def together(*parts: Recordings) -> Recordings:
+    """Several runs as one table."""
+    joined = {
+        name: np.concatenate([getattr(part, name) for part in parts])
+        for name in ("motor_angles", "positions", "run", "target", "id")
+    }
+    return replace(parts[0], **joined)
 
 
 def ur_like(**more):

@@ -11,10 +11,14 @@ import pandas as pd
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from armscope.calibration.fit import rms_distance, spread_of
+from armscope.calibration.by_run import ALL, misses_by_run
+from armscope.calibration.fit import UNSETTLED, rms_distance, spread_of
+from armscope.calibration.geometry import nominal_values
+from armscope.calibration.imitation import Imitation, imitations
 from armscope.calibration.model import Level, SetUp, State, set_up
-from armscope.calibration.solve import Priors, Redundancy, Solved, solve
-from armscope.calibration.splits import split
+from armscope.calibration.sharing import exchanged_tool, moved_base
+from armscope.calibration.solve import Priors, Redundancy, Solved, scales_of, solve
+from armscope.calibration.splits import foretold, split
 from armscope.inputs import InputError
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -29,6 +33,12 @@ DECIDING_ROWS = 1000
 
 HARM = 1.01
 """Orientations are left out if they raise the held-out RMS of positions by more than this factor."""
+
+IMPLAUSIBLE = {"m": 0.05, "rad": 0.1}
+"""A constant of the drawing (share of the arm's reach, or rad) is not so wrong: the fit has lost its way."""
+SURE_SIGMAS = 3.0
+SHOWN = {"m": (1e3, "mm"), "rad": (1e3, "mrad"), "rad/(N m)": (1e6, "µrad/(N m)")}
+"""Factor and unit for reading."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +56,10 @@ class Calibration:
         reason: why the fit stopped.
         suspects: (N,) rows that look like bad shots: beyond six times the spread.
         ids: (N,) the rows' ids, "run: id".
-        note: why orientations were used or left out; empty where there are none.
+        notes: what was decided: orientations used or left out, tools free per run.
+        doubts: why the result should not be used; empty if all is well.
+        held: parameters of the level that stay nominal, since the poses cannot tell them from others, and from which.
+        misses: in-sample and held-out RMS by run, see `misses_by_run`; None if not asked for.
     """
 
     level: Level
@@ -59,7 +72,10 @@ class Calibration:
     reason: str
     suspects: NDArray[np.bool_]
     ids: NDArray[np.str_]
-    note: str = ""
+    notes: tuple[str, ...] = ()
+    doubts: tuple[str, ...] = ()
+    held: tuple[Imitation, ...] = ()
+    misses: pd.DataFrame | None = None
 
     @functools.cached_property
     def arm(self) -> Arm:
@@ -77,26 +93,43 @@ class Calibration:
         return rms_distance(self.residuals)
 
     @property
-    def held(self) -> tuple[str, ...]:
-        """Parameters of the level that the poses can't tell apart from others, held at nominal."""
-        wanted = self.set_up.free(self.level)
-        return tuple(name for name, want, free in zip(self.set_up.names, wanted, self.free, strict=True) if want > free)
-
-    @property
     def table(self) -> pd.DataFrame:
-        """One row per fitted parameter: name, unit, value (of the arm's constants: the change), stderr."""
+        """One row per fitted parameter: name, unit, value (of the arm's constants: the change), stderr, nominal.
+
+        Base frames: position and rotation vector, their standard errors along and about the base's own axes. Nominal
+        values stand beside D-H constants and tool points.
+        """
         base = np.concatenate([self.state.translations, Rotation.from_matrix(self.state.rotations).as_rotvec()], axis=1)
         turns = Rotation.from_matrix(self.state.tool_rotations).as_rotvec()
-        state = self.state
+        state, rows = self.state, self.set_up
         values = np.concatenate([base.ravel(), state.tools.ravel(), state.constants, state.compliances, turns.ravel()])
+        nominal = np.full(len(values), np.nan)
+        tools = slice(base.size, base.size + state.tools.size)
+        nominal[tools] = np.tile(rows.arm.tool, len(rows.tool_names))
+        nominal[tools.stop : tools.stop + len(rows.constants)] = nominal_values(rows.arm, rows.constants)
         return pd.DataFrame(
             {
-                "parameter": np.array(self.set_up.names)[self.free],
-                "unit": np.array(self.set_up.units)[self.free],
+                "parameter": np.array(rows.names)[self.free],
+                "unit": np.array(rows.units)[self.free],
                 "value": values[self.free],
                 "stderr": np.sqrt(np.diag(self.covariance)),
+                "nominal": nominal[self.free],
             }
         )
+
+    @property
+    def held_table(self) -> pd.DataFrame:
+        """One row per parameter held: parameter, imitated_by (joined by " + "), share_left of what it does."""
+        return pd.DataFrame(
+            [(each.name, " + ".join(each.partners), each.left) for each in self.held],
+            columns=["parameter", "imitated_by", "share_left"],
+        )
+
+    @property
+    def covariance_table(self) -> pd.DataFrame:
+        """Covariance of the fitted parameters, in products of their units: parameter, and one column of each."""
+        names = np.array(self.set_up.names)[self.free]
+        return pd.DataFrame(self.covariance, columns=names).assign(parameter=names)[["parameter", *names]]
 
     def text(self) -> str:
         """The calibration in words, lengths in mm and angles in mrad."""
@@ -104,22 +137,42 @@ class Calibration:
         arm = self.set_up.arm
         lines = [
             f"{arm.name}: {self.level} calibration on {n_rows} rows, {int(self.free.sum())} parameters",
-            f"RMS of the 3D distance {self.rms_distance * 1e3:.4g} mm after {self.steps} steps; {self.reason}",
+            *self._misses_in_words(),
         ]
         if arm.description.urdf is not None and arm.description.actuation is None:
             motors = ", ".join(f"q{motor} {name}" for motor, name in enumerate(arm.joint_names, start=1))
             lines.append(f"motors: {motors}")
-        if self.note:
-            lines.append(self.note)
-        if self.held:
-            lines.append("held at nominal, not identifiable from these poses: " + ", ".join(self.held))
+        lines += self.notes
+        lines += [f"doubtful: {doubt}" for doubt in self.doubts]
         if len(suspects):
             more = ", ..." if len(suspects) > 12 else ""
             lines.append(f"{len(suspects)} rows look like bad shots: " + ", ".join(suspects[:12]) + more)
-        for name, unit, value, error in self.table.itertuples(index=False):
-            shown = {"m": "mm", "rad": "mrad", "rad/(N m)": "mrad/(N m)"}[unit]
-            lines.append(f"  {name:<28} {value * 1e3:12.5g} +- {error * 1e3:.2g} {shown}")
+        lines.append("fitted, with standard errors (of base frames: along and about the base's own axes):")
+        for name, unit, value, error, nominal in self.table.itertuples(index=False):
+            factor, shown = SHOWN[unit]
+            beside = "" if np.isnan(nominal) else f"  (nominal {nominal * factor:.6g} {shown})"
+            if name.startswith("joint ") and not np.isnan(nominal):  # as in robot.yaml, where angles are in degrees
+                becomes = (
+                    f"{np.degrees(nominal + value):.5g} deg" if unit == "rad" else f"{1e3 * (nominal + value):.6g} mm"
+                )
+                beside = f"  (becomes {becomes})"
+            lines.append(f"  {name:<28} {value * factor:12.5g} +- {error * factor:.2g} {shown}{beside}")
+        if self.held:
+            lines.append("held at nominal: from these poses not told apart from what moves the tool alike:")
+            lines += [f"  {each.text()}" for each in self.held]
         return "\n".join(lines)
+
+    def _misses_in_words(self) -> list[str]:
+        stopped = f"after {self.steps} steps; {self.reason}"
+        if self.misses is None:
+            return [f"RMS of the 3D distance {self.rms_distance * 1e3:.4g} mm {stopped}"]
+        lines = []
+        for run, _, inside, held, spread, alone in self.misses.itertuples(index=False):
+            where = "RMS of the 3D distance" if run == ALL else f"  run {run}:"
+            outside = f"held out {held:.4g} +- {spread:.2g} mm (base and tool alone {alone:.4g} mm)"
+            outside = outside if np.isfinite(held) else "none held out"
+            lines.append(f"{where} {inside:.4g} mm on the rows fitted, {outside}")
+        return [*lines, stopped]
 
 
 def calibrate(
@@ -131,8 +184,9 @@ def calibrate(
     priors: Priors | None = None,
     robust: bool = False,
     one_base: bool = False,
-    tool_per_run: bool = False,
+    tool_per_run: bool | None = None,
     orientation: bool | None = None,
+    splits: int = 0,
 ) -> Calibration:
     """Fit base frames, tools and the arm's constants to measured positions, and orientations where there are any.
 
@@ -145,56 +199,125 @@ def calibrate(
         priors: sizes for `redundancy` "priors"; None takes the defaults.
         robust: take the say from bad shots (Tukey's biweight).
         one_base: one base frame for all runs.
-        tool_per_run: a tool of its own for every run.
+        tool_per_run: a tool of its own for every run; None: where one for all leaves more than twice as much.
         orientation: use measured orientations, weighed by the scatter that positions and orientations show; None uses
             them unless positions of rows that took no part are then predicted worse, which happens where an arm errs
             more in orientation than its constants can say.
+        splits: how often 70 % of the configurations are drawn to learn from and the rest to be tested on; 0 never.
 
     Raises:
-        InputError: another number of motors than the arm's, or fewer measured numbers than parameters.
+        InputError: another number of motors than the arm's, fewer measured numbers than parameters, or compliances
+            without loads.
     """
     priors = priors or Priors()
-
+    notes, doubts = _sharing(arm, recordings, one_base, tool_per_run)
+    tool_per_run = bool(notes) if tool_per_run is None else tool_per_run
     rows = set_up(arm, recordings, one_base, tool_per_run, orientation is not False)
-    without = replace(rows, orientations=None)
+    _require_loads(recordings, rows, level)
 
     def solved_for(some: SetUp) -> Solved:
         return solve(some, level, redundancy, priors, robust)
 
-    note = ""
     if orientation is None and rows.orientations is not None:
-        helps, note = _orientation_helps(rows, without, recordings, solved_for)
-        rows = rows if helps else without
+        helps, note = _orientation_helps(rows, recordings, solved_for)
+        rows, notes = rows if helps else replace(rows, orientations=None), [*notes, note]
     solved = solved_for(rows)
     _require_rows(recordings, solved, redundancy)
     rows, fitted = solved.rows, solved.fitted
     distance = np.linalg.norm(rows.residuals(fitted.state), axis=1)
     ids = [f"{run}: {name}" if run else name for run, name in zip(recordings.run, recordings.id, strict=True)]
+    covariance = _covariance(solved)
+    misses = None
+    if splits:
+        misses = misses_by_run(rows, recordings, fitted.state, lambda some: solved_for(some).fitted.state, splits)
     return Calibration(
         level=level,
         set_up=rows,
         state=fitted.state,
         free=solved.free,
         weights=fitted.weights,
-        covariance=_covariance(solved),
+        covariance=covariance,
         steps=fitted.steps,
         reason=fitted.reason,
         suspects=distance > SUSPECT_SIGMAS * spread_of(distance),
         ids=np.array(ids),
-        note=note,
+        notes=tuple(notes + _odd_compliances(solved, covariance)),
+        doubts=tuple(doubts + _lost(solved)),
+        held=_held(solved, level),
+        misses=misses,
     )
 
 
-def _orientation_helps(
-    rows: SetUp, without: SetUp, recordings: Recordings, solved_for: Callable[[SetUp], Solved]
-) -> tuple[bool, str]:
+def _sharing(
+    arm: Arm, recordings: Recordings, one_base: bool, tool_per_run: bool | None
+) -> tuple[list[str], list[str]]:
+    """(notes, doubts) on what the runs share; a note if tools must be free per run and nobody said otherwise."""
+    if len(np.unique(recordings.run)) < 2:
+        return [], []
+    notes, doubts = list[str](), list[str]()
+    if not tool_per_run and (text := exchanged_tool(arm, recordings, one_base)):
+        if tool_per_run is None:
+            notes.append(f"{text}, and is free in every run")
+        else:
+            doubts.append(text)
+    if one_base and (text := moved_base(arm, recordings, bool(notes) or bool(tool_per_run))):
+        doubts.append(text)
+    return notes, doubts
+
+
+def _require_loads(recordings: Recordings, rows: SetUp, level: Level) -> None:
+    if level == "compliance" and rows.loads is None:
+        raise InputError(
+            recordings.source,
+            "level",
+            level,
+            f"neither the masses of {rows.arm.name} nor recorded torques say what its joints give way under",
+            "State `links` in robot.yaml or record tau1_nm ..., or calibrate at level geometric.",
+        )
+
+
+def _lost(solved: Solved) -> list[str]:
+    """What shows that the fit has lost its way."""
+    rows, state = solved.rows, solved.fitted.state
+    limits = {"m": IMPLAUSIBLE["m"] * rows.arm.reach, "rad": IMPLAUSIBLE["rad"]}
+    far = [
+        f"{constant.name} by {value * SHOWN[constant.unit][0]:.3g} {SHOWN[constant.unit][1]}"
+        for constant, value in zip(rows.constants, state.constants, strict=True)
+        if not constant.is_zero_offset and abs(value) > limits[constant.unit]
+    ]
+    told = [f"no drawing is so wrong: {', '.join(far)}"] if far else []
+    return told + (["the fit did not settle"] if solved.fitted.reason == UNSETTLED else [])
+
+
+def _odd_compliances(solved: Solved, covariance: Array) -> list[str]:
+    """Joints that turn against their load, beyond doubt, which no spring does."""
+    fitted = np.array(solved.rows.names)[solved.free]
+    errors = dict(zip(fitted.tolist(), np.sqrt(np.diag(covariance)).tolist(), strict=True))
+    values = {
+        f"joint {joint} compliance": value for joint, value in enumerate(solved.fitted.state.compliances, start=1)
+    }
+    against = [name for name, value in values.items() if name in errors and value < -SURE_SIGMAS * errors[name]]
+    return [f"turns against its load, which no spring does: {name}" for name in against]
+
+
+def _held(solved: Solved, level: Level) -> tuple[Imitation, ...]:
+    rows = solved.rows
+    wanted = rows.free(level)
+    _, jacobian = rows.linearised(solved.fitted.state, wanted)
+    names = tuple(name for name, want in zip(rows.names, wanted, strict=True) if want)
+    return imitations(jacobian, solved.free[wanted], scales_of(rows)[wanted], names)
+
+
+def _orientation_helps(rows: SetUp, recordings: Recordings, solved_for: Callable[[SetUp], Solved]) -> tuple[bool, str]:
     """Whether positions of rows that took no part are predicted as well with orientations as without."""
+    without = replace(rows, orientations=None)
     found = []
     for variant in (without, rows):
         squares = []
         for seed in range(DECIDING_SPLITS):
             train, test = split(recordings, seed)
             train = train[:: max(1, len(train) // DECIDING_ROWS)]
+            test = foretold(rows, train, test)
             fitted = solved_for(variant.rows(train)).fitted
             squares.append(rms_distance(without.rows(test).residuals(fitted.state)) ** 2)
         found.append(1e3 * float(np.sqrt(np.mean(squares))))

@@ -69,7 +69,7 @@ def frames_content(calibration: Calibration) -> dict[str, Any]:
     content: dict[str, Any] = {
         "rms_distance_mm": calibration.rms_distance * 1e3,
         "base_frames": [
-            {"run": name, "position_mm": position, "quaternion_wxyz": quaternion}
+            {"run": name, "position_mm": position, "quaternion_wxyz": quaternion} | _not_told(calibration, name)
             for name, position, quaternion in zip(rows.base_names, state.translations * 1e3, quaternions, strict=True)
         ],
         "tools": [
@@ -80,6 +80,13 @@ def frames_content(calibration: Calibration) -> dict[str, Any]:
         content["compliances_rad_per_nm"] = state.compliances
         content["loads"] = rows.load_source
     return content
+
+
+def _not_told(calibration: Calibration, run: str) -> dict[str, list[str]]:
+    """Which of a base frame's numbers the rows do not tell, as in a run of one pose; nothing where they tell all."""
+    start = f"base of {run} " if run else "base "
+    axes = [each.name.removeprefix(start) for each in calibration.held if each.name.startswith(start)]
+    return {"not_identified": [axis for axis in axes if " " not in axis]} if axes else {}
 
 
 def _common(arm: Arm, tool_mm: Array) -> dict[str, Any]:

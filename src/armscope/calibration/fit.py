@@ -16,6 +16,7 @@ from armscope.calibration.registration import starts
 Array = NDArray[np.float64]
 Reason = Literal["the step became negligible", "no step lowers the misfit", "the largest number of steps was made"]
 
+UNSETTLED: Reason = "the largest number of steps was made"
 LARGEST_STEPS = 60
 NEGLIGIBLE = 1e-8
 """Steps that move the tool by less than this, in metres RMS, end the fit: a hundredth of a micrometre."""
@@ -77,7 +78,7 @@ def least_squares(
                 return Fitted(state, weights, steps, "no step lowers the misfit")
         state, jacobian, change = candidate, ahead, change + step
         damping = damping / 100 if damping > 1e-6 else 0.0
-    return Fitted(state, weights, most_steps, "the largest number of steps was made")
+    return Fitted(state, weights, most_steps, UNSETTLED)
 
 
 def _changes(state: State) -> Array:
@@ -177,15 +178,20 @@ def _placed(set_up: SetUp, blank: State, most_steps: int) -> State:
         rotations, translations, tools = blank.rotations.copy(), blank.translations.copy(), []
         for base in range(len(set_up.base_names)):
             rows = set_up.base == base
+            if not rows.any():  # part of a table: what has no row stays where it is
+                continue
             found = starts(flange[rows], turned[rows], set_up.tool[rows], set_up.measured[rows], blank.tools)
             placement = found[0 if trust_nominal else -1]
             rotations[base], translations[base] = placement.rotation, placement.translation
             tools.append(placement.tools)
-        start = replace(blank, rotations=rotations, translations=translations, tools=_mean_known(np.array(tools)))
+        start = replace(
+            blank, rotations=rotations, translations=translations, tools=_mean_known(np.array(tools), blank.tools)
+        )
         candidates.append(least_squares(set_up, start, free, most_steps=most_steps).state)
     return min(candidates, key=lambda state: float(np.sum(set_up.residuals(state) ** 2)))
 
 
-def _mean_known(tools: Array) -> Array:
+def _mean_known(tools: Array, otherwise: Array) -> Array:
     known = np.isfinite(tools)
-    return np.where(known, tools, 0.0).sum(axis=0) / known.sum(axis=0)
+    sums = np.where(known, tools, 0.0).sum(axis=0)
+    return np.where(known.any(axis=0), sums / np.maximum(known.sum(axis=0), 1), otherwise)

@@ -53,6 +53,16 @@ def constants_of(arm: Arm) -> tuple[Constant, ...]:
     return tuple(Constant(joint, kind) for joint in range(1, arm.n_joints + 1) for kind in kinds)
 
 
+def nominal_values(arm: Arm, constants: tuple[Constant, ...]) -> Array:
+    """(P,) what the D-H rows say, m and rad; NaN for a URDF's placements, which have no value of their own."""
+    if arm.description.dh is None:
+        return np.full(len(constants), np.nan)
+    rows = arm.description.dh.joints
+    stated = [float(getattr(rows[each.joint - 1], DH_FIELDS[each.kind])) for each in constants]
+    to_si = [1e-3 if each.unit == "m" else np.pi / 180 for each in constants]
+    return np.array(stated) * np.array(to_si)
+
+
 def corrected(arm: Arm, constants: tuple[Constant, ...], values: Array) -> Arm:
     """The arm with ``values`` (m, rad) added to its constants.
 

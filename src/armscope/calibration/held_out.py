@@ -10,7 +10,7 @@ import numpy as np
 from armscope.calibration.fit import placed, rms_distance
 from armscope.calibration.model import LEVELS, Level, set_up
 from armscope.calibration.solve import Priors, Redundancy, solve
-from armscope.calibration.splits import split
+from armscope.calibration.splits import foretold, split
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -66,7 +66,7 @@ def held_out(
         train, test = split(recordings, seed)
         if most_rows is not None:
             train = np.random.default_rng(seed).permutation(train)[:most_rows]
-        training, testing = rows.rows(train), rows.rows(test)
+        training, testing = rows.rows(train), rows.rows(foretold(rows, train, test))
         start = placed(training)
         for level in levels:
             solved = solve(training, level, redundancy, priors or Priors(), robust, start)

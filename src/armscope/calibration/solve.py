@@ -84,7 +84,7 @@ def _freedom(
         return free, _stiffness(rows, priors)
     _, jacobian = rows.linearised(start, free)
     chosen = free.copy()
-    chosen[free] = identifiable(jacobian, rows.tiers[free], _scales(rows)[free])
+    chosen[free] = identifiable(jacobian, rows.tiers[free], scales_of(rows)[free])
     return chosen, np.zeros(len(free))
 
 
@@ -97,7 +97,7 @@ def _stiffness(rows: SetUp, priors: Priors) -> Array:
     return stiffness
 
 
-def _scales(rows: SetUp) -> Array:
+def scales_of(rows: SetUp) -> Array:
     """Sizes that make columns comparable: 1 m, and the angle that moves the tool by 1 m at full reach."""
     load = 1.0 if rows.loads is None else max(float(np.sqrt(np.mean(rows.loads**2))), 1e-9)
     size = {"m": 1.0, "rad": 1 / rows.arm.reach, "rad/(N m)": 1 / (rows.arm.reach * load)}

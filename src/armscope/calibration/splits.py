@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.calibration.model import SetUp
 from armscope.recordings import Recordings
 
 TRAIN_SHARE = 0.7
@@ -24,3 +25,8 @@ def split(recordings: Recordings, seed: int) -> tuple[NDArray[np.intp], NDArray[
     train = order[: int(TRAIN_SHARE * len(first))]
     in_train = np.isin(configuration, train)
     return np.flatnonzero(in_train), np.flatnonzero(~in_train)
+
+
+def foretold(rows: SetUp, train: NDArray[np.intp], test: NDArray[np.intp]) -> NDArray[np.intp]:
+    """The rows of a test part whose base and tool the training part tells: without, nobody could foretell them."""
+    return test[np.isin(rows.base[test], rows.base[train]) & np.isin(rows.tool[test], rows.tool[train])]

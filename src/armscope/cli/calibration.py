@@ -48,8 +48,16 @@ def calibrate(
     ] = "geometric",
     robust: Annotated[bool, typer.Option(help="bad shots weigh less")] = False,
     one_base: Annotated[bool, typer.Option(help="all runs share one base frame")] = False,
-    tool_per_run: Annotated[bool, typer.Option(help="the tool was taken off between runs")] = False,
-    anyway: Annotated[bool, typer.Option(help="calibrate although the arm does not explain the points")] = False,
+    tool_per_run: Annotated[
+        bool | None, typer.Option(help="the tool was taken off between runs; else: decided by the recordings")
+    ] = None,
+    orientation: Annotated[
+        bool | None, typer.Option(help="use measured orientations; else: where held-out positions gain")
+    ] = None,
+    splits: Annotated[
+        int, typer.Option(min=0, help="for the held-out error: 70 % to learn from, the rest to test")
+    ] = 5,
+    anyway: Annotated[bool, typer.Option(help="write a result that should not be used")] = False,
 ) -> None:
     """Calibrate the arm's geometry and export it as robot.yaml and URDF."""
     from armscope.calibration import calibrate as calibrated
@@ -67,8 +75,25 @@ def calibrate(
             cure = f"{found.cure} --anyway calibrates all the same.".strip()
             raise InputError(recordings, "", "no match with the arm", found.statement, cure)
         print(f"{found.weight}: {found.text()}", file=sys.stderr)
-    calibration = calibrated(arm, table, level, robust=robust, one_base=one_base, tool_per_run=tool_per_run)
+    calibration = calibrated(
+        arm,
+        table,
+        level,
+        robust=robust,
+        one_base=one_base,
+        tool_per_run=tool_per_run,
+        orientation=orientation,
+        splits=splits,
+    )
+    if calibration.doubts and not anyway:
+        rule = "this calibration should not be used"
+        cure = "Look at `armscope check` and `armscope diagnose`; --anyway writes it all the same."
+        raise InputError(recordings, "", "; ".join(calibration.doubts), rule, cure)
     write_table(output / "calibration.csv", calibration.table)
+    write_table(output / "held.csv", calibration.held_table)
+    write_table(output / "covariance.csv", calibration.covariance_table)
+    if calibration.misses is not None:
+        write_table(output / "misses.csv", calibration.misses, digits=6)
     paths = export(calibration, output)
     print(calibration.text())
     print("\n".join(str(path) for path in paths))

@@ -1,0 +1,74 @@
+"""How well a calibration does, run by run: on the rows it was fitted to, and on configurations that took no part."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from armscope.calibration.fit import placed, rms_distance
+from armscope.calibration.model import SetUp, State
+from armscope.calibration.splits import foretold, split
+from armscope.recordings import Recordings
+
+Array = NDArray[np.float64]
+
+ALL = "all"
+MOST_ROWS = 3000
+"""Rows to train on that are enough; of longer tables so many are drawn."""
+
+
+def misses_by_run(
+    rows: SetUp, recordings: Recordings, fitted: State, refit: Callable[[SetUp], State], splits: int
+) -> pd.DataFrame:
+    """RMS of the 3D distance by run, and of all rows.
+
+    Args:
+        rows: the set-up of the whole table.
+        recordings: the table.
+        fitted: the calibration of all rows.
+        refit: the same calibration of some of the rows.
+        splits: how often 70 % of the configurations are drawn to learn from.
+
+    Returns:
+        run ("all" first), rows, in_sample_mm, held_out_mm and held_out_std_mm (mean and standard deviation over the
+        splits), frames_only_mm (held out with base and tool alone). A row is tested only where its base and tool were
+        learned.
+    """
+    without = replace(rows, orientations=None)
+    names = [ALL, *dict.fromkeys(recordings.run.tolist())]
+    if len(names) == 2:
+        names = names[:1]
+    of_run = {name: np.full(len(rows), True) if name == ALL else recordings.run == name for name in names}
+    whole = without.residuals(fitted)
+    held: dict[str, list[float]] = {name: [] for name in names}
+    alone: dict[str, list[float]] = {name: [] for name in names}
+    for seed in range(splits):
+        train, test = split(recordings, seed)
+        if len(train) > MOST_ROWS:
+            train = np.sort(np.random.default_rng(seed).permutation(train)[:MOST_ROWS])
+        test = foretold(rows, train, test)
+        found = without.residuals(refit(rows.rows(train)))
+        frames = without.residuals(placed(without.rows(train)))
+        for name in names:
+            mine = test[of_run[name][test]]
+            if len(mine):
+                held[name].append(1e3 * rms_distance(found[mine]))
+                alone[name].append(1e3 * rms_distance(frames[mine]))
+    return pd.DataFrame(
+        {
+            "run": names,
+            "rows": [int(of_run[name].sum()) for name in names],
+            "in_sample_mm": [1e3 * rms_distance(whole[of_run[name]]) for name in names],
+            "held_out_mm": [_mean(held[name]) for name in names],
+            "held_out_std_mm": [float(np.std(held[name])) if held[name] else np.nan for name in names],
+            "frames_only_mm": [_mean(alone[name]) for name in names],
+        }
+    )
+
+
+def _mean(values: list[float]) -> float:
+    return float(np.mean(values)) if values else np.nan

@@ -1,0 +1,72 @@
+"""What a parameter that poses cannot tell apart is imitated by: the few others that move the tool as it does."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.calibration.identifiability import SMALLEST_TRACE
+
+Array = NDArray[np.float64]
+
+MOST_PARTNERS = 4
+ALIKE = 0.05
+"""A parameter counts as imitated if this share of what it does to the tool is left, or less."""
+
+
+@dataclass(frozen=True)
+class Imitation:
+    """Which fitted parameters do what a held one does.
+
+    Attributes:
+        name: the parameter held.
+        partners: fitted parameters that together move the tool as it does, the most alike first; none where it
+            hardly moves the tool.
+        left: share (0 to 1) of what it does to the tool that the partners leave.
+    """
+
+    name: str
+    partners: tuple[str, ...]
+    left: float
+
+    def text(self) -> str:
+        """In words."""
+        if not self.partners:
+            return f"{self.name}: hardly moves the tool"
+        more = " and more" if self.left > ALIKE else ""
+        return f"{self.name}: as {' with '.join(self.partners)}{more}"
+
+
+def imitations(
+    jacobian: Array, free: NDArray[np.bool_], scales: Array, names: tuple[str, ...]
+) -> tuple[Imitation, ...]:
+    """One per parameter that is not free.
+
+    Greedy (orthogonal matching pursuit, Pati et al. 1993): the fitted column most alike to what is left enters, until
+    next to nothing is left or `MOST_PARTNERS` have entered.
+
+    Args:
+        jacobian: (M, P).
+        free: (P,) which were fitted.
+        scales: (P,) as for `identifiable`.
+        names: (P,) of the parameters.
+    """
+    triangular = np.linalg.qr(jacobian, mode="r") if len(jacobian) > jacobian.shape[1] else jacobian
+    columns = triangular * scales / np.sqrt(len(jacobian) / 3)
+    fitted = np.flatnonzero(free)
+    unit = columns[:, fitted] / np.maximum(np.linalg.norm(columns[:, fitted], axis=0), 1e-300)
+    return tuple(_imitation(names, columns[:, held], int(held), fitted, unit) for held in np.flatnonzero(~free))
+
+
+def _imitation(names: tuple[str, ...], column: Array, held: int, fitted: NDArray[np.intp], unit: Array) -> Imitation:
+    size = float(np.linalg.norm(column))
+    if size < SMALLEST_TRACE:
+        return Imitation(names[held], (), 1.0)
+    left, partners = column, list[int]()
+    while len(partners) < MOST_PARTNERS and np.linalg.norm(left) > ALIKE * size:
+        partners.append(int(np.argmax(np.abs(left @ unit))))
+        basis = unit[:, partners]
+        left = column - basis @ np.linalg.lstsq(basis, column, rcond=None)[0]
+    return Imitation(names[held], tuple(names[fitted[each]] for each in partners), float(np.linalg.norm(left)) / size)
