@@ -86,9 +86,9 @@ def calibrate(
         splits=splits,
     )
     if calibration.doubts and not anyway:
-        rule = "this calibration should not be used"
-        cure = "Look at `armscope check` and `armscope diagnose`; --anyway writes it all the same."
-        raise InputError(recordings, "", "; ".join(calibration.doubts), rule, cure)
+        found = f"a {level} calibration that should not be used"
+        cure = "`armscope check` and `armscope diagnose` may say why; --anyway writes it all the same."
+        raise InputError(recordings, "", found, "; ".join(calibration.doubts), cure)
     write_table(output / "calibration.csv", calibration.table)
     write_table(output / "held.csv", calibration.held_table)
     write_table(output / "covariance.csv", calibration.covariance_table)
