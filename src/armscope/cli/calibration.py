@@ -86,9 +86,9 @@ def calibrate(
         splits=splits,
     )
     if calibration.doubts and not anyway:
-        found = f"a {level} calibration that should not be used"
+        answer = f"a {level} calibration that should not be used"
         cure = "`armscope check` and `armscope diagnose` may say why; --anyway writes it all the same."
-        raise InputError(recordings, "", found, "; ".join(calibration.doubts), cure)
+        raise InputError(recordings, "", answer, "; ".join(calibration.doubts), cure)
     write_table(output / "calibration.csv", calibration.table)
     write_table(output / "held.csv", calibration.held_table)
     write_table(output / "covariance.csv", calibration.covariance_table)
