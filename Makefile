@@ -30,6 +30,7 @@ benchmark: .venv/installed .venv-peers/installed .venv-figaroh/installed
 	$(BIN)/python -m benchmarks.kinematics
 	$(BIN)/python -m benchmarks.diagnosis
 	$(BIN)/python -m benchmarks.poses
+	$(BIN)/python -m benchmarks.compensation
 	.venv-peers/bin/python -m benchmarks.swarm
 	$(BIN)/python -m benchmarks.calibration --pybotics .venv-peers/bin/python --figaroh .venv-figaroh/bin/python
 

@@ -87,19 +87,23 @@ def identified_on(arm: Arm, recordings: Recordings) -> Identified:
             recordings.source, "line 1", f"{recordings.n_motors} motor angles", f"{arm.name} has {arm.n_motors} motors"
         )
     names, units = [f"q{motor}" for motor in range(1, arm.n_motors + 1)], ["rad"] * arm.n_motors
-    columns, payload = [recordings.motor_angles], None
+    columns = [recordings.motor_angles]
     names, units = [*names, "payload_kg"], [*units, "kg"]
     columns.append(_payload(recordings)[:, None])  # what was never recorded was never carried
-    if recordings.payload is not None:
-        payload = (float(np.nanmin(recordings.payload)), float(np.nanmax(recordings.payload)))
     temperature = recordings.temperature
     if temperature is not None and not np.isnan(temperature).all():
         names, units = [*names, "temperature_c"], [*units, "degC"]
         columns.append(np.where(np.isnan(temperature), np.nanmean(temperature), temperature)[:, None])
     weights = _torque_weights(arm, recordings)
-    times = recordings.time
-    time = None if times is None else (float(np.nanmin(times)), float(np.nanmax(times)))
-    return Identified(arm.name, Domain.of(np.concatenate(columns, axis=1), names, units), payload, time, weights)
+    domain = Domain.of(np.concatenate(columns, axis=1), names, units)
+    return Identified(arm.name, domain, _span(recordings.payload), _span(recordings.time), weights)
+
+
+def _span(values: Array | None) -> tuple[float, float] | None:
+    """Smallest and largest value; None where nothing was recorded."""
+    if values is None or np.isnan(values).all():
+        return None
+    return float(np.nanmin(values)), float(np.nanmax(values))
 
 
 def save_identified(path: Path | str, identified: Identified) -> None:
