@@ -12,6 +12,7 @@ from armscope.calibration import calibrate
 from armscope.calibration.export import export
 from armscope.calibration.fit import least_squares
 from armscope.calibration.geometry import constants_of, corrected
+from armscope.calibration.imitation import Imitation
 from armscope.calibration.model import set_up
 from armscope.cli import app
 from armscope.inputs import InputError
@@ -165,7 +166,25 @@ def test_a_joint_that_turns_against_its_load_is_noted(rng, sign, noted):
     turned = measured(arm, angles + sign * 1e-5 * torque * (np.arange(6) == 1), far_away(rng), TOOL)
     found = calibrate(arm, replace(turned, motor_angles=angles), "compliance")
     assert found.state.compliances[1] == pytest.approx(sign * 1e-5, rel=0.05)
-    assert (found.notes == ("turns against its load, which no spring does: joint 2 compliance",)) == noted
+    text = "turns against its load, which no spring does: joint 2; does gravity_m_s2 point the right way?"
+    assert found.notes == ((text,) if noted else ())
+
+
+def test_links_without_mass_are_named_where_loads_follow_from_masses(rng):
+    links = [dict(link, mass_kg=0) if number == 3 else link for number, link in enumerate(random_masses(rng, 6))]
+    arm = ur_like(links=links)
+    recordings = measured(arm, poses(rng, 60, 6), far_away(rng), TOOL, NOISE_M, rng)
+    (note,) = calibrate(arm, recordings, "compliance").notes
+    assert note == "no mass is stated for what turns with joint 4: it counts as weightless"
+    assert calibrate(arm, recordings, "geometric").notes == ()
+
+
+def test_many_partners_are_told_by_the_frames_they_belong_to():
+    many = Imitation("joint 1 rx", ("base rx", "base y", "base ry", "tool of p1 z"), 0.01)
+    assert many.text() == "joint 1 rx: as base with tool of p1"
+    assert replace(many, left=0.2).text().endswith("tool of p1 and more")
+    assert Imitation("joint 6 d", ("tool z",), 0.0).text() == "joint 6 d: as tool z"
+    assert Imitation("joint 6 d", (), 1.0).text() == "joint 6 d: hardly moves the tool"
 
 
 def test_the_command_writes_what_was_found_and_nothing_that_is_doubtful(rng, tmp_path):

@@ -15,7 +15,7 @@ from armscope.calibration.by_run import ALL, misses_by_run
 from armscope.calibration.fit import UNSETTLED, rms_distance, spread_of
 from armscope.calibration.geometry import nominal_values
 from armscope.calibration.imitation import Imitation, imitations
-from armscope.calibration.model import Level, SetUp, State, set_up
+from armscope.calibration.model import GRAVITY, Level, SetUp, State, set_up
 from armscope.calibration.sharing import exchanged_tool, moved_base
 from armscope.calibration.solve import Priors, Redundancy, Solved, scales_of, solve
 from armscope.calibration.splits import foretold, split
@@ -241,7 +241,7 @@ def calibrate(
         reason=fitted.reason,
         suspects=distance > SUSPECT_SIGMAS * spread_of(distance),
         ids=np.array(ids),
-        notes=tuple(notes + _odd_compliances(solved, covariance)),
+        notes=tuple(notes + _odd_loads(solved, level, covariance)),
         doubts=tuple(doubts + _lost(solved)),
         held=_held(solved, level),
         misses=misses,
@@ -289,15 +289,23 @@ def _lost(solved: Solved) -> list[str]:
     return told + (["the fit did not settle"] if solved.fitted.reason == UNSETTLED else [])
 
 
-def _odd_compliances(solved: Solved, covariance: Array) -> list[str]:
-    """Joints that turn against their load, beyond doubt, which no spring does."""
-    fitted = np.array(solved.rows.names)[solved.free]
+def _odd_loads(solved: Solved, level: Level, covariance: Array) -> list[str]:
+    """Joints that turn against their load beyond doubt, which no spring does; links that weigh nothing."""
+    if level != "compliance":
+        return []
+    rows, arm, notes = solved.rows, solved.rows.arm, list[str]()
+    by_table = rows.load_source == GRAVITY
+    fitted = np.array(rows.names)[solved.free]
     errors = dict(zip(fitted.tolist(), np.sqrt(np.diag(covariance)).tolist(), strict=True))
-    values = {
-        f"joint {joint} compliance": value for joint, value in enumerate(solved.fitted.state.compliances, start=1)
-    }
-    against = [name for name, value in values.items() if name in errors and value < -SURE_SIGMAS * errors[name]]
-    return [f"turns against its load, which no spring does: {name}" for name in against]
+    values = {f"joint {motor}": value for motor, value in enumerate(solved.fitted.state.compliances, start=1)}
+    error_of = {name: errors.get(f"{name} compliance", np.inf) for name in values}
+    if against := [name for name, value in values.items() if value < -SURE_SIGMAS * error_of[name]]:
+        question = "; does gravity_m_s2 point the right way?" if by_table else ""
+        notes.append(f"turns against its load, which no spring does: {', '.join(against)}{question}")
+    if by_table and not arm.masses.all():
+        light = [name for name, mass in zip(arm.joint_names, arm.masses, strict=True) if mass == 0]
+        notes.append(f"no mass is stated for what turns with {', '.join(light)}: it counts as weightless")
+    return notes
 
 
 def _held(solved: Solved, level: Level) -> tuple[Imitation, ...]:

@@ -11,7 +11,8 @@ from armscope.calibration.identifiability import SMALLEST_TRACE
 
 Array = NDArray[np.float64]
 
-MOST_PARTNERS = 4
+MOST_PARTNERS = 6
+TOLD_SINGLY = 2
 ALIKE = 0.05
 """A parameter counts as imitated if this share of what it does to the tool is left, or less."""
 
@@ -32,11 +33,13 @@ class Imitation:
     left: float
 
     def text(self) -> str:
-        """In words."""
+        """In words; of many partners only the frames and joints that they belong to."""
         if not self.partners:
             return f"{self.name}: hardly moves the tool"
-        more = " and more" if self.left > ALIKE else ""
-        return f"{self.name}: as {' with '.join(self.partners)}{more}"
+        told = self.partners
+        if len(told) > TOLD_SINGLY:
+            told = tuple(dict.fromkeys(partner.rpartition(" ")[0] for partner in told))
+        return f"{self.name}: as {' with '.join(told)}" + (" and more" if self.left > ALIKE else "")
 
 
 def imitations(

@@ -18,6 +18,7 @@ from armscope.robot.gravity import gravity_torques
 
 Array = NDArray[np.float64]
 Level = Literal["nominal", "offsets", "geometric", "compliance"]
+GRAVITY = "gravity of the mass table"
 LEVELS: tuple[Level, ...] = ("nominal", "offsets", "geometric", "compliance")
 """What is free beyond base and tool: nothing; each joint's zero; all constants; and one compliance per motor."""
 
@@ -314,5 +315,5 @@ def _loads(arm: Arm, recordings: Recordings) -> tuple[Array | None, str]:
         return recordings.torque, "recorded torques"
     if arm.has_masses:
         frames = chain(arm, recordings.motor_angles)
-        return gravity_torques(arm, frames, recordings.payload), "gravity of the mass table"
+        return gravity_torques(arm, frames, recordings.payload), GRAVITY
     return None, ""
