@@ -78,6 +78,14 @@ def _flip(table, motor):
             lambda t: replace(t, orientation=np.roll(t.orientation * [1, -1, -1, -1], -1, axis=1)),
             "order x, y, z, w and turn the other way",
         ),
+        (lambda t: replace(t, positions=t.positions / 10), "centimetres that were declared as millimetres"),
+        (lambda t: replace(t, positions=t.positions / 25.4), "inches that were declared as millimetres"),
+        (
+            lambda t: replace(t, motor_angles=t.motor_angles[:, [0, 1, 2, 4, 3, 5]]),
+            "joints 4 and 5 are exchanged",
+        ),
+        (lambda t: replace(t, orientation=t.orientation * [1, 1, -1, -1]), "mirrored axis x"),
+        (lambda t: replace(t, orientation=t.orientation * [1, -1, -1, 1]), "mirrored axis z"),
         (
             lambda t: replace(t, positions=t.positions[np.random.default_rng(0).permutation(len(t))]),
             "does not explain the points",
@@ -88,6 +96,89 @@ def test_a_mistake_is_named_by_what_it_is(mistake, words, arm, sound):
     found = problems(mistake(sound), arm)
     assert len(found) == 1
     assert words in found[0]
+
+
+def _runs(*tables):
+    """Several tables as runs a, b, ... of one."""
+    names = [name for name, table in zip("abc", tables, strict=False) for _ in range(len(table))]
+    stacked = {
+        field: np.concatenate([getattr(table, field) for table in tables])
+        for field in ("motor_angles", "positions", "target", "id", "orientation")
+    }
+    return replace(tables[0], run=np.array(names), **stacked)
+
+
+@pytest.mark.parametrize("share", [80, 20])
+def test_a_mistake_of_one_run_is_named_with_its_run_however_few_rows_it_has(arm, sound, share):
+    other = sound.rows(slice(share))
+    for mistake, words in (
+        (replace(other, positions=other.positions / 1e3), "metres that were declared as millimetres in run b"),
+        (replace(other, positions=other.positions * 1e3), "millimetres that were declared as metres in run b"),
+        (replace(other, positions=other.positions * [1, -1, 1]), "mirror image of the arm's in run b"),
+        (replace(other, positions=np.roll(other.positions, 7, axis=0)), "does not explain the points in run b"),
+    ):
+        found = problems(_runs(sound, mistake), arm)
+        assert len(found) == 1
+        assert words in found[0]
+    assert problems(_runs(sound, other), arm) == []
+
+
+def test_a_tool_that_sits_quite_elsewhere_in_a_run_is_a_moved_tool_and_no_other_robot(arm):
+    rng = np.random.default_rng(3)
+    tables = [
+        measured(arm, poses(rng, 60, 6), far_away(rng), {"": tool}, 5e-5, rng) for tool in ([0, 0, 0.1], [0.4, 0, 0])
+    ]
+    both = replace(
+        tables[0],
+        run=np.repeat(["a", "b"], 60),
+        **{
+            field: np.concatenate([getattr(table, field) for table in tables])
+            for field in ("motor_angles", "positions", "target", "id")
+        },
+    )
+    report = check(both, arm)
+    assert not report.has_problems, report.text()
+    assert "tool seems to have moved between runs" in report.text()
+
+
+def test_a_tool_longer_than_the_arm_explains_nothing(arm):
+    # where only two joints move, a tool of a kilometre puts the points upon their sphere
+    rng = np.random.default_rng(4)
+    angles = np.tile([0.1, -1, 1, 0.2, 0.3, 0.4], (60, 1))
+    angles[:, :2] += rng.uniform(-1, 1, (60, 2))
+    table = measured(arm, angles, far_away(rng), TOOL, 5e-5, rng)
+    assert problems(table, arm) == []
+    found = problems(replace(table, positions=table.positions * 1e3), arm)
+    assert len(found) == 1
+    assert "millimetres that were declared as metres" in found[0]
+
+
+@pytest.mark.parametrize("motor", range(6))
+def test_one_joint_that_moves_alone_is_no_other_robot(arm, motor):
+    rng = np.random.default_rng(5)
+    angles = np.tile([0.1, -1, 1, 0.2, 0.3, 0.4], (40, 1))
+    angles[:, motor] += np.linspace(-1.5, 1.5, 40)
+    assert problems(measured(arm, angles, far_away(rng), TOOL, 5e-5, rng), arm) == []
+
+
+def test_orientations_that_are_not_the_tools_are_said_and_left_alone(arm, sound):
+    euler = Rotation.from_quat(sound.orientation, scalar_first=True).as_euler("XYZ")
+    wrong = Rotation.from_euler("ZYX", euler).as_quat(scalar_first=True)
+    report = check(replace(sound, orientation=wrong), arm)
+    assert [each.weight for each in report.suspicions] == ["hint"]
+    assert "the orientations scatter by" in report.text()
+    assert not report.consistency.orientations
+    assert check(sound, arm).consistency.orientations
+
+
+def test_each_target_may_be_turned_in_its_own_way(arm, sound):
+    turned = Rotation.from_quat(sound.orientation, scalar_first=True)
+    turned[40:] = turned[40:] * Rotation.from_rotvec([0, 0, 2.0])
+    target = np.repeat(["p", "q"], 40)
+    table = replace(sound, target=target, orientation=turned.as_quat(scalar_first=True))
+    assert problems(table, arm) == []
+    assert check(table, arm).consistency.orientations
+    assert "order x, y, z, w" in problems(replace(table, orientation=np.roll(table.orientation, -1, axis=1)), arm)[0]
 
 
 def test_another_robot_is_said_to_be_one(sound):
@@ -130,7 +221,12 @@ def test_points_at_one_place_or_in_one_plane_are_said():
     assert "at one point" in report.text()
     turning = np.tile([0.1, -1, 1, 0.2, 0.3, 0.4], (20, 1))
     turning[:, 0] = np.linspace(-2, 2, 20)
-    assert "lie in one plane" in check(measured(arm, turning, base, TOOL)).text()
+    for place in (base, far_away(rng)):  # the plane may lean any way
+        report = check(measured(arm, turning, place, TOOL, 1e-6, rng))
+        assert "lie in one plane" in report.text()
+    two = replace(measured(arm, np.vstack([turning, poses(rng, 20, 6)]), base, TOOL), run=np.repeat(["a", "b"], 20))
+    assert "only q1 move" in check(two).text()
+    assert check(two).contents.runs[1].moved == (1, 2, 3, 4, 5, 6)
 
 
 def test_too_few_rows_are_looked_at_without_the_arm(arm, sound):

@@ -25,13 +25,18 @@ MOST_ROWS_FOR_REPEATS = 50_000
 
 @dataclass(frozen=True)
 class RunContents:
-    """One run: its rows, configurations (ids), targets, and the extent of its measured points, m."""
+    """One run: its rows, configurations (ids), targets, motors that move, and the extent of its measured points, m.
+
+    ``flatness``: scatter of the points across the plane that holds them best, as a share of the largest scatter.
+    """
 
     name: str
     rows: int
     configurations: int
     targets: tuple[str, ...]
+    moved: tuple[int, ...]
     extent: tuple[float, float, float]
+    flatness: float
 
 
 @dataclass(frozen=True)
@@ -107,13 +112,17 @@ def contents_of(recordings: Recordings) -> Contents:
 
 def _run(recordings: Recordings, name: str) -> RunContents:
     rows = recordings.run == name
-    extent = np.ptp(recordings.positions[rows], axis=0)
+    points = recordings.positions[rows]
+    extent, scatter = np.ptp(points, axis=0), np.linalg.eigvalsh(np.cov(points.T, bias=True))
+    moved = np.flatnonzero(np.ptp(recordings.motor_angles[rows], axis=0) > MOVED_RAD) + 1
     return RunContents(
         name=name,
         rows=int(rows.sum()),
         configurations=len(np.unique(recordings.id[rows])),
         targets=tuple(target for target in dict.fromkeys(recordings.target[rows].tolist()) if target),
+        moved=tuple(moved.tolist()),
         extent=(float(extent[0]), float(extent[1]), float(extent[2])),
+        flatness=float(np.sqrt(max(scatter[0], 0.0) / max(scatter[2], 1e-30))),
     )
 
 

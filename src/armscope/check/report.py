@@ -7,7 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from armscope.check.contents import Contents, Context, RunContents, contents_of
-from armscope.check.suspicions import Consistency, Suspicion, against_arm
+from armscope.check.quantities import of_quantities
+from armscope.check.suspicion import Suspicion
+from armscope.check.suspicions import Consistency, against_arm
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -15,7 +17,10 @@ ONE_POINT = 1e-3
 """Points within so many metres of each other are one point, measured again."""
 
 FLAT = 1e-3
-"""Points whose extent along one axis is below this share of the largest lie in a plane."""
+"""Points whose scatter across some direction is below this share of the largest lie in a plane."""
+
+NOT_A_DRIVER = ("orientation", "sigma")
+"""What may well be the same in every row."""
 
 
 @dataclass(frozen=True)
@@ -34,7 +39,11 @@ class CheckReport:
     def text(self) -> str:
         """The report as plain text."""
         return "\n".join(
-            [*_table_lines(self.contents), *_arm_lines(self.consistency), *_verdict_lines(self.suspicions)]
+            [
+                *_table_lines(self.contents),
+                *_arm_lines(self.consistency, self.contents.rows),
+                *_verdict_lines(self.suspicions),
+            ]
         )
 
 
@@ -47,15 +56,17 @@ def check(recordings: Recordings, arm: Arm | None = None) -> CheckReport:
     """
     contents = contents_of(recordings)
     consistency = None if arm is None else against_arm(arm, recordings)
-    found = _of_table(contents)
+    fits = arm if arm is not None and arm.n_motors == recordings.n_motors else None
+    found = [*_of_table(contents), *of_quantities(recordings, fits)]
     return CheckReport(contents, consistency, (*(consistency.suspicions if consistency else ()), *found))
 
 
 def _of_table(contents: Contents) -> tuple[Suspicion, ...]:
     found = []
-    for context in contents.context:
-        if context.constant and context.name != "orientation" and not context.name.startswith("sigma"):
-            found.append(Suspicion("hint", f"{context.name} never changes, so nothing can be learned from it"))
+    constant = [each.name for each in contents.context if each.constant and not each.name.startswith(NOT_A_DRIVER)]
+    if constant:
+        verb, it = ("never changes", "it") if len(constant) == 1 else ("never change", "them")
+        found.append(Suspicion("hint", f"{', '.join(constant)} {verb}, so nothing can be learned from {it}"))
     if contents.repeats.copies:
         statement = f"{contents.repeats.copies} rows are copies of other rows, to the last digit"
         found.append(Suspicion("hint", statement, "They count twice, and make the noise look smaller than it is."))
@@ -72,8 +83,8 @@ def _of_extent(run: RunContents) -> list[Suspicion]:
     if extent[2] < ONE_POINT:
         statement = f"all rows{_of(run.name)} are at one point"
         return [Suspicion("hint", statement, "They tell the noise, and nothing about the arm.")]
-    if extent[0] < FLAT * extent[2]:
-        statement = f"all points{_of(run.name)} lie in one plane of the measurement frame"
+    if run.flatness < FLAT:
+        statement = f"all points{_of(run.name)} lie in one plane"
         return [Suspicion("hint", statement, "Errors across it can't be seen.")]
     return []
 
@@ -89,7 +100,7 @@ def _table_lines(contents: Contents) -> list[str]:
         size = " x ".join(f"{length * 1e3:.4g}" for length in run.extent)
         lines.append(
             f"  run {run.name or '(no name)'}: {run.rows} rows, {run.configurations} configurations{targets}; "
-            f"points within {size} mm"
+            f"points within {size} mm{_moved(contents, run)}"
         )
     lines.append("joints (degrees):")
     for motor in contents.motors:
@@ -100,13 +111,21 @@ def _table_lines(contents: Contents) -> list[str]:
     repeats = contents.repeats
     seen = f" (first {repeats.looked_at} rows)" if repeats.looked_at < contents.rows else ""
     if repeats.visits:
+        poses = "1 pose was" if repeats.visits == 1 else f"{repeats.visits} poses were"
         lines.append(
-            f"repeats{seen}: {repeats.visits} poses were visited again, {repeats.rows} rows, "
+            f"repeats{seen}: {poses} visited again, {repeats.rows} rows, "
             f"scatter {repeats.scatter * 1e3:.3g} mm per axis"
         )
     else:
         lines.append(f"repeats{seen}: no pose was visited again")
     return lines + [f"note: {note}" for note in contents.notes]
+
+
+def _moved(contents: Contents, run: RunContents) -> str:
+    """Which joints move in a run, where others move elsewhere."""
+    if len(run.moved) == sum(motor.moved for motor in contents.motors):
+        return ""
+    return "; only q" + ", q".join(map(str, run.moved)) + " move" if run.moved else "; no joint moves"
 
 
 def _context_line(context: Context) -> str:
@@ -119,12 +138,12 @@ def _context_line(context: Context) -> str:
     return f"{context.name}: {context.low:.6g} ... {context.high:.6g}{unit}{missing}"
 
 
-def _arm_lines(consistency: Consistency | None) -> list[str]:
+def _arm_lines(consistency: Consistency | None, rows: int) -> list[str]:
     if consistency is None or np.isnan(consistency.rms):
         return []
     return [
         f"nominal arm, base and tool fitted: {consistency.rms * 1e3:.4g} mm RMS distance "
-        f"of a {consistency.spread * 1e3:.4g} mm spread, over {consistency.rows} rows"
+        f"of a {consistency.spread * 1e3:.4g} mm spread, over {consistency.rows} of {rows} rows"
     ]
 
 

@@ -7,17 +7,19 @@ and a mistake is only named where undoing it makes the arm explain the points, o
 from __future__ import annotations
 
 import functools
+import itertools
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
-from scipy.spatial.transform import Rotation
 
 from armscope.calibration.fit import placed, rms_distance, robust_least_squares, spread_of
 from armscope.calibration.model import SetUp, State, set_up
+from armscope.check.orientations import orientation_mistakes
+from armscope.check.suspicion import Suspicion
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -47,29 +49,18 @@ TOOL_MOVED = 0.8
 
 
 @dataclass(frozen=True)
-class Suspicion:
-    """Something a user should look at: a "problem" makes results meaningless, a "hint" may be as it should."""
-
-    weight: Literal["problem", "hint"]
-    statement: str
-    cure: str = ""
-
-    def text(self) -> str:
-        """In words."""
-        return f"{self.statement}. {self.cure}".strip() if self.cure else f"{self.statement}."
-
-
-@dataclass(frozen=True)
 class Consistency:
     """How well the nominal arm explains the points once base and tool are fitted: RMS distance and spread, m.
 
-    ``rows`` is how many were looked at; in long tables they are spread evenly.
+    ``rows`` is how many were looked at; in long tables they are spread evenly. ``orientations`` says whether measured
+    orientations, if there are any, are the tool's.
     """
 
     rms: float
     spread: float
     rows: int
     suspicions: tuple[Suspicion, ...]
+    orientations: bool = True
 
 
 def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
@@ -92,14 +83,15 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
     misfit = rms_distance(rows.residuals(state))
     spread = max(_spread(some), _predicted_spread(rows, state))
     found: list[Suspicion] = []
-    share = _share_left(rows, state)
-    if share > FITS:
-        found.append(_best_explanation(arm, recordings, share, spread))
+    turned: list[Suspicion] = []
+    if _share_left(rows, state) > FITS:
+        found += _moved_tools(arm, some, misfit, FITS) or [_explanation(arm, recordings)]
     else:
         found += _exchanged_rows(arm, recordings)
-        found += _orientation_mistakes(rows, state, some)
+        turned = orientation_mistakes(rows, state, some.orientation)
+        found += turned
         found += _moved_tools(arm, some, misfit)
-    return Consistency(misfit, spread, len(some), (*found, *_outside_limits(arm, recordings)))
+    return Consistency(misfit, spread, len(some), (*found, *_outside_limits(arm, recordings)), orientations=not turned)
 
 
 def _spread_evenly(recordings: Recordings) -> Recordings:
@@ -118,13 +110,26 @@ def _spread(recordings: Recordings) -> float:
 
 
 def _share_left(rows: SetUp, state: State) -> float:
-    """Misfit as a share of the spread, by the median row, so that a few bad rows don't hide what the rest says."""
+    """Misfit as a share of the spread, by the median row of the worst run, so that a few bad rows count little.
+
+    A tool longer than the arm explains a run's points where few joints move, and nothing else: it is a misfit, too.
+    """
     distance = np.linalg.norm(rows.residuals(state), axis=1)
     centred = np.empty(len(rows))
-    for base in range(len(rows.base_names)):
-        points = rows.measured[rows.base == base]
-        centred[rows.base == base] = np.linalg.norm(points - points.mean(axis=0), axis=1)
-    return float(np.median(distance)) / max(float(np.median(centred)), _predicted_spread(rows, state), 1e-12)
+    runs = [rows.base == base for base in range(len(rows.base_names))]
+    for of_run in runs:
+        points = rows.measured[of_run]
+        centred[of_run] = np.linalg.norm(points - points.mean(axis=0), axis=1)
+    spread = max(float(np.median(centred)), _predicted_spread(rows, state), 1e-12)
+    too_long = float(np.linalg.norm(state.tools, axis=1).max() > rows.arm.reach)
+    return max(too_long, *(float(np.median(distance[of_run])) / spread for of_run in runs if of_run.any()))
+
+
+def _tried(arm: Arm, table: Recordings) -> tuple[float, float]:
+    """Share left and spread (m) of a table, base and tool fitted."""
+    rows = set_up(arm, _spread_evenly(table))
+    state = placed(rows, MOST_STEPS)
+    return _share_left(rows, state), max(_spread(table), _predicted_spread(rows, state))
 
 
 def _predicted_spread(rows: SetUp, state: State) -> float:
@@ -162,6 +167,12 @@ def _trials(arm: Arm) -> Iterator[_Trial]:
         "Call the columns x_mm, y_mm, z_mm.",
         lambda table: replace(table, positions=table.positions * 1e-3),
     )
+    for factor, unit in ((10.0, "centimetres"), (25.4, "inches")):
+        yield _Trial(
+            f"the positions look like {unit} that were declared as millimetres",
+            f"Multiply them by {factor:g}.",
+            functools.partial(_enlarged, factor=factor),
+        )
     yield _Trial(
         "the measurement frame is left-handed: the points are a mirror image of the arm's",
         "Flip the sign of one axis, or exchange two, where the points come from.",
@@ -186,6 +197,23 @@ def _trials(arm: Arm) -> Iterator[_Trial]:
             functools.partial(_turned_round, signs=signs),
         )
 
+    for one, other in itertools.combinations(range(arm.n_motors), 2):
+        order = np.arange(arm.n_motors)
+        order[[one, other]] = other, one
+        yield _Trial(
+            f"the angles of joints {one + 1} and {other + 1} are exchanged",
+            "Exchange their columns.",
+            functools.partial(_reordered, order=order),
+        )
+
+
+def _enlarged(table: Recordings, factor: float) -> Recordings:
+    return replace(table, positions=table.positions * factor)
+
+
+def _reordered(table: Recordings, order: NDArray[np.intp]) -> Recordings:
+    return replace(table, motor_angles=table.motor_angles[:, order])
+
 
 def _turned_round(table: Recordings, signs: Array) -> Recordings:
     return replace(table, motor_angles=table.motor_angles * signs)
@@ -202,23 +230,38 @@ def _shifted(table: Recordings, shift: int) -> Recordings:
     return replace(moved, positions=table.positions[np.concatenate(partner)])
 
 
-def _best_explanation(arm: Arm, table: Recordings, share: float, spread: float) -> Suspicion:
-    tried = []
+def _explanation(arm: Arm, table: Recordings) -> Suspicion:
+    """Why the arm does not explain the points; where runs don't share the fault, of those that have it."""
     # what no trial looks at need not be copied in each
     unused: dict[str, Any] = dict.fromkeys(
         ("orientation", "time", "temperature", "payload", "approach", "speed", "torque", "sigma", "extra")
     )
     table = replace(table, **unused)
-    for trial in _trials(arm):
-        rows = set_up(arm, _spread_evenly(trial.undo(table)))
-        tried.append((_share_left(rows, placed(rows, MOST_STEPS)), trial))
+    runs = dict.fromkeys(table.run.tolist())
+    if len(runs) > 1:
+        bad = [run for run in runs if _fails_alone(arm, table.rows(table.run == run))]
+        if 0 < len(bad) < len(runs):
+            return _best_trial(arm, table.rows(np.isin(table.run, bad)), " in run " + ", ".join(bad))
+    return _best_trial(arm, table, "")
+
+
+def _fails_alone(arm: Arm, of_run: Recordings) -> bool:
+    rows = set_up(arm, _spread_evenly(of_run))
+    if 3 * len(rows) < ROWS_PER_PARAMETER * rows.free("nominal").sum():
+        return False
+    return _share_left(rows, placed(rows, MOST_STEPS)) > FITS
+
+
+def _best_trial(arm: Arm, table: Recordings, where: str) -> Suspicion:
+    share, spread = _tried(arm, table)
+    tried = [(_tried(arm, trial.undo(table))[0], trial) for trial in _trials(arm)]
     least, best = min(tried, key=lambda each: each[0])
     if least < min(FITS, CLEARLY_BETTER * share):
-        return Suspicion("problem", best.statement, best.cure)
+        return Suspicion("problem", best.statement + where, best.cure)
     return Suspicion(
         "problem",
-        f"the arm does not explain the points: {100 * share:.0f} % of their spread of {spread * 1e3:.0f} mm are left "
-        "after base and tool are fitted",
+        f"the arm does not explain the points{where}: {100 * min(share, 1):.0f} % of their spread of "
+        f"{spread * 1e3:.0f} mm are left after base and tool are fitted",
         "Is it another robot, are angles and points of different rows, or is a joint's zero far off?",
     )
 
@@ -250,70 +293,21 @@ def _exchanged_rows(arm: Arm, recordings: Recordings) -> list[Suspicion]:
     return [Suspicion("problem", statement, "Their points fit each other's joint angles.")]
 
 
-def _moved_tools(arm: Arm, table: Recordings, misfit: float) -> list[Suspicion]:
-    """Whether a target that several runs share sits elsewhere on the flange in some of them."""
+def _moved_tools(arm: Arm, table: Recordings, misfit: float, least_share: float | None = None) -> list[Suspicion]:
+    """Whether a target that several runs share sits elsewhere on the flange in some of them.
+
+    Args:
+        least_share: of the spread that tools of their own may leave; None asks for a clearly smaller misfit only.
+    """
     rows = set_up(arm, table, tool_per_run=True)
     if len(rows.tool_names) == len(np.unique(table.target)):
         return []
-    alone = rms_distance(rows.residuals(placed(rows, MOST_STEPS)))
-    if alone > TOOL_MOVED * misfit:
+    state = placed(rows, MOST_STEPS)
+    alone = rms_distance(rows.residuals(state))
+    if alone > TOOL_MOVED * misfit or (least_share is not None and _share_left(rows, state) > least_share):
         return []
     statement = f"the tool seems to have moved between runs: with one of its own per run {alone * 1e3:.3g} mm are left"
     return [Suspicion("hint", statement, "Free the tool per run.")]
-
-
-READINGS: tuple[tuple[str, str, Callable[[Array], Array]], ...] = (
-    ("as declared", "", lambda q: q),
-    (
-        "the quaternions are in the order x, y, z, w",
-        "Declare order: xyzw, or exchange the columns.",
-        lambda q: q[:, [3, 0, 1, 2]],
-    ),
-    (
-        "the quaternions turn the other way: they are the tool frame from the measurement frame",
-        "Change the sign of qx, qy, qz.",
-        lambda q: q * [1, -1, -1, -1],
-    ),
-    (
-        "the quaternions are in the order x, y, z, w and turn the other way",
-        "Declare order: xyzw, and change the sign of x, y, z.",
-        lambda q: q[:, [3, 0, 1, 2]] * [1, -1, -1, -1],
-    ),
-)
-
-
-def _orientation_mistakes(rows: SetUp, state: State, table: Recordings) -> list[Suspicion]:
-    """The reading of the quaternions under which the tool sits still on the flange."""
-    if table.orientation is None:
-        return []
-    known = np.isfinite(table.orientation).all(axis=1)
-    if known.sum() < 5:
-        return []
-    _, frames = rows.frames(state)
-    expected = state.rotations[rows.base] @ frames.tool_rotation
-    spreads = [
-        _tool_spread(expected[known], reading(table.orientation[known]), rows.base[known]) for _, _, reading in READINGS
-    ]
-    best = int(np.argmin(spreads))
-    if best != 0 and spreads[best] < CLEARLY_BETTER * spreads[0]:
-        statement, cure, _ = READINGS[best]
-        seen = f" (scatter of the tool's orientation {np.degrees(spreads[0]):.2g} as declared"
-        return [Suspicion("problem", f"{statement}{seen}, {np.degrees(spreads[best]):.2g} degrees so)", cure)]
-    if spreads[best] > np.radians(10):
-        statement = f"the orientations scatter by {np.degrees(spreads[0]):.2g} degrees against the arm's"
-        return [Suspicion("hint", statement, "They are not the tool's in any order; positions can be used alone.")]
-    return []
-
-
-def _tool_spread(expected: Array, quaternions: Array, base: NDArray[np.intp]) -> float:
-    """RMS angle of the tool's orientation on the flange about its mean, per base frame, rad."""
-    measured = Rotation.from_quat(quaternions[:, [1, 2, 3, 0]])
-    on_flange = Rotation.from_matrix(np.swapaxes(expected, 1, 2)) * measured
-    squares = 0.0
-    for number in np.unique(base):
-        of_run = on_flange[base == number]
-        squares += float(np.sum((of_run.mean().inv() * of_run).magnitude() ** 2))
-    return float(np.sqrt(squares / len(quaternions)))
 
 
 def _outside_limits(arm: Arm, recordings: Recordings) -> list[Suspicion]:

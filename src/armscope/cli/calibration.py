@@ -60,6 +60,8 @@ def calibrate(
     anyway: Annotated[bool, typer.Option(help="write a result that should not be used")] = False,
 ) -> None:
     """Calibrate the arm's geometry and export it as robot.yaml and URDF."""
+    from dataclasses import replace
+
     from armscope.calibration import calibrate as calibrated
     from armscope.calibration.export import export
     from armscope.check import against_arm
@@ -70,11 +72,14 @@ def calibrate(
     arm = load_arm(robot)
     table = read_recordings(recordings, arm.n_motors)
     writable(output)
-    for found in against_arm(arm, table).suspicions:
+    consistency = against_arm(arm, table)
+    for found in consistency.suspicions:
         if found.weight == "problem" and not anyway:
             cure = f"{found.cure} --anyway calibrates all the same.".strip()
             raise InputError(recordings, "", "no match with the arm", found.statement, cure)
         print(f"{found.weight}: {found.text()}", file=sys.stderr)
+    if not consistency.orientations and not orientation:  # and it was said
+        table = replace(table, orientation=None)
     calibration = calibrated(
         arm,
         table,

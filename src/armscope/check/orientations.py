@@ -1,0 +1,90 @@
+"""Whether measured orientations are the tool's, and in which reading of their numbers they would be."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from armscope.calibration.model import SetUp, State
+from armscope.check.suspicion import Suspicion
+
+Array = NDArray[np.float64]
+
+FEWEST = 5
+"""Orientations below which none is judged."""
+
+CLEARLY_BETTER = 0.3
+"""Another reading must bring the scatter below this share."""
+
+NOT_THE_TOOLS_RAD = np.radians(10)
+"""Scatter on the flange beyond which orientations are not the tool's; badly calibrated arms have a tenth of it."""
+
+Reading = tuple[str, str, Callable[[Array], Array]]
+"""What is wrong, how to mend it, and quaternions (N, 4) read so."""
+
+
+def _mirrored() -> Iterator[Reading]:
+    """A mirrored axis of the measurement frame changes the sign of the quaternion's other two parts."""
+    for axis, signs in {"x": [1, 1, -1, -1], "y": [1, -1, 1, -1], "z": [1, -1, -1, 1]}.items():
+        statement = f"the orientations, not the points, are those of a frame with a mirrored axis {axis}"
+        cure = "Change the sign of " + " and ".join(f"q{other}" for other in "xyz" if other != axis) + "."
+        yield statement, cure, functools.partial(np.multiply, signs)
+
+
+READINGS: tuple[Reading, ...] = (
+    ("as declared", "", lambda q: q),
+    (
+        "the quaternions are in the order x, y, z, w",
+        "Declare order: xyzw, or exchange the columns.",
+        lambda q: q[:, [3, 0, 1, 2]],
+    ),
+    (
+        "the quaternions turn the other way: they are the tool frame from the measurement frame",
+        "Change the sign of qx, qy, qz.",
+        lambda q: q * [1, -1, -1, -1],
+    ),
+    (
+        "the quaternions are in the order x, y, z, w and turn the other way",
+        "Declare order: xyzw, and change the sign of x, y, z.",
+        lambda q: q[:, [3, 0, 1, 2]] * [1, -1, -1, -1],
+    ),
+    *_mirrored(),
+)
+
+
+def orientation_mistakes(rows: SetUp, state: State, quaternions: Array | None) -> list[Suspicion]:
+    """The reading of the quaternions (N, 4) under which each tool sits still on the flange."""
+    known = np.zeros(len(rows), bool) if quaternions is None else np.isfinite(quaternions).all(axis=1)
+    if quaternions is None or known.sum() < FEWEST:
+        return []
+    _, frames = rows.frames(state)
+    expected = (state.rotations[rows.base] @ frames.tool_rotation)[known]
+    group = (rows.base * len(rows.tool_names) + rows.tool)[known]
+    spreads = [_tool_spread(expected, reading(quaternions[known]), group) for _, _, reading in READINGS]
+    best = int(np.argmin(spreads))
+    declared, least = np.degrees(spreads[0]), np.degrees(spreads[best])
+    if best != 0 and spreads[best] < CLEARLY_BETTER * spreads[0]:
+        statement, cure, _ = READINGS[best]
+        seen = f" (scatter of the tool's orientation {declared:.3g} degrees as declared, {least:.2g} degrees so)"
+        return [Suspicion("problem", statement + seen, cure)]
+    if spreads[0] > NOT_THE_TOOLS_RAD:
+        statement = (
+            f"the orientations scatter by {declared:.0f} degrees against the arm's, in whatever order they are read"
+        )
+        cure = "Are Euler angles in another sequence or unit, or are they of other rows? Positions are used alone."
+        return [Suspicion("hint", statement, cure)]
+    return []
+
+
+def _tool_spread(expected: Array, quaternions: Array, group: NDArray[np.intp]) -> float:
+    """RMS angle of the tool's orientation on the flange about its mean, per base frame and tool, rad."""
+    on_flange = Rotation.from_matrix(np.swapaxes(expected, 1, 2)) * Rotation.from_quat(quaternions, scalar_first=True)
+    squares = 0.0
+    for number in np.unique(group):
+        of_group = on_flange[group == number]
+        squares += float(np.sum((of_group.mean().inv() * of_group).magnitude() ** 2))
+    return float(np.sqrt(squares / len(quaternions)))

@@ -1,0 +1,111 @@
+"""What was recorded beside angles and points, and looks as if it stood in another unit or had another sign."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.check.suspicion import Suspicion
+from armscope.recordings import Recordings
+from armscope.robot import Arm, chain
+from armscope.robot.gravity import gravity_torques
+
+Array = NDArray[np.float64]
+
+COLDEST_C, WARMEST_C = -50.0, 120.0
+"""Where arms are measured; drives and oil are warmer than rooms."""
+
+HEAVIEST_KG = 2500.0
+"""No arm carries more; nor does one carry more than its own mass."""
+
+FINEST_M, COARSEST_M = 1e-7, 1e-2
+"""Stated uncertainties of instruments that see an arm; less or more stands in another unit."""
+
+FOLLOWS = 0.5
+"""Correlation from which recorded torques are those of gravity."""
+
+MANY_TIMES = 100.0
+"""Mass tables are wrong by less than this factor, units by more."""
+
+MOST_ROWS = 400
+
+
+def of_quantities(recordings: Recordings, arm: Arm | None) -> list[Suspicion]:
+    """Look at temperature, payload, stated uncertainty, time and torques.
+
+    Args:
+        recordings: the table.
+        arm: its robot, with the table's number of motors; None looks at the numbers alone.
+    """
+    found = [_temperature(recordings), _payload(recordings, arm), _sigma(recordings), _time(recordings)]
+    return [each for each in [*found, _torque(recordings, arm)] if each is not None]
+
+
+def _temperature(recordings: Recordings) -> Suspicion | None:
+    known = _known(recordings.temperature)
+    if not len(known) or (known.min() > COLDEST_C and known.max() < WARMEST_C):
+        return None
+    statement = f"the temperature reads {known.min():.4g} ... {known.max():.4g} degrees Celsius"
+    return Suspicion("problem", statement, "Is it in kelvin, or does a number stand for no value?")
+
+
+def _payload(recordings: Recordings, arm: Arm | None) -> Suspicion | None:
+    known = _known(recordings.payload)
+    own = arm.masses.sum() if arm is not None and arm.has_masses else HEAVIEST_KG
+    most = min(HEAVIEST_KG, float(own))
+    if not len(known) or known.max() <= most:
+        return None
+    of_what = "the arm weighs" if most < HEAVIEST_KG else "any arm carries"
+    statement = f"the payload is up to {known.max():.4g} kg, more than {of_what} ({most:.4g} kg)"
+    return Suspicion("problem", statement, "Is it in grams, or a force?")
+
+
+def _sigma(recordings: Recordings) -> Suspicion | None:
+    known = _known(recordings.sigma)
+    if recordings.sigma is None or not len(known):
+        return None
+    usual = float(np.median(known))
+    if not FINEST_M <= usual <= COARSEST_M and usual > 0:
+        return Suspicion("problem", f"the stated uncertainty is usually {usual * 1e3:.3g} mm", "Is its unit right?")
+    if (known == 0).any():
+        rows = int((recordings.sigma == 0).any(axis=1).sum())
+        return Suspicion("hint", f"the stated uncertainty is zero in {rows} rows", "No instrument is that good.")
+    return None
+
+
+def _time(recordings: Recordings) -> Suspicion | None:
+    if recordings.time is None:
+        return None
+    back = 0
+    for run in np.unique(recordings.run):
+        times = recordings.time[recordings.run == run]
+        back += int((np.diff(times[np.isfinite(times)]) < 0).sum())
+    if not back:
+        return None
+    statement = f"time goes back between rows {back} times" if back > 1 else "time goes back between two rows once"
+    return Suspicion("hint", statement, "Rows are taken in the order of the table where no time is meant.")
+
+
+def _torque(recordings: Recordings, arm: Arm | None) -> Suspicion | None:
+    """Recorded torques beside those of gravity by the mass table."""
+    if recordings.torque is None or arm is None or not arm.has_masses:
+        return None
+    rows = np.flatnonzero(np.isfinite(recordings.torque).all(axis=1))
+    rows = rows[np.unique(np.linspace(0, len(rows) - 1, min(len(rows), MOST_ROWS)).astype(int))] if len(rows) else rows
+    payload = None if recordings.payload is None else np.nan_to_num(recordings.payload[rows])
+    pull, torque = gravity_torques(arm, chain(arm, recordings.motor_angles[rows]), payload), recordings.torque[rows]
+    both, pulled, seen = np.sum(pull * torque), np.sum(pull**2), np.sum(torque**2)
+    if not len(rows) or pulled == 0 or seen == 0 or abs(both) < FOLLOWS * np.sqrt(pulled * seen):
+        return None
+    times = both / pulled
+    if not 1 / MANY_TIMES < abs(times) < MANY_TIMES:
+        statement = f"the recorded torques are {abs(times):.3g} times what gravity asks for by the arm's masses"
+        return Suspicion("problem", statement, "tau1_nm ... are in N m.")
+    if times < 0:
+        statement = "the recorded torques have the other sign than gravity's pull by the arm's masses"
+        return Suspicion("problem", statement, "tau1_nm ... are positive along gravity's pull: change their sign.")
+    return None
+
+
+def _known(values: Array | None) -> Array:
+    return np.empty(0) if values is None else values[np.isfinite(values)]

@@ -1,0 +1,89 @@
+"""What stands beside the points in another unit, or with another sign, is named; what is usual is not."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from armscope.check import check
+from armscope.check.quantities import of_quantities
+from armscope.robot import chain, load_arm
+from armscope.robot.gravity import gravity_torques
+from tests.check.test_check import ROOT
+from tests.recordings.test_reading import as_recordings
+
+ROWS = 60
+
+
+@pytest.fixture(scope="module")
+def arm():
+    return load_arm(ROOT / "config" / "robots" / "parallelogram-120kg.yaml")
+
+
+@pytest.fixture
+def table(arm):
+    """Poses with everything recorded beside, as it should be; torques a little more than the mass table says."""
+    import pandas as pd
+
+    rng = np.random.default_rng(0)
+    angles = rng.uniform(-0.7, 0.7, (ROWS, arm.n_motors))
+    columns = {f"q{j + 1}_rad": angles[:, j] for j in range(arm.n_motors)}
+    columns |= {f"{axis}_mm": rng.uniform(-1000, 1000, ROWS) for axis in "xyz"}
+    columns |= {"time_s": np.arange(ROWS), "temperature_c": np.linspace(18, 60, ROWS), "payload_kg": np.arange(ROWS)}
+    columns |= {"sigma_mm": 0.02}
+    recordings = as_recordings(pd.DataFrame(columns))
+    pull = gravity_torques(arm, chain(arm, angles), recordings.payload)
+    return replace(recordings, torque=1.4 * pull + rng.normal(scale=20, size=pull.shape))
+
+
+def test_nothing_is_said_of_a_sound_table(arm, table):
+    assert of_quantities(table, arm) == []
+    assert of_quantities(table, None) == []
+    none = dict.fromkeys(("torque", "time", "temperature", "payload", "sigma"))
+    assert of_quantities(replace(table, **none), arm) == []
+
+
+@pytest.mark.parametrize(
+    ("wrong", "words"),
+    [
+        (lambda t: {"temperature": t.temperature + 273.15}, "291.1 ... 333.1 degrees Celsius. Is it in kelvin"),
+        (lambda t: {"temperature": np.where(np.arange(ROWS) == 7, -273, t.temperature)}, "-273 ... 60"),
+        (lambda t: {"payload": t.payload * 1e3, "torque": None}, "5.9e+04 kg, more than"),
+        (lambda t: {"sigma": t.sigma / 1e3}, "usually 2e-05 mm. Is its unit right"),
+        (lambda t: {"sigma": t.sigma * 1e3}, "usually 20 mm"),
+        (lambda t: {"torque": -t.torque}, "the other sign than gravity's pull"),
+        (lambda t: {"torque": t.torque * 1e3}, "times what gravity asks for"),
+        (lambda t: {"torque": -t.torque / 1e3}, "0.00140 times what gravity asks for"),
+    ],
+)
+def test_another_unit_or_sign_is_a_problem_that_is_named(arm, table, wrong, words):
+    found = of_quantities(replace(table, **wrong(table)), arm)
+    assert [each.weight for each in found] == ["problem"]
+    assert words in found[0].text().replace("0.0014 ", "0.00140 ")
+
+
+def test_torques_that_have_nothing_to_do_with_gravity_are_left_in_peace(arm, table):
+    noise = np.random.default_rng(1).normal(size=table.torque.shape)
+    assert of_quantities(replace(table, torque=noise), arm) == []
+    assert of_quantities(replace(table, torque=np.full_like(noise, np.nan)), arm) == []
+    assert of_quantities(replace(table, torque=-table.torque), None) == []
+
+
+def test_zero_uncertainty_and_time_that_goes_back_are_hints(arm, table):
+    sigma = table.sigma.copy()
+    sigma[3:5, 0] = 0
+    found = of_quantities(replace(table, sigma=sigma, time=np.roll(table.time, 3)), arm)
+    assert {each.weight for each in found} == {"hint"}
+    assert "zero in 2 rows" in found[0].text()
+    assert "time goes back between two rows once" in found[1].text()
+    # time that starts anew in another run does not go back
+    runs = np.repeat(["a", "b"], ROWS // 2)
+    assert of_quantities(replace(table, run=runs, time=np.r_[0 : ROWS // 2, 0 : ROWS // 2].astype(float)), arm) == []
+
+
+def test_the_check_says_what_stands_beside_the_points(table):
+    report = check(replace(table, temperature=table.temperature + 273.15))
+    assert report.has_problems
+    assert "kelvin" in report.text()
+    still = check(replace(table, temperature=np.full(ROWS, 20.0), payload=np.zeros(ROWS)))
+    assert "temperature, payload never change, so nothing can be learned from them" in still.text()
