@@ -20,8 +20,8 @@ FEWEST = 5
 CLEARLY_BETTER = 0.3
 """Another reading must bring the scatter below this share."""
 
-NOT_THE_TOOLS_RAD = np.radians(10)
-"""Scatter on the flange beyond which orientations are not the tool's; badly calibrated arms have a tenth of it."""
+NOT_THE_TOOLS_RAD = np.radians(5)
+"""Scatter on the flange beyond which orientations are not the tool's; joint zeros two degrees off leave less."""
 
 Reading = tuple[str, str, Callable[[Array], Array]]
 """What is wrong, how to mend it, and quaternions (N, 4) read so."""
@@ -67,7 +67,7 @@ def orientation_mistakes(rows: SetUp, state: State, quaternions: Array | None) -
     spreads = [_tool_spread(expected, reading(quaternions[known]), group) for _, _, reading in READINGS]
     best = int(np.argmin(spreads))
     declared, least = np.degrees(spreads[0]), np.degrees(spreads[best])
-    if best != 0 and spreads[best] < CLEARLY_BETTER * spreads[0]:
+    if best != 0 and spreads[best] < min(CLEARLY_BETTER * spreads[0], NOT_THE_TOOLS_RAD):
         statement, cure, _ = READINGS[best]
         seen = f" (scatter of the tool's orientation {declared:.3g} degrees as declared, {least:.2g} degrees so)"
         return [Suspicion("problem", statement + seen, cure)]
