@@ -144,3 +144,21 @@ def test_commands_of_a_diagnosed_urdf_bring_the_real_arm_to_its_points(robot, mo
         points = np.array([real.tool(row, np.ones(6)) for row in angles.to_numpy()])
         missed[name] = np.sqrt(np.mean((1e3 * points - goal) ** 2))
     assert missed["after"] < NOISE_MM < 0.1 * missed["before"]
+
+
+@pytest.mark.parametrize("stated", [True, False])
+def test_an_arm_on_a_wedge_is_understood_whether_its_lean_is_stated_or_asked_for(robot, stated):
+    lean = Rotation.from_rotvec(np.radians(20) * np.array([0.6, 0.8, 0.0])).apply([0, 0, -9.81])
+    real = Real(TORSO_ARM.read_text(), compliance={"lift": 8e-5, "elbow": 1e-4})
+    real.full.gravity.linear = lean
+    real.record(robot.with_name("recordings.csv"))
+    if stated:
+        robot.write_text(robot.read_text() + f"gravity_m_s2: {lean.tolist()}\n")
+    arm = load_arm(robot)
+    recordings = read_recordings(robot.with_name("recordings.csv"), arm.n_motors)
+    verdict = diagnose(arm, recordings, Settings(resamples=0, cross_validation=False, estimate_gravity=not stated))
+    found = {(effect.effect, effect.location): effect.parameters[0].value for effect in verdict.effects}
+    truth = {("joint_compliance", "joint 2"): 8e-5, ("joint_compliance", "joint 3"): 1e-4}
+    assert found == {place: pytest.approx(value, rel=0.05) for place, value in truth.items()}
+    used = verdict.model.arm.gravity / 9.81
+    assert np.degrees(np.arccos(used @ lean / 9.81)) < 2.5

@@ -9,7 +9,7 @@ import yaml
 from typer.testing import CliRunner
 
 from armscope.calibration import calibrate
-from armscope.calibration.export import export
+from armscope.calibration.export import export, frames_content
 from armscope.calibration.fit import least_squares
 from armscope.calibration.geometry import constants_of, corrected
 from armscope.calibration.imitation import Imitation
@@ -166,6 +166,9 @@ def test_a_joint_that_turns_against_its_load_is_noted(rng, sign, noted):
     turned = measured(arm, angles + sign * 1e-5 * torque * (np.arange(6) == 1), far_away(rng), TOOL)
     found = calibrate(arm, replace(turned, motor_angles=angles), "compliance")
     assert found.state.compliances[1] == pytest.approx(sign * 1e-5, rel=0.05)
+    content = frames_content(found)
+    assert content["compliances_rad_per_nm"]["q2"] == found.state.compliances[1]
+    assert content["loads"] == "gravity of the mass table"
     text = "turns against its load, which no spring does: joint 2; does gravity_m_s2 point the right way?"
     assert found.notes == ((text,) if noted else ())
 

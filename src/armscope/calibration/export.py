@@ -77,7 +77,9 @@ def frames_content(calibration: Calibration) -> dict[str, Any]:
         ],
     }
     if state.compliances.any():
-        content["compliances_rad_per_nm"] = state.compliances
+        content["compliances_rad_per_nm"] = {
+            f"q{motor}": value for motor, value in enumerate(state.compliances, start=1) if value != 0
+        }
         content["loads"] = rows.load_source
     return content
 
