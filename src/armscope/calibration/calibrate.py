@@ -11,14 +11,16 @@ import pandas as pd
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from armscope.calibration.by_run import ALL, misses_by_run
-from armscope.calibration.fit import UNSETTLED, rms_distance, spread_of
+from armscope.calibration.by_run import misses_by_run
+from armscope.calibration.fit import rms_distance, spread_of
 from armscope.calibration.geometry import nominal_values
 from armscope.calibration.imitation import Imitation, imitations
-from armscope.calibration.model import GRAVITY, Level, SetUp, State, set_up
+from armscope.calibration.model import Level, SetUp, State, set_up
+from armscope.calibration.sanity import lost, odd_loads, require_loads
 from armscope.calibration.sharing import exchanged_tool, moved_base
 from armscope.calibration.solve import Priors, Redundancy, Solved, scales_of, solve
 from armscope.calibration.splits import foretold, split
+from armscope.calibration.words import in_words
 from armscope.inputs import InputError
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -33,12 +35,6 @@ DECIDING_ROWS = 1000
 
 HARM = 1.01
 """Orientations are left out if they raise the held-out RMS of positions by more than this factor."""
-
-IMPLAUSIBLE = {"m": 0.05, "rad": 0.1}
-"""A constant of the drawing (share of the arm's reach, or rad) is not so wrong: the fit has lost its way."""
-SURE_SIGMAS = 3.0
-SHOWN = {"m": (1e3, "mm"), "rad": (1e3, "mrad"), "rad/(N m)": (1e6, "µrad/(N m)")}
-"""Factor and unit for reading."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,46 +129,7 @@ class Calibration:
 
     def text(self) -> str:
         """The calibration in words, lengths in mm and angles in mrad."""
-        n_rows, suspects = len(self.set_up), self.ids[self.suspects]
-        arm = self.set_up.arm
-        lines = [
-            f"{arm.name}: {self.level} calibration on {n_rows} rows, {int(self.free.sum())} parameters",
-            *self._misses_in_words(),
-        ]
-        if arm.description.urdf is not None and arm.description.actuation is None:
-            motors = ", ".join(f"q{motor} {name}" for motor, name in enumerate(arm.joint_names, start=1))
-            lines.append(f"motors: {motors}")
-        lines += self.notes
-        lines += [f"doubtful: {doubt}" for doubt in self.doubts]
-        if len(suspects):
-            more = ", ..." if len(suspects) > 12 else ""
-            lines.append(f"{len(suspects)} rows look like bad shots: " + ", ".join(suspects[:12]) + more)
-        lines.append("fitted, with standard errors (of base frames: along and about the base's own axes):")
-        for name, unit, value, error, nominal in self.table.itertuples(index=False):
-            factor, shown = SHOWN[unit]
-            beside = "" if np.isnan(nominal) else f"  (nominal {nominal * factor:.6g} {shown})"
-            if name.startswith("joint ") and not np.isnan(nominal):  # as in robot.yaml, where angles are in degrees
-                becomes = (
-                    f"{np.degrees(nominal + value):.5g} deg" if unit == "rad" else f"{1e3 * (nominal + value):.6g} mm"
-                )
-                beside = f"  (becomes {becomes})"
-            lines.append(f"  {name:<28} {value * factor:12.5g} +- {error * factor:.2g} {shown}{beside}")
-        if self.held:
-            lines.append("held at nominal: from these poses not told apart from what moves the tool alike:")
-            lines += [f"  {each.text()}" for each in self.held]
-        return "\n".join(lines)
-
-    def _misses_in_words(self) -> list[str]:
-        stopped = f"after {self.steps} steps; {self.reason}"
-        if self.misses is None:
-            return [f"RMS of the 3D distance {self.rms_distance * 1e3:.4g} mm {stopped}"]
-        lines = []
-        for run, _, inside, held, spread, alone in self.misses.itertuples(index=False):
-            where = "RMS of the 3D distance" if run == ALL else f"  run {run}:"
-            outside = f"held out {held:.4g} +- {spread:.2g} mm (base and tool alone {alone:.4g} mm)"
-            outside = outside if np.isfinite(held) else "none held out"
-            lines.append(f"{where} {inside:.4g} mm on the rows fitted, {outside}")
-        return [*lines, stopped]
+        return in_words(self)
 
 
 def calibrate(
@@ -213,7 +170,7 @@ def calibrate(
     notes, doubts = _sharing(arm, recordings, one_base, tool_per_run)
     tool_per_run = bool(notes) if tool_per_run is None else tool_per_run
     rows = set_up(arm, recordings, one_base, tool_per_run, orientation is not False)
-    _require_loads(recordings, rows, level)
+    require_loads(recordings, rows, level)
 
     def solved_for(some: SetUp) -> Solved:
         return solve(some, level, redundancy, priors, robust)
@@ -241,8 +198,8 @@ def calibrate(
         reason=fitted.reason,
         suspects=distance > SUSPECT_SIGMAS * spread_of(distance),
         ids=np.array(ids),
-        notes=tuple(notes + _odd_loads(solved, level, covariance)),
-        doubts=tuple(doubts + _lost(solved)),
+        notes=tuple(notes + odd_loads(solved, level, covariance)),
+        doubts=tuple(doubts + lost(solved)),
         held=_held(solved, level),
         misses=misses,
     )
@@ -263,49 +220,6 @@ def _sharing(
     if one_base and (text := moved_base(arm, recordings, bool(notes) or bool(tool_per_run))):
         doubts.append(text)
     return notes, doubts
-
-
-def _require_loads(recordings: Recordings, rows: SetUp, level: Level) -> None:
-    if level == "compliance" and rows.loads is None:
-        raise InputError(
-            recordings.source,
-            "level",
-            level,
-            f"neither the masses of {rows.arm.name} nor recorded torques say what its joints give way under",
-            "State `links` in robot.yaml or record tau1_nm ..., or calibrate at level geometric.",
-        )
-
-
-def _lost(solved: Solved) -> list[str]:
-    """What shows that the fit has lost its way."""
-    rows, state = solved.rows, solved.fitted.state
-    limits = {"m": IMPLAUSIBLE["m"] * rows.arm.reach, "rad": IMPLAUSIBLE["rad"]}
-    far = [
-        f"{constant.name} by {value * SHOWN[constant.unit][0]:.3g} {SHOWN[constant.unit][1]}"
-        for constant, value in zip(rows.constants, state.constants, strict=True)
-        if not constant.is_zero_offset and abs(value) > limits[constant.unit]
-    ]
-    told = [f"no drawing is so wrong: {', '.join(far)}"] if far else []
-    return told + (["the fit did not settle"] if solved.fitted.reason == UNSETTLED else [])
-
-
-def _odd_loads(solved: Solved, level: Level, covariance: Array) -> list[str]:
-    """Joints that turn against their load beyond doubt, which no spring does; links that weigh nothing."""
-    if level != "compliance":
-        return []
-    rows, arm, notes = solved.rows, solved.rows.arm, list[str]()
-    by_table = rows.load_source == GRAVITY
-    fitted = np.array(rows.names)[solved.free]
-    errors = dict(zip(fitted.tolist(), np.sqrt(np.diag(covariance)).tolist(), strict=True))
-    values = {f"joint {motor}": value for motor, value in enumerate(solved.fitted.state.compliances, start=1)}
-    error_of = {name: errors.get(f"{name} compliance", np.inf) for name in values}
-    if against := [name for name, value in values.items() if value < -SURE_SIGMAS * error_of[name]]:
-        question = "; does gravity_m_s2 point the right way?" if by_table else ""
-        notes.append(f"turns against its load, which no spring does: {', '.join(against)}{question}")
-    if by_table and not arm.masses.all():
-        light = [name for name, mass in zip(arm.joint_names, arm.masses, strict=True) if mass == 0]
-        notes.append(f"no mass is stated for what turns with {', '.join(light)}: it counts as weightless")
-    return notes
 
 
 def _held(solved: Solved, level: Level) -> tuple[Imitation, ...]:

@@ -1,0 +1,67 @@
+"""What speaks against a calibration: constants that no drawing gets so wrong, springs that push, loads not known."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.calibration.fit import UNSETTLED
+from armscope.calibration.model import GRAVITY, Level, SetUp
+from armscope.calibration.solve import Solved
+from armscope.calibration.words import SHOWN
+from armscope.inputs import InputError
+from armscope.recordings import Recordings
+
+Array = NDArray[np.float64]
+
+IMPLAUSIBLE = {"m": 0.05, "rad": 0.1}
+"""A constant of the drawing (share of the arm's reach, or rad) is not so wrong: the fit has lost its way."""
+SURE_SIGMAS = 3.0
+
+
+def require_loads(recordings: Recordings, rows: SetUp, level: Level) -> None:
+    """Compliances need something that joints give way under.
+
+    Raises:
+        InputError: nobody knows it.
+    """
+    if level == "compliance" and rows.loads is None:
+        raise InputError(
+            recordings.source,
+            "level",
+            level,
+            f"neither the masses of {rows.arm.name} nor recorded torques say what its joints give way under",
+            "State `links` in robot.yaml or record tau1_nm ..., or calibrate at level geometric.",
+        )
+
+
+def lost(solved: Solved) -> list[str]:
+    """What shows that the fit has lost its way."""
+    rows, state = solved.rows, solved.fitted.state
+    limits = {"m": IMPLAUSIBLE["m"] * rows.arm.reach, "rad": IMPLAUSIBLE["rad"]}
+    far = [
+        f"{constant.name} by {value * SHOWN[constant.unit][0]:.3g} {SHOWN[constant.unit][1]}"
+        for constant, value in zip(rows.constants, state.constants, strict=True)
+        if not constant.is_zero_offset and abs(value) > limits[constant.unit]
+    ]
+    told = [f"no drawing is so wrong: {', '.join(far)}"] if far else []
+    return told + (["the fit did not settle"] if solved.fitted.reason == UNSETTLED else [])
+
+
+def odd_loads(solved: Solved, level: Level, covariance: Array) -> list[str]:
+    """Joints that turn against their load beyond doubt, which no spring does; links that weigh nothing."""
+    if level != "compliance":
+        return []
+    rows, arm, notes = solved.rows, solved.rows.arm, list[str]()
+    by_table = rows.load_source == GRAVITY
+    fitted = np.array(rows.names)[solved.free]
+    errors = dict(zip(fitted.tolist(), np.sqrt(np.diag(covariance)).tolist(), strict=True))
+    values = {f"joint {motor}": value for motor, value in enumerate(solved.fitted.state.compliances, start=1)}
+    error_of = {name: errors.get(f"{name} compliance", np.inf) for name in values}
+    if against := [name for name, value in values.items() if value < -SURE_SIGMAS * error_of[name]]:
+        question = "; does gravity_m_s2 point the right way?" if by_table else ""
+        notes.append(f"turns against its load, which no spring does: {', '.join(against)}{question}")
+    if by_table and not arm.masses.all():
+        light = [name for name, mass in zip(arm.joint_names, arm.masses, strict=True) if mass == 0]
+        notes.append(f"no mass is stated for what turns with {', '.join(light)}: it counts as weightless")
+    return notes
