@@ -92,6 +92,17 @@ def test_a_joint_that_mimics_another_turns_by_actuation(tmp_path):
         build(shifted, actuation=actuation)
 
 
+@pytest.mark.parametrize("name", ["flange", "wrist_3", "wrist_2", "left_finger"])
+@pytest.mark.parametrize("joint", ["turn", "finger_1", "flange_fixed", "torso_lift"])
+def test_links_may_be_called_as_joints_are(tmp_path, name, joint):
+    """As in URDFs from the field, where pinocchio finds two frames of the name."""
+    file = changed(tmp_path, (f'"{name}"', f'"{joint}"'))
+    arm, usual = build(file, tip=joint if name == "flange" else "flange"), build()
+    assert arm.joint_names == usual.joint_names
+    angles = np.random.default_rng(3).uniform(-1, 1, (5, 6))
+    np.testing.assert_allclose(forward_kinematics(arm, angles), forward_kinematics(usual, angles), atol=1e-12)
+
+
 def test_links_without_inertia_weigh_nothing(tmp_path):
     arm = build()
     np.testing.assert_allclose(arm.masses, [3, 4, 2, 1, 0, 0])

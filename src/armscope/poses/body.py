@@ -101,7 +101,7 @@ def collision_shapes(description: RobotDescription) -> list[Shape]:
         geometry = pin.buildGeomFromUrdf(full, description.urdf, pin.GeometryType.COLLISION, package_dirs=folders)
     except (ValueError, RuntimeError):
         return []
-    locked, configuration = cut(description, full)
+    locked, configuration, _ = cut(description, full)
     _, reduced = pin.buildReducedModel(full, geometry, locked, configuration)
     return [_capsule(each) for each in reduced.geometryObjects]
 

@@ -6,7 +6,7 @@ import numpy as np
 import pinocchio as pin
 
 from armscope.robot.description import DHRow, RobotDescription
-from armscope.robot.urdf import cut, read_urdf, refuse_other_than_turning
+from armscope.robot.urdf import cut, frame_named, read_urdf, refuse_other_than_turning
 
 TIP = "armscope_tip"
 
@@ -59,9 +59,10 @@ def _from_dh(description: RobotDescription) -> pin.Model:
 def _from_urdf(description: RobotDescription) -> pin.Model:
     assert description.urdf is not None
     full = read_urdf(description.urdf)
-    model = pin.buildReducedModel(full, *cut(description, full))
+    locked, configuration, tip_name = cut(description, full)
+    model = pin.buildReducedModel(full, locked, configuration)
     refuse_other_than_turning(description.urdf, model)
-    tip = model.frames[model.getFrameId(description.tip)]
+    tip = frame_named(model, tip_name)
     model.addFrame(pin.Frame(TIP, tip.parentJoint, 0, tip.placement, pin.FrameType.OP_FRAME))
     _append_tool_load(model, description)
     model.gravity.linear = np.array(description.gravity_m_s2)

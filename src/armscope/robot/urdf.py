@@ -25,10 +25,11 @@ BEYOND_LIMITS = 0.01
 
 
 class Cut(NamedTuple):
-    """How a whole robot becomes one arm: joints to lock, and the configuration in which they are locked."""
+    """How a whole robot becomes one arm: joints to lock, in which configuration, and what its tip is called then."""
 
     locked: list[int]
     configuration: Array
+    tip: str
 
 
 def read_urdf(path: str) -> pin.Model:
@@ -54,7 +55,8 @@ def cut(description: RobotDescription, full: pin.Model) -> Cut:
     if not full.existFrame(tip):
         names = [frame.name for frame in full.frames]
         raise InputError(file, "tip", tip, "no frame of that name", nearest(tip, names))
-    supports = full.supports[full.frames[full.getFrameId(tip)].parentJoint].tolist()
+    frame = frame_named(full, tip)
+    supports = full.supports[frame.parentJoint].tolist()
     configuration, left = pin.neutral(full), set(supports) - {0}
     if not left:
         rule = "no joint moves between the root and this frame, so there is no arm"
@@ -68,7 +70,22 @@ def cut(description: RobotDescription, full: pin.Model) -> Cut:
     if not left:
         raise InputError(file, "hold_joints", ", ".join(description.hold_joints), "every joint of the chain is held")
     _refuse_followers(description, full, sorted(left))
-    return Cut([joint for joint in range(1, full.njoints) if joint not in left], configuration)
+    _tell_frames_apart(full)
+    return Cut([joint for joint in range(1, full.njoints) if joint not in left], configuration, frame.name)
+
+
+def frame_named(model: pin.Model, name: str) -> pin.Frame:
+    """The frame of a name that is there; the link's where a joint is called so, too."""
+    there = [frame for frame in model.frames if frame.name == name]
+    return next((frame for frame in there if frame.type == pin.FrameType.BODY), there[0])
+
+
+def _tell_frames_apart(full: pin.Model) -> None:
+    """Links and fixed joints that share a name with another frame get one of their own: pinocchio goes by names."""
+    names = Counter(frame.name for frame in full.frames)
+    for frame in full.frames:
+        if frame.type != pin.FrameType.JOINT and names[frame.name] > 1:
+            frame.name += " (link)" if frame.type == pin.FrameType.BODY else " (fixed)"
 
 
 def refuse_other_than_turning(file: str, model: pin.Model) -> None:
