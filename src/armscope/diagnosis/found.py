@@ -18,6 +18,7 @@ from armscope.diagnosis.problem import Gram, contribution
 from armscope.diagnosis.scan import when_stderr
 from armscope.diagnosis.scatter import levers
 from armscope.diagnosis.search import Search
+from armscope.diagnosis.uncertainty import ModelError
 from armscope.diagnosis.verdict import Background, FoundEffect, Parameter
 from armscope.physics.effect import Placed
 from armscope.physics.scene import Part, Scene
@@ -42,12 +43,14 @@ def found_effect(
     scene: Scene,
     gram: Gram,
     share: float,
+    wrong: ModelError,
 ) -> FoundEffect:
     """One effect with everything that is known about it."""
     fit, placed = evidence.fit, part.placed
-    covariance = fit.covariance_of(placed)
+    at = fit.pool.of(placed)
     coefficients = np.zeros(len(fit.pool.terms))
-    coefficients[fit.pool.of(placed)] = _sized(evidence, chosen, part.values, covariance)
+    coefficients[at] = _sized(evidence, chosen, part.values, fit.covariance_of(placed))
+    covariance = wrong.covariance[np.ix_(at, at)]
     rms = contribution(gram, fit.pool.frames, coefficients)
     apart = [certainty.apart(evidence.best, other, placed, rival) for _, rival, other in rivals]
     close = [rival for nats, (_, rival, _) in zip(apart, rivals, strict=True) if nats < certainty.TELLS_APART_NATS]

@@ -22,6 +22,7 @@ from armscope.diagnosis.problem import Gram, accumulate
 from armscope.diagnosis.refit import Refit
 from armscope.diagnosis.search import Search
 from armscope.diagnosis.shares import shares
+from armscope.diagnosis.uncertainty import model_error
 from armscope.diagnosis.validation import Rows, cross_validate
 from armscope.diagnosis.verdict import (
     Answer,
@@ -60,8 +61,9 @@ def judge(
     gram = _plain_gram(evidence)
     variance = _variance_after_frames(gram, fit.pool.frames)
     shared, of_families = _shares(fit, gram)
+    wrong = model_error(fit, evidence.recordings, evidence.noise.least_mm)
     found = {
-        c.candidate: found_effect(evidence, search, c, part, rivals[c.candidate], often, scene, gram, share)
+        c.candidate: found_effect(evidence, search, c, part, rivals[c.candidate], often, scene, gram, share, wrong)
         for c, part, share in zip(best.chosen, fit.model.parts, shared, strict=True)
     }
     order = sorted(found, key=lambda c: -found[c].rms_at_tool_mm)
@@ -107,7 +109,7 @@ def judge(
         residuals=_residuals(evidence),
         suspects=_suspects(evidence),
         next_poses=separating,
-        notices=(*evidence.notices, *_carefully(evidence)),
+        notices=(*evidence.notices, *_carefully(evidence), *(wrong.told() if found else ())),
         model=_held(fit.model, evidence.recordings),
         orientations=_orientations(evidence),
     )

@@ -45,7 +45,8 @@ GLOSSARY = (
     ("Driver", "What an effect follows: a joint's angle, the load of gravity on it, temperature, time, ..."),
     ("Evidence, nats", "How much more probable the recordings are with the effect than without it, as a natural "
      "logarithm, after paying for the size of the library searched. 1 nat is odds of 3 to 1, 5 nats 150 to 1."),
-    ("95 % interval", "Where the true number lies in 95 of 100 such analyses, if the model is right."),
+    ("95 % interval", "Where the true number lies in 95 of 100 such analyses, if the name is right. Smooth errors that "
+     "no effect explains are counted in, as large as what is left shows them to be."),
     ("Chosen in resampled data", "The rows are drawn anew with replacement and the search is repeated: an effect that "
      "is chosen nearly every time does not hang on a few rows."),
     ("Compliance, stiffness", "How far something gives way per unit of load, and its reciprocal."),
