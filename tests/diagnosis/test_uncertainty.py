@@ -117,8 +117,8 @@ def test_an_error_moves_values_as_the_exact_fit_moves() -> None:
     base = next(iter(fit.model.bases.values()))
     moved = fitted(arm, replace(table, positions=table.positions + slow @ base.rotation.T))
     sums = uncertainty._sums(fit, table, np.arange(len(table)))
-    # of 3 x k columns of the wander, that of y's third wave; in the units of the columns before they were scaled
-    count = sums.of["the base wanders in the order of rows"].stop // 3
+    # of 3 x k columns, the third of those along y
+    count = sums.of["the base moves in the order of rows"].stop // 3
     column = sums.cross[:, count + 2]
     step = np.linalg.solve(sums.normal + np.diag(fit.noise**2 * fit.precision), column)
     at = np.concatenate([fit.pool.of(part.placed) for part in fit.model.parts])
@@ -163,7 +163,7 @@ def test_a_verdict_says_so_and_widens_its_intervals() -> None:
     assert [notice.kind for notice in clean.notices].count("model error") == 0
     (told,) = [notice.text for notice in wrong.notices if notice.kind == "model error"]
     assert "from posture to posture" in told
-    assert "wanders" not in told
+    assert "in the order of rows" not in told
 
 
 def test_a_noise_that_is_known_is_no_model_error() -> None:

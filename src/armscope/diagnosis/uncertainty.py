@@ -5,8 +5,8 @@ arms it is not: the set-up wanders, and every arm does things that no effect fol
 fitted values all the same way, however many rows there are. It is modelled as a Gaussian process of unknown size beside
 the fit (Kennedy & O'Hagan 2001, "Bayesian calibration of computer models", sec. 4):
 
-- the base wanders at random in the order of recording: cosines along the rows whose size falls with their number, as
-  the Karhunen-Loeve expansion of a centred random walk has it;
+- the base moves, and it turns, at random in the order of recording: cosines along the rows whose size falls with their
+  number, as the Karhunen-Loeve expansion of a centred random walk has it;
 - each motor turns a little more or less from posture to posture: cosines of motor angles and products of two.
 
 Each process' size is weighed by the evidence of the residuals, none at all among the sizes, beside those that showed
@@ -17,8 +17,9 @@ A being the penalised normal matrix, and their covariance gains s^2 (A^-1 X'WZ) 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -102,9 +103,8 @@ def model_error(fit: Refit, recordings: Recordings, least_mm: float) -> ModelErr
     odds = 1 / max(len(sums.of), 1)
     extra, processes, waiting = np.zeros_like(fit.covariance), [], dict(sums.of)
     while waiting:
-        weighed = {
-            what: _weigh(own[at, at], pull[at], chi2, freedom, least_mm / noise, odds) for what, at in waiting.items()
-        }
+        least = least_mm / noise
+        weighed = {what: _weigh(own[at, at], pull[at], chi2, freedom, least, odds) for what, at in waiting.items()}
         clearest = max(weighed, key=lambda what: weighed[what].evidence)
         found = weighed[clearest]
         for what in [clearest] if found.evidence > 0 else list(waiting):
@@ -148,17 +148,19 @@ class _Sums(NamedTuple):
 
 def _sums(fit: Refit, recordings: Recordings, rows: Indices) -> _Sums:
     motors = moving_joints(recordings)
-    base = [term(axis, "m", (Direction("base", axis), ONE)) for axis in AXES[:3]]
+    base = [term(axis, "m" if axis[0] == "t" else "rad", (Direction("base", axis), ONE)) for axis in AXES]
     turns = [term("turn", "rad", (motor(j), ONE)) for j in motors]
     slow, shapes = _slow(recordings)[rows], _shapes(recordings.motor_angles[:, [j - 1 for j in motors]])[rows]
-    wander, p = len(base) * slow.shape[1], len(fit.pool.terms)
-    count = wander + len(turns) * shapes.shape[1]
+    p, wander = len(fit.pool.terms), 3 * slow.shape[1]
+    starts = [0, wander, *(2 * wander + n * shapes.shape[1] for n in range(len(turns) + 1))]
+    of = {what: slice(*at) for what, at in zip(_named(motors), pairwise(starts), strict=True) if at[0] < at[1]}
+    count = starts[-1]
     normal, own, cross, pull = np.zeros((p, p)), np.zeros((count, count)), np.zeros((p, count)), np.zeros(count)
     table = recordings if len(rows) == len(recordings) else recordings.rows(rows)
     for part, posture in chunks(fit.model, table):
         lens = fit.weights.lens(rows[part])
         X = component_rows(posture.through(lens), (*fit.pool.terms, *base, *turns))
-        moved = (X[p : p + 3, None] * slow[part].T[:, None], X[p + 3 :, None] * shapes[part].T[:, None])
+        moved = (X[p : p + 6, None] * slow[part].T[:, None], X[p + 6 :, None] * shapes[part].T[:, None])
         Z = np.concatenate([each.reshape(-1, 3 * len(part)) for each in moved])
         left = np.einsum("nij,nj->in", lens, fit.residuals[rows[part]])
         fitted = X[:p].reshape(p, -1)
@@ -166,15 +168,19 @@ def _sums(fit: Refit, recordings: Recordings, rows: Indices) -> _Sums:
         own += Z @ Z.T
         cross += fitted @ Z.T
         pull += Z @ left.reshape(-1)
-    of = {"the base wanders in the order of rows": slice(0, wander)} if wander else {}
-    for n, j in enumerate(motors):
-        at = slice(wander + n * shapes.shape[1], wander + (n + 1) * shapes.shape[1])
-        if np.trace(own[at, at]) > TINY_MM**2 * len(rows):
-            of[f"joint {j} errs from posture to posture"] = at
     size = np.ones(count)
-    for at in of.values():
+    for what, at in list(of.items()):
         size[at] = np.sqrt(np.trace(own[at, at]) / (3 * len(rows)))
+        if size[at.start] < TINY_MM:
+            del of[what]
+    size = np.maximum(size, TINY_MM)
     return _Sums(normal, own / np.outer(size, size), cross / size, pull / size, of)
+
+
+def _named(motors: Sequence[int]) -> list[str]:
+    """The processes in words."""
+    base = ["the base moves in the order of rows", "the base turns in the order of rows"]
+    return [*base, *(f"joint {j} errs from posture to posture" for j in motors)]
 
 
 def _slow(recordings: Recordings) -> Array:
