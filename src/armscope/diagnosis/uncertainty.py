@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from scipy.linalg import solve_triangular
 
 from armscope.diagnosis.evidence import SURE_NATS, forward, lower_factor
-from armscope.diagnosis.problem import chunks, component_rows
+from armscope.diagnosis.problem import chunks, component_rows, response
 from armscope.diagnosis.refit import Refit
 from armscope.diagnosis.verdict import Notice
 from armscope.physics.effect import AXES, ONE, Direction, motor, term
@@ -161,16 +161,15 @@ def _sums(fit: Refit, recordings: Recordings, rows: Indices) -> _Sums:
         lens = fit.weights.lens(rows[part])
         X = component_rows(posture.through(lens), (*fit.pool.terms, *base, *turns))
         moved = (X[p : p + 6, None] * slow[part].T[:, None], X[p + 6 :, None] * shapes[part].T[:, None])
-        Z = np.concatenate([each.reshape(-1, 3 * len(part)) for each in moved])
-        left = np.einsum("nij,nj->in", lens, fit.residuals[rows[part]])
         fitted = X[:p].reshape(p, -1)
+        Z = np.concatenate([each.reshape(-1, fitted.shape[1]) for each in moved])
         normal += fitted @ fitted.T
         own += Z @ Z.T
         cross += fitted @ Z.T
-        pull += Z @ left.reshape(-1)
+        pull += Z @ response(fit.model, posture, lens).T.reshape(-1)
     size = np.ones(count)
     for what, at in list(of.items()):
-        size[at] = np.sqrt(np.trace(own[at, at]) / (3 * len(rows)))
+        size[at] = np.sqrt(np.trace(own[at, at]) / (fit.weights.lens(rows).numbers * len(rows)))
         if size[at.start] < TINY_MM:
             del of[what]
     size = np.maximum(size, TINY_MM)
