@@ -10,6 +10,8 @@ from armscope.poses.compare import compare, predicted_errors, share_won
 from armscope.poses.obstacles import Surroundings, refusals
 from armscope.poses.shown import shown
 from armscope.robot import load_arm
+from armscope.robot.arm import build_arm
+from armscope.robot.description import RobotDescription
 
 ROBOTS = Path(__file__).parents[2] / "config" / "robots"
 AROUND = Surroundings(floor=0.0, tracker=np.array([4.0, 0.0, 1.5]))
@@ -44,6 +46,14 @@ def test_the_jacobian_is_the_slope_of_the_exact_model(arm, effects):
         values = np.eye(len(seen.terms))[k] * 1e-3
         slope = (seen.tool(pool.table, values) - seen.tool(pool.table, -values)) / 2e-3
         assert jacobian[:, :, k] == pytest.approx(slope, abs=1e-9)
+
+
+def test_of_a_urdf_the_zeros_of_motors_are_shown_before_turns_of_links_that_imitate_them():
+    urdf = str(Path(__file__).parents[1] / "robot" / "torso_arm.urdf")
+    arm = build_arm(RobotDescription(name="t", urdf=urdf, tip="flange", hold_joints={"torso_lift": 0.1}))
+    seen = shown(arm, candidates(arm, 200, Surroundings(), 0).table)
+    offsets = {name for name in seen.hidden if name.endswith("offset")}
+    assert offsets <= {"joint 1 offset", "joint 6 offset"}  # those of base and tool
 
 
 def test_every_kept_parameter_is_told_apart_and_moves_the_tool_by_a_millimetre(choice):

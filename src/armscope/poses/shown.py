@@ -99,8 +99,8 @@ def shown(arm: Arm, table: Recordings, effects: Sequence[str] = (GEOMETRY,)) -> 
     rms = np.sqrt(np.mean(columns**2, axis=0) * 3)
     moves = rms > 1e-12
     sizes = np.where(moves, SIZE_M / np.where(moves, rms, 1.0), 1.0)
-    frame = np.array([placed[number].family == "frame" for number, _ in terms])
-    kept = _told_apart(columns * sizes, frame) & moves
+    tiers = np.array([_tier(placed[number]) for number, _ in terms])
+    kept = _told_apart(columns * sizes, tiers) & moves
     hidden = tuple(_name(placed[number], term) for (number, term), keep in zip(terms, kept, strict=True) if not keep)
     chosen = tuple(each for each, keep in zip(terms, kept, strict=True) if keep)
     return Shown(arm, placed, chosen, sizes[kept], hidden)
@@ -128,12 +128,20 @@ def _placed(arm: Arm, table: Recordings, effects: Sequence[str]) -> list[Placed]
     return found
 
 
-def _told_apart(columns: Array, first: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Columns chosen by QR with pivoting (Golub 1965): the frames first, then the effects, until little is left."""
+def _tier(placed: Placed) -> int:
+    """Order of preference where parameters imitate each other: frames, then zeros of motors, which a user can set."""
+    if placed.family == "frame":
+        return 0
+    return 1 if placed.family == "geometric" and placed.location.startswith("joint") else 2
+
+
+def _told_apart(columns: Array, tiers: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Columns chosen by QR with pivoting (Golub 1965), tier by tier, until little is left."""
     triangular = np.linalg.qr(columns, mode="r")
     left = triangular / np.maximum(np.linalg.norm(triangular, axis=0), 1e-300)
-    kept = np.zeros(len(first), dtype=bool)
-    for members in (np.flatnonzero(first), np.flatnonzero(~first)):
+    kept = np.zeros(len(tiers), dtype=bool)
+    for tier in np.unique(tiers):
+        members = np.flatnonzero(tiers == tier)
         basis, factor, order = scipy.linalg.qr(left[:, members], mode="economic", pivoting=True)
         rank = int(np.sum(np.abs(np.diag(factor)) > INDEPENDENT))
         kept[members[order[:rank]]] = True
