@@ -102,6 +102,14 @@ def test_a_tool_that_stayed_is_one(rng):
     assert (len(found.state.tools), found.notes, found.doubts) == (1, (), ())
 
 
+@pytest.mark.parametrize("length", [3, 4, 8])
+def test_many_short_runs_are_no_reason_to_free_their_tools(rng, length):
+    """Frames of their own always come nearer to so few rows."""
+    arm = planted(ur_like(), rng)
+    short = [measured(arm, poses(rng, length, 6), far_away(rng), TOOL, NOISE_M, rng, f"run {k}") for k in range(12)]
+    assert calibrate(ur_like(), together(*short)).notes == ()
+
+
 def test_one_base_for_all_is_doubted_only_where_it_was_moved(rng):
     tools = [[0.05, 0.1, 0.2]] * 2
     assert calibrate(ur_like(), two_runs(rng, tools), one_base=True).doubts == ()

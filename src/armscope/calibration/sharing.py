@@ -12,6 +12,8 @@ from armscope.robot import Arm
 WORSE = 2.0
 """Runs do not share a frame if one for all leaves more than this many times what one per run leaves: a mere shift of
 tenths of what the arm itself misses must not cost a frame its precision."""
+LEAST_NUMBERS = 2
+"""Measured numbers per number of a frame, for frames to tell anything."""
 ROWS = 1000
 """Rows that are looked at, at most."""
 
@@ -33,7 +35,14 @@ def moved_base(arm: Arm, recordings: Recordings, tool_per_run: bool) -> str:
 
 
 def _usual_miss(arm: Arm, recordings: Recordings, one_base: bool, tool_per_run: bool) -> float:
-    """The spread (1-sigma per axis by the median, m) that base and tool alone leave."""
+    """The spread (1-sigma per axis by the median, m) about base and tool, for the numbers that these cost.
+
+    Infinite where frames for so few rows would follow anything.
+    """
     some = np.unique(np.linspace(0, len(recordings) - 1, min(len(recordings), ROWS)).astype(np.intp))
     rows = set_up(arm, recordings.rows(some), one_base, tool_per_run)
-    return spread_of(np.linalg.norm(rows.residuals(placed(rows)), axis=1))
+    measured, spent = 3 * len(rows), 6 * len(rows.base_names) + 3 * len(rows.tool_names)
+    if measured < LEAST_NUMBERS * spent:
+        return float(np.inf)
+    spread = spread_of(np.linalg.norm(rows.residuals(placed(rows)), axis=1))
+    return spread * float(np.sqrt(measured / (measured - spent)))
