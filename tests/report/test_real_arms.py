@@ -146,3 +146,28 @@ def test_curves_of_two_runs_are_told_with_what_they_are_worth(arm_, tmp_path):
     assert "on run b with the curves of run a 0.440 mm become 0.110 mm" in text
     assert "joint 3 1.00 over 115°" in text
     assert "figures/real-arm-curves.png" in text
+
+
+def test_runs_whose_compliances_do_not_agree_are_named(arm_, tmp_path):
+    assert "say the same" not in page(arm_, tmp_path)
+    value = {"learned": "points alone", "noise_mm": 0.1, "masses": 1.4, "stderr": 10.0, "low": 40.0, "high": 82.0}
+    values = [value | {"run": run, "of": "joint 2", "value": 61.0} for run in "ab"]
+    values += [value | {"run": run, "of": "drive 2 + 0.5 drive 4", "value": 90.0} for run in "abc"]
+    values[0]["reference"] = 62.5
+    write_table(arm_.folder / "compliances.csv", pd.DataFrame(values))
+    pair = {"learned": "points alone", "directions": 2, "statistic": 1.0, "one_value": 90.0, "other_value": 50.0}
+    pairs = [
+        pair | {"one": "a", "other": other, "of": of, "probability": chance, "difference": 40.0, "stderr": stderr}
+        for other, chance in (("b", 0.4), ("c", 1e-4))
+        for of, stderr in (("drive 2 + 0.5 drive 4", 10.0), ("drive 3", 30.0))
+    ]
+    write_table(arm_.folder / "compliances_agree.csv", pd.DataFrame(pairs))
+    rehearsed = {"learned": "points alone", "one": "a", "other": "b", "arms": 9, "numbers": 20, "held": 19}
+    kinds = [rehearsed | {"arm": "the same arm", "agree": 8}, rehearsed | {"arm": "a softer one", "agree": 1}]
+    write_table(arm_.folder / "compliances_rehearsed.csv", pd.DataFrame(kinds))
+    text = page(arm_, tmp_path)
+    assert "drives on a: joint 2 61 ± 21 (others: 62.5)." in text
+    assert "1 of 2 pairs of runs agree, **these do not: a and c**" in text
+    assert "| points alone | a, c | 2 | **1e-04** | drive 2 + 0.5 drive 4: 90 and 50, apart by 40 ± 21 |" in text
+    assert "8 of 9 on the same arm, 1 of 9 on a softer one agree, 95 % of the drives' intervals" in text
+    assert "figures/real-arm-compliances.png" in text

@@ -75,14 +75,37 @@ rule protocol_real:
         "> {log} 2>&1"
 
 
+rule compliances_real:
+    # do the runs of an arm whose torques were recorded say the same of what gives way?
+    input:
+        recordings=recordings_of,
+        robot=robot_of,
+        reference=lambda wildcards: CONFIG.real[wildcards.set].reference,
+    output:
+        expand(f"{RESULTS}/real/{{{{set}}}}/compliances{{table}}.csv", table=("", "_agree", "_rehearsed")),
+    params:
+        folder=subpath(output[0], parent=True),
+        seed=CONFIG.seed,
+        code=code("armscope.cli.real:compliances"),
+    log:
+        f"{RESULTS}/logs/real/{{set}}/compliances.log",
+    conda:
+        "../envs/armscope.yaml"
+    shell:
+        "armscope real compliances {input.recordings} {input.robot} {input.reference} --seed {params.seed} "
+        "-o {params.folder} > {log} 2>&1"
+
+
 # docs/real-arms.md, which is under version control and therefore no part of `real`
 PAGED = [name for name in REAL if CONFIG.real[name].reference]
+COMPARED = [name for name in PAGED if CONFIG.real[name].loads_recorded]
 
 
 rule real_arms:
     input:
         expand(f"{RESULTS}/real/{{set}}/verdict.json", set=PAGED),
         expand(f"{RESULTS}/real/{{set}}/protocol.csv", set=PAGED),
+        expand(f"{RESULTS}/real/{{set}}/compliances.csv", set=COMPARED),
         proof=f"{RESULTS}/proof_real/tables/rates.csv",
     output:
         touch(f"{RESULTS}/real_arms.done"),
@@ -113,4 +136,5 @@ rule real_arms:
 rule real:
     input:
         expand(f"{RESULTS}/real/{{set}}/report.html", set=REAL),
-        expand(f"{RESULTS}/real/{{set}}/protocol.csv", set=[name for name in REAL if CONFIG.real[name].reference]),
+        expand(f"{RESULTS}/real/{{set}}/protocol.csv", set=PAGED),
+        expand(f"{RESULTS}/real/{{set}}/compliances.csv", set=COMPARED),

@@ -58,6 +58,35 @@ def _tell(text: str) -> None:
 
 
 @app.command()
+def compliances(
+    recordings: Annotated[Path, typer.Argument(help="recordings of a real arm, all runs")],
+    robot: Annotated[Path, typer.Argument(help="its robot.yaml")],
+    reference: Annotated[Path, typer.Argument(help="reference.yaml: runs, and compliances that others found")],
+    output: Output,
+    arms: Annotated[int, typer.Option(help="simulated arms on which the comparison is rehearsed")] = 40,
+    seed: Annotated[int, typer.Option(help="of the simulated arms")] = 0,
+) -> None:
+    """Do the drives' compliances agree between runs? Values, agreement, and the same on simulated arms."""
+    from armscope.files import write_table
+    from armscope.real.compliance_tables import compare_runs
+    from armscope.real.reference import load_reference
+    from armscope.real.rehearsal import rehearse_runs
+    from armscope.recordings import read_recordings
+    from armscope.robot import load_arm
+
+    arm, stated = load_arm(robot), load_reference(reference).compliances
+    if stated is None:
+        raise InputError(reference, "compliances", "nothing", "which runs to compare, and figures of others")
+    table = read_recordings(recordings, arm.n_motors)
+    if table.torque is None:
+        raise InputError(recordings, "line 1", "no column tau1_nm", "drives are compared under recorded torques")
+    values, pairs = compare_runs(arm, table, stated, _tell)
+    write_table(output / "compliances.csv", values, digits=6)
+    write_table(output / "compliances_agree.csv", pairs, digits=6)
+    write_table(output / "compliances_rehearsed.csv", rehearse_runs(arm, table, stated, arms, seed))
+
+
+@app.command()
 def plant(
     recordings: Annotated[Path, typer.Argument(help="recordings of a real arm, all runs")],
     robot: Annotated[Path, typer.Argument(help="its robot.yaml")],
@@ -149,6 +178,7 @@ def page(
 
     from armscope.real.curves import shared
     from armscope.real.settings import PageSettings
+    from armscope.report.compliance_figure import draw_compliances
     from armscope.report.curves_figure import draw_shared_curves
     from armscope.report.protocol_figure import draw_protocol
     from armscope.report.real_arms import RealArm, write_real_arms
@@ -161,6 +191,9 @@ def page(
         shutil.copy(arm.folder / "figures" / "arm.png", figures / f"real-{arm.name}.png")
         if curves := shared(pd.read_csv(arm.folder / "curves_by_run.csv")):
             save_figure(draw_shared_curves(curves), figures / f"real-{arm.name}-curves.png", formats=("png",))
+        if (told := arm.folder / "compliances.csv").exists():
+            picture = figures / f"real-{arm.name}-compliances.png"
+            save_figure(draw_compliances(pd.read_csv(told)), picture, formats=("png",))
     tables = [(arm.title.partition(",")[0], pd.read_csv(arm.folder / "protocol.csv")) for arm in arms]
     save_figure(draw_protocol(tables), figures / "real-protocol.png", formats=("png",))
     write_real_arms(output, arms, figures.name, None if chosen.proof is None else Path(chosen.proof))

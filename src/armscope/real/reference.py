@@ -68,12 +68,29 @@ class ReferenceTransfer(Strict):
         return min(self.figures_mm.values(), default=None)
 
 
+class ReferenceCompliances(Strict):
+    """Runs of one arm with recorded torques, whose drives must give way alike.
+
+    Attributes:
+        runs: which.
+        together: runs that are also fitted together, with a base and a tool each, by what to call them.
+        learned_on: the run of the figures.
+        microrad_per_nm: compliance of the drive by joint, as others found it there.
+    """
+
+    runs: tuple[str, ...] = Field(min_length=2)
+    together: dict[str, tuple[str, ...]] = Field(default_factory=dict)
+    learned_on: str
+    microrad_per_nm: dict[int, Annotated[float, Field(gt=0)]] = Field(min_length=1)
+
+
 class Reference(Strict):
     """reference.yaml."""
 
     source: str
     runs: tuple[ReferenceRun, ...] = Field(min_length=1)
     transfers: tuple[ReferenceTransfer, ...] = ()
+    compliances: ReferenceCompliances | None = None
 
 
 def load_reference(path: Path | str) -> Reference:

@@ -16,6 +16,7 @@ from armscope.real.curves import shared
 from armscope.real.protocol import ARMSCOPE, ORIENTED, UNCORRECTED
 from armscope.real.reference import Reference, ReferenceRun, load_reference
 from armscope.real.transfer import GEOMETRY_HERE, SPLITS, WITH_CURVES
+from armscope.report.compliance_words import compliance_lines
 from armscope.report.page import significant
 
 LEVELS = ("nominal", "offsets", "geometric", "compliance")
@@ -111,6 +112,7 @@ def _section(arm: RealArm, figures: str) -> str:
         PAPER,
         _paper(table, reference.runs),
     ]
+    parts += [compliance_lines(arm.folder, arm.title, f"{figures}/real-{arm.name}-compliances.png")]
     transfers = pd.read_csv(arm.folder / "transfer.csv")
     if len(transfers):
         parts += ["Learned on one run, applied to another, where only the frames named are fitted again:"]

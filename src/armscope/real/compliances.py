@@ -1,0 +1,258 @@
+"""Do the drives' compliances agree between runs of one arm? Each run by itself under the same model, then compared.
+
+The model is the same for every run and chosen by nothing in it: base and tool free, D-H values of all links with priors
+of tolerance size, the drives of all loaded joints and the tilt of all bearings with one common, wide prior. Loads of
+drives are gravity's torques of mass moments fitted to the recorded ones; those of bearings are gravity's by the stated
+masses, scaled to the recorded torques.
+
+What else a real arm does a little of would make such a model too sure of itself: where drives and bearings are loaded
+nearly alike, a wave of a tenth of a milliradian decides. So low waves of every moving joint's angle and of its axis'
+direction are allowed for, too. And as residuals hang together from row to row, the rows' part of each covariance comes
+from a jackknife over blocks of consecutive rows, the rest from the priors.
+
+Runs are compared in all combinations of compliances that both determine: an arm that moves two joints alone hardly
+tells its drives and bearings apart, but together they must give way as the other run says.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import f as f_distribution
+
+from armscope.diagnosis import robust
+from armscope.diagnosis.checks import check_table, with_orientations
+from armscope.diagnosis.evidence import TOLERANCE
+from armscope.diagnosis.frames import fit_frames
+from armscope.diagnosis.problem import Gram, Pool, accumulate, missed, pool, total
+from armscope.diagnosis.refit import moved_frames
+from armscope.diagnosis.weights import RowNoise
+from armscope.physics import elastic, geometric
+from armscope.physics.effect import Placed
+from armscope.physics.frames import free_frames
+from armscope.physics.model import FittedModel
+from armscope.physics.placing import moving_joints
+from armscope.physics.scene import Part
+from armscope.physics.transmission import mesh
+from armscope.recordings import Recordings
+from armscope.robot import Arm, chain
+from armscope.robot.arm import build_arm
+from armscope.robot.gravity import gravity_torques, mass_moment_regressor
+
+Array = NDArray[np.float64]
+
+PRIOR = 1e-4
+"""rad/(N m), standard deviation of every drive's and bearing's compliance: 10 N m turn it by a milliradian. Drives of
+arms of this size give a few times less."""
+WAVES, WAVE = (1, 2, 3, 4), 1e-4
+"""Periods per turn of angle errors allowed for, and their standard deviation, rad: a tenth of what geometry may be off;
+so is an axis' direction, once and twice per turn."""
+BLOCKS = 20
+"""Of consecutive rows: enough to tell a variance, and each long beside what hangs together."""
+UNSEEN = 1e-4
+"""Combinations of mass moments that load no joint by more than this share of the strongest are left out."""
+STEPS, SETTLED = 8, 1e-3
+"""Gauss-Newton ends when values move by less than this share of their standard errors."""
+DETERMINED = 0.5
+"""Runs are compared in combinations that both together leave less uncertain than this share of the prior."""
+
+
+@dataclass(frozen=True, eq=False)
+class Give:
+    """What a run alone says of how the arm gives way.
+
+    Attributes:
+        run: its name.
+        rows: how many.
+        mean: (m + n,) compliances of all motors' drives, then of all joints' bearings, rad/(N m); what carries no load
+            keeps its prior.
+        covariance: (m + n, m + n).
+        posterior: the same as if the model were true; what two runs share through the prior follows from it.
+        noise_mm: what the model leaves, per axis.
+        masses: by how much the stated masses were scaled.
+    """
+
+    run: str
+    rows: int
+    mean: Array
+    covariance: Array
+    posterior: Array
+    noise_mm: float
+    masses: float
+
+    @property
+    def stderr(self) -> Array:
+        """(m + n,) rad/(N m)."""
+        return np.sqrt(np.diag(self.covariance))
+
+
+def fit_give(arm: Arm, recordings: Recordings, run: str) -> Give:
+    """Compliances of all drives and bearings from one run, or from several with a base and a tool each.
+
+    Args:
+        arm: the nominal arm, with masses.
+        recordings: rows with recorded torques; their orientations are used where they were measured.
+        run: what to call them.
+    """
+    table = check_table(arm, recordings).recordings
+    tool_per_run = len(np.unique(table.run)) > 1
+    arm, masses = as_heavy_as_recorded(arm, table)
+    table = replace(table, torque=gravity_as_recorded(arm, table))
+    model = fit_frames(arm, table, tool_per_run)
+    table = with_orientations(table, missed(model, table).turn)[0]
+    drives = [placed for placed in elastic.JOINT_COMPLIANCE.place(arm, table) if placed.variant == ""]
+    bearings = list(elastic.BEARING_COMPLIANCE.place(arm, table))
+    waves = [mesh(j, per_turn) for j in moving_joints(table) for per_turn in WAVES]
+    families = [geometric.background(arm), [*drives, *bearings], [*waves, *geometric.AXIS_WOBBLE.place(arm, table)]]
+    parts, small = pool(free_frames(table, tool_per_run), families, []), [p for family in families for p in family]
+    precision = _precision(parts)
+    blocks, noise = _settled(parts, model, small, table, precision)
+    mean, posterior, covariance = _jackknifed(blocks, noise, precision)
+    at = np.concatenate([parts.of(placed) for placed in (*drives, *bearings)])
+    joint = [int(placed.location.split()[1]) - 1 for placed in (*drives, *bearings)]
+    number = np.array(joint) + arm.n_motors * (np.arange(len(joint)) >= len(drives))
+
+    def of_all(matrix: Array) -> Array:
+        full = PRIOR**2 * np.eye(arm.n_motors + arm.n_joints)
+        full[np.ix_(number, number)] = matrix[np.ix_(at, at)]
+        return full
+
+    values = np.zeros(arm.n_motors + arm.n_joints)
+    values[number] = mean[at]
+    return Give(run, len(table), values, of_all(covariance), of_all(posterior), noise, masses)
+
+
+def as_heavy_as_recorded(arm: Arm, table: Recordings) -> tuple[Arm, float]:
+    """The arm with all stated masses scaled by one factor to the recorded torques, and the factor."""
+    assert table.torque is not None
+    frames = chain(arm, table.motor_angles)
+    stated = gravity_torques(arm, frames)
+    carried = gravity_torques(arm, frames, table.payload) - stated
+    known = np.isfinite(table.torque)
+    factor = float(stated[known] @ (table.torque - carried)[known] / (stated[known] @ stated[known]))
+    links = [link.model_copy(update={"mass_kg": factor * link.mass_kg}) for link in arm.description.links or []]
+    return build_arm(arm.description.model_copy(update={"links": links})), factor
+
+
+def gravity_as_recorded(arm: Arm, table: Recordings) -> Array:
+    """(N, m) gravity's torques of the mass moments that explain a run's recorded ones best, N m.
+
+    An arm that stands still carries nothing else; the sensors' ripple is no load, but would be taken for one where
+    loads hardly differ.
+    """
+    assert table.torque is not None
+    smooth = np.empty_like(table.torque)
+    for run in np.unique(table.run):
+        mine = table.run == run
+        regressor = mass_moment_regressor(arm, chain(arm, table.motor_angles[mine]))
+        columns = regressor.reshape(-1, regressor.shape[-1])
+        torque = table.torque[mine].ravel()
+        known = np.isfinite(torque)
+        moments = np.linalg.lstsq(columns[known], torque[known], rcond=UNSEEN)[0]
+        smooth[mine] = (columns @ moments).reshape(-1, arm.n_motors)
+    return smooth
+
+
+def _precision(parts: Pool) -> Array:
+    """(p,) prior precisions, SI units; frames are free."""
+    precision = np.zeros(len(parts.terms))
+    for columns, size in zip(parts.background, (TOLERANCE, PRIOR, WAVE), strict=True):
+        precision[columns] = size**-2
+    return precision
+
+
+def _settled(
+    parts: Pool, model: FittedModel, small: Sequence[Placed], table: Recordings, precision: Array
+) -> tuple[list[Gram], float]:
+    """Sums over each block of rows where the exact fit settles, and the noise there (mm): Gauss-Newton, robust."""
+    rows = RowNoise(np.ones(len(table)), np.ones(len(table)))
+    block = np.arange(len(table)) * BLOCKS // len(table)
+    model = replace(model, background=tuple(Part(placed, np.zeros(len(placed.terms))) for placed in small))
+    left = missed(model, table)
+    values, noise = np.zeros(len(parts.terms)), robust.scale_of(left.shift)
+    for _ in range(STEPS):
+        blocks = accumulate(parts, model, table, rows.weighed(left, 0.0), block)
+        gram = total(blocks)
+        covariance = _inverse(gram.G / noise**2 + np.diag(precision))
+        before, values = values, covariance @ gram.b / noise**2
+        spent = len(values) - float(np.diag(covariance) @ precision)
+        noise = float(np.sqrt(max(gram.rss(values), 0.0) / max(gram.n - spent, 1.0)))
+        model = _at(parts, model, values)
+        left = missed(model, table)
+        inner = np.concatenate(parts.background)
+        if np.all(np.abs(values - before)[inner] < SETTLED * np.sqrt(np.diag(covariance))[inner]):
+            break
+    return accumulate(parts, model, table, rows.weighed(left, 0.0), block), noise
+
+
+def _at(parts: Pool, model: FittedModel, values: Array) -> FittedModel:
+    moved = moved_frames(model, dict(zip(parts.terms, values, strict=True)))
+    return replace(moved, background=tuple(Part(p.placed, values[parts.of(p.placed)]) for p in model.background))
+
+
+def _jackknifed(blocks: Sequence[Gram], noise: float, precision: Array) -> tuple[Array, Array, Array]:
+    """Posterior mean, posterior covariance if the model were true, and with the rows' part as the blocks scatter.
+
+    Without block b the mean is theta_b; the rows' part is (B-1)/B sum (theta_b - mean)(theta_b - mean)' (Tukey 1958).
+    """
+    gram = total(blocks)
+    ridge = np.diag(precision)
+    posterior = _inverse(gram.G / noise**2 + ridge)
+    without = np.array(
+        [_inverse((gram.G - b.G) / noise**2 + ridge) @ (gram.b - b.b) / noise**2 for b in blocks if b.n > 0]
+    )
+    off = without - without.mean(axis=0)
+    rows = (len(off) - 1) / len(off) * off.T @ off
+    return posterior @ gram.b / noise**2, posterior, posterior @ ridge @ posterior + rows
+
+
+def _inverse(A: Array) -> Array:
+    """A^-1, equilibrated first: SI units differ by many powers of ten."""
+    d = 1 / np.sqrt(np.diag(A))
+    return np.asarray(np.linalg.inv(A * np.outer(d, d)) * np.outer(d, d))
+
+
+@dataclass(frozen=True, eq=False)
+class Agreement:
+    """Two runs' compliances, compared where both tell them.
+
+    Attributes:
+        one, other: the runs.
+        directions: (k, m + n) combinations of the compliances that both determine, unit vectors, the surest first.
+        difference: (k,) of these combinations, one minus other, rad/(N m).
+        stderr: (k,) of the differences.
+        statistic: Hotelling's T^2 of the difference.
+        probability: of such a difference or a larger one, if the compliances are the same.
+    """
+
+    one: str
+    other: str
+    directions: Array
+    difference: Array
+    stderr: Array
+    statistic: float
+    probability: float
+
+
+def compare(one: Give, other: Give) -> Agreement:
+    """Whether two runs agree about the compliances, in what both determine.
+
+    Both means lean to the same prior, so their errors have a part in common:
+    Cov(m1 - m2) = C1 + C2 - (P1 P^-1 P2 + transposed) with the posteriors P1, P2 and the prior P.
+    """
+    size, vectors = np.linalg.eigh(one.posterior + other.posterior)
+    directions = vectors[:, size < (DETERMINED * PRIOR) ** 2].T
+    common = one.posterior @ other.posterior / PRIOR**2
+    covariance = directions @ (one.covariance + other.covariance - common - common.T) @ directions.T
+    difference = directions @ (one.mean - other.mean)
+    k = len(directions)
+    if not k:
+        return Agreement(one.run, other.run, directions, difference, np.empty(0), np.nan, np.nan)
+    statistic = float(difference @ np.linalg.solve(covariance, difference))
+    # two covariances of so many blocks each: Hotelling's T^2 is an F
+    free = 2 * (BLOCKS - 1)
+    chance = float(f_distribution.sf(statistic * (free - k + 1) / (free * k), k, free - k + 1))
+    return Agreement(one.run, other.run, directions, difference, np.sqrt(np.diag(covariance)), statistic, chance)

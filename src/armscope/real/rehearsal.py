@@ -1,0 +1,136 @@
+"""The comparison of compliances rehearsed on simulated arms: do its intervals hold, does it agree when it should?
+
+Arms are drawn and simulated at the real runs' commanded angles, with much that the comparison's model does not have: a
+gear's mesh, lost motion by the side of load, links and a base that bend, joints that drag others along, heavier masses
+than stated, bad shots. True loads are gravity's of mass moments fitted to the recorded torques; the comparison sees
+torques with errors as the recorded ones have them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from armscope.physics import elastic, geometric, transmission
+from armscope.physics.model import Base, FittedModel, predict, predict_orientation
+from armscope.physics.scene import Part
+from armscope.real.compliance_tables import ORIENTATIONS, POINTS, half_width
+from armscope.real.compliances import as_heavy_as_recorded, compare, fit_give, gravity_as_recorded
+from armscope.real.reference import ReferenceCompliances, rows_of_run
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+
+Array = NDArray[np.float64]
+
+KINDS = {"the same arm": 1.0, "an arm 15 % softer": 1.15}
+"""What the other run is recorded on: by how much its compliances are larger."""
+DRIVES, BEARINGS = (2e-5, 1e-4), (0.0, 5e-5)
+"""rad/(N m), between which compliances are drawn."""
+GEOMETRY, WAVE, WOBBLE, MESH, DRAGGED = 5e-4, 1e-4, 5e-5, 4e-5, 5e-5
+"""Standard deviations: m and rad; rad; rad; rad; rad/rad (one joint in ten)."""
+GAP, BEND, BASE = 1e-4, 4e-5, 5e-6
+"""The largest that is drawn: rad; 1/(N m^2); rad/(N m)."""
+POINT_MM, TURN_MRAD, BAD_SHOTS, FAR_MM = 0.08, 0.8, 0.01, 1.0
+AGREES = 0.05
+"""A smaller probability is called a disagreement."""
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """A simulated arm: compliances of drives and bearings, rad/(N m), and all else."""
+
+    drives: Array
+    bearings: Array
+    rest: tuple[Part, ...]
+
+
+def draw(arm: Arm, rows: Recordings, rng: np.random.Generator) -> Drawn:
+    """An arm that is a little wrong everywhere; joints that move in ``rows`` have waves."""
+    drives, bearings = rng.uniform(*DRIVES, arm.n_motors), rng.uniform(*BEARINGS, arm.n_joints)
+    normal = [(geometric.background(arm), GEOMETRY), (transmission.GEAR_ECCENTRICITY.place(arm, rows), WAVE)]
+    normal += [(geometric.AXIS_WOBBLE.place(arm, rows), WOBBLE)]
+    counts = rng.integers(5, 20, arm.n_motors)
+    normal += [([transmission.mesh(j + 1, int(count)) for j, count in enumerate(counts)], MESH)]
+    dragged = [placed for placed in transmission.JOINT_COUPLING.place(arm, rows) if rng.random() < 0.1]
+    normal += [(dragged, DRAGGED)]
+    rest = [Part(placed, size * rng.normal(size=len(placed.terms))) for places, size in normal for placed in places]
+    gaps = [placed for placed in transmission.BACKLASH.place(arm, rows) if placed.variant == "load"]
+    positive = [
+        (gaps, GAP),
+        (elastic.LINK_BENDING.place(arm, rows), BEND),
+        (elastic.BASE_COMPLIANCE.place(arm, rows), BASE),
+    ]
+    rest += [Part(placed, np.array([rng.uniform(0, size)])) for places, size in positive for placed in places]
+    return Drawn(drives, bearings, tuple(rest))
+
+
+def record(arm: Arm, rows: Recordings, drawn: Drawn, softer: float, rng: np.random.Generator) -> Recordings:
+    """``rows`` as a drawn arm gives them, its compliances ``softer`` times as large."""
+    heavy = as_heavy_as_recorded(arm, rows)[0]
+    assert rows.torque is not None
+    torque = gravity_as_recorded(arm, rows)
+    loaded = replace(rows, torque=torque)
+    # the sensors' errors of one row come with another, so that nobody can know them
+    recorded = torque + rng.permutation(rows.torque - torque)
+    give = [
+        Part(placed, np.array([softer * compliances[int(placed.location.split()[1]) - 1]]))
+        for effect, compliances in (
+            (elastic.JOINT_COMPLIANCE, drawn.drives),
+            (elastic.BEARING_COMPLIANCE, drawn.bearings),
+        )
+        for placed in effect.place(heavy, loaded)
+        if placed.variant == ""
+    ]
+    bases = {str(run): Base(Rotation.random(1, rng).as_matrix()[0], rng.normal(size=3)) for run in np.unique(rows.run)}
+    model = FittedModel(heavy, bases, (), (*give, *drawn.rest))
+    points, turns = predict(model, loaded), Rotation.from_matrix(predict_orientation(model, loaded))
+    noise = np.where(rng.random(len(rows)) < BAD_SHOTS, FAR_MM, POINT_MM)[:, None]
+    points = points + 1e-3 * noise * rng.normal(size=points.shape)
+    if rows.orientation is None:
+        return replace(rows, positions=points, torque=recorded)
+    turned = Rotation.from_rotvec(1e-3 * TURN_MRAD * rng.normal(size=points.shape)) * turns * Rotation.random(1, rng)[0]
+    return replace(rows, positions=points, torque=recorded, orientation=turned.as_quat(scalar_first=True))
+
+
+def rehearse(arm: Arm, one: Recordings, other: Recordings, joints: Sequence[int], arms: int, seed: int) -> pd.DataFrame:
+    """Drawn arms recorded in two runs and compared.
+
+    Returns:
+        A row per kind of the other run's arm: arm, arms, agree (how many), numbers, held (joints' intervals in both
+        runs that hold the drawn compliance).
+    """
+    found = []
+    for kind, softer in KINDS.items():
+        agree, held = [], []
+        for number in range(arms):
+            rng = np.random.default_rng([seed, number])
+            drawn = draw(arm, one, rng)
+            first = fit_give(arm, record(arm, one, drawn, 1.0, rng), "one")
+            second = fit_give(arm, record(arm, other, drawn, softer, rng), "other")
+            agree.append(compare(first, second).probability > AGREES)
+            for give, factor in ((first, 1.0), (second, softer)):
+                held += [
+                    abs(give.mean[j - 1] - factor * drawn.drives[j - 1]) < half_width(give.stderr[j - 1])
+                    for j in joints
+                ]
+        found.append({"arm": kind, "arms": arms, "agree": sum(agree), "numbers": len(held), "held": sum(held)})
+    return pd.DataFrame(found)
+
+
+def rehearse_runs(
+    arm: Arm, recordings: Recordings, reference: ReferenceCompliances, arms: int, seed: int
+) -> pd.DataFrame:
+    """`rehearse` at the first two runs' angles and torques: from points alone, and from orientations, too."""
+    one, other = reference.runs[:2]
+    found = []
+    for learned in (POINTS, ORIENTATIONS) if recordings.orientation is not None else (POINTS,):
+        rows = replace(recordings, orientation=None) if learned == POINTS else recordings
+        first, second = rows_of_run(rows, one), rows_of_run(rows, other)
+        table = rehearse(arm, first, second, list(reference.microrad_per_nm), arms, seed)
+        found.append(table.assign(learned=learned, one=one, other=other))
+    return pd.concat(found, ignore_index=True)
