@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from armscope.inputs import InputError
 from armscope.real.planting import CannotPlantError, Theatre, plant, truth_of
 from armscope.real.staging import AXES_MM, stage
 from armscope.robot import chain, forward_kinematics
 from armscope.robot.arm import build_arm
+from armscope.robot.denavit_hartenberg import as_dh
+from armscope.robot.description import RobotDescription
 from armscope.world.strength import rms
 from tests.real.recorded import BASE, arm, table
 
@@ -42,6 +47,14 @@ def turned(theatre, joint, amount):
 def test_the_fitted_frames_are_those_of_the_recordings(theatre):
     assert np.allclose(theatre.stage.rotations, BASE.as_matrix(), atol=1e-7)
     assert np.allclose(theatre.nominal, forward_kinematics(arm(), theatre.stage.recordings.motor_angles), atol=1e-6)
+
+
+def test_nothing_is_concealed_in_an_arm_without_rows():
+    urdf = str(Path(__file__).parents[1] / "robot" / "torso_arm.urdf")
+    description = RobotDescription(name="t", urdf=urdf, tip="flange", hold_joints={"torso_lift": 0.1})
+    with pytest.raises(InputError, match=r"a URDF.*arms of D-H rows.*as_dh"):
+        stage(build_arm(description), table(), 1000)
+    assert stage(build_arm(as_dh(build_arm(description))[0]), table(), 1000).arm.n_motors == 6
 
 
 def test_a_coupled_joint_turns_with_the_other_motor(theatre):

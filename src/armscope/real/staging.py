@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from armscope.calibration import calibrate
 from armscope.calibration.splits import split
+from armscope.inputs import InputError
 from armscope.recordings import Recordings, as_recordings
 from armscope.robot import Arm
 
@@ -81,7 +82,18 @@ def stage(arm: Arm, table: pd.DataFrame, most_rows: int, source: str = "table") 
         table: the rows as in the file.
         most_rows: larger tables are thinned.
         source: the table's name, for messages.
+
+    Raises:
+        InputError: the arm is that of a URDF, which the virtual worlds' engine does not read.
     """
+    if arm.description.dh is None:
+        raise InputError(
+            arm.description.urdf,
+            "",
+            "a URDF",
+            "effects are concealed in arms of D-H rows",
+            "`armscope.robot.denavit_hartenberg.as_dh` makes rows of any chain of hinges.",
+        )
     configuration = _configurations(table)
     angles = table[[f"q{j + 1}_rad" for j in range(arm.n_motors)]].to_numpy(dtype=float)
     approach = _approach(angles, configuration)
@@ -91,7 +103,7 @@ def stage(arm: Arm, table: pd.DataFrame, most_rows: int, source: str = "table") 
     table = table.assign(temperature_c=_temperature(configuration))
     table = table[[name for name in table.columns if re.fullmatch(KEPT, name)]].dropna(axis="columns", how="all")
     recordings = as_recordings(table, source, arm.n_motors)
-    calibrated = calibrate(arm, recordings, "geometric", robust=True, orientation=False)
+    calibrated = calibrate(arm, recordings, "geometric", robust=True, tool_per_run=False, orientation=False)
     rows, state = calibrated.set_up, calibrated.state
     train, test = split(recordings, 0)
     return Stage(
