@@ -26,12 +26,13 @@ def require_loads(recordings: Recordings, rows: SetUp, level: Level) -> None:
         InputError: nobody knows it.
     """
     if level == "compliance" and rows.loads is None:
+        masses = "`links` in robot.yaml" if rows.arm.description.urdf is None else "<inertial> of the URDF's links"
         raise InputError(
             recordings.source,
             "level",
             level,
             f"neither the masses of {rows.arm.name} nor recorded torques say what its joints give way under",
-            "State `links` in robot.yaml or record tau1_nm ..., or calibrate at level geometric.",
+            f"State {masses} or record tau1_nm ..., or calibrate at level geometric.",
         )
 
 
