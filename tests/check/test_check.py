@@ -244,6 +244,20 @@ def test_joints_beyond_their_limits_are_counted(sound):
     assert f"joint 6 is outside its limits in {beyond} rows" in check(sound, arm).text()
 
 
+@pytest.mark.parametrize(
+    ("mistake", "words"),
+    [
+        (lambda t: {"positions": t.positions / 1e3}, "mm, though joints move by up to"),
+        (lambda t: {"positions": t.positions * 1e3}, "mm, though joints move by up to"),
+        (lambda t: {"motor_angles": np.radians(t.motor_angles)}, "radians that were declared as degrees"),
+    ],
+)
+def test_without_an_arm_units_that_no_arm_has_are_hinted_at(mistake, words, sound):
+    found = check(replace(sound, **mistake(sound))).suspicions
+    assert [each.weight for each in found] == ["hint"]
+    assert words in found[0].text()
+
+
 @pytest.mark.shared
 @pytest.mark.parametrize("name", ["ur10-ipa", "iiwa7-payload", "ma1400-leica", "irb120-offsets", "panda-charuco"])
 def test_real_tables_have_no_problems_and_their_mistakes_are_still_named(name):

@@ -26,6 +26,9 @@ SHARED = ROOT.parent / "shared" / "recordings"
         ("j1,j2,x,y,z\n0;0;1;2;3\n", SIMPLE, "line 2.*delimiter really"),
         ("j1,j2,x,y,z\n0,0,1,2,3\n0,0,one,2,3\n", SIMPLE, "line 3, column x: found 'one'"),
         ("j1,j2,x,y,z\n0,0,inf,2,3\n", SIMPLE, "finite"),
+        ("j1,j2,x,y,z\nrad,rad,mm,mm,mm\n0,0,1,2,3\n", SIMPLE, "line 2, column j1.*holds units.*skip_lines: 2"),
+        ("j1,j2,x,y,z\n0,0,1,2,3,\n", SIMPLE, "line 2: found '6 values'.*ends with a delimiter"),
+        ("j1,j2,x,y,z\n0,0,1,2,3\n# the end\n", SIMPLE, "line 3: found '1 values'.*declare `comment: '#'`"),
         ("j1,j2,x,y,z\n0,0,1e308,2,3\n", SIMPLE, "line 2, column x: found '1e308'; no recorded value.*`missing`"),
         ("j1,j2,x,y,z\n0,0,1,2e8,3\n", SIMPLE, r"line 2, column y: found '2e\+08'.*10 km.*really mm"),
         ("j1,j2,x,y,z\n0,0,1,2,3\n", SIMPLE | {"format": {"delimiter": "tab"}}, "no column j1.*delimiter really 'tab'"),
@@ -184,6 +187,12 @@ def test_a_byte_order_mark_is_passed_over_however_utf8_is_spelt(encoding, tmp_pa
 def test_utf_16_is_read_where_it_is_declared(tmp_path):
     (tmp_path / "raw.csv").write_bytes("j1,j2,x,y,z\n0,0,1,2,3\n".encode("utf-16"))
     assert len(convert_files(tmp_path, [tmp_path / "raw.csv"], with_format(encoding="utf-16"))[1]) == 1
+
+
+def test_the_cure_for_a_line_of_units_cures(tmp_path):
+    columns = {"angles": {"columns": [1, 2], "unit": "rad"}, "position": {"columns": [3, 4, 5], "unit": "mm"}}
+    mapping = {"format": {"header": False, "skip_lines": 2}, "columns": columns}
+    assert len(convert(tmp_path, "j1,j2,x,y,z\nrad,rad,mm,mm,mm\n0,0,1,2,3\n", mapping)[1]) == 1
 
 
 @pytest.mark.parametrize("output", ["raw.csv", "mapping.yaml", "."])

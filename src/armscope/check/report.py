@@ -19,6 +19,13 @@ ONE_POINT = 1e-3
 FLAT = 1e-3
 """Points whose scatter across some direction is below this share of the largest lie in a plane."""
 
+FAR_RAD = 0.5
+SMALLEST, LARGEST = 0.01, 100.0
+"""Extents (m) of the points of an arm whose joints move that far."""
+
+RADIANS_AS_DEGREES = np.radians(2 * np.pi)
+"""What two pi is taken for."""
+
 NOT_A_DRIVER = ("orientation", "sigma")
 """What may well be the same in every row."""
 
@@ -57,7 +64,7 @@ def check(recordings: Recordings, arm: Arm | None = None) -> CheckReport:
     contents = contents_of(recordings)
     consistency = None if arm is None else against_arm(arm, recordings)
     fits = arm if arm is not None and arm.n_motors == recordings.n_motors else None
-    found = [*_of_table(contents), *of_quantities(recordings, fits)]
+    found = [*_of_table(contents), *of_quantities(recordings, fits), *([] if arm else _of_units(contents))]
     return CheckReport(contents, consistency, (*(consistency.suspicions if consistency else ()), *found))
 
 
@@ -75,6 +82,21 @@ def _of_table(contents: Contents) -> tuple[Suspicion, ...]:
     for run in contents.runs:
         found += _of_extent(run)
     return tuple(found)
+
+
+def _of_units(contents: Contents) -> list[Suspicion]:
+    """What an arm would say better, where there is none to ask."""
+    found = []
+    widest = max(motor.high - motor.low for motor in contents.motors)
+    for run in contents.runs:
+        if widest > FAR_RAD and run.moved and not SMALLEST < max(run.extent) < LARGEST:
+            size = f"{max(run.extent) * 1e3:.3g} mm"
+            statement = f"the points{_of(run.name)} lie within {size}, though joints move by up to {widest:.2g} rad"
+            found.append(Suspicion("hint", statement, "Are the positions in the unit that their columns' names say?"))
+    if 0 < max(max(abs(motor.low), abs(motor.high)) for motor in contents.motors) <= RADIANS_AS_DEGREES:
+        statement = "no joint stands further from zero than 6.3 degrees"
+        found.append(Suspicion("hint", statement, "Are the angles radians that were declared as degrees?"))
+    return found
 
 
 def _of_extent(run: RunContents) -> list[Suspicion]:

@@ -22,6 +22,7 @@ from armscope.recordings.table import LARGEST_NUMBER
 
 Array = NDArray[np.float64]
 ROWS_PER_PIECE = 20_000
+REMARKS = "#%!/"
 DELIMITERS = {"tab": "\t"}
 TOO_LARGE = f"no recorded value reaches {LARGEST_NUMBER:.0e}"
 
@@ -67,8 +68,10 @@ class TextRows:
             return np.nan
         rule, wrong_sign = "this must be a finite number", "," if self.format.decimal == "." else "."
         cure = "The header stands here a second time: remove this line." if word == str(column) else ""
-        if not self.names and self.numbers_of_rows[row] == 1:
+        if not cure and self.numbers_of_rows[row] == 1:
             cure = "If this line names the columns, leave out `header: false`."
+            if self.names:
+                cure = f"If this line holds units, count columns: `header: false`, `skip_lines: {self.lines[row]}`."
         if wrong_sign in word:
             cure = (
                 f"The mapping declares decimal: {self.format.decimal!r} for the whole file, this number uses another."
@@ -277,8 +280,12 @@ def _gather(
 
 
 def _why_ragged(style: TextFormat, row: list[str], width: int) -> str:
+    if row[0].lstrip()[:1] in REMARKS:
+        return f"If this is a remark, declare `comment: {row[0].lstrip()[0]!r}`."
     if len(row) == 1 and any(sign in row[0] for sign in ",;\t| "):
         return f"Is its delimiter really {style.delimiter!r}?"
+    if len(row) == width + 1 and not row[-1].strip():
+        return "It ends with a delimiter: end the header with one as well, or count columns (`header: false`)."
     if style.delimiter == "," and len(row) > width:
         return "A decimal comma splits a number in two where the delimiter is a comma as well."
     return "Was the file cut off while it was written, or is a quotation mark never closed?"
