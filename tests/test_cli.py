@@ -4,11 +4,14 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
+from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
 from armscope.cli import app
+from armscope.files import read_json
 from armscope.inputs import InputError
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "five-effects"
@@ -162,3 +165,30 @@ def test_a_diagnosis_of_mistaken_recordings_says_what_is_wrong_with_them(mistake
     result = CliRunner().invoke(app, line.split())
     assert word in result.stderr
     assert "Cannot tell" in result.stdout
+
+
+def test_what_is_wrong_with_one_run_stands_in_the_verdict_too(tmp_path):
+    table = pd.read_csv(EXAMPLE.parent / "clean" / "recordings.csv", dtype={"run": str})
+    table.loc[table["run"] == "2", ["x_mm", "y_mm", "z_mm"]] /= 1000
+    table["temperature_c"] += 273.15
+    table.to_csv(tmp_path / "mistaken.csv", index=False)
+    line = f"diagnose {tmp_path / 'mistaken.csv'} -r {EXAMPLE.parent / 'clean' / 'robot.yaml'} -o {tmp_path / 'out'}"
+    result = CliRunner().invoke(app, [*line.split(), "--resamples", "0", "--no-cross-validation", "--no-report"])
+    told = " ".join(notice["text"] for notice in read_json(tmp_path / "out" / "verdict.json", "")["notices"])
+    for words in ("metres that were declared as millimetres in run 2", "kelvin"):
+        assert words in result.stderr
+        assert words in told
+
+
+def test_orientations_that_are_not_the_tools_take_no_part_in_a_calibration(tmp_path):
+    table = pd.read_csv(RECORDINGS)
+    turned = Rotation.random(len(table), rng=np.random.default_rng(0)).as_quat()
+    for number, name in enumerate(("qw", "qx", "qy", "qz")):
+        table[name] = turned[:, number]
+    table.to_csv(tmp_path / "turned.csv", index=False)
+    line = f"calibrate {tmp_path / 'turned.csv'} -r {ROBOT} -o {tmp_path / 'out'} --splits 0"
+    result = CliRunner().invoke(app, line.split())
+    assert result.exit_code == 0, result.output
+    assert "orientations scatter" in result.stderr
+    assert "Positions are used alone" in result.stderr
+    assert "orientations used" not in result.stdout

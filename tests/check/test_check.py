@@ -54,6 +54,10 @@ def _exchange(table):
     return replace(table, positions=positions)
 
 
+def _off(table, motor, zero):
+    return replace(table, motor_angles=table.motor_angles + np.where(np.arange(6) == motor, zero, 0))
+
+
 def _flip(table, motor):
     return replace(table, motor_angles=table.motor_angles * np.where(np.arange(6) == motor, -1, 1))
 
@@ -71,6 +75,9 @@ def _flip(table, motor):
         (lambda t: replace(t, positions=np.roll(t.positions, 1, axis=0)), "1 row(s) too late"),
         (lambda t: replace(t, positions=np.roll(t.positions, -2, axis=0)), "2 row(s) too early"),
         (lambda t: _flip(t, 2), "joint 3 turns the other way"),
+        # an arm upside down: the same to the points, wherever its base may be
+        (lambda t: _flip(t, 0), "joint 1 turns the other way"),
+        (lambda t: _flip(t, 0), "Or the zero of joint 2 is 180 degrees off: the points can't tell."),
         (_exchange, "2 rows seem to have exchanged their points: a: 11, a: 41"),
         (lambda t: replace(t, orientation=np.roll(t.orientation, -1, axis=1)), "in the order x, y, z, w ("),
         (lambda t: replace(t, orientation=t.orientation * [1, -1, -1, -1]), "turn the other way"),
@@ -84,6 +91,8 @@ def _flip(table, motor):
             lambda t: replace(t, motor_angles=t.motor_angles[:, [0, 1, 2, 4, 3, 5]]),
             "joints 4 and 5 are exchanged",
         ),
+        (lambda t: _off(t, 1, np.pi / 2), "zero of joint 2 is 90 degrees off. Add -90 degrees to q2"),
+        (lambda t: _off(t, 3, np.pi), "zero of joint 4 is 180 degrees off"),
         (lambda t: replace(t, orientation=t.orientation * [1, 1, -1, -1]), "mirrored axis x"),
         (lambda t: replace(t, orientation=t.orientation * [1, -1, -1, 1]), "mirrored axis z"),
         (

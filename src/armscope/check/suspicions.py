@@ -40,6 +40,9 @@ ROWS_PER_PARAMETER = 2
 CLEARLY_BETTER = 0.3
 """Undoing a mistake must bring the misfit below this share."""
 
+AS_GOOD = 1.05
+"""Mistakes whose undoing leaves this many times the least are as good: some are the same to an arm's kinematics."""
+
 MOST_ROWS_FOR_EXCHANGE = 20_000
 FAR = 10
 """Rows further off than so many times the usual spread may have exchanged their points."""
@@ -197,6 +200,13 @@ def _trials(arm: Arm) -> Iterator[_Trial]:
             functools.partial(_turned_round, signs=signs),
         )
 
+    for motor, degrees in itertools.product(range(arm.n_motors), (-90, 90, 180)):
+        zero = np.where(np.arange(arm.n_motors) == motor, np.radians(degrees), 0.0)
+        yield _Trial(
+            f"the zero of joint {motor + 1} is {abs(degrees)} degrees off",
+            f"Add {degrees} degrees to q{motor + 1}, or to its theta_offset_deg in robot.yaml.",
+            functools.partial(_from_zero, zero=zero),
+        )
     for one, other in itertools.combinations(range(arm.n_motors), 2):
         order = np.arange(arm.n_motors)
         order[[one, other]] = other, one
@@ -209,6 +219,10 @@ def _trials(arm: Arm) -> Iterator[_Trial]:
 
 def _enlarged(table: Recordings, factor: float) -> Recordings:
     return replace(table, positions=table.positions * factor)
+
+
+def _from_zero(table: Recordings, zero: Array) -> Recordings:
+    return replace(table, motor_angles=table.motor_angles + zero)
 
 
 def _reordered(table: Recordings, order: NDArray[np.intp]) -> Recordings:
@@ -255,9 +269,11 @@ def _fails_alone(arm: Arm, of_run: Recordings) -> bool:
 def _best_trial(arm: Arm, table: Recordings, where: str) -> Suspicion:
     share, spread = _tried(arm, table)
     tried = [(_tried(arm, trial.undo(table))[0], trial) for trial in _trials(arm)]
-    least, best = min(tried, key=lambda each: each[0])
+    least = min(left for left, _ in tried)
     if least < min(FITS, CLEARLY_BETTER * share):
-        return Suspicion("problem", best.statement + where, best.cure)
+        best, *others = [trial for left, trial in tried if left <= AS_GOOD * least]
+        alternatives = " ".join(f"Or {other.statement}: the points can't tell." for other in others)
+        return Suspicion("problem", best.statement + where, f"{best.cure} {alternatives}".strip())
     return Suspicion(
         "problem",
         f"the arm does not explain the points{where}: {100 * min(share, 1):.0f} % of their spread of "

@@ -64,7 +64,7 @@ def calibrate(
 
     from armscope.calibration import calibrate as calibrated
     from armscope.calibration.export import export
-    from armscope.check import against_arm
+    from armscope.check import check as check_table
     from armscope.files import writable, write_table
     from armscope.recordings import read_recordings
     from armscope.robot import load_arm
@@ -72,12 +72,15 @@ def calibrate(
     arm = load_arm(robot)
     table = read_recordings(recordings, arm.n_motors)
     writable(output)
-    consistency = against_arm(arm, table)
-    for found in consistency.suspicions:
-        if found.weight == "problem" and not anyway:
+    looked_through = check_table(table, arm)
+    consistency = looked_through.consistency
+    assert consistency is not None
+    for found in looked_through.suspicions:
+        if found.weight == "problem" and found in consistency.suspicions and not anyway:
             cure = f"{found.cure} --anyway calibrates all the same.".strip()
             raise InputError(recordings, "", "no match with the arm", found.statement, cure)
-        print(f"{found.weight}: {found.text()}", file=sys.stderr)
+        if found.weight == "problem" or found in consistency.suspicions:
+            print(f"{found.weight}: {found.text()}", file=sys.stderr)
     if not consistency.orientations and not orientation:  # and it was said
         table = replace(table, orientation=None)
     calibration = calibrated(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import sys
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from armscope.diagnosis.verdict import Notice
     from armscope.recordings import Recordings
     from armscope.robot import Arm
 
@@ -56,10 +58,11 @@ def diagnose(
         table = table.rows(_rows_of_runs(table, run))
     if first_id is not None:
         table = table.rows(_rows_from(table, first_id))
-    _tell_problems(arm, table)
+    problems = _problems(arm, table)
     settings = Settings(seed, tool_per_run, resamples, cross_validation, estimate_gravity, orientation)
     with _progress("diagnosing") as tell:
         verdict = diagnose_arm(arm, table, settings, tell)
+        verdict = replace(verdict, notices=(*problems, *verdict.notices))
         write_verdict(verdict, output)
         save_identified(output / DOMAIN, identified_on(arm, table))
         if report:
@@ -71,13 +74,15 @@ def diagnose(
     print(f"{output}/{'report.html' if report else 'verdict.json'}")
 
 
-def _tell_problems(arm: Arm, table: Recordings) -> None:
-    """What looks wrong with units, orders and frames, as `armscope check` finds it."""
-    from armscope.check import against_arm
+def _problems(arm: Arm, table: Recordings) -> tuple[Notice, ...]:
+    """What looks wrong with units, signs, orders and frames, as `armscope check` finds it: told at once."""
+    from armscope.check import check
+    from armscope.diagnosis.verdict import Notice
 
-    for found in against_arm(arm, table).suspicions:
-        if found.weight == "problem":
-            print(f"note: {found.text()}", file=sys.stderr)
+    texts = [found.text() for found in check(table, arm).suspicions if found.weight == "problem"]
+    for text in texts:
+        print(f"note: {text}", file=sys.stderr)
+    return tuple(Notice("check", text[0].upper() + text[1:]) for text in texts)
 
 
 def _rows_of_runs(table: Recordings, runs: list[str]) -> NDArray[np.bool_]:
