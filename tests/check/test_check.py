@@ -232,6 +232,7 @@ def test_points_at_one_place_or_in_one_plane_are_said():
     assert report.has_problems
     assert "no joint moves" in report.text()
     assert "at one point" in report.text()
+    assert problems(still, arm) == ["no joint moves."]
     turning = np.tile([0.1, -1, 1, 0.2, 0.3, 0.4], (20, 1))
     turning[:, 0] = np.linspace(-2, 2, 20)
     for place in (base, far_away(rng)):  # the plane may lean any way

@@ -18,6 +18,7 @@ from scipy.optimize import linear_sum_assignment
 
 from armscope.calibration.fit import placed, rms_distance, robust_least_squares, spread_of
 from armscope.calibration.model import SetUp, State, set_up
+from armscope.check.contents import MOVED_RAD
 from armscope.check.orientations import orientation_mistakes
 from armscope.check.suspicion import Suspicion
 from armscope.recordings import Recordings
@@ -82,6 +83,8 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
     if 3 * len(rows) < ROWS_PER_PARAMETER * rows.free("nominal").sum():
         hint = Suspicion("hint", "too few rows to fit base and tool, so nothing was tried against the arm")
         return Consistency(float("nan"), _spread(recordings), 0, (hint,))
+    if np.ptp(recordings.motor_angles, axis=0).max() < MOVED_RAD:  # what is left is noise
+        return Consistency(float("nan"), _spread(recordings), 0, ())
     state = placed(rows, MOST_STEPS)
     misfit = rms_distance(rows.residuals(state))
     spread = max(_spread(some), _predicted_spread(rows, state))
@@ -320,7 +323,10 @@ def _moved_tools(arm: Arm, table: Recordings, misfit: float, least_share: float 
         return []
     state = placed(rows, MOST_STEPS)
     alone = rms_distance(rows.residuals(state))
-    if alone > TOOL_MOVED * misfit or (least_share is not None and _share_left(rows, state) > least_share):
+    numbers, own = 3 * len(rows), rows.free("nominal").sum()
+    shared = own - 3 * (len(rows.tool_names) - len(np.unique(table.target)))
+    expected = misfit * np.sqrt(max(numbers - own, 0) / max(numbers - shared, 1))  # of tools that did not move
+    if alone > TOOL_MOVED * expected or (least_share is not None and _share_left(rows, state) > least_share):
         return []
     statement = f"the tool seems to have moved between runs: with one of its own per run {alone * 1e3:.3g} mm are left"
     return [Suspicion("hint", statement, "Free the tool per run.")]
