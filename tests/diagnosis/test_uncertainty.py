@@ -113,7 +113,7 @@ def test_an_error_moves_values_as_the_exact_fit_moves() -> None:
     """The linear step of values under an error, against fitting the readings with and without it."""
     arm, table = planted("six-axis", WANTED, 150, NOISE_MM, seed=43)
     fit = fitted(arm, table)
-    slow = uncertainty._slow(table)[:, 2:3] * np.array([[0.0, 1e-5, 0.0]])  # 10 um along y
+    slow = uncertainty._slow(table, np.arange(len(table)))[:, 2:3] * np.array([[0.0, 1e-5, 0.0]])  # 10 um along y
     base = next(iter(fit.model.bases.values()))
     moved = fitted(arm, replace(table, positions=table.positions + slow @ base.rotation.T))
     sums = uncertainty._sums(fit, table, np.arange(len(table)))

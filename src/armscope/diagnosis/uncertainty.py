@@ -147,16 +147,16 @@ class _Sums(NamedTuple):
 
 
 def _sums(fit: Refit, recordings: Recordings, rows: Indices) -> _Sums:
-    motors = moving_joints(recordings)
+    table = recordings if len(rows) == len(recordings) else recordings.rows(rows)
+    motors = moving_joints(table)
     base = [term(axis, "m" if axis[0] == "t" else "rad", (Direction("base", axis), ONE)) for axis in AXES]
     turns = [term("turn", "rad", (motor(j), ONE)) for j in motors]
-    slow, shapes = _slow(recordings)[rows], _shapes(recordings.motor_angles[:, [j - 1 for j in motors]])[rows]
+    slow, shapes = _slow(recordings, rows), _shapes(table.motor_angles[:, [j - 1 for j in motors]])
     p, wander = len(fit.pool.terms), 3 * slow.shape[1]
     starts = [0, wander, *(2 * wander + n * shapes.shape[1] for n in range(len(turns) + 1))]
     of = {what: slice(*at) for what, at in zip(_named(motors), pairwise(starts), strict=True) if at[0] < at[1]}
     count = starts[-1]
     normal, own, cross, pull = np.zeros((p, p)), np.zeros((count, count)), np.zeros((p, count)), np.zeros(count)
-    table = recordings if len(rows) == len(recordings) else recordings.rows(rows)
     for part, posture in chunks(fit.model, table):
         lens = fit.weights.lens(rows[part])
         X = component_rows(posture.through(lens), (*fit.pool.terms, *base, *turns))
@@ -182,14 +182,14 @@ def _named(motors: Sequence[int]) -> list[str]:
     return [*base, *(f"joint {j} errs from posture to posture" for j in motors)]
 
 
-def _slow(recordings: Recordings) -> Array:
-    """(N, k) cosines along the rows in the order of time, or of the table where no time is recorded."""
+def _slow(recordings: Recordings, rows: Indices) -> Array:
+    """(n, k) cosines along the table at some rows, in the order of time, or of the table where no time is recorded."""
     count = len(recordings)
     order = np.arange(count)
     if recordings.time is not None and np.isfinite(recordings.time).all():
         order[np.argsort(recordings.time, kind="stable")] = np.arange(count)
     waves = np.arange(1, min(SLOW_WAVES, count // ROWS_PER_WAVE) + 1)
-    return np.asarray(np.cos(np.pi * np.outer((order + 0.5) / count, waves)) / waves)
+    return np.asarray(np.cos(np.pi * np.outer((order[rows] + 0.5) / count, waves)) / waves)
 
 
 def _shapes(angles: Array) -> Array:
