@@ -56,7 +56,7 @@ class Process:
 
     Attributes:
         what: in words.
-        rms_mm: its RMS at the tool, per axis, before the fit takes up what it can of it.
+        rms_mm: its RMS at the tool, per axis, in what the fit leaves.
         evidence: for it against none, its price as one of several paid, nats.
     """
 
@@ -109,8 +109,9 @@ def model_error(fit: Refit, recordings: Recordings, least_mm: float) -> ModelErr
         found = weighed[clearest]
         for what in [clearest] if found.evidence > 0 else list(waiting):
             at = waiting.pop(what)
-            processes.append(Process(what, noise * float(np.sqrt(weighed[what].variance)), weighed[what].evidence))
-            extra += weighed[what].variance * (noise / share) ** 2 * moved[:, at] @ moved[:, at].T
+            variance, left = noise**2 * weighed[what].variance, np.trace(own[at, at]) / sums.numbers
+            processes.append(Process(what, float(np.sqrt(variance * left)), weighed[what].evidence))
+            extra += variance / share**2 * moved[:, at] @ moved[:, at].T
         if found.evidence > 0:
             # the others are weighed beside it, and against the noise that it leaves
             at = sums.of[clearest]
@@ -137,6 +138,7 @@ class _Sums(NamedTuple):
         cross: (p, m) X'WZ.
         pull: (m,) Z'Wr.
         of: each process' columns.
+        numbers: how many numbers the rows hold.
     """
 
     normal: Array
@@ -144,6 +146,7 @@ class _Sums(NamedTuple):
     cross: Array
     pull: Array
     of: dict[str, slice]
+    numbers: int
 
 
 def _sums(fit: Refit, recordings: Recordings, rows: Indices) -> _Sums:
@@ -167,13 +170,13 @@ def _sums(fit: Refit, recordings: Recordings, rows: Indices) -> _Sums:
         own += Z @ Z.T
         cross += fitted @ Z.T
         pull += Z @ response(fit.model, posture, lens).T.reshape(-1)
-    size = np.ones(count)
+    size, numbers = np.ones(count), fit.weights.lens(rows).numbers * len(rows)
     for what, at in list(of.items()):
-        size[at] = np.sqrt(np.trace(own[at, at]) / (fit.weights.lens(rows).numbers * len(rows)))
+        size[at] = np.sqrt(np.trace(own[at, at]) / numbers)
         if size[at.start] < TINY_MM:
             del of[what]
     size = np.maximum(size, TINY_MM)
-    return _Sums(normal, own / np.outer(size, size), cross / size, pull / size, of)
+    return _Sums(normal, own / np.outer(size, size), cross / size, pull / size, of, numbers)
 
 
 def _named(motors: Sequence[int]) -> list[str]:
