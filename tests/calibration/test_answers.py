@@ -225,6 +225,10 @@ def test_the_command_writes_what_was_found_and_nothing_that_is_doubtful(rng, tmp
     assert held.loc["joint 6 d", "imitated_by"] == "tool z"
     assert (tmp_path / "good" / "misses.csv").is_file()
 
+    unknown = written(two_runs(rng, [[0.05, 0.1, 0.2]] * 2), "unknown", "--target", "p1")
+    assert "no such target" in str(unknown.exception)
+    assert not list((tmp_path / "unknown").glob("*"))
+
     moved = two_runs(rng, [[0.05, 0.1, 0.2]] * 2, [far_away(rng), far_away(rng)])
     bad = written(moved, "bad", "--one-base")
     assert isinstance(bad.exception, InputError)

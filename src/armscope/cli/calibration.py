@@ -57,6 +57,7 @@ def calibrate(
     splits: Annotated[
         int, typer.Option(min=0, help="for the held-out error: 70 % to learn from, the rest to test")
     ] = 5,
+    target: Annotated[str | None, typer.Option(help="whose tool stands in robot.yaml; else the first's")] = None,
     anyway: Annotated[bool, typer.Option(help="write a result that should not be used")] = False,
 ) -> None:
     """Calibrate the arm's geometry and export it as robot.yaml and URDF."""
@@ -97,11 +98,11 @@ def calibrate(
         answer = f"a {level} calibration that should not be used"
         cure = "`armscope check` and `armscope diagnose` may say why; --anyway writes it all the same."
         raise InputError(recordings, "", answer, "; ".join(calibration.doubts), cure)
+    paths = export(calibration, output, target)
     write_table(output / "calibration.csv", calibration.table)
     write_table(output / "held.csv", calibration.held_table)
     write_table(output / "covariance.csv", calibration.covariance_table)
     if calibration.misses is not None:
         write_table(output / "misses.csv", calibration.misses, digits=6)
-    paths = export(calibration, output)
     print(calibration.text())
     print("\n".join(str(path) for path in paths))
