@@ -97,6 +97,18 @@ def test_what_is_withheld_is_gone_and_what_was_not_recorded_is_not_withheld(tmp_
         assert ("tau1_nm" in columns) == (truth["rows"] == "payloads" and "torques" not in truth["withheld"])
 
 
+def test_columns_are_withheld_with_orientations_and_without_but_never_shown_of_test_rows(tmp_path):
+    rows = table(torque=lambda q: np.sin(q), turn_noise_rad=1e-3)
+    make_withheld({"run": stage(arm(), rows, 1000)}, places(tmp_path))
+    truths = {world: truth for world, (truth, _) in unsealed(tmp_path / "sealed.tar.gz").items()}
+    cases = {(truth["withheld"], truth["orientations"]) for truth in truths.values()}
+    assert cases == {(what, oriented) for what in ("all columns", "torques withheld") for oriented in (True, False)}
+    for world, truth in truths.items():
+        folder = tmp_path / "visible" / world
+        assert ("qw" in pd.read_csv(folder / "recordings.csv").columns) == truth["orientations"]
+        assert "qw" not in pd.read_csv(folder / "test_poses.csv").columns
+
+
 def test_the_diagnosing_rule_sees_the_visible_folder_only_in_a_folder_of_its_own():
     rule = re.search(r"use rule proof_diagnose as proof_real_diagnose.*?(?=\n\n\n)", RULES, re.S)
     assert rule is not None

@@ -164,7 +164,7 @@ def test_the_same_recordings_in_both_halves_count_once():
 
 
 def test_what_follows_a_load_is_told_where_columns_are_withheld():
-    truth = {"kind": "withheld", "rows": "run", "withheld": "torques withheld"}
+    truth = {"kind": "withheld", "rows": "run", "withheld": "torques withheld", "orientations": False}
     loaded = claim("joint_compliance", "joint 2")
     loaded = replace(loaded, driver="load of joint 2")
     scores = score(

@@ -116,8 +116,8 @@ def test_what_was_concealed_is_told_with_what_was_not(arm_, tmp_path):
     skipped = {"set": "arm", "effect": "joint_compliance", "half": "fixed", "reason": "no load"}
     write_table(proof / "skipped.csv", pd.DataFrame([skipped, skipped | {"half": "fresh"}]))
     withheld = {
-        "set": "arm", "rows": "run", "withheld": "torques withheld", "load_found": False, "compliance_found": False,
-        "follows_load": None, "held_out_mm": 0.31,
+        "set": "arm", "rows": "run", "withheld": "torques withheld", "orientations": True, "load_found": False,
+        "compliance_found": False, "follows_load": None, "background_mm": 0.4, "held_out_mm": 0.31,
     }  # fmt: skip
     write_table(proof / "withheld.csv", pd.DataFrame([withheld]))
     write_real_arms(tmp_path / "page.md", [arm_, replace(arm_, name="other", title="Other")], "figures", proof)
@@ -126,7 +126,10 @@ def test_what_was_concealed_is_told_with_what_was_not(arm_, tmp_path):
     assert "| gear mesh | 3 | 75 % (3/4) |" in text
     assert "Not run for this page: Other." in text
     assert text.count("joint compliance in An arm (no load)") == 1
-    assert "| An arm | all joints move | torques withheld | nothing | no | 0.310 |" in text
+    assert (
+        "| An arm | all joints move | points and orientations | torques withheld | nothing | no | 0.400 | 0.310 |"
+        in text
+    )
 
 
 def test_curves_of_two_runs_are_told_with_what_they_are_worth(arm_, tmp_path):

@@ -36,7 +36,10 @@ class Claim:
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """A verdict; ``failed`` holds the reason where there is none."""
+    """A verdict; ``failed`` holds the reason where there is none.
+
+    ``background_mm``: what the small errors everywhere, which have no name, do at the tool.
+    """
 
     world: str
     claims: tuple[Claim, ...] = ()
@@ -46,6 +49,7 @@ class Answer:
     headline: str = ""
     predicted: pd.DataFrame | None = None
     failed: str = ""
+    background_mm: float = 0.0
 
 
 def read_answer(folder: Path) -> Answer:
@@ -61,6 +65,7 @@ def read_answer(folder: Path) -> Answer:
         answer=content["answer"],
         noise_mm=float("nan") if content["noise_mm"] is None else content["noise_mm"],
         headline=content["headline"],
+        background_mm=float(content.get("background", {}).get("rms_at_tool_mm") or 0.0),
         predicted=pd.read_csv(folder / PREDICTED),
     )
 

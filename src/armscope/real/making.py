@@ -127,13 +127,22 @@ def moved_table(stage: Stage, planted: Planted) -> pd.DataFrame:
 
 
 def make_withheld(stages: Mapping[str, Stage], places: Places) -> None:
-    """Recordings without the columns that say how loaded the arm was; ``stages`` by what to call their rows."""
+    """Recordings without the columns that say how loaded the arm was; ``stages`` by what to call their rows.
+
+    Where orientations were measured, each case is made without these, too.
+    """
     with _sealing(places) as folder:
         for name, stage in stages.items():
-            for number, (what, prefixes) in enumerate(WITHHELD.items()):
+            turns = _measured_turns(stage.table)
+            cases = itertools.product((False, True) if turns else (False,), WITHHELD.items())
+            for number, (oriented, (what, prefixes)) in enumerate(cases):
                 gone = [[c for c in map(str, stage.table) if c.startswith(prefix)] for prefix in prefixes]
                 if not all(gone):
                     continue  # not recorded: nothing to withhold
-                table = stage.table.drop(columns=list(itertools.chain.from_iterable(gone)))
-                truth = {"kind": "withheld", "rows": name, "withheld": what}
-                _write_world(folder / f"{name}-{number}", places, stage, table, truth)
+                left_out = [*itertools.chain.from_iterable(gone), *([] if oriented else turns)]
+                truth = {"kind": "withheld", "rows": name, "withheld": what, "orientations": oriented}
+                _write_world(folder / f"{name}-{number}", places, stage, stage.table.drop(columns=left_out), truth)
+
+
+def _measured_turns(table: pd.DataFrame) -> list[str]:
+    return [name for name in QUATERNION if name in table]

@@ -74,12 +74,15 @@ def _withheld(table: pd.DataFrame, titles: Mapping[str, str]) -> pd.DataFrame:
     table = _titled(table, titles)
     table = table.assign(
         rows=table["rows"].map({"run": "all joints move", "payloads": "three payloads"}),
+        orientations=table["orientations"].map({True: "points and orientations", False: "points"}),
         load_found=table["load_found"].map(yes),
         compliance_found=table["compliance_found"].map(yes),
     )
     names = {
+        "orientations": "learned from",
         "load_found": "anything that follows the load", "compliance_found": "joint compliance by name",
-        "follows_load": "what follows the load", "held_out_mm": "held out (mm, 3D)",
+        "follows_load": "what follows the load", "background_mm": "small errors everywhere (mm)",
+        "held_out_mm": "held out (mm, 3D)",
     }  # fmt: skip
     return table.rename(columns=names)[["arm", "rows", "withheld", *names.values()]]
 
