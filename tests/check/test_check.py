@@ -224,6 +224,13 @@ def test_the_report_counts_what_the_table_holds(arm, sound):
     assert check(again).contents.repeats.scatter == pytest.approx(1e-4 / np.sqrt(2 * 3), rel=1e-3)
 
 
+def test_a_run_without_what_another_run_recorded_is_looked_at_all_the_same(arm, sound):
+    empty = replace(sound, payload=np.full(len(sound), np.nan), time=np.arange(len(sound), dtype=float))
+    names = [context.name for context in check(empty, arm).contents.context]
+    assert "time" in names
+    assert "payload" not in names
+
+
 def test_points_at_one_place_or_in_one_plane_are_said():
     rng = np.random.default_rng(2)
     arm, base = ur_like(), (np.eye(3), np.zeros(3))

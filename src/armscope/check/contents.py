@@ -147,7 +147,9 @@ def _context(recordings: Recordings) -> list[Context]:
             named += [(f"{name} {motor + 1}", unit, values[:, motor]) for motor in range(recordings.n_motors)]
     if recordings.sigma is not None:
         named += [(f"sigma {axis}", "mm", recordings.sigma[:, k] * 1e3) for k, axis in enumerate("xyz")]
-    return [_one_context(name, unit, values) for name, unit, values in named if values is not None]
+    # one run of a table may hold nothing in a column that another has
+    recorded = ((name, unit, values) for name, unit, values in named if values is not None)
+    return [_one_context(*each) for each in recorded if np.isfinite(each[2]).any()]
 
 
 def _one_context(name: str, unit: str, values: Array) -> Context:

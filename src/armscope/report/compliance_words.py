@@ -81,4 +81,7 @@ def _rehearsal(rehearsed: pd.DataFrame) -> str:
         share = 100 * rows["held"].sum() / rows["numbers"].sum()
         told.append(f"{learned}: {kinds} agree, {share:.0f} % of the drives' intervals hold the truth")
     runs = f"{rehearsed['one'].iloc[0]} and {rehearsed['other'].iloc[0]}"
-    return f"The same on simulated arms at the angles and torques of {runs}: {'; '.join(told)}."
+    return (
+        f"The same on simulated arms, wrong in more ways than the model knows, at the angles and torques of {runs}: "
+        f"{'; '.join(told)}. (Their instruments err by chance, not with the view.)"
+    )
