@@ -52,18 +52,23 @@ def test_what_is_held_is_named_with_what_it_imitates(rng):
 
 def test_partners_undo_what_a_held_parameter_does(rng):
     """By the exact arm: the held parameter changes, its partners alone are fitted again, and nothing is to be seen."""
-    recordings = measured(ur_like(), poses(rng, 80, 6), far_away(rng), TOOL)
-    calibration = calibrate(ur_like(), recordings)
+    tools = [{"p1": [0.05, 0.1, 0.2], "p2": [0.1, 0.0, 0.2]}, {"p1": [0.05, 0.1, 0.2]}]
+    parts = [
+        measured(ur_like(), poses(rng, 60, 6), far_away(rng), tool, run=f"run {k}") for k, tool in enumerate(tools)
+    ]
+    calibration = calibrate(ur_like(), together(*parts))
+    assert {each.name: each.partners for each in calibration.held}["joint 1 theta"] == ("base rz",)
     rows, names = calibration.set_up, np.array(calibration.set_up.names)
     for each in calibration.held:
         step = np.where(names == each.name, 1e-4, 0.0)
         moved = calibration.state.moved(step)
         before = np.sqrt(np.mean(rows.residuals(moved) ** 2))
-        after = np.sqrt(np.mean(rows.residuals(least_squares(rows, moved, np.isin(names, each.partners)).state) ** 2))
+        partners = np.array([each.is_partner(name) for name in names])
+        after = np.sqrt(np.mean(rows.residuals(least_squares(rows, moved, partners).state) ** 2))
         assert after <= 1.1 * each.left * before + 1e-7
         # and no partner is idle
         for idle in each.partners if each.left < 0.02 else ():
-            others = np.isin(names, [name for name in each.partners if name != idle])
+            others = partners & ~np.array([replace(each, partners=(idle,)).is_partner(name) for name in names])
             without = rows.residuals(least_squares(rows, moved, others).state)
             assert np.sqrt(np.mean(without**2)) > after
 
@@ -138,6 +143,14 @@ def test_errors_in_sample_and_held_out_stand_side_by_side(rng):
     assert whole["held_out_mm"] == pytest.approx(noise_mm * np.sqrt(1 + spent / 0.7), rel=0.1)
     assert whole["in_sample_mm"] < noise_mm < whole["held_out_mm"] < whole["frames_only_mm"]
     assert whole["held_out_mm"] ** 2 == pytest.approx(np.mean([a["held_out_mm"] ** 2, b["held_out_mm"] ** 2]), rel=0.1)
+
+
+def test_a_calibration_that_gains_nothing_elsewhere_says_so(rng):
+    def notes(arm):
+        return calibrate(ur_like(), measured(arm, poses(rng, 60, 6), far_away(rng), TOOL, 1e-4, rng), splits=5).notes
+
+    assert any("no better than base and tool alone" in note for note in notes(ur_like()))
+    assert notes(planted(ur_like(), rng)) == ()
 
 
 def test_rows_whose_base_took_no_part_are_not_tested(rng):

@@ -16,7 +16,7 @@ from armscope.calibration.fit import rms_distance, spread_of
 from armscope.calibration.geometry import nominal_values
 from armscope.calibration.imitation import Imitation, imitations
 from armscope.calibration.model import Level, SetUp, State, set_up
-from armscope.calibration.sanity import lost, odd_loads, require_loads
+from armscope.calibration.sanity import lost, no_gain, odd_loads, require_loads
 from armscope.calibration.sharing import exchanged_tool, moved_base
 from armscope.calibration.solve import Priors, Redundancy, Solved, scales_of, solve
 from armscope.calibration.splits import foretold, split
@@ -198,7 +198,7 @@ def calibrate(
         reason=fitted.reason,
         suspects=distance > SUSPECT_SIGMAS * spread_of(distance),
         ids=np.array(ids),
-        notes=tuple(notes + odd_loads(solved, level, covariance)),
+        notes=tuple(notes + odd_loads(solved, level, covariance) + no_gain(misses)),
         doubts=tuple(doubts + lost(solved)),
         held=_held(solved, level),
         misses=misses,

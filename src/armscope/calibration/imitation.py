@@ -24,13 +24,17 @@ class Imitation:
     Attributes:
         name: the parameter held.
         partners: fitted parameters that together move the tool as it does, the most alike first; none where it
-            hardly moves the tool.
+            hardly moves the tool. Those of all bases or tools count as one: "base rz".
         left: share (0 to 1) of what it does to the tool that the partners leave.
     """
 
     name: str
     partners: tuple[str, ...]
     left: float
+
+    def is_partner(self, name: str) -> bool:
+        """Whether a fitted parameter is one of the partners, or of a run or target that these stand for."""
+        return _kind(name) in self.partners
 
     def text(self) -> str:
         """In words; of many partners only the frames and joints that they belong to."""
@@ -48,7 +52,8 @@ def imitations(
     """One per parameter that is not free.
 
     Greedy (orthogonal matching pursuit, Pati et al. 1993): the fitted column most alike to what is left enters, until
-    next to nothing is left or `MOST_PARTNERS` have entered.
+    next to nothing is left or `MOST_PARTNERS` have entered. Columns of the same number of all bases, or of all tools,
+    enter together: each stands for some of the rows.
 
     Args:
         jacobian: (M, P).
@@ -60,16 +65,26 @@ def imitations(
     columns = triangular * scales / np.sqrt(len(jacobian) / 3)
     fitted = np.flatnonzero(free)
     unit = columns[:, fitted] / np.maximum(np.linalg.norm(columns[:, fitted], axis=0), 1e-300)
-    return tuple(_imitation(names, columns[:, held], int(held), fitted, unit) for held in np.flatnonzero(~free))
+    kinds = np.array([_kind(names[each]) for each in fitted])
+    return tuple(_imitation(names[held], columns[:, held], unit, kinds) for held in np.flatnonzero(~free))
 
 
-def _imitation(names: tuple[str, ...], column: Array, held: int, fitted: NDArray[np.intp], unit: Array) -> Imitation:
+def _kind(name: str) -> str:
+    """Without the run or target: "base of monday rz" is "base rz"."""
+    frame, _, rest = name.partition(" of ")
+    return f"{frame} {rest.rpartition(' ')[2]}" if frame in ("base", "tool") and rest else name
+
+
+def _imitation(name: str, column: Array, unit: Array, kinds: NDArray[np.str_]) -> Imitation:
     size = float(np.linalg.norm(column))
     if size < SMALLEST_TRACE:
-        return Imitation(names[held], (), 1.0)
-    left, partners = column, list[int]()
+        return Imitation(name, (), 1.0)
+    left, partners = column, list[str]()
+    every, number = np.unique(kinds, return_inverse=True)
     while len(partners) < MOST_PARTNERS and np.linalg.norm(left) > ALIKE * size:
-        partners.append(int(np.argmax(np.abs(left @ unit))))
-        basis = unit[:, partners]
+        # columns of different runs or targets share no row, so that their parts add up
+        alike = np.sqrt(np.bincount(number, (left @ unit) ** 2))
+        partners.append(str(every[int(np.argmax(alike))]))
+        basis = unit[:, np.isin(kinds, partners)]
         left = column - basis @ np.linalg.lstsq(basis, column, rcond=None)[0]
-    return Imitation(names[held], tuple(names[fitted[each]] for each in partners), float(np.linalg.norm(left)) / size)
+    return Imitation(name, tuple(partners), float(np.linalg.norm(left)) / size)

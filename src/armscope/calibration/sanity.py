@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from armscope.calibration.fit import UNSETTLED
@@ -66,3 +67,10 @@ def odd_loads(solved: Solved, level: Level, covariance: Array) -> list[str]:
         light = [name for name, mass in zip(arm.joint_names, arm.masses, strict=True) if mass == 0]
         notes.append(f"no mass is stated for what turns with {', '.join(light)}: it counts as weightless")
     return notes
+
+
+def no_gain(misses: pd.DataFrame | None) -> list[str]:
+    """A note where poses that took no part are foretold no better than by the nominal arm."""
+    if misses is None or not misses["held_out_mm"].iloc[0] >= misses["frames_only_mm"].iloc[0]:
+        return []
+    return ["on poses that took no part it does no better than base and tool alone: the nominal arm serves as well"]
