@@ -185,7 +185,20 @@ def test_row_filters_keep_the_source_rows_as_ids_and_report_what_they_left_out(t
     assert [out.rows for out in report.runs[0].left_out] == [[2], [4], [1], [5]]
     text = report.text()
     assert "2 of 6 rows" in text
-    assert "no value in x: 1 rows (source rows 2)" in text
+    assert "left out, no value in x: 1 row (source row 2)" in text
+
+
+def test_columns_by_number_and_filters_that_leave_nothing_out_are_reported_in_words(tmp_path):
+    columns = {"angles": {"columns": [2, 3], "unit": "rad"}, "position": {"columns": [4, 5, 6], "unit": "mm"}}
+    mapping = {
+        "format": {"header": False},
+        "columns": columns,
+        "rows": [{"first_of": [1]}, {"drop_missing": [4, 5]}, {"between": {"column": 4, "low": 0}}],
+    }
+    report, _ = convert(tmp_path, "1,0,0,1,2,3\n1,0,0,1,2,3\n1,0,0,1,2,3\n", mapping)
+    assert "left out, not the first row of its column 1: 2 rows (source rows 2, 3)" in report.text()
+    assert "left out, no value in columns 4, 5: no row" in report.text()
+    assert "left out, column 4 not >= 0: no row" in report.text()
 
 
 def test_filters_remember_across_pieces_of_a_long_file(tmp_path, monkeypatch):

@@ -51,15 +51,16 @@ class ImportReport:
         lines += ["columns: " + ", ".join(self.columns)]
         for run in self.runs:
             lines.append(f"run {run.run} from {run.file}: {run.rows_written} of {run.rows_read} rows")
-            lines += [f"  left out, {out.rule}: {len(out.rows)} rows ({_shortened(out.rows)})" for out in run.left_out]
+            lines += [f"  left out, {out.rule}: {_shortened(out.rows)}" for out in run.left_out]
             lines += [f"  {text}: {count}" for text, count in run.notes.items()]
         return "\n".join(lines)
 
 
 def _shortened(rows: list[int]) -> str:
     if not rows:
-        return "none"
-    return "source rows " + ", ".join(map(str, rows[:NAMED_ROWS])) + (", ..." if len(rows) > NAMED_ROWS else "")
+        return "no row"
+    some = ", ".join(map(str, rows[:NAMED_ROWS])) + (", ..." if len(rows) > NAMED_ROWS else "")
+    return f"1 row (source row {some})" if len(rows) == 1 else f"{len(rows)} rows (source rows {some})"
 
 
 def import_recordings(raw_files: list[Path], mapping_file: Path | str, output: Path | str) -> ImportReport:

@@ -97,6 +97,12 @@ class Piece:
         return f"line {self.rows.lines[row]}, column {', '.join(map(str, columns))}"
 
 
+def _called(columns: tuple[Column, ...]) -> str:
+    """Columns in words: names as they are, numbers as those of columns."""
+    counted = isinstance(columns[0], int)
+    return ("columns " if len(columns) > 1 else "column ") * counted + ", ".join(map(str, columns))
+
+
 class Filter:
     """One row filter at work over the pieces of a run."""
 
@@ -108,9 +114,9 @@ class Filter:
     def _in_words(self) -> str:
         rule = self.rule
         if rule.drop_missing is not None:
-            return "no value in " + ", ".join(map(str, rule.drop_missing))
+            return f"no value in {_called(rule.drop_missing)}"
         if rule.first_of is not None:
-            return "not the first row of its " + ", ".join(map(str, rule.first_of))
+            return f"not the first row of its {_called(rule.first_of)}"
         if rule.between is not None:
             low = "" if rule.between.low is None else f" >= {rule.between.low:g}"
             high = "" if rule.between.high is None else f" <= {rule.between.high:g}"
