@@ -231,6 +231,31 @@ def test_rows_of_a_file_beside_are_repeated_for_the_points_of_each_configuration
             convert(tmp_path, {"p.csv": wrong, "q.csv": "j1,j2\n0.1,0.2\n0.3,0.4\n"}, mapping)
 
 
+@pytest.mark.parametrize("repeat", [1, 3, 7])
+def test_files_beside_are_read_along_whatever_pieces_they_come_in(repeat, tmp_path, monkeypatch):
+    monkeypatch.setattr("armscope.recordings.rawfiles.ROWS_PER_PIECE", 5)
+    mapping = {
+        "columns": {
+            "id": {"row_of": "angles"},
+            "angles": {"columns": ["angles:j1", "angles:j2"], "unit": "rad"},
+            "position": {"columns": ["x", "y", "z"], "unit": "mm"},
+            "target": {"cycle": [str(k) for k in range(repeat)] if repeat > 1 else ["a", "b"]},
+        },
+        "rows": [{"between": {"column": "y", "low": 0}}, {"between": {"column": "angles:j2", "low": 0}}],
+        "runs": [{"run": "r", "file": "p.csv", "beside": [{"file": "q.csv", "name": "angles", "repeat_each": repeat}]}],
+    }
+    rng = np.random.default_rng(0)
+    angles, keep = rng.uniform(-1, 1, (12, 2)), rng.uniform(-1, 1, 12 * repeat)
+    points = "x,y,z\n" + "".join(f"{row},{keep[row]},0\n" for row in range(12 * repeat))
+    joints = "j1,j2\n" + "".join(f"{a!r},{b!r}\n" for a, b in angles.tolist())
+    _, table = convert(tmp_path, {"p.csv": points, "q.csv": joints}, mapping)
+    of = np.arange(12 * repeat) // repeat
+    expected = np.flatnonzero((keep >= 0) & (angles[of, 1] >= 0))
+    assert table["x_mm"].tolist() == expected.tolist()
+    np.testing.assert_allclose(table["q1_rad"], angles[of[expected], 0], rtol=1e-9)
+    assert table["id"].tolist() == (of[expected] + 1).astype(str).tolist()
+
+
 def test_the_table_that_comes_out_is_one_that_the_reader_takes(tmp_path):
     mapping = with_columns(orientation={"quaternion": ["a", "b", "c", "w"], "order": "xyzw"})
     convert(tmp_path, "j1,j2,x,y,z,a,b,c,w\n0,0,1,2,3,0.6,0,0,0.8\n", mapping, "out.csv.gz")

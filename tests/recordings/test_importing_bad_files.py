@@ -138,6 +138,29 @@ def test_a_mapping_that_can_not_be_is_one_clear_error(change, message, tmp_path)
         convert(tmp_path, "j1,j2,x,y,z\n0,0,1,2,3\n", {**SIMPLE, **change})
 
 
+@pytest.mark.parametrize(
+    ("angles", "message"),
+    [
+        ("j1,j2\n\n0,0\n0.1,\n", r"q\.csv: line 4, column q:j2: found nothing; this value is required"),
+        ("j1,j2\n0,0\n# later\n0.1,35\n", r"q\.csv: line 4, column q:j2: found '35 rad'"),
+        ("j1,j2\n0,0\n0.1,x\n", r"q\.csv: line 3, column j2: found 'x'"),
+        ("j1,j2\n0,0\n", r"q\.csv: found 'row 2 of the first file'; this file has 1 rows for 1 each"),
+        ("j1,j2\n0,0\n0,0\n0,0\n", r"q\.csv: found '2 rows in the first file'; this file has 3 rows for 1 each"),
+    ],
+)
+def test_what_is_wrong_in_a_file_beside_is_named_in_that_file(angles, message, tmp_path):
+    mapping = {
+        "format": {"comment": "#"},
+        "columns": {
+            "angles": {"columns": ["q:j1", "q:j2"], "unit": "rad"},
+            "position": SIMPLE["columns"]["position"],
+        },
+        "runs": [{"run": "r", "file": "p.csv", "beside": [{"file": "q.csv", "name": "q"}]}],
+    }
+    with pytest.raises(InputError, match=message):
+        convert(tmp_path, {"p.csv": "x,y,z\n1,2,3\n4,5,6\n", "q.csv": angles}, mapping)
+
+
 def test_a_raw_file_that_no_run_wants_is_named(tmp_path):
     mapping = SIMPLE | {"runs": [{"run": "a", "file": "a.csv"}]}
     with pytest.raises(InputError, match=r"b\.csv.*no run"):

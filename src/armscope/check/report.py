@@ -105,7 +105,7 @@ def _of_extent(run: RunContents) -> list[Suspicion]:
     if extent[2] < ONE_POINT:
         statement = f"all rows{_of(run.name)} are at one point"
         return [Suspicion("hint", statement, "They tell the noise, and nothing about the arm.")]
-    if run.flatness < FLAT:
+    if run.rows > 3 and run.flatness < FLAT:  # three points always do
         statement = f"all points{_of(run.name)} lie in one plane"
         return [Suspicion("hint", statement, "Errors across it can't be seen.")]
     return []

@@ -8,7 +8,6 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from armscope.inputs import InputError
 from armscope.recordings.mapping import Column, Columns, Label, Orientation, Scalar, Time
 from armscope.recordings.orientations import NotARotation, from_euler, from_matrices, from_quaternions
 from armscope.recordings.pieces import Piece
@@ -46,7 +45,7 @@ class Converter:
         numbers = piece.rows.numbers_of_rows
         identity = self.columns.id
         if identity is not None and identity.row_of is not None:
-            numbers = piece.beside.row_numbers(identity.row_of, numbers)
+            numbers = piece.beside[identity.row_of].row_numbers(numbers)
         elif identity is not None and identity.column is not None:
             return piece.words(identity.column)
         return numbers.astype(str).tolist()
@@ -57,8 +56,8 @@ class Converter:
         for row, key in enumerate(zip(ids, targets, strict=True)):
             if key in self.ids:
                 cure = "Keep one with `rows: [{first_of: [...]}]`, or leave `id` out to number the source's rows."
-                place = piece.place(row, (self.columns.id.column,))
-                raise InputError(piece.rows.source, place, key[0], "an id stands once per run and target", cure)
+                rule = "an id stands once per run and target"
+                raise piece.error(row, (self.columns.id.column,), key[0], rule, cure)
             self.ids.add(key)
 
     def _angles(self, piece: Piece) -> Array:
@@ -69,11 +68,8 @@ class Converter:
         if len(beyond):
             row, motor = beyond[0]
             cure = "Are these degrees? Then say unit: deg." if group.unit == "rad" else ""
-            found = angles[row, motor] / UNITS[group.unit]
-            place = piece.place(int(row), (group.columns[motor],))
-            raise InputError(
-                piece.rows.source, place, f"{found:g} {group.unit}", "a joint angle lies within two turns", cure
-            )
+            found = f"{angles[row, motor] / UNITS[group.unit]:g} {group.unit}"
+            raise piece.error(int(row), (group.columns[motor],), found, "a joint angle lies within two turns", cure)
         return angles
 
     def _required(self, piece: Piece, columns: tuple[Column, ...]) -> Array:
@@ -82,8 +78,7 @@ class Converter:
         if len(missing):
             row, column = missing[0]
             cure = f"Leave such rows out with `rows: [{{drop_missing: [{columns[column]}]}}]`."
-            place = piece.place(int(row), (columns[column],))
-            raise InputError(piece.rows.source, place, "nothing", "this value is required in every row", cure)
+            raise piece.error(int(row), (columns[column],), "nothing", "this value is required in every row", cure)
         return values
 
     def _measured(self, piece: Piece) -> dict[str, Array]:
@@ -114,12 +109,10 @@ class Converter:
         if matrix.shape[1] == 4:
             wrong = np.flatnonzero(np.abs(matrix[:, 3] - [0, 0, 0, 1]).max(axis=1) > 1e-9)
             if len(wrong):
-                place = piece.place(int(wrong[0]), self.columns.pose.matrix[12:])
                 cure = "Is the matrix written column by column? Then name its columns in the order of the rows."
                 found = matrix[wrong[0], 3].tolist()
-                raise InputError(
-                    piece.rows.source, place, found, "the last row of a homogeneous matrix is 0 0 0 1", cure
-                )
+                rule = "the last row of a homogeneous matrix is 0 0 0 1"
+                raise piece.error(int(wrong[0]), self.columns.pose.matrix[12:], found, rule, cure)
 
     def _orientation(self, piece: Piece, group: Orientation) -> Array:
         if group.quaternion is not None:
@@ -144,8 +137,7 @@ class Converter:
         try:
             return cast(Array, convert())
         except NotARotation as error:
-            place = piece.place(error.row, (f"{columns[0]} ... {columns[-1]}",))
-            raise InputError(piece.rows.source, place, error.found, error.rule, error.cure) from error
+            raise piece.error(error.row, columns, error.found, error.rule, error.cure) from error
 
     def _context(self, piece: Piece) -> dict[str, Array]:
         columns = self.columns
@@ -193,9 +185,8 @@ class Converter:
         stamps = pd.to_datetime(words, format=group.format, errors="coerce", utc=True)
         wrong = np.flatnonzero(stamps.isna() & (words != ""))
         if len(wrong):
-            place = piece.place(int(wrong[0]), (group.column,))
-            rule = f"a time stamp is written as {group.format}"
-            raise InputError(piece.rows.source, place, words[wrong[0]], rule, "Correct `format`, or leave `time` out.")
+            rule, cure = f"a time stamp is written as {group.format}", "Correct `format`, or leave `time` out."
+            raise piece.error(int(wrong[0]), (group.column,), words[wrong[0]], rule, cure)
         return stamps
 
 
@@ -209,8 +200,7 @@ def _refuse(
     """Name the first of ``values`` (N, columns) that is ``wrong``."""
     if wrong.any():
         row, column = np.argwhere(wrong)[0]
-        place = piece.place(int(row), (columns[column],))
-        raise InputError(piece.rows.source, place, f"{values[row, column]:g}", rule, cure)
+        raise piece.error(int(row), (columns[column],), f"{values[row, column]:g}", rule, cure)
 
 
 def _whole(piece: Piece, columns: tuple[Column, ...]) -> Array:
@@ -219,8 +209,8 @@ def _whole(piece: Piece, columns: tuple[Column, ...]) -> Array:
     missing = np.isnan(values)
     partly = np.flatnonzero(missing.any(axis=1) & ~missing.all(axis=1))
     if len(partly):
-        place = piece.place(int(partly[0]), tuple(columns[k] for k in np.flatnonzero(missing[partly[0]])))
-        raise InputError(piece.rows.source, place, "nothing", "an orientation is there as a whole or not at all")
+        which = tuple(columns[k] for k in np.flatnonzero(missing[partly[0]]))
+        raise piece.error(int(partly[0]), which, "nothing", "an orientation is there as a whole or not at all")
     return values
 
 

@@ -181,6 +181,7 @@ def convert_run(mapping: Mapping, run: Run, paths: dict[str, Path], report: RunR
     report.left_out = [each.left_out for each in filters]
     converter = Converter(mapping.columns.with_own(run.columns), run.run)
     for rows in read_pieces(paths[run.file], run.format or mapping.format, report.notes):
+        beside.forget_before(report.rows_read + 1)
         report.rows_read += len(rows)
         piece = Piece(rows, beside)
         for each in filters:

@@ -10,10 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.inputs import InputError, nearest
-from armscope.recordings.mapping import Column, Mapping, RowFilter, Run
-from armscope.recordings.rawfiles import RawRows, read_whole
+from armscope.recordings.mapping import Beside, Column, Format, Mapping, RowFilter, Run
+from armscope.recordings.rawfiles import RawRows, joined, read_pieces
 
 Array = NDArray[np.float64]
+
+MOST_NAMED = 3
+"""Columns that an error names one by one."""
 
 
 @dataclass
@@ -24,36 +27,86 @@ class LeftOut:
     rows: list[int] = field(default_factory=list)
 
 
+class BesideFile:
+    """A file whose rows stand beside those of a run's first file, read along with it."""
+
+    def __init__(self, other: Beside, path: Path, style: Format, notes: Counter[str]) -> None:
+        self.other, self.path = other, path
+        self.coming = read_pieces(path, style, notes)
+        self.held: list[RawRows] = []
+        self.rows_read = 0
+
+    def row_numbers(self, main_rows: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Rows (from 1) that belong to ``main_rows`` (from 1) of the first file; they are there."""
+        rows = (main_rows - 1) // self.other.repeat_each + 1
+        if not self._read_to(rows.max()):
+            self._unequal(f"row {main_rows.max()} of the first file")
+        return rows
+
+    def take(self, main_rows: NDArray[np.intp]) -> RawRows:
+        """The rows that belong to ``main_rows``."""
+        rows = self.row_numbers(main_rows)
+        self.held = [joined(self.held)]
+        return self.held[0].take(rows - self.held[0].numbers_of_rows[0])
+
+    def forget_before(self, main_row: int) -> None:
+        """No earlier row of the first file will be asked for."""
+        row = (main_row - 1) // self.other.repeat_each + 1
+        self.held = [piece for piece in self.held if piece.numbers_of_rows[-1] >= row]
+
+    def check_all_used(self, rows_read: int) -> None:
+        """After the first file's last row: none may be left over here.
+
+        Raises:
+            InputError: the two files have unequal numbers of rows.
+        """
+        self.held = []
+        for piece in self.coming:
+            self.rows_read += len(piece)
+        if rows_read != self.rows_read * self.other.repeat_each:
+            self._unequal(f"{rows_read} rows in the first file")
+
+    def _read_to(self, row: int) -> bool:
+        while self.rows_read < row:
+            piece = next(self.coming, None)
+            if piece is None:
+                return False
+            self.held.append(piece)
+            self.rows_read += len(piece)
+        return True
+
+    def _unequal(self, found: str) -> None:
+        rule = f"this file has {self.rows_read} rows for {self.other.repeat_each} each of the first file"
+        raise InputError(self.path, "", found, rule, "Change `repeat_each`, or the pair of files.")
+
+
 class BesideFiles:
-    """The files whose rows stand beside those of a run's first file."""
+    """The files whose rows stand beside those of a run's first file, by their names."""
 
     def __init__(self, mapping: Mapping, run: Run, paths: dict[str, Path], notes: Counter[str]) -> None:
-        self.tables = {
-            other.name: (read_whole(paths[other.file], other.format or run.format or mapping.format, notes), other)
+        self.files = {
+            other.name: BesideFile(other, paths[other.file], other.format or run.format or mapping.format, notes)
             for other in run.beside
         }
 
-    def row_numbers(self, name: str, main_rows: NDArray[np.intp]) -> NDArray[np.intp]:
-        """Rows (from 1) of the file called ``name`` that belong to ``main_rows`` (from 1) of the first file."""
-        if name not in self.tables:
-            cure = nearest(name, self.tables) if self.tables else "The run has no `beside`."
+    def __getitem__(self, name: str) -> BesideFile:
+        if name not in self.files:
+            cure = nearest(name, self.files) if self.files else "The run has no `beside`."
             raise InputError("mapping", "columns", name, "no file beside has this name", cure)
-        table, other = self.tables[name]
-        rows = (main_rows - 1) // other.repeat_each + 1
-        if rows.max() > len(table):
-            self._unequal(name, f"row {main_rows.max()} of the first file")
-        return rows
+        return self.files[name]
+
+    def __bool__(self) -> bool:
+        return bool(self.files)
+
+    def forget_before(self, main_row: int) -> None:
+        """No earlier row of the first file will be asked for."""
+        for file in self.files.values():
+            file.forget_before(main_row)
 
     def check_all_used(self, rows_read: int) -> None:
         """After the last piece: no file beside may have rows left over."""
-        for name, (table, other) in self.tables.items():
-            if rows_read != len(table) * other.repeat_each:
-                self._unequal(name, f"{rows_read} rows in the first file")
-
-    def _unequal(self, name: str, found: str) -> None:
-        table, other = self.tables[name]
-        rule = f"this file has {len(table)} rows for {other.repeat_each} each of the first file"
-        raise InputError(table.source, "", found, rule, "Change `repeat_each`, or the pair of files.")
+        for file in self.files.values():
+            file.check_all_used(rows_read)
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,11 +121,10 @@ class Piece:
 
     def _where(self, column: Column) -> tuple[RawRows, Column]:
         """The rows that a column is taken from, and its name there: "name:column" is of the file beside."""
-        if not isinstance(column, str) or ":" not in column or not self.beside.tables:
+        if not isinstance(column, str) or ":" not in column or not self.beside:
             return self.rows, column
         name, _, own = column.partition(":")
-        which = self.beside.row_numbers(name, self.rows.numbers_of_rows)
-        return self.beside.tables[name][0].take(which - 1), int(own) if own.isdigit() else own
+        return self.beside[name].take(self.rows.numbers_of_rows), int(own) if own.isdigit() else own
 
     def numbers(self, column: Column) -> Array:
         """(N,) the numbers of a column, NaN for none."""
@@ -92,9 +144,11 @@ class Piece:
         """The rows where ``which``."""
         return self if which.all() else Piece(self.rows.take(np.flatnonzero(which)), self.beside)
 
-    def place(self, row: int, columns: tuple[Column, ...]) -> str:
-        """Where a value stands, for messages."""
-        return f"line {self.rows.lines[row]}, column {', '.join(map(str, columns))}"
+    def error(self, row: int, columns: tuple[Column, ...], found: object, rule: str, cure: str = "") -> InputError:
+        """What is wrong with a row, at its place in the file that the first of the columns is taken from."""
+        rows, _ = self._where(columns[0])
+        names = f"{columns[0]} ... {columns[-1]}" if len(columns) > MOST_NAMED else ", ".join(map(str, columns))
+        return InputError(rows.source, f"line {rows.lines[row]}, column {names}", found, rule, cure)
 
 
 def _called(columns: tuple[Column, ...]) -> str:

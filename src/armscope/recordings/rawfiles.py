@@ -191,12 +191,11 @@ def read_pieces(path: Path, style: Format, notes: Counter[str]) -> Iterator[RawR
     yield from _read_text(path, style, notes)
 
 
-def read_whole(path: Path, style: Format, notes: Counter[str]) -> RawRows:
-    """All rows of a (small) raw file at once."""
-    pieces = list(read_pieces(path, style, notes))
-    if len(pieces) == 1:
-        return pieces[0]
+def joined(pieces: list[RawRows]) -> RawRows:
+    """Pieces of one file, one after the other, as one."""
     texts = [piece for piece in pieces if isinstance(piece, TextRows)]
+    if len(texts) < 2:  # a matrix comes as one piece
+        return pieces[0]
     return replace(
         texts[0],
         cells=[row for piece in texts for row in piece.cells],

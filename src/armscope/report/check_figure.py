@@ -51,7 +51,11 @@ def draw_check(recordings: Recordings, arm: Arm | None = None) -> Figure:
         if len(runs) > 1:
             styles = [_style(number, run) for number, run in enumerate(runs)]
             plain = [style | {"alpha": 1.0, "markersize": max(style["markersize"], 4)} for style in styles]
-            legend_above(figure, [Line2D([], [], **style) for style in plain], [run.name for run in runs])
+            legend_above(
+                figure,
+                [Line2D([], [], **style) for style in plain],
+                [f"run {run.name}" if run.name.isdigit() else run.name for run in runs],
+            )
     return figure
 
 
