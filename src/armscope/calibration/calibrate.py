@@ -160,7 +160,8 @@ def calibrate(
         orientation: use measured orientations, weighed by the scatter that positions and orientations show; None uses
             them unless positions of rows that took no part are then predicted worse, which happens where an arm errs
             more in orientation than its constants can say.
-        splits: how often 70 % of the configurations are drawn to learn from and the rest to be tested on; 0 never.
+        splits: how often 70 % of the configurations are drawn to learn from and the rest to be tested on; 0 never, and
+            not where base or tool are shared by runs that do not share them.
 
     Raises:
         InputError: another number of motors than the arm's, fewer measured numbers than parameters, or compliances
@@ -176,8 +177,8 @@ def calibrate(
         return solve(some, level, redundancy, priors, robust)
 
     if orientation is None and rows.orientations is not None:
-        helps, note = _orientation_helps(rows, recordings, solved_for)
-        rows, notes = rows if helps else replace(rows, orientations=None), [*notes, note]
+        helps, note = (False, "") if doubts else _orientation_helps(rows, recordings, solved_for)
+        rows, notes = rows if helps else replace(rows, orientations=None), [*notes, *filter(None, [note])]
     solved = solved_for(rows)
     _require_rows(recordings, solved, redundancy)
     rows, fitted = solved.rows, solved.fitted
@@ -185,7 +186,7 @@ def calibrate(
     ids = [f"{run}: {name}" if run else name for run, name in zip(recordings.run, recordings.id, strict=True)]
     covariance = _covariance(solved)
     misses = None
-    if splits:
+    if splits and not doubts:  # what should not be used need not be tested
         misses = misses_by_run(rows, recordings, fitted.state, lambda some: solved_for(some).fitted.state, splits)
     return Calibration(
         level=level,
