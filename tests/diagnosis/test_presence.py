@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import diagnose, evidence
+from armscope.diagnosis.columns import columns
 from armscope.diagnosis.evidence import PERFECT, SURE_NATS, Chosen, Problem, weigh
 from armscope.diagnosis.frames import fit_frames
 from armscope.diagnosis.presence import SOMETHING_NATS, presence
-from armscope.diagnosis.problem import accumulate, columns, pool, total
+from armscope.diagnosis.problem import accumulate, pool, total
 from armscope.diagnosis.search import Search
 from armscope.diagnosis.weights import RowWeights
 from armscope.physics.backgrounds import backgrounds

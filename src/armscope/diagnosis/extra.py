@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.diagnosis.columns import arranged, stacked
 from armscope.diagnosis.evidence import forward
-from armscope.diagnosis.problem import Pool, chunks, component_rows, pool_values, response
+from armscope.diagnosis.problem import Pool, chunks, pool_values, response
 from armscope.diagnosis.weights import RowWeights
 from armscope.physics.effect import Term
 from armscope.physics.model import FittedModel
@@ -43,26 +44,25 @@ def weigh_blocks(
 ) -> Blocks:
     """Sums over rows for blocks of equally many terms against the pool's columns ``inside``."""
     m, c = len(blocks), len(blocks[0])
-    flat = [term for block in blocks for term in block]
-    model_terms = [pool.terms[i] for i in inside]
+    beside = arranged([term for block in blocks for term in block])
+    model_terms = arranged([pool.terms[i] for i in inside])
     values = pool_values(pool, model)
+    # the response before any effect, also of those that are not among the columns inside
     active = np.flatnonzero(values)
-    present = [pool.terms[i] for i in active]
-    own, cross, b = np.zeros((m, c, c)), np.zeros((len(inside), m * c)), np.zeros((m, c))
+    present = arranged([pool.terms[i] for i in active])
+    k = len(inside)
+    own, cross, b = np.zeros((m * c, m * c)), np.zeros((k, m * c)), np.zeros(m * c)
     for rows, posture in chunks(model, recordings):
         lens = weights.lens(rows)
         seen = posture.through(lens)
-        y = response(model, posture, lens).T.reshape(-1)
-        if present:
-            # the response before any effect, also of those that are not among the columns inside
-            y = y + values[active] @ component_rows(seen, present).reshape(len(present), -1)
-        X = component_rows(seen, model_terms).reshape(len(inside), -1)
-        E = component_rows(seen, flat).reshape(m * c, -1)
-        cross += X @ E.T
-        b += (E @ y).reshape(m, c)
-        blockwise = E.reshape(m, c, -1)
-        own += blockwise @ np.swapaxes(blockwise, 1, 2)
-    return Blocks(own, np.moveaxis(cross.reshape(-1, m, c), 1, 0), b)
+        y = response(model, posture, lens).T + stacked(seen, present).combined(values[active][present.order])
+        E = stacked(seen, beside)
+        E.add_products(own)
+        cross += stacked(seen, model_terms).products(E)
+        b += E.onto(y)
+    own = beside.whole(own).reshape(m, c, m, c)[np.arange(m), :, np.arange(m), :]
+    cross = cross[np.ix_(model_terms.back, beside.back)]
+    return Blocks(own, np.moveaxis(cross.reshape(k, m, c), 1, 0), b[beside.back].reshape(m, c))
 
 
 def conditioned(blocks: Blocks, factor: Array, half: Array) -> tuple[Array, Array]:

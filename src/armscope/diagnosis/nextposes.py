@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from armscope.design.separation import nats_apart, separating
 from armscope.diagnosis.certainty import TELLS_APART_NATS, apart
+from armscope.diagnosis.columns import columns
 from armscope.diagnosis.evidence import FRAME_PRIOR_MM, Hypothesis
-from armscope.diagnosis.problem import columns
 from armscope.diagnosis.refit import Refit
 from armscope.diagnosis.search import Search
 from armscope.diagnosis.verdict import NextPoses

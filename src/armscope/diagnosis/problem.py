@@ -15,6 +15,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.diagnosis.columns import Arrangement, arranged, stacked
 from armscope.diagnosis.weights import Missed, RowWeights
 from armscope.physics.effect import Placed, Term, clash
 from armscope.physics.model import FittedModel
@@ -105,6 +106,11 @@ class Pool:
         """Whether every one of some candidates has what it rests on."""
         return all(candidates & needed for number, needed in self.resting.items() if number in candidates)
 
+    @functools.cached_property
+    def arrangement(self) -> Arrangement:
+        """The columns sorted by how they are best multiplied."""
+        return arranged(self.terms)
+
     def of(self, placed: Placed) -> Indices:
         """Columns of an effect whose terms are all in the pool."""
         index = self._index()
@@ -158,14 +164,26 @@ class Gram:
         return float(self.yy - 2 * self.b @ coefficients + coefficients @ self.G @ coefficients)
 
 
-_KEPT: WeakKeyDictionary[Recordings, list[tuple[Indices, Scene]]] = WeakKeyDictionary()
+@dataclass(frozen=True, eq=False)
+class Kept:
+    """The order of a table's rows, and the scenes of its chunks once they were computed."""
+
+    order: Indices
+    scenes: list[tuple[Indices, Scene]]
 
 
-def keep_drivers(recordings: Recordings) -> Recordings:
-    """A copy of a table; what drives the effects on its rows is computed once, unless it is long."""
+_KEPT: WeakKeyDictionary[Recordings, Kept] = WeakKeyDictionary()
+
+
+def keep_drivers(recordings: Recordings, order: Indices) -> Recordings:
+    """A copy of a table; what drives the effects on its rows is computed once, unless it is long.
+
+    Args:
+        order: (N,) of the rows in which chunks take them: rows of one block side by side.
+    """
     table = replace(recordings)
     if len(table) <= KEPT_ROWS:
-        _KEPT[table] = []
+        _KEPT[table] = Kept(order, [])
     return table
 
 
@@ -173,46 +191,24 @@ def chunks(
     model: FittedModel, recordings: Recordings, order: Indices | None = None
 ) -> Iterator[tuple[Indices, Posture]]:
     """(rows, posture) of the model, chunk by chunk; in an order of rows, where one is given."""
-    if order is None:
-        yield from ((rows, model.posture(scene)) for rows, scene in _scenes(model, recordings))
-        return
-    for start in range(0, len(order), CHUNK_ROWS):
-        rows = order[start : start + CHUNK_ROWS]
-        yield rows, model.posture(model.scene(recordings.rows(rows)))
+    yield from ((rows, model.posture(scene)) for rows, scene in _scenes(model, recordings, order))
 
 
-def _scenes(model: FittedModel, recordings: Recordings) -> Iterator[tuple[Indices, Scene]]:
+def _scenes(model: FittedModel, recordings: Recordings, order: Indices | None) -> Iterator[tuple[Indices, Scene]]:
     kept = _KEPT.get(recordings)
-    if kept:
-        yield from kept
+    if kept is not None and kept.scenes:
+        yield from kept.scenes
         return
+    order = kept.order if kept is not None else np.arange(len(recordings)) if order is None else order
     seen = []
     for start in range(0, len(recordings), CHUNK_ROWS):
-        rows = np.arange(start, min(start + CHUNK_ROWS, len(recordings)))
+        rows = order[start : start + CHUNK_ROWS]
         scene = model.scene(recordings.rows(rows))
         if kept is not None:
             seen.append((rows, scene))
         yield rows, scene
     if kept is not None:
-        kept.extend(seen)
-
-
-def columns(posture: Posture, terms: Sequence[Term]) -> Array:
-    """(3N or 6N, p) columns in mm per SI unit of each term, as the posture's lens shows them."""
-    stacked = np.empty((len(terms), len(posture.scene), posture.numbers))
-    for number, term in enumerate(terms):
-        stacked[number] = posture.column(term)
-    stacked *= 1e3
-    return stacked.reshape(len(terms), -1).T
-
-
-def component_rows(posture: Posture, terms: Sequence[Term]) -> Array:
-    """(p, 3 or 6, N) the same columns, lying, a component of all rows side by side: fast to fill and to multiply."""
-    stacked = np.empty((len(terms), posture.numbers, len(posture.scene)))
-    for number, term in enumerate(terms):
-        stacked[number] = posture.column(term).T
-    stacked *= 1e3
-    return stacked
+        kept.scenes.extend(seen)
 
 
 def residuals(model: FittedModel, recordings: Recordings) -> Array:
@@ -259,23 +255,26 @@ def accumulate(
         weights: of the rows.
         blocks: (N,) number of each row's block, from 0.
     """
-    current = pool_values(pool, model)
+    arrangement = pool.arrangement
+    current = pool_values(pool, model)[arrangement.order]
     count, p = int(blocks.max()) + 1, len(pool.terms)
-    G, b, yy, n = np.zeros((count, p, p)), np.zeros((count, p)), np.zeros(count), np.zeros(count)
-    order = np.argsort(blocks, kind="stable") if count > 1 and len(recordings) > KEPT_ROWS else None
+    G = [np.zeros((p, p)) for _ in range(count)]
+    b, yy, n = np.zeros((count, p)), np.zeros(count), np.zeros(count)
+    order = np.argsort(blocks, kind="stable") if count > 1 and recordings not in _KEPT else None
     for rows, posture in chunks(model, recordings, order):
         lens = weights.lens(rows)
-        X = component_rows(posture.through(lens), pool.terms)
-        y = response(model, posture, lens).T + (current @ X.reshape(p, -1)).reshape(X.shape[1:])
+        seen = stacked(posture.through(lens), arrangement)
+        y = response(model, posture, lens).T + seen.combined(current)
         numbers, inside = weights.numbers(rows), blocks[rows]
         for block in np.unique(inside):
-            at = slice(None) if count == 1 else _where(inside == block)
-            Xb, yb = X[:, :, at].reshape(p, -1), y[:, at].reshape(-1)
-            G[block] += Xb @ Xb.T
-            b[block] += Xb @ yb
-            yy[block] += yb @ yb
+            at = _where(inside == block)
+            part, yb = seen.at(at), y[:, at]
+            part.add_products(G[block])
+            b[block] += part.onto(yb)
+            yy[block] += np.vdot(yb, yb)
             n[block] += numbers[at].sum()
-    return [Gram(G[k], b[k], float(yy[k]), float(n[k])) for k in range(count)]
+    back = arrangement.back
+    return [Gram(arrangement.whole(G[k]), b[k][back], float(yy[k]), float(n[k])) for k in range(count)]
 
 
 def _where(inside: NDArray[np.bool_]) -> slice | Indices:

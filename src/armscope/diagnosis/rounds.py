@@ -131,7 +131,8 @@ class Rounds:
         tell: Progress,
         candidates: Sequence[Placed] | None = None,
     ) -> None:
-        self.recordings, self.noise, self.frames, self.tell = keep_drivers(recordings), noise, frames, tell
+        self.recordings = keep_drivers(recordings, np.argsort(block_of_row, kind="stable"))
+        self.noise, self.frames, self.tell = noise, frames, tell
         self.block_of_row = block_of_row
         self.candidates = library(start.arm, recordings) if candidates is None else list(candidates)
         self.families = list(backgrounds(start.arm, recordings).values())

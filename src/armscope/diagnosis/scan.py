@@ -7,9 +7,10 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.diagnosis.columns import columns
 from armscope.diagnosis.evidence import Hypothesis, Problem, forward
 from armscope.diagnosis.extra import Blocks, conditioned, weigh_blocks
-from armscope.diagnosis.problem import chunks, columns, pool_values, response
+from armscope.diagnosis.problem import chunks, pool_values, response
 from armscope.diagnosis.weights import RowWeights
 from armscope.physics.drift import BASE_SHIFT, Pause, base_shift, drift_with_pauses, pauses_of, row_number, tool_shift
 from armscope.physics.effect import Placed

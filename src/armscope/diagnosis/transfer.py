@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.diagnosis import robust
+from armscope.diagnosis.columns import columns
 from armscope.diagnosis.frames import fit_frames
-from armscope.diagnosis.problem import chunks, columns, residuals
+from armscope.diagnosis.problem import chunks, residuals
 from armscope.diagnosis.refit import moved_frames
 from armscope.inputs import InputError
 from armscope.physics.effect import Placed, Term

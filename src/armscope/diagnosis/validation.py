@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.diagnosis.columns import columns
 from armscope.diagnosis.evidence import PERFECT, Chosen, Hypothesis, Problem, weigh
-from armscope.diagnosis.problem import Gram, Pool, chunks, columns, pool_values, response, total
+from armscope.diagnosis.problem import Gram, Pool, chunks, pool_values, response, total
 from armscope.diagnosis.search import LARGE, STARTS, Search
 from armscope.diagnosis.verdict import HeldOut, WaterfallStep
 from armscope.diagnosis.weights import COUNTS, RowWeights
