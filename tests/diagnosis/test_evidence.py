@@ -8,8 +8,9 @@ from scipy.stats import multivariate_normal, norm
 
 from armscope.diagnosis import evidence
 from armscope.diagnosis.columns import columns
-from armscope.diagnosis.evidence import PERFECT, Chosen, Problem, gains, group, losses, pinned_losses, weigh
+from armscope.diagnosis.evidence import PERFECT, Chosen, Problem, losses, pinned_losses, weigh
 from armscope.diagnosis.frames import fit_frames
+from armscope.diagnosis.gains import gains, group
 from armscope.diagnosis.problem import Pool, accumulate, pool, residuals, total
 from armscope.diagnosis.weights import RowWeights
 from armscope.physics.backgrounds import backgrounds

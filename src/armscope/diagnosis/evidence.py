@@ -11,6 +11,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -148,29 +149,33 @@ class Hypothesis:
             none or 1 + an index into the problem's sizes for the others.
         noise: mm per axis.
         value: log evidence with prior, nats.
+        evidence: log evidence alone, nats.
         columns: columns of the pool that take part, ascending.
         variance: their prior variances, mm^2 at the tool.
         factor: Cholesky factor (lower) of G + noise^2 / variance.
         mean: posterior mean of the scaled coefficients.
         rss: penalised residual sum of squares, mm^2.
-        settled: whether the noise is this hypothesis' own.
+        known_inverse: of the factor, where weighing it needed it.
     """
 
+    settled: ClassVar[bool] = True
+    """The noise is this hypothesis' own."""
     chosen: tuple[Chosen, ...]
     background: Background
     noise: float
     value: float
+    evidence: float
     columns: Indices = field(repr=False)
     variance: Array = field(repr=False)
     factor: Array = field(repr=False)
     mean: Array = field(repr=False)
     rss: float = field(repr=False)
-    settled: bool = True
+    known_inverse: Array | None = field(default=None, repr=False)
 
     @functools.cached_property
     def inverse(self) -> Array:
         """The inverse of the factor."""
-        return np.asarray(dtrtri(self.factor, lower=1)[0])
+        return np.asarray(dtrtri(self.factor, lower=1)[0]) if self.known_inverse is None else self.known_inverse
 
     @property
     def candidates(self) -> frozenset[int]:
@@ -184,51 +189,53 @@ class Hypothesis:
         return full
 
 
-def weigh(
-    problem: Problem, chosen: tuple[Chosen, ...], background: Background, noise: float, steps: int = NOISE_STEPS
-) -> Hypothesis:
-    """Evidence of a hypothesis; the noise starts from ``noise`` and is re-estimated (MacKay 1992), or kept (1 step)."""
+def weigh(problem: Problem, chosen: tuple[Chosen, ...], background: Background, noise: float) -> Hypothesis:
+    """Evidence of a hypothesis; the noise starts from ``noise`` and is re-estimated (MacKay 1992)."""
     prior = prior_variances(problem, chosen, background)
     columns = np.flatnonzero(prior > 0)
     variance = prior[columns]
     G, b = problem.gram.G[np.ix_(columns, columns)], problem.gram.b[columns]
-    spent = inverse = None
-    for step in range(steps):
-        factor = lower_factor(G, noise**2 / variance)
+    factor = first = lower_factor(G, noise**2 / variance)
+    # how many values the data determine hardly changes with the noise: one inverse is enough
+    inverse = np.asarray(dtrtri(first, lower=1)[0])
+    spent = len(columns) - noise**2 * float(np.sum(np.einsum("ij,ij->j", inverse, inverse) / variance))
+    for step in range(NOISE_STEPS):
         half = forward(factor, b)
         rss = float(problem.gram.yy - half @ half)
         mean = np.asarray(dtrtrs(factor, half, lower=1, trans=1)[0])
-        if step == steps - 1:
-            break
-        if spent is None:
-            # how many values the data determine hardly changes with the noise: one inverse is enough
-            inverse = dtrtri(factor, lower=1)[0]
-            spent = len(columns) - noise**2 * float(np.sum(np.einsum("ij,ij->j", inverse, inverse) / variance))
         misfit = rss - noise**2 * float(np.sum(mean**2 / variance))
         updated = np.sqrt(max(misfit, 0.0) / max(problem.n - spent, 1.0))
         updated = max(float(updated), problem.least_noise, 1e-6)
-        if abs(updated - noise) < NOISE_SETTLED * noise:
+        if step == NOISE_STEPS - 1 or abs(updated - noise) < NOISE_SETTLED * noise:
             break
         noise = updated
-    inverse = dtrtri(factor, lower=1)[0] if inverse is None else inverse
+        factor = lower_factor(G, noise**2 / variance)
     logdet = 2 * np.sum(np.log(np.diag(factor))) + np.sum(np.log(variance)) - 2 * len(columns) * np.log(noise)
-    evidence = -problem.n * np.log(noise) - 0.5 * logdet - 0.5 * rss / noise**2
+    evidence = float(-problem.n * np.log(noise) - 0.5 * logdet - 0.5 * rss / noise**2)
+    values = [
+        int(problem.pool.columns[c.candidate][0]) for c in chosen if not c.within and problem.pool.along[c.candidate]
+    ]
+    at = np.searchsorted(columns, values)
+    away = mean[at] / (noise * np.sqrt(np.sum(inverse[:, at] ** 2, axis=0)))
+    value = evidence - price(problem, chosen, background, away)
+    known = inverse if factor is first else None
+    return Hypothesis(chosen, background, noise, value, evidence, columns, variance, factor, mean, rss, known)
+
+
+def price(problem: Problem, chosen: tuple[Chosen, ...], background: Background, away: Array) -> float:
+    """What a hypothesis pays for its effects and backgrounds, nats; infinite if some effect lacks what it rests on.
+
+    Args:
+        away: of each effect's value that can't be negative, standard errors from zero; half of the prior goes to the
+            other half, each by itself.
+    """
     own = [c for c in chosen if not c.within]
+    if not problem.pool.stands(frozenset(c.candidate for c in chosen)):
+        return np.inf
     paid = sum(problem.costs[c.candidate] + np.log(len(problem.sizes)) for c in own)
     paid += problem.background_cost * np.count_nonzero(background[1:])
-    paid -= _along(problem, own, columns, mean, noise * np.sqrt(np.sum(inverse**2, axis=0)))
     paid += CROWDED_NATS * max(problem.pool.crowding(frozenset(c.candidate for c in own)), 0)
-    if not problem.pool.stands(frozenset(c.candidate for c in chosen)):
-        paid = np.inf
-    value = float(evidence - paid)
-    return Hypothesis(chosen, background, noise, value, columns, variance, factor, mean, rss, steps > 1)
-
-
-def _along(problem: Problem, chosen: Sequence[Chosen], columns: Indices, mean: Array, stderr: Array) -> float:
-    """Nats that values gain, which can't be negative, each by itself: half of the prior goes to the other half."""
-    values = [int(problem.pool.columns[c.candidate][0]) for c in chosen if problem.pool.along[c.candidate]]
-    at = np.searchsorted(columns, values)
-    return float(np.sum(np.log(2) + log_ndtr(mean[at] / stderr[at])))
+    return float(paid - np.sum(np.log(2) + log_ndtr(away)))
 
 
 ROUNDING = 1e-11
@@ -238,7 +245,8 @@ def lower_factor(G: Array, ridge: Array) -> Array:
     """Cholesky factor (lower) of G + diag(ridge); a ridge below rounding is raised to it (few rows, fitted exactly)."""
     A = G.copy()
     A[np.diag_indices_from(A)] += np.maximum(ridge, ROUNDING * np.diag(G))
-    factor, failed = dpotrf(A, lower=1, clean=1, overwrite_a=1)
+    # the transpose of a symmetric matrix: itself, in the order that LAPACK works in without another copy
+    factor, failed = dpotrf(A.T, lower=1, clean=1, overwrite_a=1)
     if failed:
         raise np.linalg.LinAlgError(f"the Gram matrix is not positive definite at column {failed}")
     return np.asarray(factor)
@@ -304,101 +312,3 @@ def background_sizes(problem: Problem, hypothesis: Hypothesis) -> tuple[float, .
     """Size of each family's background: share of the tolerance for the geometric one, mm at the tool for the others."""
     first, *others = hypothesis.background
     return BACKGROUND_SIZES[first], *(float(problem.sizes[size - 1]) if size else 0.0 for size in others)
-
-
-@dataclass(frozen=True, eq=False)
-class Groups:
-    """Candidates of equal numbers of columns, so that they are scored together."""
-
-    members: tuple[Indices, ...]
-    columns: tuple[Indices, ...]
-    shapes: tuple[Array, ...]
-
-
-def group(pool: Pool) -> Groups:
-    """Candidates that compete, by their number of columns."""
-    by_size: dict[int, list[int]] = {}
-    for number, columns in enumerate(pool.columns):
-        if pool.candidates[number].fine:
-            continue
-        by_size.setdefault(len(columns), []).append(number)
-    return Groups(
-        tuple(np.array(members) for members in by_size.values()),
-        tuple(np.array([pool.columns[m] for m in members]) for members in by_size.values()),
-        tuple(np.array([pool.candidates[m].shape for m in members]) for members in by_size.values()),
-    )
-
-
-def gains(problem: Problem, groups: Groups, hypothesis: Hypothesis) -> tuple[Array, Indices]:
-    """What each candidate would add to a hypothesis' value at its best size, nats, and the index of that size."""
-    by_size = gains_by_size(problem, groups, hypothesis)
-    return by_size.max(axis=0), by_size.argmax(axis=0)
-
-
-def gains_by_size(problem: Problem, groups: Groups, hypothesis: Hypothesis) -> Array:
-    """(SIZES, candidates) what each candidate would add to a hypothesis' value at each size, nats.
-
-    The posterior of the hypothesis is conditioned on (Schur complement), so the gain is exact up to the noise's
-    re-estimation, for which the profile of the likelihood over the noise is used; a noise that is not the hypothesis'
-    own stays.
-    """
-    G, b = problem.gram.G, problem.gram.b
-    S, noise = hypothesis.columns, hypothesis.noise
-    V = hypothesis.inverse @ G[S]
-    half = hypothesis.inverse @ b[S]
-    r_all = (b - half @ V) / noise**2
-    by_size = np.full((len(problem.sizes), len(problem.costs)), -np.inf)
-    s2 = problem.sizes**2
-    chi2 = hypothesis.rss / noise**2
-    for members, columns, shapes in zip(groups.members, groups.columns, groups.shapes, strict=True):
-        Vc = np.moveaxis(V[:, columns], 0, 1)
-        inner = G[columns[:, :, None], columns[:, None, :]] - np.swapaxes(Vc, 1, 2) @ Vc
-        D = inner / noise**2 * shapes[:, :, None] * shapes[:, None, :]
-        r = r_all[columns] * shapes
-        eigenvalues, vectors = np.linalg.eigh(D)
-        eigenvalues = np.maximum(eigenvalues, 0.0)
-        u2 = np.einsum("mij,mi->mj", vectors, r) ** 2
-        shrunk = s2[:, None, None] / (1 + s2[:, None, None] * eigenvalues)
-        quadratic = np.sum(u2 * shrunk, axis=2)
-        logdet = np.sum(np.log1p(s2[:, None, None] * eigenvalues), axis=2)
-        if hypothesis.settled:
-            likelier = _profiled(quadratic, chi2, problem.n, noise, problem.least_noise)
-        else:
-            likelier = 0.5 * quadratic
-        by_size[:, members] = likelier - 0.5 * logdet
-    # what can't be negative and would be is not worth looking at; the others' prior is twice as dense
-    for number in np.flatnonzero(problem.pool.along):
-        by_size[:, number] += np.log(2) if r_all[problem.pool.columns[number][0]] > 0 else -np.inf
-    return by_size - problem.costs - np.log(len(problem.sizes))
-
-
-def joint_gains(problem: Problem, rest: Hypothesis, sets: Sequence[tuple[Chosen, ...]]) -> Array:
-    """What each set of effects together would add to a hypothesis' value, nats; for small sets of small effects."""
-    members = sorted({c.candidate for chosen in sets for c in chosen})
-    columns = np.concatenate([problem.pool.columns[m] for m in members])
-    G, S, noise = problem.gram.G, rest.columns, rest.noise
-    V = rest.inverse @ G[np.ix_(S, columns)]
-    inner = (G[np.ix_(columns, columns)] - V.T @ V) / noise**2
-    r = (problem.gram.b[columns] - V.T @ (rest.inverse @ problem.gram.b[S])) / noise**2
-    ends = np.cumsum([len(problem.pool.columns[m]) for m in members])
-    at = {m: np.arange(end - len(problem.pool.columns[m]), end) for m, end in zip(members, ends, strict=True)}
-    totals = []
-    for chosen in sets:
-        own = np.concatenate([at[c.candidate] for c in chosen])
-        size = np.concatenate(
-            [problem.sizes[c.size] * np.array(problem.pool.candidates[c.candidate].shape) for c in chosen]
-        )
-        A = np.eye(len(own)) + inner[np.ix_(own, own)] * np.outer(size, size)
-        u = size * r[own]
-        quadratic = np.array(float(u @ np.linalg.solve(A, u)))
-        gain = _profiled(quadratic, rest.rss / noise**2, problem.n, noise, problem.least_noise)
-        paid = sum(problem.costs[c.candidate] + np.log(len(problem.sizes)) for c in chosen)
-        totals.append(float(gain) - 0.5 * float(np.linalg.slogdet(A)[1]) - paid)
-    return np.array(totals)
-
-
-def _profiled(quadratic: Array, chi2: float, n: float, noise: float, least: float) -> Array:
-    """Gain of log likelihood when chi2 falls by ``quadratic`` and the noise follows, not below its least value."""
-    left = np.maximum(chi2 - quadratic, 1e-9 * chi2)
-    ratio = np.maximum(np.sqrt(left / chi2), min(1.0, least / noise))
-    return np.asarray(-n * np.log(ratio) + 0.5 * chi2 - 0.5 * left / ratio**2)

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import logsumexp
 
-from armscope.diagnosis.evidence import BACKGROUND_SIZES, FAMILY_SIZES, SURE_NATS, gains_by_size, kinds
+from armscope.diagnosis.evidence import BACKGROUND_SIZES, FAMILY_SIZES, SURE_NATS, kinds
+from armscope.diagnosis.gains import gains_by_size
 from armscope.diagnosis.search import Search
 from armscope.physics.effect import Placed, region
 

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.diagnosis import robust
-from armscope.diagnosis.evidence import Hypothesis, Problem, background_sizes, gains, problem
+from armscope.diagnosis.evidence import Hypothesis, Problem, background_sizes, problem
+from armscope.diagnosis.gains import gains
 from armscope.diagnosis.naming import named
 from armscope.diagnosis.noise import Growth, Noise, distances, growth, independent_shares, poses, relative_uncertainty
 from armscope.diagnosis.problem import Gram, Pool, accumulate, keep_drivers, missed, pool, total

@@ -15,21 +15,17 @@ import numpy as np
 from armscope.diagnosis.evidence import (
     BACKGROUND_SIZES,
     FAMILY_SIZES,
-    NOISE_STEPS,
     PERFECT,
     SURE_NATS,
     Background,
     Chosen,
-    Groups,
     Hypothesis,
     Problem,
-    gains,
-    group,
-    joint_gains,
     losses,
     pinned_losses,
     weigh,
 )
+from armscope.diagnosis.gains import Changed, Groups, Left, changed, gains, gains_by_size, group, joint_gains, left
 from armscope.diagnosis.problem import Pool
 from armscope.physics.backgrounds import FAMILIES
 from armscope.physics.drift import BASE_DRIFT
@@ -125,16 +121,29 @@ class Search:
         return best
 
     def additions(
-        self, parent: Hypothesis, count: int, without: Iterable[int] = (), least: float = -np.inf
+        self,
+        parent: Hypothesis | Changed,
+        count: int,
+        without: Iterable[int] = (),
+        least: float = -np.inf,
+        remaining: Left | None = None,
     ) -> list[Hypothesis]:
-        """The ``count`` most promising hypotheses with one effect more; a curve takes its special cases' place."""
-        gain, size = gains(self.problem, self.groups, parent)
+        """The ``count`` most promising hypotheses with one effect more; a curve takes its special cases' place.
+
+        Args:
+            without: candidates that are not added.
+            least: gains up to this, nats, are not worth a look.
+            remaining: what the parent leaves of the columns that compete.
+        """
+        asked = np.ones(len(self.problem.costs), dtype=np.bool_)
         clashes = self.problem.pool.clashes
         for member in parent.candidates:
-            gain[member] = -np.inf
-            gain[[c for c in clashes[member] if not self._generalises(c, member)]] = -np.inf
-        gain[list(without)] = -np.inf
-        gain[[n for n, needed in self.problem.pool.resting.items() if not needed & parent.candidates]] = -np.inf
+            asked[member] = False
+            asked[[c for c in clashes[member] if not self._generalises(c, member)]] = False
+        asked[list(without)] = False
+        asked[[n for n, needed in self.problem.pool.resting.items() if not needed & parent.candidates]] = False
+        by_size = gains_by_size(self.problem, self.groups, parent, asked, remaining)
+        gain, size = by_size.max(axis=0), by_size.argmax(axis=0)
         order = np.argsort(-gain)[:count]
         return [self._with(parent, Chosen(int(c), int(size[c]))) for c in order if gain[c] > least]
 
@@ -142,7 +151,7 @@ class Search:
         """Whether a candidate is a free curve that contains a member."""
         return self.placed(candidate).reading == "curve" and self.placed(member).reading != "curve"
 
-    def _with(self, parent: Hypothesis, added: Chosen) -> Hypothesis:
+    def _with(self, parent: Hypothesis | Changed, added: Chosen) -> Hypothesis:
         clashing = self.problem.pool.clashes[added.candidate]
         kept = tuple(c for c in parent.chosen if c.candidate not in clashing)
         return weigh(self.problem, (*kept, added), parent.background, parent.noise)
@@ -151,13 +160,15 @@ class Search:
         """The hypothesis with another background."""
         return weigh(self.problem, hypothesis.chosen, background, hypothesis.noise)
 
-    def without(self, hypothesis: Hypothesis, removed: Iterable[int], steps: int = NOISE_STEPS) -> Hypothesis:
-        """The hypothesis without some candidates; with one step at the noise as it is."""
+    def without(self, hypothesis: Hypothesis, removed: Iterable[int]) -> Hypothesis:
+        """The hypothesis without some candidates."""
+        return weigh(self.problem, self._kept(hypothesis, removed), hypothesis.background, hypothesis.noise)
+
+    def _kept(self, hypothesis: Hypothesis, removed: Iterable[int]) -> tuple[Chosen, ...]:
+        """The effects without some candidates, and without what rested on them."""
         left = hypothesis.candidates - set(removed)
-        # what rested on them goes with them
         left = frozenset(c for c in left if self.problem.pool.stands(left & {c} | (left - self._resting())))
-        kept = tuple(c for c in hypothesis.chosen if c.candidate in left)
-        return weigh(self.problem, kept, hypothesis.background, hypothesis.noise, steps)
+        return tuple(c for c in hypothesis.chosen if c.candidate in left)
 
     def _resting(self) -> frozenset[int]:
         return frozenset(self.problem.pool.resting)
@@ -193,26 +204,35 @@ class Search:
             for size in range(len(BACKGROUND_SIZES) if family == 0 else FAMILY_SIZES):
                 background = (*best.background[:family], size, *best.background[family + 1 :])
                 if len(columns) and background != best.background:
-                    best = max(best, weigh(self.problem, best.chosen, background, best.noise), key=_value)
+                    best = self._better(best, best.chosen, background)
         for number, chosen in enumerate(best.chosen):
             for size in range(len(self.problem.sizes)):
                 if abs(size - chosen.size) == 1:
                     other = (*best.chosen[:number], Chosen(chosen.candidate, size), *best.chosen[number + 1 :])
-                    best = max(best, weigh(self.problem, other, best.background, best.noise), key=_value)
+                    best = self._better(best, other, best.background)
         return best
+
+    def _better(self, best: Hypothesis, chosen: tuple[Chosen, ...], background: Background) -> Hypothesis:
+        """The better of a hypothesis and another on its columns, which is weighed only if it promises to be."""
+        promised = changed(self.problem, best, chosen, background)
+        if promised is not None and promised.value < best.value - SLACK_NATS:
+            return best
+        return max(best, weigh(self.problem, chosen, background, best.noise), key=_value)
 
     def _moves(self, hypothesis: Hypothesis) -> list[Hypothesis]:
         """Additions; swaps of one effect for another; merges of all effects in one region; splits of curves."""
-        moves = self.additions(hypothesis, self.branches, least=-SLACK_NATS)
+        whole = left(self.problem, self.groups.competing, hypothesis)
+        moves = self.additions(hypothesis, self.branches, least=-SLACK_NATS, remaining=whole)
         for c in hypothesis.chosen:
             if self.placed(c.candidate).reading == "curve":
                 moves += self._split(hypothesis, c)
         groups = [(c.candidate,) for c in hypothesis.chosen] + self._regions(hypothesis) + self._drifting(hypothesis)
         for removed in groups:
             # at the noise as it is: without what is taken out the noise would be larger, and fine detail worth nothing
-            rest = self.without(hypothesis, removed, steps=1)
+            rest = changed(self.problem, hypothesis, self._kept(hypothesis, removed), hypothesis.background)
+            assert rest is not None
             least = hypothesis.value - rest.value - SLACK_NATS
-            moves += self.additions(rest, self.branches, without=removed, least=least)
+            moves += self.additions(rest, self.branches, removed, least, rest.left(whole))
         return [
             *moves,
             *self._from_background(hypothesis),
