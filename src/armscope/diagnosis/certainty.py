@@ -10,7 +10,7 @@ import numpy as np
 from armscope.diagnosis.evidence import Hypothesis, Problem
 from armscope.diagnosis.naming import named, rest_of
 from armscope.diagnosis.problem import Gram
-from armscope.diagnosis.search import LARGE, Search
+from armscope.diagnosis.search import LARGE, SLACK_NATS, Search
 from armscope.diagnosis.verdict import Alternative, Specific
 from armscope.physics.effect import Placed, region
 from armscope.physics.elastic import JOINT_COMPLIANCE
@@ -22,6 +22,8 @@ LISTED_NATS_OF_SPECIAL_CASES = 40.0
 TELLS_APART_NATS = 3.0
 """Evidence of 20 to 1: two readings closer than this are both named."""
 LOOKED_AT = 12
+COARSELY = 0.25
+"""Where taking an effect out costs much, the noise is another one without it: predictions miss less than this share."""
 
 
 def alternatives(search: Search, best: Hypothesis, candidate: int) -> list[tuple[float, Placed, Hypothesis]]:
@@ -38,7 +40,11 @@ def alternatives(search: Search, best: Hypothesis, candidate: int) -> list[tuple
     nearest: dict[tuple[str, str], tuple[float, Placed, Hypothesis]] = {}
     paid = _price_of_curve(search, candidate) if rest else 0.0
     lines = {p.location: p for p in search.problem.pool.candidates if p.effect is JOINT_COMPLIANCE and not p.variant}
-    for other in search.additions(base, LOOKED_AT, without=[candidate]):
+    # what a coarse prediction puts far behind is not weighed
+    listed_nats = LISTED_NATS_OF_SPECIAL_CASES if search.placed(candidate).reading == "curve" else LISTED_NATS
+    lost = best.value - base.value
+    least = lost - paid - listed_nats - COARSELY * max(lost, 0.0) - SLACK_NATS
+    for other in search.additions(base, LOOKED_AT, [candidate], least):
         placed = search.placed(other.chosen[-1].candidate)
         gap = best.value - other.value - paid
         curve = search.placed(candidate).reading == "curve"

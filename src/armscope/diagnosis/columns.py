@@ -65,7 +65,7 @@ class Arrangement:
         """(p, p) products of all terms, from sums in ``order`` of which the blocks above the diagonal are filled."""
         for above, below in itertools.combinations(self.slices, 2):
             products[below, above] = products[above, below].T
-        return products[np.ix_(self.back, self.back)]
+        return products.take(self.back, axis=0).take(self.back, axis=1)
 
 
 def arranged(terms: Sequence[Term]) -> Arrangement:
@@ -114,12 +114,12 @@ class Stack:
         return self.others.reshape(len(self.others), math.prod(self.others.shape[1:]))
 
     def combined(self, values: Array) -> Array:
-        """(c, n) sum of the columns times ``values``, which stand in the arrangement's order."""
+        """(..., c, n) sums of the columns times ``values`` (..., p), which stand in the arrangement's order."""
         first, *rest = self.arrangement.slices
-        total = (values[first] @ self.flat).reshape(self.others.shape[1:])
+        total = (values[..., first] @ self.flat).reshape(*values.shape[:-1], *self.others.shape[1:])
         for at, lever, drivers in zip(rest, self.levers, self.drivers, strict=True):
-            if np.any(values[at]):
-                total += lever * (values[at] @ drivers)
+            if np.any(values[..., at]):
+                total += lever * (values[..., at] @ drivers)[..., None, :]
         return np.asarray(total)
 
     def onto(self, y: Array) -> Array:

@@ -244,7 +244,7 @@ ROUNDING = 1e-11
 def lower_factor(G: Array, ridge: Array) -> Array:
     """Cholesky factor (lower) of G + diag(ridge); a ridge below rounding is raised to it (few rows, fitted exactly)."""
     A = G.copy()
-    A[np.diag_indices_from(A)] += np.maximum(ridge, ROUNDING * np.diag(G))
+    A.reshape(-1)[:: len(A) + 1] += np.maximum(ridge, ROUNDING * np.diag(G))
     # the transpose of a symmetric matrix: itself, in the order that LAPACK works in without another copy
     factor, failed = dpotrf(A.T, lower=1, clean=1, overwrite_a=1)
     if failed:

@@ -173,6 +173,13 @@ def _price(
     return price(problem, chosen, background, mean / np.sqrt(np.maximum(variance, 1e-300)))
 
 
+def roughly_lost(problem: Problem, hypothesis: Hypothesis, kept: tuple[Chosen, ...]) -> float:
+    """Nats lost with only some effects kept, of which the noise, if it were free, would take up some by growing."""
+    rest = changed(problem, hypothesis, kept, hypothesis.background)
+    assert rest is not None
+    return problem.n / 2 * float(np.log1p(2 * max(hypothesis.value - rest.value, 0.0) / problem.n))
+
+
 def gains(problem: Problem, groups: Groups, hypothesis: Hypothesis) -> tuple[Array, Indices]:
     """What each candidate would add to a hypothesis' value at its best size, nats, and the index of that size."""
     by_size = gains_by_size(problem, groups, hypothesis)

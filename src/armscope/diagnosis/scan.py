@@ -283,8 +283,12 @@ def _step_sums(
             # the response before any effect
             y = y + (columns(seen, present) @ values[active]).reshape(y.shape)
         X, E = (columns(seen, wanted).reshape(*y.shape, -1) for wanted in (model_terms, terms))
-        np.add.at(own, segment[part], np.einsum("nic,nid->ncd", E, E))
-        np.add.at(cross, segment[part], np.einsum("nik,nic->nkc", X, E, optimize=True))
-        np.add.at(b, segment[part], np.einsum("ni,nic->nc", y, E))
+        starts = np.flatnonzero(np.diff(segment[part], prepend=-1))
+        for total, products in (
+            (own, np.swapaxes(E, 1, 2) @ E),
+            (cross, np.swapaxes(X, 1, 2) @ E),
+            (b, np.einsum("ni,nic->nc", y, E)),
+        ):
+            total[segment[part][starts]] += np.add.reduceat(products, starts, axis=0)
     own, cross, b = (np.cumsum(x[::-1], axis=0)[::-1][1:] for x in (own, cross, b))
     return Blocks(own, cross, b)

@@ -25,7 +25,18 @@ from armscope.diagnosis.evidence import (
     pinned_losses,
     weigh,
 )
-from armscope.diagnosis.gains import Changed, Groups, Left, changed, gains, gains_by_size, group, joint_gains, left
+from armscope.diagnosis.gains import (
+    Changed,
+    Groups,
+    Left,
+    changed,
+    gains,
+    gains_by_size,
+    group,
+    joint_gains,
+    left,
+    roughly_lost,
+)
 from armscope.diagnosis.problem import Pool
 from armscope.physics.backgrounds import FAMILIES
 from armscope.physics.drift import BASE_DRIFT
@@ -128,12 +139,9 @@ class Search:
         least: float = -np.inf,
         remaining: Left | None = None,
     ) -> list[Hypothesis]:
-        """The ``count`` most promising hypotheses with one effect more; a curve takes its special cases' place.
+        """The ``count`` most promising hypotheses with one effect more, not ``without``, that gain more than ``least``.
 
-        Args:
-            without: candidates that are not added.
-            least: gains up to this, nats, are not worth a look.
-            remaining: what the parent leaves of the columns that compete.
+        A curve takes its special cases' place. ``remaining`` is what the parent leaves of the columns that compete.
         """
         asked = np.ones(len(self.problem.costs), dtype=np.bool_)
         clashes = self.problem.pool.clashes
@@ -366,9 +374,15 @@ class Search:
 
     def faintest(self, hypothesis: Hypothesis) -> Chosen | None:
         """The chosen effect that is least worth its price, if one is not."""
-        worths = [(self.worth(hypothesis, c.candidate), n) for n, c in enumerate(hypothesis.chosen) if not c.within]
+        own = [(n, c.candidate) for n, c in enumerate(hypothesis.chosen) if not c.within]
+        worths = [(self.worth(hypothesis, c), n) for n, c in own if self._doubtful(hypothesis, c)]
         worth, weakest = min(worths, default=(np.inf, 0))
         return hypothesis.chosen[weakest] if worth < SURE_NATS else None
+
+    def _doubtful(self, hypothesis: Hypothesis, candidate: int) -> bool:
+        """Whether an effect may not be worth its price."""
+        kept = self._kept(hypothesis, [candidate])
+        return self.held(hypothesis, candidate) or roughly_lost(self.problem, hypothesis, kept) < SLACK_NATS
 
     def paying(self, hypothesis: Hypothesis) -> Hypothesis:
         """Without the names that are not worth their price, the weakest first."""

@@ -26,8 +26,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solve_triangular
 
+from armscope.diagnosis.columns import component_rows
 from armscope.diagnosis.evidence import SURE_NATS, forward, lower_factor
-from armscope.diagnosis.problem import chunks, component_rows, response
+from armscope.diagnosis.problem import chunks, response
 from armscope.diagnosis.refit import Refit
 from armscope.diagnosis.verdict import Notice
 from armscope.physics.effect import AXES, ONE, Direction, motor, term

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.diagnosis.columns import columns
+from armscope.diagnosis.columns import columns, stacked
 from armscope.diagnosis.evidence import PERFECT, Chosen, Hypothesis, Problem, weigh
 from armscope.diagnosis.problem import Gram, Pool, chunks, pool_values, response, total
 from armscope.diagnosis.search import LARGE, STARTS, Search
@@ -166,15 +166,16 @@ def left_over(rows: Rows, pool: Pool, values: Array, number: Indices | None = No
     """
     values = values if number is not None else values[None]
     number = np.zeros(len(rows.recordings), dtype=np.intp) if number is None else number
-    current = pool_values(pool, rows.point)
+    arrangement, current = pool.arrangement, pool_values(pool, rows.point)
+    added = (values - current)[:, :, arrangement.order]
     left = np.empty((values.shape[1], len(rows.recordings), 3 if rows.recordings.orientation is None else 6))
     for part, posture in chunks(rows.point, rows.recordings):
         lens = _plain(posture)
-        X, y = columns(posture.through(lens), pool.terms), response(rows.point, posture, lens)
+        seen, y = stacked(posture.through(lens), arrangement), response(rows.point, posture, lens)
         for f in np.unique(number[part]):
-            inside = number[part] == f
-            modelled = X[np.repeat(inside, lens.numbers)] @ (values[f] - current).T
-            left[:, part[inside]] = y[inside] - np.moveaxis(modelled.reshape(-1, lens.numbers, len(left)), 2, 0)
+            inside = np.flatnonzero(number[part] == f)
+            modelled = seen.at(inside).combined(added[f])
+            left[:, part[inside]] = y[inside] - np.swapaxes(modelled, 1, 2)
     if rows.recordings.orientation is not None:
         left[:, ~np.isfinite(rows.recordings.orientation).all(axis=1), 3:] = np.nan
     return left
