@@ -38,9 +38,9 @@ from armscope.diagnosis.gains import (
     roughly_lost,
 )
 from armscope.diagnosis.problem import Pool
+from armscope.diagnosis.together import taken_out
 from armscope.physics.backgrounds import FAMILIES
-from armscope.physics.drift import BASE_DRIFT
-from armscope.physics.effect import Placed, region
+from armscope.physics.effect import Placed
 from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
 
 BEAM = 3
@@ -234,8 +234,7 @@ class Search:
         for c in hypothesis.chosen:
             if self.placed(c.candidate).reading == "curve":
                 moves += self._split(hypothesis, c)
-        groups = [(c.candidate,) for c in hypothesis.chosen] + self._regions(hypothesis) + self._drifting(hypothesis)
-        for removed in groups:
+        for removed in taken_out(self.problem.pool, [c.candidate for c in hypothesis.chosen]):
             # at the noise as it is: without what is taken out the noise would be larger, and fine detail worth nothing
             rest = changed(self.problem, hypothesis, self._kept(hypothesis, removed), hypothesis.background)
             assert rest is not None
@@ -314,19 +313,6 @@ class Search:
         if rest.value + promised[best] < hypothesis.value - SLACK_NATS:
             return []
         return [self._pruned(weigh(self.problem, (*rest.chosen, *sets[best]), rest.background, rest.noise))]
-
-    def _regions(self, hypothesis: Hypothesis) -> list[tuple[int, ...]]:
-        by_region: dict[str, list[int]] = {}
-        for c in hypothesis.chosen:
-            by_region.setdefault(region(self.placed(c.candidate)), []).append(c.candidate)
-        return [tuple(members) for members in by_region.values() if len(members) > 1]
-
-    def _drifting(self, hypothesis: Hypothesis) -> list[tuple[int, ...]]:
-        """A drift and one more effect of the base, which a drift with other pauses may hold, where there are such."""
-        base = [c.candidate for c in hypothesis.chosen if self.placed(c.candidate).location == "base"]
-        drifts = [c for c in base if self.placed(c).effect is BASE_DRIFT]
-        with_pauses = any(p.effect is BASE_DRIFT and p.tried > 1 for p in self.problem.pool.candidates)
-        return [(drift, other) for drift in drifts for other in base if other != drift] if with_pauses else []
 
     def refined(self, hypothesis: Hypothesis) -> Hypothesis:
         """With the finer form of a curve in its place wherever the evidence is for it."""
