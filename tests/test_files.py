@@ -1,6 +1,8 @@
 """Files are written whole or not at all."""
 
 import json
+import subprocess
+import sys
 
 import numpy as np
 import pandas as pd
@@ -35,3 +37,15 @@ def test_the_same_table_has_the_same_bytes_even_compressed(tmp_path):
 def test_json_has_plain_numbers_and_null_for_what_is_not_one(tmp_path):
     write_json(tmp_path / "a.json", {"a": np.float64(1.5), "b": np.array([1, 2]), "c": float("nan")})
     assert json.loads((tmp_path / "a.json").read_text()) == {"a": 1.5, "b": [1, 2], "c": None}
+
+
+def test_what_a_killed_process_leaves_is_no_table_to_anybody(tmp_path):
+    code = (
+        "import os, signal, sys\nfrom armscope.files import replacing\n"
+        "with replacing(sys.argv[1]) as beside:\n"
+        "    beside.write_text('half')\n    os.kill(os.getpid(), signal.SIGKILL)\n"
+    )
+    subprocess.run([sys.executable, "-c", code, tmp_path / "table.csv"], check=False)
+    left = list(tmp_path.iterdir())
+    assert [path.suffix for path in left] == [".part"]
+    assert list(tmp_path.glob("*.csv")) == []

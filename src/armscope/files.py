@@ -85,10 +85,13 @@ def _unreadable(path: Path | str, what: str, error: OSError) -> InputError:
 
 @contextlib.contextmanager
 def replacing(path: Path | str) -> Iterator[Path]:
-    """A temporary path beside ``path`` that takes its name when the block ends well, and vanishes when it doesn't."""
+    """A temporary path beside ``path`` that takes its name when the block ends well, and vanishes when it doesn't.
+
+    Where the process is killed, a hidden ``.part`` stays behind, which nobody takes for a finished file.
+    """
     path = Path(path)
     writable(path.parent)
-    handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=path.parent)
+    handle, name = tempfile.mkstemp(prefix=f".{path.name}-", suffix=".part", dir=path.parent)
     os.close(handle)
     beside = Path(name)
     try:

@@ -79,7 +79,7 @@ def import_recordings(raw_files: list[Path], mapping_file: Path | str, output: P
     runs = runs_for(mapping, [Path(path) for path in raw_files], mapping_file)
     columns = _table_columns(mapping, [run for run, _ in runs])
     report = ImportReport(Path(output), tuple(columns), [])
-    with replacing(output) as beside, _writing(beside) as stream:
+    with replacing(output) as beside, _writing(beside, Path(output).suffix == ".gz") as stream:
         stream.write(",".join(columns) + "\n")
         for run, paths in runs:
             report.runs.append(RunReport(run.run, run.file))
@@ -138,8 +138,8 @@ def _check_output(output: Path, inputs: list[Path]) -> None:
 
 
 @contextlib.contextmanager
-def _writing(path: Path) -> Iterator[IO[str]]:
-    if path.suffix != ".gz":
+def _writing(path: Path, compressed: bool) -> Iterator[IO[str]]:
+    if not compressed:
         with path.open("w", encoding="utf-8", newline="") as stream:
             yield stream
         return
