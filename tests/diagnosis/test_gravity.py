@@ -71,3 +71,13 @@ def test_a_real_arm_on_a_wedge_tells_what_its_levelled_tracker_tells() -> None:
     assert np.degrees(found.angle) > 13
     # its masses are guessed, and so is how they pull
     assert np.degrees(apart) < 5
+
+
+def test_an_arm_that_hangs_is_not_taken_for_one_that_stands() -> None:
+    """Every moment is turned round: what gives way would have to do so against its load."""
+    upright = arm_named("six-axis")
+    hanging = build_arm(upright.description.model_copy(update={"gravity_m_s2": (0.0, 0.0, 9.81)}))
+    table = recorded(hanging, one_run(hanging, 150, 3), DRIVES, 0.02, seed=4)
+    verdict = diagnose(upright, table, FREE)
+    assert "gravity estimated" in {notice.kind for notice in verdict.notices}
+    assert np.degrees(np.arccos(verdict.model.arm.gravity[2] / 9.81)) < 3

@@ -13,13 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
+from scipy.special import log_ndtr
 
 from armscope.diagnosis import robust
-from armscope.diagnosis.evidence import BACKGROUND_SIZES, FAMILY_SIZES, SURE_NATS, problem, weigh
+from armscope.diagnosis.evidence import BACKGROUND_SIZES, FAMILY_SIZES, SURE_NATS, Hypothesis, Problem, problem, weigh
 from armscope.diagnosis.noise import Noise
 from armscope.diagnosis.problem import accumulate, pool, residuals, total
 from armscope.diagnosis.weights import RowWeights
-from armscope.physics.backgrounds import backgrounds
+from armscope.physics.backgrounds import FAMILIES, backgrounds
 from armscope.physics.frames import free_frames
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
@@ -28,7 +29,7 @@ from armscope.robot.arm import build_arm
 
 Array = NDArray[np.float64]
 
-LEANS_TRIED = (0.2, 0.5, 0.9)
+LEANS_TRIED = (0.2, 0.5, 0.9, 1.6, 2.4, 3.1)
 AZIMUTHS = 8
 """Where the search starts: the stated direction and these leans (rad) towards so many sides."""
 CLOSE_RAD, FIRST_STEP_RAD = 1e-3, 0.1
@@ -119,7 +120,15 @@ class _Valley:
         start = max(made.mismatch, 1e-4)
         geometric = (0, len(BACKGROUND_SIZES) - 1)
         sizes = [(g, e, 0) for g in geometric for e in range(1, FAMILY_SIZES)]
-        return -max(weigh(made, (), size, start).value for size in sizes)
+        weighed = (weigh(made, (), size, start) for size in sizes)
+        return -max(each.value + _gives_along(made, each) for each in weighed)
+
+
+def _gives_along(made: Problem, hypothesis: Hypothesis) -> float:
+    """Nats for what gives way along its load, not against it: gravity turned round turns all of it round."""
+    at = np.searchsorted(hypothesis.columns, made.pool.background[FAMILIES.index("elastic")])
+    stderr = hypothesis.noise * np.sqrt(np.sum(hypothesis.inverse[:, at] ** 2, axis=0))
+    return float(np.sum(np.log(2) + log_ndtr(hypothesis.mean[at] / stderr)))
 
 
 def _curvature(valley: _Valley, at: Array) -> Array:
