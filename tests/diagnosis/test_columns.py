@@ -6,8 +6,9 @@ import pytest
 from armscope.diagnosis.columns import Stack, arranged, component_rows, stacked
 from armscope.diagnosis.frames import fit_frames
 from armscope.physics.effect import Driver, Term, motor, term
+from armscope.physics.lens import Lens
 from armscope.physics.registry import library
-from armscope.physics.scene import Lens, Posture
+from armscope.physics.scene import Posture
 from tests.diagnosis.planted import planted
 
 ROWS = 30

@@ -13,9 +13,10 @@ from armscope.physics.drift import base_shift, tool_shift
 from armscope.physics.effect import Placed
 from armscope.physics.elastic import JOINT_COMPLIANCE
 from armscope.physics.frames import free_frames
+from armscope.physics.lens import Lens
 from armscope.physics.payload import payload_errors
 from armscope.physics.registry import EFFECTS, library
-from armscope.physics.scene import Lens, Part, Scene
+from armscope.physics.scene import Part, Scene
 from armscope.physics.transmission import mesh
 from armscope.recordings import Recordings
 

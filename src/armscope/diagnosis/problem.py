@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -18,8 +18,9 @@ from numpy.typing import NDArray
 from armscope.diagnosis.columns import Arrangement, arranged, stacked
 from armscope.diagnosis.weights import Missed, RowWeights
 from armscope.physics.effect import Placed, Term, clash
+from armscope.physics.lens import Lens
 from armscope.physics.model import FittedModel
-from armscope.physics.scene import Lens, Posture, Scene
+from armscope.physics.scene import Posture, Scene
 from armscope.recordings import Recordings
 
 Array = NDArray[np.float64]
@@ -164,12 +165,21 @@ class Gram:
         return float(self.yy - 2 * self.b @ coefficients + coefficients @ self.G @ coefficients)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class Kept:
-    """The order of a table's rows, and the scenes of its chunks once they were computed."""
+    """What is kept of a table between passes: the order of its rows, and chunk by chunk what was computed last.
+
+    Attributes:
+        order: (N,) of the rows.
+        scenes: (rows, scene) of each chunk, once they were computed.
+        model: whose postures are kept.
+        postures: how that model stands at each chunk.
+    """
 
     order: Indices
-    scenes: list[tuple[Indices, Scene]]
+    scenes: list[tuple[Indices, Scene]] = field(default_factory=list)
+    model: FittedModel | None = None
+    postures: list[Posture] = field(default_factory=list)
 
 
 _KEPT: WeakKeyDictionary[Recordings, Kept] = WeakKeyDictionary()
@@ -183,7 +193,7 @@ def keep_drivers(recordings: Recordings, order: Indices) -> Recordings:
     """
     table = replace(recordings)
     if len(table) <= KEPT_ROWS:
-        _KEPT[table] = Kept(order, [])
+        _KEPT[table] = Kept(order)
     return table
 
 
@@ -191,24 +201,22 @@ def chunks(
     model: FittedModel, recordings: Recordings, order: Indices | None = None
 ) -> Iterator[tuple[Indices, Posture]]:
     """(rows, posture) of the model, chunk by chunk; in an order of rows, where one is given."""
-    yield from ((rows, model.posture(scene)) for rows, scene in _scenes(model, recordings, order))
-
-
-def _scenes(model: FittedModel, recordings: Recordings, order: Indices | None) -> Iterator[tuple[Indices, Scene]]:
     kept = _KEPT.get(recordings)
-    if kept is not None and kept.scenes:
-        yield from kept.scenes
+    if kept is None:
+        order = np.arange(len(recordings)) if order is None else order
+        yield from ((rows, model.posture(scene)) for rows, scene in _scenes(model, recordings, order))
         return
-    order = kept.order if kept is not None else np.arange(len(recordings)) if order is None else order
-    seen = []
+    kept.scenes = kept.scenes or list(_scenes(model, recordings, kept.order))
+    if kept.model is not model:
+        kept.postures = [model.posture(scene) for _, scene in kept.scenes]
+        kept.model = model
+    yield from ((rows, posture) for (rows, _), posture in zip(kept.scenes, kept.postures, strict=True))
+
+
+def _scenes(model: FittedModel, recordings: Recordings, order: Indices) -> Iterator[tuple[Indices, Scene]]:
     for start in range(0, len(recordings), CHUNK_ROWS):
         rows = order[start : start + CHUNK_ROWS]
-        scene = model.scene(recordings.rows(rows))
-        if kept is not None:
-            seen.append((rows, scene))
-        yield rows, scene
-    if kept is not None:
-        kept.scenes.extend(seen)
+        yield rows, model.scene(recordings.rows(rows))
 
 
 def residuals(model: FittedModel, recordings: Recordings) -> Array:

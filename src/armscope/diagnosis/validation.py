@@ -15,8 +15,9 @@ from armscope.diagnosis.search import LARGE, STARTS, Search
 from armscope.diagnosis.verdict import HeldOut, WaterfallStep
 from armscope.diagnosis.weights import COUNTS, RowWeights
 from armscope.physics.effect import Term
+from armscope.physics.lens import Lens
 from armscope.physics.model import FittedModel
-from armscope.physics.scene import Lens, Posture
+from armscope.physics.scene import Posture
 from armscope.recordings import Recordings
 
 Array = NDArray[np.float64]

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.diagnosis import robust
-from armscope.physics.scene import Lens
+from armscope.physics.lens import Lens
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]

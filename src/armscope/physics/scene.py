@@ -7,6 +7,7 @@ gives way, once more where the arm stands with that: what is left is of third or
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass, field, replace
@@ -17,6 +18,7 @@ from numpy.typing import NDArray
 
 from armscope.physics import drivers
 from armscope.physics.effect import AXES, Direction, Driver, Placed, Term
+from armscope.physics.lens import Lens
 from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain, twist_jacobian
 from armscope.robot.gravity import gravity_wrenches
@@ -67,9 +69,10 @@ class Scene:
 
     def remember(self, key: Any, compute: Callable[[], Any]) -> Any:
         """The value of ``compute()``, computed once."""
-        if key not in self._memory:
-            self._memory[key] = compute()
-        return self._memory[key]
+        try:
+            return self._memory[key]
+        except KeyError:
+            return self._memory.setdefault(key, compute())
 
     def driver(self, driver: Driver) -> Array:
         """Values (N,) of a driver."""
@@ -220,28 +223,32 @@ class Scene:
 
     def twists(self, parts: Sequence[Part]) -> dict[str, Array]:
         """Twists (N, 6) by frame of all parts together, SI units; motor turns become turns of the chain's joints."""
-        twists: dict[str, Array] = {}
+        amounts: dict[Direction, Array] = {}
 
-        def add(location: str, axis: int, amount: Array) -> None:
-            if location not in twists:
-                twists[location] = np.zeros((len(self), 6))
-            twists[location][:, axis] += amount
+        def add(direction: Direction, amount: Array) -> None:
+            amounts[direction] = amounts[direction] + amount if direction in amounts else amount
 
         for part in parts:
             if part.placed.name == "parallelogram_geometry":
-                add(f"joint {LINKAGE_JOINT}", 5, self._closed_loop(part))
+                add(Direction(f"joint {LINKAGE_JOINT}", "rz"), self._closed_loop(part))
                 continue
             for value, term in zip(part.values, part.placed.terms, strict=True):
-                for product in term.products:
-                    amount = value * product.factor * self.driver(product.driver)
-                    direction = product.direction
-                    if direction.location.startswith("motor"):
-                        j = int(direction.location.split()[1]) - 1
-                        for joint in np.flatnonzero(self.arm.actuation[:, j]):
-                            add(f"joint {joint + 1}", 5, self.arm.actuation[joint, j] * amount)
-                    elif direction.location != "instrument":
-                        add(direction.location, AXES.index(direction.axis), amount)
+                for product in term.products if value else ():
+                    add(product.direction, value * product.factor * self.driver(product.driver))
+        twists: dict[str, Array] = {}
+        for direction, amount in amounts.items():
+            for location, axis, share in self._moved_by(direction):
+                twists.setdefault(location, np.zeros((len(self), 6)))[:, axis] += share * amount
         return twists
+
+    def _moved_by(self, direction: Direction) -> Iterator[tuple[str, int, float]]:
+        """The frames that move in a direction, the axes along or about which they do, and by how much."""
+        if direction.location.startswith("motor"):
+            j = int(direction.location.split()[1]) - 1
+            for joint in np.flatnonzero(self.arm.actuation[:, j]):
+                yield f"joint {joint + 1}", AXES.index("rz"), float(self.arm.actuation[joint, j])
+        elif direction.location != "instrument":
+            yield direction.location, AXES.index(direction.axis), 1.0
 
     def _closed_loop(self, part: Part) -> Array:
         """The forearm's turn with the bars' lengths in error, the loop closed exactly, rad."""
@@ -292,6 +299,7 @@ LOADS = frozenset(
 """Drivers that depend on where the arm stands."""
 
 
+@functools.lru_cache(maxsize=100_000)
 def follows_load(driver: Driver) -> bool:
     """Whether a driver is a load, or a function of one."""
     inner = (argument for argument in driver.arguments if isinstance(argument, Driver))
@@ -303,31 +311,6 @@ def _gives_way(part: Part) -> bool:
     return bool(np.any(part.values)) and any(
         follows_load(product.driver) for term in part.placed.terms for product in term.products
     )
-
-
-@dataclass(frozen=True, eq=False)
-class Lens:
-    """How much of a row's motion counts.
-
-    Attributes:
-        shift: (N, 3, 3) what displacements are multiplied by: the root of a row's weight, and its whitening.
-        turn: (N,) m/rad, by which turns of the tool count beside displacements; None: turns don't count.
-    """
-
-    shift: Array
-    turn: Array | None = None
-
-    @property
-    def numbers(self) -> int:
-        """How many numbers a row has."""
-        return 3 if self.turn is None else 6
-
-    def through(self, shift: Array, turn: Array) -> Array:
-        """(N, 3 or 6) displacements (N, 3), and turns (N, 3) rad where they count, as they are seen."""
-        shifted = np.einsum("nij,nj->ni", self.shift, shift)
-        if self.turn is None:
-            return shifted
-        return np.concatenate([shifted, self.turn[:, None] * turn], axis=1)
 
 
 @dataclass(eq=False)
