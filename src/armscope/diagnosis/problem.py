@@ -114,10 +114,11 @@ class Pool:
 
     def of(self, placed: Placed) -> Indices:
         """Columns of an effect whose terms are all in the pool."""
-        index = self._index()
-        return np.array([index[term] for term in placed.terms])
+        return np.array([self.index[term] for term in placed.terms])
 
-    def _index(self) -> dict[Term, int]:
+    @functools.cached_property
+    def index(self) -> dict[Term, int]:
+        """Where each term stands among the columns."""
         return {term: number for number, term in enumerate(self.terms)}
 
 
@@ -282,7 +283,8 @@ def accumulate(
             yy[block] += np.vdot(yb, yb)
             n[block] += numbers[at].sum()
     back = arrangement.back
-    return [Gram(arrangement.whole(G[k]), b[k][back], float(yy[k]), float(n[k])) for k in range(count)]
+    # one after the other: each has millions of numbers
+    return [Gram(arrangement.whole(G.pop(0)), b[k][back], float(yy[k]), float(n[k])) for k in range(count)]
 
 
 def _where(inside: NDArray[np.bool_]) -> slice | Indices:
@@ -293,11 +295,10 @@ def _where(inside: NDArray[np.bool_]) -> slice | Indices:
 
 def pool_values(pool: Pool, model: FittedModel) -> Array:
     """(p,) the model's values of the pool's terms (frames count as zero: they are part of the linearisation point)."""
-    index = {term: number for number, term in enumerate(pool.terms)}
     values = np.zeros(len(pool.terms))
     for part in (*model.background, *model.parts):
         for term, value in zip(part.placed.terms, part.values, strict=True):
-            values[index[term]] += value
+            values[pool.index[term]] += value
     return values
 
 

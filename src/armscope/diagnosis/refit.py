@@ -193,12 +193,11 @@ def _updated(
     share: float,
 ) -> FittedModel:
     """The model with new values, or a share of the way there; frame columns are increments where it stands."""
-    index = {term: number for number, term in enumerate(parts.terms)}
     present = pool_values(parts, model)
     values = present + share * (values - present)
 
     def new(placed: Placed) -> Array:
-        return values[[index[term] for term in placed.terms]]
+        return values[[parts.index[term] for term in placed.terms]]
 
     moved = moved_frames(model, dict(zip(parts.terms, values, strict=True)))
     return replace(
