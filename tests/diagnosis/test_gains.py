@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from armscope.diagnosis import evidence
+from armscope.diagnosis import evidence, gains
 from armscope.diagnosis.evidence import Chosen, Hypothesis, Problem, weigh
 from armscope.diagnosis.frames import fit_frames
 from armscope.diagnosis.gains import changed, gains_by_size, group, left
@@ -91,3 +91,13 @@ def test_only_what_is_asked_is_answered(setting: Problem) -> None:
     some = gains_by_size(setting, groups, hypothesis, asked)
     np.testing.assert_array_equal(some[:, asked], everything[:, asked])
     assert np.all(np.isneginf(some[:, ~asked]))
+
+
+def test_sets_of_many_columns_gain_the_same_by_factors_as_by_eigenvalues(
+    setting: Problem, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    hypothesis, groups = whole(setting, (2, 0, 0)), group(setting.pool)
+    assert max(columns.shape[1] for columns in groups.columns) > gains.MANY_COLUMNS
+    by_factors = gains_by_size(setting, groups, hypothesis)
+    monkeypatch.setattr(gains, "MANY_COLUMNS", 1000)
+    np.testing.assert_allclose(by_factors, gains_by_size(setting, groups, hypothesis), rtol=1e-8, atol=1e-7)

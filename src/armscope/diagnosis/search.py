@@ -221,8 +221,8 @@ class Search:
         return best
 
     def _better(self, best: Hypothesis, chosen: tuple[Chosen, ...], background: Background) -> Hypothesis:
-        """The better of a hypothesis and another on its columns, which is weighed only if it promises to be."""
-        promised = changed(self.problem, best, chosen, background)
+        """The better of a hypothesis and another one; a large one is weighed only if it promises to be."""
+        promised = changed(self.problem, best, chosen, background) if len(best.columns) > LARGE else None
         if promised is not None and promised.value < best.value - SLACK_NATS:
             return best
         return max(best, weigh(self.problem, chosen, background, best.noise), key=_value)
@@ -366,7 +366,9 @@ class Search:
         return hypothesis.chosen[weakest] if worth < SURE_NATS else None
 
     def _doubtful(self, hypothesis: Hypothesis, candidate: int) -> bool:
-        """Whether an effect may not be worth its price."""
+        """Whether an effect may not be worth its price; of small hypotheses that is weighed anyway."""
+        if len(hypothesis.columns) <= LARGE:
+            return True
         kept = self._kept(hypothesis, [candidate])
         return self.held(hypothesis, candidate) or roughly_lost(self.problem, hypothesis, kept) < SLACK_NATS
 
