@@ -11,10 +11,11 @@ from armscope.diagnosis import Settings, diagnose
 from armscope.diagnosis.verdict import Verdict
 from armscope.inputs import InputError
 from armscope.recordings import Recordings
+from armscope.report.headline import headline
 from armscope.robot import Arm
 
 from ..physics.scenes import arm_named
-from .planted import planted
+from .planted import joined, one_run, planted, recorded
 
 QUICK = Settings(resamples=0, cross_validation=False)
 
@@ -112,3 +113,26 @@ def test_a_table_without_masses_says_what_it_cannot_know() -> None:
     verdict = diagnose(bare, table, QUICK)
     assert "no loads" in kinds(verdict)
     assert verdict.effects == ()
+
+
+@pytest.mark.parametrize("wrong", ["mirrored", "metres called millimetres"])
+def test_a_run_that_fits_nothing_is_no_matter_of_bad_shots(wrong: str) -> None:
+    arm = arm_named("six-axis")
+    runs = [recorded(arm, one_run(arm, rows, seed), {}, 0.02, seed) for rows, seed in ((90, 3), (40, 4))]
+    bad = runs[1].positions * ([1.0, 1.0, -1.0] if wrong == "mirrored" else 1e-3)
+    verdict = diagnose(arm, joined(runs[0], replace(runs[1], positions=bad)), QUICK)
+    assert verdict.answer == "cannot tell"
+    assert "rows fit neither" in verdict.unexplained.description
+    assert verdict.unexplained.description.endswith("most of run 2")
+    assert "rows fit neither" in headline(verdict)
+    assert len(verdict.suspects) > 35
+    assert verdict.mismatch
+
+
+def test_a_few_bad_shots_change_no_answer() -> None:
+    arm = arm_named("six-axis")
+    table = recorded(arm, one_run(arm, 120, 3), {}, 0.02, 3)
+    table.positions[::30] += 2e-3
+    verdict = diagnose(arm, table, QUICK)
+    assert verdict.answer == "nothing missing"
+    assert len(verdict.suspects) == 4

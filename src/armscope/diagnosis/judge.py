@@ -14,7 +14,7 @@ from armscope.diagnosis.carry import carry_over
 from armscope.diagnosis.case import Evidence
 from armscope.diagnosis.found import found_effect, rest_of_a_curve, scattered_effects, with_weight
 from armscope.diagnosis.headline import headline
-from armscope.diagnosis.nameless import together, told_backgrounds, too_faint, unexplained_part
+from armscope.diagnosis.nameless import rows_apart, together, told_backgrounds, too_faint, unexplained_part
 from armscope.diagnosis.nextposes import next_poses
 from armscope.diagnosis.noise import Noise
 from armscope.diagnosis.presence import presence
@@ -83,6 +83,8 @@ def judge(
     effects = tuple(sorted([*named, *scattered], key=lambda effect: -effect.rms_at_tool_mm))
     named_or_spread = bool(effects) or any(family.present for family in background)
     unexplained = unexplained_part(effects, evidence)
+    if not unexplained.present:
+        unexplained = rows_apart(evidence)
     if not named_or_spread and not unexplained.present:
         unexplained = too_faint(presence(search))
     answer, mismatch = _answer(effects, background, unexplained)

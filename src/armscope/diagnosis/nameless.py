@@ -12,11 +12,14 @@ from armscope.diagnosis.presence import Presence
 from armscope.diagnosis.problem import Gram, contribution
 from armscope.diagnosis.search import Search
 from armscope.diagnosis.verdict import Background, FoundEffect, Unexplained
+from armscope.diagnosis.weights import COUNTS
 from armscope.physics.backgrounds import FAMILIES
 
 NOISE_EXCESS = 1.15
 """A residual this many times the stated noise is more than the noise."""
 BACKGROUND_SEEN_NATS = 5.0
+MOST_BAD_SHOTS = 0.1
+"""A larger share of rows that fit nothing is no matter of bad shots."""
 
 
 def told_backgrounds(
@@ -56,6 +59,18 @@ def unexplained_part(effects: Sequence[FoundEffect], evidence: Evidence) -> Unex
         extra = float(np.sqrt(evidence.fit.noise**2 - stated**2))
         return Unexplained(True, None, None, extra, "residual above the stated noise that follows nothing in the table")
     return Unexplained(False)
+
+
+def rows_apart(evidence: Evidence) -> Unexplained:
+    """Rows that fit nothing, where they are too many to be bad shots: another unit, another frame, another arm."""
+    apart = evidence.fit.weights.trust < COUNTS
+    if np.mean(apart) < MOST_BAD_SHOTS:
+        return Unexplained(False)
+    size = float(np.sqrt(np.mean(evidence.fit.residuals[apart] ** 2)))
+    runs = np.unique(evidence.recordings.run[apart])
+    whole = [str(run) for run in runs if run and np.mean(apart[evidence.recordings.run == run]) > COUNTS]
+    words = f"{np.count_nonzero(apart)} of {len(apart)} rows fit neither the nominal arm nor any effect"
+    return Unexplained(True, None, None, size, words + (f": most of run {', '.join(whole)}" if whole else ""))
 
 
 def too_faint(found: Presence) -> Unexplained:

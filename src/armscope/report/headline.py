@@ -76,11 +76,12 @@ def _of_what(position: int) -> str:
 
 
 def _cannot_tell(verdict: Verdict) -> str:
-    left = verdict.unexplained
-    if verdict.mismatch and left.description and left.rms_mm < FAINT * verdict.residual_after_mm:
+    left, after = verdict.unexplained, verdict.residual_after_mm
+    # larger than all that is left: it is of rows that fit nothing
+    if verdict.mismatch and left.description and not FAINT * after <= left.rms_mm <= after:
         return f"Cannot tell what is missing: {plain(left.description)}."
     if verdict.mismatch:
-        remains = millimetres(verdict.residual_after_mm)
+        remains = millimetres(after)
         return (
             f"Cannot tell what is missing: {remains} per axis remain, more than the noise, "
             "but they follow nothing that was recorded."
