@@ -85,20 +85,7 @@ def diagnose(
     found = select(start, table, noise, frames, layout.of_row, tell)
     verdict = judge(
         Evidence(
-            start,
-            table,
-            first,
-            noise,
-            notices,
-            layout,
-            found.problem,
-            found.blocks,
-            found.point,
-            found.found,
-            found.best,
-            found.fit,
-            found.scatter,
-            found.growth,
+            **vars(found), start=start, recordings=table, first=first, noise=noise, notices=notices, layout=layout
         ),
         settings.resamples,
         settings.cross_validation,

@@ -146,7 +146,7 @@ def protocol_table(splits: pd.DataFrame, reference: ReferenceRun) -> pd.DataFram
     mine = splits[splits["run"] == reference.name]
     rows = []
     for model, group in mine.groupby("model", sort=False):
-        figure = reference.figures_mm.get(str(model))  # type: ignore[call-overload]
+        figure = reference.figure(str(model))
         rows.append(
             {
                 "run": reference.name,

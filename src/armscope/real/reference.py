@@ -41,6 +41,10 @@ class ReferenceRun(Strict):
     figures_mm: dict[Literal["nominal", "offsets", "geometric", "compliance"], tuple[Millimetres, Millimetres]]
     best: Best | None = None
 
+    def figure(self, model: str) -> tuple[float, float] | None:
+        """What others reached by a model, mm: mean and standard deviation; None where there is none."""
+        return next((figure for level, figure in self.figures_mm.items() if level == model), None)
+
     @property
     def lowest(self) -> Best:
         """The figure to be reached: the best one known."""

@@ -99,7 +99,7 @@ def measure_transfers(
 
 
 def _learned_at(level: str) -> Level:
-    return "compliance" if level == COMPLIANCES else level  # type: ignore[return-value]
+    return next((known for known in LEVELS if known == level), "compliance")
 
 
 def _of_kind(learned: SetUp, applied: SetUp) -> SetUp:

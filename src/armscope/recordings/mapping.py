@@ -332,7 +332,8 @@ class Mapping(Strict):
         return self
 
     def _check_motors(self) -> None:
-        motors = {run.run: len(self.columns.with_own(run.columns).angles.columns) for run in self.runs}  # type: ignore[union-attr]
+        angles = {run.run: self.columns.with_own(run.columns).angles for run in self.runs}
+        motors = {run: len(found.columns) for run, found in angles.items() if found is not None}
         if len(set(motors.values())) > 1:
             counts = ", ".join(f"{run}: {count}" for run, count in motors.items())
             raise ValueError(f"every run has the same number of motor angles, not {counts}")

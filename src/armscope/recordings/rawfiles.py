@@ -298,7 +298,7 @@ def read_matrix(path: Path, style: MatlabFormat) -> MatrixRows:
     """
     try:
         content = scipy.io.loadmat(path)
-    except NotImplementedError as error:
+    except NotImplementedError as error:  # what scipy says of version 7.3, which is HDF5
         cure = "Save it with -v7 in MATLAB."
         raise InputError(path, "", "a MATLAB 7.3 file", "MATLAB files up to version 7.2 are read", cure) from error
     except (OSError, ValueError, TypeError, KeyError, IndexError, MatReadError) as error:

@@ -180,7 +180,7 @@ def _levels(table: pd.DataFrame, runs: Sequence[ReferenceRun]) -> str:
         cells = []
         for level in LEVELS:
             row = _row(table, run.name, level)
-            known = run.figures_mm.get(level)  # type: ignore[call-overload]
+            known = run.figure(level)
             cells.append(_spread(row) + (f" ({known[0]:g} ± {known[1]:g})" if known and row is not None else ""))
         cells.append(f"**{_spread(_row(table, run.name, ARMSCOPE), run.splits)}**")
         if turned:
