@@ -21,7 +21,7 @@ from armscope.calibration.sharing import exchanged_tool, moved_base
 from armscope.calibration.solve import Priors, Redundancy, Solved, scales_of, solve
 from armscope.calibration.splits import foretold, split
 from armscope.calibration.words import in_words
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.calibration.calibrate import Calibration
-from armscope.files import write_text, write_yaml
-from armscope.inputs import InputError, nearest
+from armscope.core.files import write_text, write_yaml
+from armscope.core.inputs import InputError, nearest
 from armscope.robot import Arm
 
 Array = NDArray[np.float64]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.calibration.geometry import Constant, columns, constants_of, corrected, turn_columns
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain, position_jacobian
 from armscope.robot.gravity import gravity_torques

@@ -10,7 +10,7 @@ from armscope.calibration.fit import UNSETTLED
 from armscope.calibration.model import GRAVITY, Level, SetUp
 from armscope.calibration.solve import Solved
 from armscope.calibration.words import SHOWN
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.recordings import Recordings
 
 Array = NDArray[np.float64]

@@ -17,7 +17,7 @@ from armscope.compensation.newton import POLE, Solution, Wanted, lever, solve, w
 from armscope.compensation.path import Frame, WantedPath, unit_doubt
 from armscope.compensation.physical import Identified, beyond_time, missing_context, with_empty_context, with_torques
 from armscope.compensation.result import Compensated
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 from armscope.robot import Arm

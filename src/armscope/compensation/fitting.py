@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.compensation.black_box import ErrorModel, Turning, domain_of
+from armscope.core.inputs import InputError
 from armscope.errormodels import FeatureSet, FitProblem, ModelSpec, fit_least_squares, fit_swarms
 from armscope.errormodels.products import ProductFeatures, fit_products
 from armscope.errormodels.regions import (
@@ -20,7 +21,6 @@ from armscope.errormodels.regions import (
     fit_regions,
     halvings_of,
 )
-from armscope.inputs import InputError
 from armscope.physics.model import Base
 from armscope.recordings import Recordings
 from armscope.robot import Arm, chain

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.recordings import Recordings
 from armscope.recordings.table import as_recordings, read_text_table
 from armscope.robot import Arm

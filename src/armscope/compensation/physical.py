@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.compensation.domain import Domain
-from armscope.files import write_json
-from armscope.inputs import InputError
+from armscope.core.files import write_json
+from armscope.core.inputs import InputError
 from armscope.physics.effect import Driver
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings

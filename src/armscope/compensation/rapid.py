@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.files import write_text
-from armscope.inputs import InputError
+from armscope.core.files import write_text
+from armscope.core.inputs import InputError
 
 Array = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from armscope.inputs import InputError, nearest
+from armscope.core.inputs import InputError, nearest
 from armscope.paper.measurements import Measurements, PoseSet
 from armscope.paper.printed import IDENTIFICATION
 from armscope.recordings import Recordings

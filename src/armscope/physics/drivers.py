@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.physics.effect import Driver
 from armscope.robot.gravity import gravity_torques, mass_moment_regressor
 

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from armscope.files import write_yaml
-from armscope.inputs import InputError, read_yaml, validate
+from armscope.core.files import write_yaml
+from armscope.core.inputs import InputError, read_yaml, validate
 from armscope.physics.effect import Direction, Driver, Effect, Placed, Product, Term
 from armscope.physics.frames import BASE_FRAME, TOOL_FRAME, ToolKey
 from armscope.physics.geometric import BACKGROUND

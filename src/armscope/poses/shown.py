@@ -10,7 +10,7 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
-from armscope.inputs import InputError, nearest
+from armscope.core.inputs import InputError, nearest
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import AXES, ONE, Placed, Term
 from armscope.physics.frames import BASE_FRAME, TOOL_FRAME

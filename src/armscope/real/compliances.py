@@ -23,13 +23,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import f as f_distribution
 
-from armscope.diagnosis import robust
-from armscope.diagnosis.checks import check_table, with_orientations
-from armscope.diagnosis.evidence import TOLERANCE
-from armscope.diagnosis.frames import fit_frames
-from armscope.diagnosis.problem import Gram, Pool, accumulate, missed, pool, total
-from armscope.diagnosis.refit import moved_frames
-from armscope.diagnosis.weights import RowNoise
+from armscope.diagnosis.preconditions import check_table, with_orientations
+from armscope.fitting.gauss_newton import moved_frames
+from armscope.fitting.linearisation import Gram, Pool, accumulate, missed, pool, total
+from armscope.fitting.registration import fit_frames
+from armscope.inference.evidence import TOLERANCE
+from armscope.measurement import robust
+from armscope.measurement.row_weights import RowNoise
 from armscope.physics import elastic, geometric
 from armscope.physics.effect import Placed
 from armscope.physics.frames import free_frames

@@ -35,7 +35,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.proof.answers import Answer, Claim, read_answer
 from armscope.proof.definitions import AXES_MM, Name, place
 from armscope.proof.intervals import Compared, compare

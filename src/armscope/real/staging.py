@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from armscope.calibration import calibrate
 from armscope.calibration.splits import split
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.recordings import Recordings, as_recordings
 from armscope.robot import Arm
 

@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from armscope.inputs import InputError, nearest
+from armscope.core.inputs import InputError, nearest
 from armscope.recordings.textfile import WORDS, read_text_table
 
 Array = NDArray[np.float64]

@@ -10,7 +10,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.robot.description import RobotDescription, load_description
 from armscope.robot.model import TIP, dh_halves, pinocchio_model
 

@@ -11,7 +11,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from armscope.inputs import InputError, nearest
+from armscope.core.inputs import InputError, nearest
 from armscope.robot.description import RobotDescription
 
 Array = NDArray[np.float64]
