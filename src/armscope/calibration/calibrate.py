@@ -22,10 +22,10 @@ from armscope.calibration.solve import Priors, Redundancy, Solved, scales_of, so
 from armscope.calibration.splits import foretold, split
 from armscope.calibration.words import in_words
 from armscope.core.inputs import InputError
+from armscope.core.types import Array
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
-Array = NDArray[np.float64]
 SUSPECT_SIGMAS = 6.0
 DECIDING_SPLITS = 3
 """Splits on which it is decided whether orientations help."""

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 from scipy.special import log_ndtr
 
+from armscope.core.types import Array
 from armscope.fitting.linearisation import accumulate, pool, residuals, total
 from armscope.inference.evidence import BACKGROUND_SIZES, FAMILY_SIZES, SURE_NATS, Hypothesis, Problem, problem, weigh
 from armscope.measurement import robust
@@ -26,8 +26,6 @@ from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.robot.arm import build_arm
-
-Array = NDArray[np.float64]
 
 LEANS_TRIED = (0.2, 0.5, 0.9, 1.6, 2.4, 3.1)
 AZIMUTHS = 8

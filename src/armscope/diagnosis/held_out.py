@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import columns, stacked
 from armscope.fitting.linearisation import Gram, Pool, chunks, pool_values, response, total
 from armscope.inference.evidence import PERFECT, Chosen, Hypothesis, Problem, weigh
@@ -19,9 +20,6 @@ from armscope.physics.model import FittedModel
 from armscope.physics.scene import Posture
 from armscope.recordings import Recordings
 from armscope.verdict.schema import HeldOut, WaterfallStep
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.intp]
 
 FOLDS = 5
 BLOCKS = 20

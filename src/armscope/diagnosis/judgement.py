@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.types import Array, Progress
 from armscope.diagnosis.held_out import Rows, cross_validate
 from armscope.diagnosis.state import Evidence
 from armscope.diagnosis.summary import alternatives as certainty
@@ -40,9 +41,6 @@ from armscope.verdict.schema import (
     Verdict,
     WaterfallStep,
 )
-
-Array = NDArray[np.float64]
-Progress = Callable[[str, float], None]
 
 SUSPECT_WEIGHT = 0.5
 LISTED_SUSPECTS = 200

@@ -9,12 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError
+from armscope.core.types import Array
 from armscope.physics.placing import STANDS_STILL_RAD, varies
 from armscope.recordings import Recordings
 from armscope.robot import Arm, forward_kinematics
 from armscope.verdict.schema import Notice
-
-Array = NDArray[np.float64]
 
 FEWEST_ROWS = 15
 """Below, frames and a handful of effects take up all there is."""

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from armscope.fitting.linearisation import Indices
+from armscope.core.types import Indices
 from armscope.inference.evidence import SURE_NATS, Chosen, Hypothesis, Problem, pinned_losses, weigh
 from armscope.inference.search import Search
 from armscope.physics.elastic import JOINT_COMPLIANCE

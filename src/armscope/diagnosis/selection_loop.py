@@ -5,12 +5,13 @@ A long table is diagnosed on a sample of its rows first; all rows then weigh wha
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.types import Array, Indices, Progress
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.scans.scanning import jumps, mesh_lines, pauses
 from armscope.fitting.gauss_newton import Refit, refit
@@ -32,9 +33,6 @@ from armscope.physics.registry import library
 from armscope.physics.scene import Part
 from armscope.recordings import Recordings
 
-Array = NDArray[np.float64]
-Indices = NDArray[np.intp]
-Progress = Callable[[str, float], None]
 State = tuple[frozenset[str], NDArray[np.bool_]]
 
 ROUNDS, FULL_ROUNDS, SCANNING_ROUNDS = 7, 2, 4

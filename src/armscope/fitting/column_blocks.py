@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.fitting.design_matrix import arranged, stacked
 from armscope.fitting.linearisation import Pool, chunks, pool_values, response
 from armscope.inference.evidence import forward
@@ -15,8 +16,6 @@ from armscope.measurement.row_weights import RowWeights
 from armscope.physics.effect import Term
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,13 +14,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from armscope.core.types import Array, Indices
 from armscope.physics.effect import Direction, Driver, Term
 from armscope.physics.scene import Posture
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.intp]
 
 MANY = 16
 """A direction with fewer terms than this is not worth a fan."""

@@ -23,9 +23,9 @@ from itertools import combinations, pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import solve_triangular
 
+from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import component_rows
 from armscope.fitting.gauss_newton import Refit
 from armscope.fitting.linearisation import chunks, response
@@ -34,9 +34,6 @@ from armscope.physics.effect import AXES, ONE, Direction, motor, term
 from armscope.physics.placing import moving_joints
 from armscope.recordings import Recordings
 from armscope.verdict.schema import Notice
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.intp]
 
 SIZES = 2.0 ** np.arange(-4, 3)
 """Sizes of a process that compete, RMS at the tool in multiples of the noise; those of all processes together are as

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from armscope.core.types import Array
 from armscope.fitting.linearisation import Gram, Pool, accumulate, missed, pool, pool_values, scales
 from armscope.fitting.registration import moved_base
 from armscope.inference.evidence import FRAME_PRIOR_MM, TOLERANCE
@@ -20,8 +20,6 @@ from armscope.physics.frames import ToolKey, tool_key
 from armscope.physics.model import FittedModel
 from armscope.physics.scene import Part
 from armscope.recordings import Recordings
-
-Array = NDArray[np.float64]
 
 STEPS = 6
 CONVERGED_MM, CONVERGED = 1e-6, 0.05

@@ -11,14 +11,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.fitting.linearisation import chunks
 from armscope.physics.effect import motor
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
-
-Array = NDArray[np.float64]
 
 RATIOS = (0.5, 1.0, 2.0, 4.0, 8.0, 16.0)
 """Scatter at the tool in multiples of the noise that compete."""

@@ -15,6 +15,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import Arrangement, arranged, stacked
 from armscope.measurement.row_weights import Missed, RowWeights
 from armscope.physics.effect import Placed, Term, clash
@@ -22,9 +23,6 @@ from armscope.physics.lens import Lens
 from armscope.physics.model import FittedModel
 from armscope.physics.scene import Posture, Scene
 from armscope.recordings import Recordings
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.intp]
 
 CHUNK_ROWS = 1500
 KEPT_ROWS = 15_000

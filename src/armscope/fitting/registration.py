@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from armscope.core.types import Array
 from armscope.fitting.linearisation import missed
 from armscope.measurement.robust import scale_of
 from armscope.physics.frames import TOOL_FRAME, ToolKey, free_frames, tool_keys
@@ -13,8 +14,6 @@ from armscope.physics.model import Base, FittedModel
 from armscope.physics.scene import Part
 from armscope.recordings import Recordings
 from armscope.robot import Arm, chain
-
-Array = NDArray[np.float64]
 
 STEPS = 12
 CONVERGED_M = 1e-9

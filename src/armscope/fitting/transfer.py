@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError
+from armscope.core.types import Array
 from armscope.fitting.design_matrix import columns
 from armscope.fitting.gauss_newton import moved_frames
 from armscope.fitting.linearisation import chunks, residuals
@@ -21,7 +21,6 @@ from armscope.physics.model import FittedModel
 from armscope.physics.scene import Part
 from armscope.recordings import Recordings
 
-Array = NDArray[np.float64]
 Frame = Literal["base", "tool"]
 
 BACKGROUND = "background"

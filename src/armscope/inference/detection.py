@@ -10,15 +10,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import logsumexp
 
+from armscope.core.types import Array
 from armscope.inference.evidence import BACKGROUND_SIZES, FAMILY_SIZES, SURE_NATS, kinds
 from armscope.inference.search import Search
 from armscope.inference.updates import gains_by_size
 from armscope.physics.effect import Placed, region
-
-Array = NDArray[np.float64]
 
 SOMETHING_NATS = 2.0
 """Log odds from which something is said to be missing: no false alarm in 600 simulated clean arms. (Where nothing is

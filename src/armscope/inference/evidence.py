@@ -14,13 +14,11 @@ from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg.lapack import dpotrf, dtrtri, dtrtrs
 from scipy.special import log_ndtr
 
-from armscope.fitting.linearisation import Gram, Indices, Pool, scales
-
-Array = NDArray[np.float64]
+from armscope.core.types import Array, Indices
+from armscope.fitting.linearisation import Gram, Pool, scales
 
 FRAME_PRIOR_MM = 50.0
 """Frames are free: their prior is wide, and the same in all hypotheses."""

@@ -12,13 +12,10 @@ import itertools
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from armscope.core.types import Array, Indices
 from armscope.fitting.linearisation import Gram
 from armscope.inference.evidence import forward, lower_factor
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.intp]
 
 MOST_ORDERS = 120
 """All orders up to five members; as many drawn at random, and their reverses, where there are more."""

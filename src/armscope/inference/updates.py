@@ -15,10 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg.lapack import dtrtrs
 
-from armscope.fitting.linearisation import Indices, Pool
+from armscope.core.types import Array, Indices
+from armscope.fitting.linearisation import Pool
 from armscope.inference.evidence import Background, Chosen, Hypothesis, Problem, forward, price, prior_variances
-
-Array = NDArray[np.float64]
 
 MANY_COLUMNS = 8
 """Sets of at least this many columns are factorised size by size, which takes less time than their eigenvalues."""

@@ -7,12 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.types import Array, Indices
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.intp]
 
 TRUSTED = 0.97
 """A stated noise is a lower bound; this much below it is left to chance."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from armscope.core.types import Array
+
 Rule = Callable[[Array, Array, float], Array]
 """(N,) weights of residuals (N, 3), by their relative uncertainty (N,) and the least noise."""
 

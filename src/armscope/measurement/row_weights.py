@@ -5,13 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from armscope.core.types import Array, Indices
 from armscope.measurement import robust
 from armscope.physics.lens import Lens
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.intp]
 
 COUNTS = 0.5
 """Rows with a smaller part of their clean weight do not count as measurements."""

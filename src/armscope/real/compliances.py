@@ -20,9 +20,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats import f as f_distribution
 
+from armscope.core.types import Array
 from armscope.diagnosis.preconditions import check_table, with_orientations
 from armscope.fitting.gauss_newton import moved_frames
 from armscope.fitting.linearisation import Gram, Pool, accumulate, missed, pool, total
@@ -41,8 +41,6 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm, chain
 from armscope.robot.arm import build_arm
 from armscope.robot.gravity import gravity_torques, mass_moment_regressor
-
-Array = NDArray[np.float64]
 
 PRIOR = 1e-4
 """rad/(N m), standard deviation of every drive's and bearing's compliance: 10 N m turn it by a milliradian. Drives of

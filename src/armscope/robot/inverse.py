@@ -18,11 +18,10 @@ from scipy.spatial import cKDTree
 from scipy.stats import qmc
 
 from armscope.core.inputs import InputError
+from armscope.core.types import Array
 from armscope.robot.arm import Arm
 from armscope.robot.kinematics import chain, position_jacobian
 from armscope.robot.model import TIP
-
-Array = NDArray[np.float64]
 
 TOLERANCE_M = 1e-9
 ITERATIONS = 25

@@ -13,9 +13,9 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.physics.model import FittedModel
 
-Array = NDArray[np.float64]
 Specific = Literal["effect", "region", "family"]
 TOGETHER = "together"
 Answer = Literal["nothing missing", "explained", "partly explained", "cannot tell"]

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.fitting.column_blocks import Blocks, conditioned, weigh_blocks
 from armscope.fitting.design_matrix import columns
 from armscope.fitting.linearisation import chunks, pool_values, response
@@ -18,8 +19,6 @@ from armscope.physics.model import FittedModel
 from armscope.physics.placing import moving_joints
 from armscope.physics.transmission import MESH_COUNTS, mesh
 from armscope.recordings import Recordings
-
-Array = NDArray[np.float64]
 
 SCANNED_ROWS = 4000
 """A scan looks at this many rows at most, spread evenly."""

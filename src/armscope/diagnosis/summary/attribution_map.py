@@ -17,8 +17,6 @@ from armscope.physics.registry import EFFECTS
 from armscope.recordings import Recordings
 from armscope.verdict.schema import TOGETHER, Atlas
 
-Array = NDArray[np.float64]
-
 ATLAS_ROWS = 4000
 DIRECTIONS = (*AXES, TOGETHER)
 Cell = tuple[int, int, int]

@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.physics.drivers import cubic_spline
 from armscope.physics.effect import ONE, Driver, Placed
 from armscope.physics.scene import Scene
 from armscope.verdict.schema import Curve
-
-Array = NDArray[np.float64]
 
 GRID = 361
 TELLING = 0.7

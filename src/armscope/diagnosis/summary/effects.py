@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.diagnosis.promotion import worth
 from armscope.diagnosis.scans.scanning import when_stderr
 from armscope.diagnosis.state import Evidence
@@ -22,8 +22,6 @@ from armscope.inference.search import Search
 from armscope.physics.effect import Placed
 from armscope.physics.scene import Part, Scene
 from armscope.verdict.schema import Background, FoundEffect, Parameter
-
-Array = NDArray[np.float64]
 
 MINOR_SHARE, MINOR_SHARE_OF_PERFECT_ARM = 0.025, 0.001
 """Effects worth less of the residual variance are apart from the story: in an arm with small errors everywhere, and in

@@ -7,8 +7,9 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from scipy.stats import chi2
 
+from armscope.core.types import Indices
 from armscope.diagnosis.held_out import FEWEST_ROWS_PER_RUN, Blocks
-from armscope.fitting.linearisation import Gram, Indices, accumulate, total
+from armscope.fitting.linearisation import Gram, accumulate, total
 from armscope.inference.evidence import Hypothesis, Problem, weigh
 from armscope.measurement.row_weights import RowWeights
 from armscope.physics.freeform import REST_OF_LOAD

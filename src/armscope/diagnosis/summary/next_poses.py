@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from armscope.design.separation import nats_apart, separating
 from armscope.diagnosis.summary.alternatives import TELLS_APART_NATS, apart
@@ -21,7 +20,6 @@ from armscope.poses.obstacles import Surroundings, refusals
 from armscope.recordings import Recordings
 from armscope.verdict.schema import NextPoses
 
-Array = NDArray[np.float64]
 Rivals = Mapping[int, Sequence[tuple[float, Placed, Hypothesis]]]
 
 TRIED = 400

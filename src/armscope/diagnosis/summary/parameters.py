@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.physics.effect import Placed
 from armscope.verdict.schema import Parameter
 
-Array = NDArray[np.float64]
 Reading = Callable[[Array], Array]
 
 

@@ -8,12 +8,12 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.recordings.importing.mapping import Column, Columns, Label, Orientation, Scalar, Time
 from armscope.recordings.importing.pieces import Piece
 from armscope.recordings.orientations import NotARotation, from_euler, from_matrices, from_quaternions
 from armscope.recordings.table import ABSOLUTE_ZERO_C, LARGEST_ANGLE_RAD, LARGEST_POSITION_M, UNITS
 
-Array = NDArray[np.float64]
 TIME_UNITS = {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0}
 
 

@@ -10,10 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError, nearest
+from armscope.core.types import Array
 from armscope.recordings.importing.mapping import Beside, Column, Format, Mapping, RowFilter, Run
 from armscope.recordings.importing.rawfiles import RawRows, joined, read_pieces
-
-Array = NDArray[np.float64]
 
 MOST_NAMED = 3
 """Columns that an error names one by one."""

@@ -13,14 +13,12 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Colormap, LinearSegmentedColormap, Normalize, to_rgb, to_rgba
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
-from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
+from armscope.core.types import Array
 from armscope.report.figures.arm_shape import ArmShape, View, arm_shape, typical_pose
 from armscope.report.style import BLACK, GREY, styled
 from armscope.robot import Arm
-
-Array = NDArray[np.float64]
 
 UNTOUCHED = "#E4E8EC"
 """A place without a share."""

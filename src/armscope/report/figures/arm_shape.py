@@ -6,12 +6,10 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.robot import Arm, Chain, chain
 from armscope.robot.centre_line import centre_lines
-
-Array = NDArray[np.float64]
 
 MOST_POSES = 150
 """So many recorded poses, spread evenly over the rows, are looked at when the pose to draw is chosen."""

@@ -10,14 +10,12 @@ import numpy as np
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from armscope.core.types import Array
 from armscope.recordings import Recordings
 from armscope.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, legend_above, styled
 from armscope.robot import Arm, forward_kinematics
-
-Array = NDArray[np.float64]
 
 RUN_COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
 BIN_DEG = 10

@@ -11,7 +11,6 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from armscope.recordings import Recordings
 from armscope.report.figures.arm_picture import draw_arm
@@ -25,8 +24,6 @@ from armscope.report.text.wording import plain, shown_unit
 from armscope.robot import Arm, chain, position_jacobian
 from armscope.verdict.schema import INTERVAL, Atlas, FoundEffect, Verdict, WaterfallStep
 from armscope.verdict.schema import Curve as FoundCurve
-
-Array = NDArray[np.float64]
 
 FORMATS = ("png", "svg")
 MOST_ROWS = 20_000

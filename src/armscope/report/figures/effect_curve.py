@@ -8,11 +8,9 @@ from dataclasses import dataclass
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.report.style import BLACK, BLUE, styled
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

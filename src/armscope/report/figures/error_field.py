@@ -15,15 +15,14 @@ from typing import Any
 import numpy as np
 from markupsafe import Markup
 from matplotlib.colors import LinearSegmentedColormap, Normalize, to_hex, to_rgb
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from armscope.core.types import Array
 from armscope.report.figures.arm_picture import UNTOUCHED, round_up, share_colours, shares_by_place
 from armscope.report.figures.arm_shape import arm_shape, typical_pose, upright
 from armscope.report.figures.residual_vectors import evenly
 from armscope.report.style import BLUE, VERMILION
 from armscope.robot import Arm, Chain, chain
-
-Array = NDArray[np.float64]
 
 MOST_ROWS = 12_000
 """A page carries no more; of longer tables so many rows, spread evenly, and all suspects."""

@@ -5,13 +5,11 @@ from __future__ import annotations
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.report.figures.arm_shape import ArmShape, View, arm_shape, view_from
 from armscope.report.style import BLACK, BLUE, GREY, VERMILION, styled
 from armscope.robot import Arm
-
-Array = NDArray[np.float64]
 
 MOST_POSES = 8
 ELEVATION = np.radians(12)

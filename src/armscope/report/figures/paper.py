@@ -9,8 +9,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.errormodels import FittedModel
 from armscope.paper.measurements import Measurements
 from armscope.report.style import (
@@ -25,9 +25,6 @@ from armscope.report.style import (
     legend_above,
     styled,
 )
-
-Array = NDArray[np.float64]
-
 
 TEST_FIGURES = {"fig05": "test 1", "fig08": "test 2", "fig09": "test 3"}
 ESTIMATION_FIGURES = {

@@ -11,10 +11,9 @@ from matplotlib.figure import Figure
 from matplotlib.quiver import Quiver
 from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.report.figures.arm_picture import share_colours
 from armscope.report.style import BLACK, BLUE, GREY, VERMILION, legend_above, styled
-
-Array = NDArray[np.float64]
 
 MOST_ARROWS = 350
 MOST_DOTS = 1500
