@@ -9,11 +9,13 @@ import pytest
 
 from armscope.diagnosis import diagnose
 from armscope.fitting.design_matrix import columns
-from armscope.fitting.linearisation import accumulate, pool, total
+from armscope.fitting.linearisation import accumulate
+from armscope.fitting.model_space import pool
 from armscope.fitting.registration import fit_frames
 from armscope.inference import evidence
 from armscope.inference.detection import SOMETHING_NATS, presence
 from armscope.inference.evidence import PERFECT, SURE_NATS, Chosen, Problem, weigh
+from armscope.inference.normal_equations import total
 from armscope.inference.search import Search
 from armscope.measurement.row_weights import RowWeights
 from armscope.physics.backgrounds import backgrounds

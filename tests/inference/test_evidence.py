@@ -7,10 +7,12 @@ import pytest
 from scipy.stats import multivariate_normal, norm
 
 from armscope.fitting.design_matrix import columns
-from armscope.fitting.linearisation import Pool, accumulate, pool, residuals, total
+from armscope.fitting.linearisation import accumulate, residuals
+from armscope.fitting.model_space import Pool, pool
 from armscope.fitting.registration import fit_frames
 from armscope.inference import evidence
 from armscope.inference.evidence import PERFECT, Chosen, Problem, losses, pinned_losses, weigh
+from armscope.inference.normal_equations import total
 from armscope.inference.updates import gains, group
 from armscope.measurement.row_weights import RowWeights
 from armscope.physics.backgrounds import backgrounds

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from armscope.fitting.linearisation import Gram
+from armscope.inference.normal_equations import Gram
 from armscope.inference.shapley import shares
 
 ROWS = 60

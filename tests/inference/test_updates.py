@@ -5,11 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from armscope.fitting.linearisation import accumulate, pool, total
+from armscope.fitting.linearisation import accumulate
+from armscope.fitting.model_space import pool
 from armscope.fitting.registration import fit_frames
 from armscope.inference import evidence
 from armscope.inference import updates as gains
 from armscope.inference.evidence import Chosen, Hypothesis, Problem, weigh
+from armscope.inference.normal_equations import total
 from armscope.inference.updates import changed, gains_by_size, group, left
 from armscope.measurement.row_weights import RowWeights
 from armscope.physics.backgrounds import backgrounds

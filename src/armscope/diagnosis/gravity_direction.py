@@ -15,8 +15,10 @@ from scipy.spatial.transform import Rotation
 from scipy.special import log_ndtr
 
 from armscope.core.types import Array
-from armscope.fitting.linearisation import accumulate, pool, residuals, total
+from armscope.fitting.linearisation import accumulate, residuals
+from armscope.fitting.model_space import pool
 from armscope.inference.evidence import BACKGROUND_SIZES, FAMILY_SIZES, SURE_NATS, Hypothesis, Problem, problem, weigh
+from armscope.inference.normal_equations import total
 from armscope.measurement import robust
 from armscope.measurement.noise import Noise
 from armscope.measurement.row_weights import RowWeights

@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import columns, stacked
-from armscope.fitting.linearisation import Gram, Pool, chunks, pool_values, response, total
+from armscope.fitting.linearisation import chunks, pool_values, response
+from armscope.fitting.model_space import Pool
 from armscope.inference.evidence import PERFECT, Chosen, Hypothesis, Problem, weigh
+from armscope.inference.normal_equations import Gram, total
 from armscope.inference.search import LARGE, STARTS, Search
 from armscope.measurement.row_weights import COUNTS, RowWeights
 from armscope.physics.effect import Term

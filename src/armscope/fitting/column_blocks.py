@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array
 from armscope.fitting.design_matrix import arranged, stacked
-from armscope.fitting.linearisation import Pool, chunks, pool_values, response
+from armscope.fitting.linearisation import chunks, pool_values, response
+from armscope.fitting.model_space import Pool
 from armscope.inference.evidence import forward
 from armscope.measurement.row_weights import RowWeights
 from armscope.physics.effect import Term

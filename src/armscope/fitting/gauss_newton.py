@@ -10,9 +10,11 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from armscope.core.types import Array
-from armscope.fitting.linearisation import Gram, Pool, accumulate, missed, pool, pool_values, scales
+from armscope.fitting.linearisation import accumulate, missed, pool_values
+from armscope.fitting.model_space import Pool, pool
 from armscope.fitting.registration import moved_base
 from armscope.inference.evidence import FRAME_PRIOR_MM, TOLERANCE
+from armscope.inference.normal_equations import Gram, scales
 from armscope.measurement import robust
 from armscope.measurement.row_weights import Missed, RowNoise, RowWeights
 from armscope.physics.effect import AXES, Placed, Term

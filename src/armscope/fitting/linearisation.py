@@ -7,8 +7,7 @@ Lengths are mm here: y and the columns are displacements of the tool in base axe
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from weakref import WeakKeyDictionary
 
@@ -16,9 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
-from armscope.fitting.design_matrix import Arrangement, arranged, stacked
+from armscope.fitting.design_matrix import stacked
+from armscope.fitting.model_space import Pool
+from armscope.inference.normal_equations import Gram
 from armscope.measurement.row_weights import Missed, RowWeights
-from armscope.physics.effect import Placed, Term, clash
 from armscope.physics.lens import Lens
 from armscope.physics.model import FittedModel
 from armscope.physics.scene import Posture, Scene
@@ -27,141 +27,6 @@ from armscope.recordings import Recordings
 CHUNK_ROWS = 1500
 KEPT_ROWS = 15_000
 """Drivers of tables up to this long are kept between passes: at most some 150 MB."""
-LEAST_SEEN = 0.02
-"""A column of which frames absorb more than all but this share is scaled as if this share were left."""
-
-
-@dataclass(frozen=True, eq=False)
-class Pool:
-    """All distinct terms that take part, and where each effect's terms stand among them.
-
-    Attributes:
-        terms: the columns, in order.
-        frames: columns of the free frames.
-        background: columns of each family's background, in the order of `armscope.physics.backgrounds.FAMILIES`.
-        background_shape: relative size that each of these columns is expected to have.
-        candidates: effects that compete.
-        columns: columns of each candidate.
-    """
-
-    terms: tuple[Term, ...]
-    frames: Indices
-    background: tuple[Indices, ...]
-    background_shape: tuple[Array, ...]
-    candidates: tuple[Placed, ...]
-    columns: tuple[Indices, ...]
-
-    @functools.cached_property
-    def clashes(self) -> tuple[frozenset[int], ...]:
-        """For each candidate, those that can't stand beside it: other forms of it, and curves that contain it."""
-        places: dict[str, list[int]] = {}
-        for number, placed in enumerate(self.candidates):
-            places.setdefault(placed.location, []).append(number)
-        return tuple(
-            frozenset(
-                other for other in places[placed.location] if other != number and clash(placed, self.candidates[other])
-            )
-            for number, placed in enumerate(self.candidates)
-        )
-
-    @functools.cached_property
-    def special_cases(self) -> tuple[tuple[frozenset[int], int], ...]:
-        """For every free curve, the candidates that it contains, and how many of them may well stand side by side.
-
-        What follows a joint's own angle is one, as a rule; an offset and a compliance are a common pair.
-        """
-        return tuple(
-            (
-                frozenset(n for n in self.clashes[number] if self.candidates[n].reading != "curve"),
-                1 if placed.variant == "angle" else 2,
-            )
-            for number, placed in enumerate(self.candidates)
-            if placed.reading == "curve" and not placed.fine
-        )
-
-    def crowding(self, candidates: frozenset[int]) -> int:
-        """By how many effects some curve's special cases at one place exceed what is common."""
-        return max((len(special & candidates) - common for special, common in self.special_cases), default=0)
-
-    @functools.cached_property
-    def resting(self) -> dict[int, frozenset[int]]:
-        """Candidates that do nothing by themselves, and those that each of them can rest on."""
-        return {
-            number: frozenset(
-                n
-                for n, other in enumerate(self.candidates)
-                if other.family == placed.effect.rests_on and not other.effect.rests_on
-            )
-            for number, placed in enumerate(self.candidates)
-            if placed.effect.rests_on
-        }
-
-    @functools.cached_property
-    def along(self) -> NDArray[np.bool_]:
-        """Whether each candidate has one value that can't be negative."""
-        return np.array([placed.effect.along and len(placed.terms) == 1 for placed in self.candidates], dtype=np.bool_)
-
-    def stands(self, candidates: frozenset[int]) -> bool:
-        """Whether every one of some candidates has what it rests on."""
-        return all(candidates & needed for number, needed in self.resting.items() if number in candidates)
-
-    @functools.cached_property
-    def arrangement(self) -> Arrangement:
-        """The columns sorted by how they are best multiplied."""
-        return arranged(self.terms)
-
-    def of(self, placed: Placed) -> Indices:
-        """Columns of an effect whose terms are all in the pool."""
-        return np.array([self.index[term] for term in placed.terms])
-
-    @functools.cached_property
-    def index(self) -> dict[Term, int]:
-        """Where each term stands among the columns."""
-        return {term: number for number, term in enumerate(self.terms)}
-
-
-def pool(frames: Sequence[Placed], backgrounds: Sequence[Sequence[Placed]], candidates: Sequence[Placed]) -> Pool:
-    """Gather the terms of all effects, each once."""
-    index: dict[Term, int] = {}
-
-    def add(placed: Placed) -> Indices:
-        return np.array([index.setdefault(term, len(index)) for term in placed.terms], dtype=np.intp)
-
-    frame_columns = np.concatenate([add(p) for p in frames])
-    shapes = [{int(n): s for p in family for n, s in zip(add(p), p.shape, strict=True)} for family in backgrounds]
-    columns = tuple(add(p) for p in candidates)
-    return Pool(
-        tuple(index),
-        frame_columns,
-        tuple(np.array(sorted(family), dtype=np.intp) for family in shapes),
-        tuple(np.array([family[column] for column in sorted(family)], dtype=np.float64) for family in shapes),
-        tuple(candidates),
-        columns,
-    )
-
-
-@dataclass(frozen=True, eq=False)
-class Gram:
-    """Sums over rows: G = X'WX (p, p), b = X'Wy (p,), yy = y'Wy, n = number of weighted residuals; mm."""
-
-    G: Array
-    b: Array
-    yy: float
-    n: float
-
-    def __add__(self, other: Gram) -> Gram:
-        return Gram(self.G + other.G, self.b + other.b, self.yy + other.yy, self.n + other.n)
-
-    def __sub__(self, other: Gram) -> Gram:
-        return Gram(self.G - other.G, self.b - other.b, self.yy - other.yy, self.n - other.n)
-
-    def scaled(self, scale: Array) -> Gram:
-        """With column k divided by scale[k]."""
-        return Gram(self.G / np.outer(scale, scale), self.b / scale, self.yy, self.n)
-
-    def rss(self, coefficients: Array) -> float:
-        """Residual sum of squares with these coefficients of all columns."""
-        return float(self.yy - 2 * self.b @ coefficients + coefficients @ self.G @ coefficients)
 
 
 @dataclass(eq=False)
@@ -298,31 +163,3 @@ def pool_values(pool: Pool, model: FittedModel) -> Array:
         for term, value in zip(part.placed.terms, part.values, strict=True):
             values[pool.index[term]] += value
     return values
-
-
-def total(blocks: Sequence[Gram]) -> Gram:
-    """The sum of blocks."""
-    whole = blocks[0]
-    for block in blocks[1:]:
-        whole = whole + block
-    return whole
-
-
-def scales(gram: Gram, frames: Indices) -> Array:
-    """(p,) RMS per axis at the tool of each column beyond what the free frames absorb, mm per SI unit."""
-    Gf = gram.G[np.ix_(frames, frames)]
-    ridge = 1e-10 * np.diag(np.diag(Gf)) + 1e-300 * np.eye(len(frames))
-    absorbed = np.sum(gram.G[frames] * np.linalg.solve(Gf + ridge, gram.G[frames]), axis=0)
-    raw = np.diag(gram.G)
-    seen = np.maximum(raw - absorbed, LEAST_SEEN**2 * raw)
-    seen[frames] = raw[frames]
-    return np.sqrt(np.maximum(seen / max(gram.n, 1.0), 1e-24))
-
-
-def contribution(gram: Gram, frames: Indices, coefficients: Array) -> float:
-    """RMS per axis at the tool, beyond the free frames, of a combination of columns (p,), mm."""
-    Gc = gram.G @ coefficients
-    Gf = gram.G[np.ix_(frames, frames)]
-    absorbed = Gc[frames] @ np.linalg.lstsq(Gf, Gc[frames], rcond=1e-12)[0]
-    left = float(coefficients @ Gc - absorbed)
-    return float(np.sqrt(max(left, 0.0) / max(gram.n, 1.0)))

@@ -18,7 +18,8 @@ from scipy.linalg.lapack import dpotrf, dtrtri, dtrtrs
 from scipy.special import log_ndtr
 
 from armscope.core.types import Array, Indices
-from armscope.fitting.linearisation import Gram, Pool, scales
+from armscope.fitting.model_space import Pool
+from armscope.inference.normal_equations import Gram, scales
 
 FRAME_PRIOR_MM = 50.0
 """Frames are free: their prior is wide, and the same in all hypotheses."""

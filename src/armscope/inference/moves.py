@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from armscope.fitting.linearisation import Pool
+from armscope.fitting.model_space import Pool
 from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import region
 

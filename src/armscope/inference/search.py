@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from armscope.fitting.linearisation import Pool
+from armscope.fitting.model_space import Pool
 from armscope.inference.evidence import (
     BACKGROUND_SIZES,
     FAMILY_SIZES,

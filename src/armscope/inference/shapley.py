@@ -14,8 +14,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from armscope.core.types import Array, Indices
-from armscope.fitting.linearisation import Gram
 from armscope.inference.evidence import forward, lower_factor
+from armscope.inference.normal_equations import Gram
 
 MOST_ORDERS = 120
 """All orders up to five members; as many drawn at random, and their reverses, where there are more."""

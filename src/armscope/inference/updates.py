@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.linalg.lapack import dtrtrs
 
 from armscope.core.types import Array, Indices
-from armscope.fitting.linearisation import Pool
+from armscope.fitting.model_space import Pool
 from armscope.inference.evidence import Background, Chosen, Hypothesis, Problem, forward, price, prior_variances
 
 MANY_COLUMNS = 8

@@ -25,9 +25,11 @@ from scipy.stats import f as f_distribution
 from armscope.core.types import Array
 from armscope.diagnosis.preconditions import check_table, with_orientations
 from armscope.fitting.gauss_newton import moved_frames
-from armscope.fitting.linearisation import Gram, Pool, accumulate, missed, pool, total
+from armscope.fitting.linearisation import accumulate, missed
+from armscope.fitting.model_space import Pool, pool
 from armscope.fitting.registration import fit_frames
 from armscope.inference.evidence import TOLERANCE
+from armscope.inference.normal_equations import Gram, total
 from armscope.measurement import robust
 from armscope.measurement.row_weights import RowNoise
 from armscope.physics import elastic, geometric

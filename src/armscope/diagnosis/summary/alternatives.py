@@ -8,8 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from armscope.diagnosis.promotion import named, rest_of
-from armscope.fitting.linearisation import Gram
 from armscope.inference.evidence import Hypothesis, Problem
+from armscope.inference.normal_equations import Gram
 from armscope.inference.search import LARGE, SLACK_NATS, Search
 from armscope.physics.effect import Placed, region
 from armscope.physics.elastic import JOINT_COMPLIANCE

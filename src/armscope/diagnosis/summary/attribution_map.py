@@ -7,7 +7,9 @@ from numpy.typing import NDArray
 from scipy.linalg import cholesky, solve_triangular
 
 from armscope.fitting.column_blocks import conditioned, explained, weigh_blocks
-from armscope.fitting.linearisation import Gram, Pool, accumulate
+from armscope.fitting.linearisation import accumulate
+from armscope.fitting.model_space import Pool
+from armscope.inference.normal_equations import Gram
 from armscope.measurement.row_weights import RowWeights
 from armscope.physics.effect import AXES, ONE, Direction, Driver, Term, motor, term
 from armscope.physics.elastic import has_load

@@ -16,8 +16,8 @@ from armscope.diagnosis.summary.effect_curve import curve_of
 from armscope.diagnosis.summary.parameters import parameters
 from armscope.fitting.discrepancy import ModelError
 from armscope.fitting.joint_scatter import levers
-from armscope.fitting.linearisation import Gram, contribution
 from armscope.inference.evidence import Chosen, Hypothesis
+from armscope.inference.normal_equations import Gram, contribution
 from armscope.inference.search import Search
 from armscope.physics.effect import Placed
 from armscope.physics.scene import Part, Scene

@@ -9,8 +9,9 @@ from scipy.stats import chi2
 
 from armscope.core.types import Indices
 from armscope.diagnosis.held_out import FEWEST_ROWS_PER_RUN, Blocks
-from armscope.fitting.linearisation import Gram, accumulate, total
+from armscope.fitting.linearisation import accumulate
 from armscope.inference.evidence import Hypothesis, Problem, weigh
+from armscope.inference.normal_equations import Gram, total
 from armscope.measurement.row_weights import RowWeights
 from armscope.physics.freeform import REST_OF_LOAD
 from armscope.physics.model import FittedModel

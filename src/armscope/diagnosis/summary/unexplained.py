@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from armscope.diagnosis.state import Evidence
-from armscope.fitting.linearisation import Gram, contribution
 from armscope.inference.detection import Presence
 from armscope.inference.evidence import background_sizes
+from armscope.inference.normal_equations import Gram, contribution
 from armscope.inference.search import Search
 from armscope.measurement.row_weights import COUNTS
 from armscope.physics.backgrounds import FAMILIES
