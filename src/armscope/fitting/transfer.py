@@ -114,7 +114,7 @@ def transfer(
 
 def belongs_to_the_arm(placed: Placed) -> bool:
     """Whether an effect may be expected on another run, too."""
-    curve_of_a_run = placed.reading == "curve" and placed.driver in OF_ITS_RUN
+    curve_of_a_run = placed.parametrisation == "curve" and placed.driver in OF_ITS_RUN
     return placed.family not in ("drift", "frame") and not curve_of_a_run
 
 
