@@ -24,8 +24,8 @@ from armscope.diagnosis.summary.unexplained import (
     unexplained_part,
 )
 from armscope.fitting.discrepancy import model_error
-from armscope.fitting.gauss_newton import Refit
 from armscope.fitting.linearisation import accumulate
+from armscope.fitting.refit import Refit
 from armscope.inference.detection import averaged_log_odds
 from armscope.inference.normal_equations import NormalEquations
 from armscope.inference.search import Search

@@ -94,7 +94,9 @@ class Search:
 
     def transferred(self, hypothesis: Hypothesis, pool: Pool) -> Hypothesis:
         """A hypothesis on another pool, with the effects that this search's pool has, too."""
-        index = {(p.key, p.driver, p.variant): n for n, p in enumerate(self.problem.pool.candidates) if not p.fine}
+        index = {
+            (p.key, p.driver, p.variant): n for n, p in enumerate(self.problem.pool.candidates) if not p.refinement
+        }
         chosen = []
         for c in hypothesis.chosen:
             placed = pool.candidates[c.candidate]
@@ -157,7 +159,7 @@ class Search:
 
     def _generalises(self, candidate: int, member: int) -> bool:
         """Whether a candidate is a free curve that contains a member."""
-        return self.placed(candidate).reading == "curve" and self.placed(member).reading != "curve"
+        return self.placed(candidate).parametrisation == "curve" and self.placed(member).parametrisation != "curve"
 
     def _with(self, parent: Hypothesis | LowRankUpdate, added: SelectedEffect) -> Hypothesis:
         excluded = self.problem.pool.excludes[added.candidate]
@@ -232,7 +234,7 @@ class Search:
         whole = condition_on(self.problem, self.groups.competing, hypothesis)
         moves = self.additions(hypothesis, self.branches, least=-SLACK_NATS, remaining=whole)
         for c in hypothesis.chosen:
-            if self.placed(c.candidate).reading == "curve":
+            if self.placed(c.candidate).parametrisation == "curve":
                 moves += self._split(hypothesis, c)
         for removed in block_removals(self.problem.pool, [c.candidate for c in hypothesis.chosen]):
             # at the noise as it is: without what is taken out the noise would be larger, and fine detail worth nothing
@@ -297,7 +299,7 @@ class Search:
     def _split(self, hypothesis: Hypothesis, curve: SelectedEffect) -> list[Hypothesis]:
         """A curve taken apart into two or three of the special cases that it contains, each as large as the curve."""
         rest = self.without(hypothesis, [curve.candidate])
-        special = [c for c in self.problem.pool.excludes[curve.candidate] if self.placed(c).reading != "curve"]
+        special = [c for c in self.problem.pool.excludes[curve.candidate] if self.placed(c).parametrisation != "curve"]
         if len(special) < 2:
             return []
         gain, _ = best_additions(self.problem, self.groups, rest)
@@ -319,10 +321,10 @@ class Search:
     def refined(self, hypothesis: Hypothesis) -> Hypothesis:
         """With the finer form of a curve in its place wherever the evidence is for it."""
         candidates = enumerate(self.problem.pool.candidates)
-        fine = {p.key: n for n, p in candidates if p.fine and p.variant == "angle"}
+        fine = {p.key: n for n, p in candidates if p.refinement and p.variant == "angle"}
         for number, c in enumerate(hypothesis.chosen):
             placed = self.placed(c.candidate)
-            if placed.key in fine and placed.variant == "angle" and not placed.fine:
+            if placed.key in fine and placed.variant == "angle" and not placed.refinement:
                 finer = SelectedEffect(fine[placed.key], c.size)
                 chosen = (*hypothesis.chosen[:number], finer, *hypothesis.chosen[number + 1 :])
                 other = evaluate(self.problem, chosen, hypothesis.background, hypothesis.noise)
@@ -331,9 +333,11 @@ class Search:
 
     def coarsened(self, hypothesis: Hypothesis) -> Hypothesis:
         """With the coarse form of every fine curve in its place."""
-        coarse = {p.key: n for n, p in enumerate(self.problem.pool.candidates) if p.variant == "angle" and not p.fine}
+        coarse = {
+            p.key: n for n, p in enumerate(self.problem.pool.candidates) if p.variant == "angle" and not p.refinement
+        }
         chosen = tuple(
-            SelectedEffect(coarse[self.placed(c.candidate).key], c.size) if self.placed(c.candidate).fine else c
+            SelectedEffect(coarse[self.placed(c.candidate).key], c.size) if self.placed(c.candidate).refinement else c
             for c in hypothesis.chosen
         )
         return (
