@@ -32,6 +32,7 @@ from armscope.verdict.headline import headline
 from armscope.verdict.schema import (
     Answer,
     Background,
+    Diagnosis,
     FoundEffect,
     HeldOut,
     Notice,
@@ -39,7 +40,6 @@ from armscope.verdict.schema import (
     Residuals,
     SuspectRow,
     Unexplained,
-    Verdict,
     WaterfallStep,
 )
 
@@ -49,7 +49,7 @@ LISTED_SUSPECTS = 200
 
 def judge(
     evidence: Evidence, resamples: int, cross_validation: bool, rng: np.random.Generator, tell: Progress
-) -> Verdict:
+) -> Diagnosis:
     """Certainty, validation, atlas and words."""
     fit, best, problem = evidence.fit, evidence.best, evidence.problem
     search = Search.on(problem)
@@ -88,7 +88,7 @@ def judge(
         unexplained = too_faint(presence(search))
     answer, mismatch = _answer(effects, background, unexplained)
     separating = next_poses(search, best, rivals, fit, evidence.recordings, rng)
-    draft = Verdict(
+    draft = Diagnosis(
         arm=fit.model.arm.name,
         source=evidence.recordings.source,
         rows=len(evidence.recordings),
@@ -227,12 +227,12 @@ def undecided(
     noise: Noise,
     notices: tuple[Notice, ...],
     seconds: float,
-) -> Verdict:
+) -> Diagnosis:
     """The verdict where no effect can honestly be named."""
     rms = float(np.sqrt(np.mean(residuals**2)))
     points = start.to_base(recordings.positions, recordings.run) * 1e3
     count = len(recordings)
-    return Verdict(
+    return Diagnosis(
         arm=start.arm.name,
         source=recordings.source,
         rows=count,
