@@ -70,7 +70,7 @@ class PartFile(BaseModel):
     location: str
     driver: str
     scanned: tuple[ScannedFile, ...]
-    reading: str
+    reading: Literal["plain", "sine", "curve"]
     variant: str
     terms: tuple[TermFile, ...]
 
@@ -152,7 +152,7 @@ def _part_out(part: Part) -> PartFile:
         location=placed.location,
         driver=placed.driver,
         scanned=tuple(ScannedFile(name=name, unit=unit, value=value) for name, unit, value in placed.scanned),
-        reading=placed.reading,
+        reading=placed.parametrisation,
         variant=placed.variant,
         terms=tuple(
             TermFile(
@@ -190,7 +190,7 @@ def _part_in(file: PartFile, path: Path | str) -> Part:
         file.driver,
         tuple((each.name, each.unit, float(each.value)) for each in file.scanned),
         variant=file.variant,
-        reading=file.reading,
+        parametrisation=file.reading,
     )
     return Part(placed, np.array([term.value for term in file.terms]))
 
