@@ -19,7 +19,7 @@ from armscope.diagnosis.summary.next_poses import next_poses
 from armscope.diagnosis.summary.unexplained import rows_apart, together, told_backgrounds, too_faint, unexplained_part
 from armscope.fitting.discrepancy import model_error
 from armscope.fitting.gauss_newton import Refit
-from armscope.fitting.linearisation import accumulate
+from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.inference.detection import presence
 from armscope.inference.normal_equations import Gram
 from armscope.inference.search import Search
@@ -134,7 +134,7 @@ def _plain_gram(evidence: Evidence) -> Gram:
     if fit.weights.whitening is None and fit.weights.turns is None:
         return fit.gram
     one_block = np.zeros(len(evidence.recordings), dtype=np.intp)
-    return accumulate(fit.pool, fit.model, evidence.recordings, fit.weights.of_points, one_block)[0]
+    return normal_equations_by_block(fit.pool, fit.model, evidence.recordings, fit.weights.of_points, one_block)[0]
 
 
 def _variance_after_frames(gram: Gram, frames: NDArray[np.intp]) -> float:
@@ -146,7 +146,7 @@ def _variance_after_frames(gram: Gram, frames: NDArray[np.intp]) -> float:
 
 
 def _weighted_rms(fit: Refit) -> float:
-    trusted = fit.weights.trust > SUSPECT_WEIGHT
+    trusted = fit.weights.robust_weight > SUSPECT_WEIGHT
     return float(np.sqrt(np.mean(fit.residuals[trusted] ** 2)))
 
 
@@ -174,7 +174,7 @@ def _residuals(evidence: Evidence) -> Residuals:
         points=fit.model.to_base(table.positions, table.run) * 1e3,
         before=evidence.first.shift,
         after=fit.residuals,
-        weight=fit.weights.trust,
+        weight=fit.weights.robust_weight,
         id=table.id,
         run=table.run,
     )
@@ -184,7 +184,7 @@ def _orientations(evidence: Evidence) -> Orientations | None:
     fit, before = evidence.fit, evidence.first.turn
     if fit.missed.turn is None or fit.weights.turns is None or before is None:
         return None
-    trusted = fit.weights.turns.row > SUSPECT_WEIGHT * np.asarray(fit.weights.turns.clean)
+    trusted = fit.weights.turns.weight > SUSPECT_WEIGHT * np.asarray(fit.weights.turns.nominal_weight)
     return Orientations(
         rows=int(np.isfinite(fit.missed.turn).all(axis=1).sum()),
         noise_mrad=1e3 * float(np.sqrt(np.mean(fit.missed.turn[trusted] ** 2))),
@@ -195,7 +195,7 @@ def _orientations(evidence: Evidence) -> Orientations | None:
 
 def _suspects(evidence: Evidence) -> tuple[SuspectRow, ...]:
     fit, table = evidence.fit, evidence.recordings
-    relative = fit.weights.trust
+    relative = fit.weights.robust_weight
     rows = np.flatnonzero(relative < SUSPECT_WEIGHT)
     size = np.linalg.norm(fit.residuals, axis=1)
     worst = rows[np.argsort(-size[rows])][:LISTED_SUSPECTS]
