@@ -109,7 +109,7 @@ def _straightened(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
     for curve in hypothesis.chosen:
         placed = problem.pool.candidates[curve.candidate]
         key = (JOINT_COMPLIANCE.name, placed.location)
-        if placed.reading != "curve" or placed.variant != "load" or key not in stated:
+        if placed.parametrisation != "curve" or placed.variant != "load" or key not in stated:
             continue
         straight, bent = _line(problem, hypothesis, curve.candidate)
         if straight**2 < LINE_SHARE * (straight**2 + bent**2):

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from armscope.core.types import Array, Indices, Progress
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.scans.scanning import jumps, mesh_lines, pauses
-from armscope.fitting.gauss_newton import Refit, refit
-from armscope.fitting.joint_scatter import Scattered, find_scatter, motor_jacobians, noise_between, whitening
-from armscope.fitting.linearisation import keep_drivers, missed, normal_equations_by_block
+from armscope.fitting.joint_scatter import Scattered, find_scatter, levers, noise_between, whitening
+from armscope.fitting.linearisation import accumulate, keep_drivers, missed
 from armscope.fitting.model_space import Pool, pool
+from armscope.fitting.refit import Refit, refit
 from armscope.inference.evidence import Hypothesis, Problem, background_sizes, problem
 from armscope.inference.normal_equations import Gram, total
 from armscope.inference.search import STARTS, Search
@@ -108,8 +108,8 @@ def _promising(found: Selected) -> list[Placed]:
     """The chosen effects and those that come next, given the best hypothesis and given none."""
     search = Search.on(found.problem)
     candidates = found.problem.pool.candidates
-    kept = set(found.best.candidates) | {n for n, placed in enumerate(candidates) if placed.fine}
-    coarse = {candidates[n].key for n in kept if candidates[n].fine and candidates[n].variant == "angle"}
+    kept = set(found.best.candidates) | {n for n, placed in enumerate(candidates) if placed.refinement}
+    coarse = {candidates[n].key for n in kept if candidates[n].refinement and candidates[n].variant == "angle"}
     kept |= {n for n, placed in enumerate(candidates) if placed.key in coarse and placed.variant == "angle"}
     for hypothesis in (found.best, search.empty()):
         gain, _ = gains(found.problem, search.groups, hypothesis)
@@ -265,7 +265,7 @@ class Rounds:
 
     def _rests(self) -> bool:
         """Whether some effect rests on others' values, which then must settle, too."""
-        return any(self.pool.candidates[c].effect.rests_on for c in self.best.candidates)
+        return any(self.pool.candidates[c].effect.requires for c in self.best.candidates)
 
     def _noise_changed(self) -> bool:
         return self._grows() or self._scatter_changed()
@@ -340,7 +340,7 @@ class Rounds:
 def _payload(model: FittedModel, recordings: Recordings) -> tuple[FittedModel, list[Placed]]:
     """Payload errors on top of what gives way in the model, and the model with its own ones written anew."""
     stiff = [part for part in model.parts if part.placed.effect is not PAYLOAD_ERROR]
-    placed = list(payload_errors(recordings, [part for part in stiff if part.placed.reading == "plain"]))
+    placed = list(payload_errors(recordings, [part for part in stiff if part.placed.parametrisation == "plain"]))
     by_variant = {p.variant: p for p in placed}
     errors = [
         Part(by_variant[part.placed.variant], part.values)

@@ -55,11 +55,11 @@ class Pool:
         """
         return tuple(
             (
-                frozenset(n for n in self.clashes[number] if self.candidates[n].reading != "curve"),
+                frozenset(n for n in self.clashes[number] if self.candidates[n].parametrisation != "curve"),
                 1 if placed.variant == "angle" else 2,
             )
             for number, placed in enumerate(self.candidates)
-            if placed.reading == "curve" and not placed.fine
+            if placed.parametrisation == "curve" and not placed.refinement
         )
 
     def crowding(self, candidates: frozenset[int]) -> int:
@@ -73,16 +73,18 @@ class Pool:
             number: frozenset(
                 n
                 for n, other in enumerate(self.candidates)
-                if other.family == placed.effect.rests_on and not other.effect.rests_on
+                if other.family == placed.effect.requires and not other.effect.requires
             )
             for number, placed in enumerate(self.candidates)
-            if placed.effect.rests_on
+            if placed.effect.requires
         }
 
     @functools.cached_property
     def along(self) -> NDArray[np.bool_]:
         """Whether each candidate has one value that can't be negative."""
-        return np.array([placed.effect.along and len(placed.terms) == 1 for placed in self.candidates], dtype=np.bool_)
+        return np.array(
+            [placed.effect.nonnegative and len(placed.terms) == 1 for placed in self.candidates], dtype=np.bool_
+        )
 
     def stands(self, candidates: frozenset[int]) -> bool:
         """Whether every one of some candidates has what it rests on."""
@@ -111,7 +113,7 @@ def pool(frames: Sequence[Placed], backgrounds: Sequence[Sequence[Placed]], cand
         return np.array([index.setdefault(term, len(index)) for term in placed.terms], dtype=np.intp)
 
     frame_columns = np.concatenate([add(p) for p in frames])
-    shapes = [{int(n): s for p in family for n, s in zip(add(p), p.shape, strict=True)} for family in backgrounds]
+    shapes = [{int(n): s for p in family for n, s in zip(add(p), p.prior_scale, strict=True)} for family in backgrounds]
     columns = tuple(add(p) for p in candidates)
     return Pool(
         tuple(index),

@@ -11,8 +11,8 @@ import numpy as np
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.fitting.design_matrix import columns
-from armscope.fitting.gauss_newton import moved_frames
 from armscope.fitting.linearisation import chunks, residuals
+from armscope.fitting.refit import moved_frames
 from armscope.fitting.registration import fit_frames
 from armscope.measurement import robust
 from armscope.physics.effect import Placed, Term
@@ -114,7 +114,7 @@ def transfer(
 
 def belongs_to_the_arm(placed: Placed) -> bool:
     """Whether an effect may be expected on another run, too."""
-    curve_of_a_run = placed.reading == "curve" and placed.driver in OF_ITS_RUN
+    curve_of_a_run = placed.parametrisation == "curve" and placed.driver in OF_ITS_RUN
     return placed.family not in ("drift", "frame") and not curve_of_a_run
 
 

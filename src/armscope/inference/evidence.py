@@ -125,14 +125,14 @@ def costs(pool: Pool) -> Array:
     variants: dict[tuple[str, str], int] = {}
     for placed in pool.candidates:
         locations.setdefault(placed.name, set()).add(placed.location)
-        if placed.tried == 1 and not placed.fine:
+        if placed.multiplicity == 1 and not placed.refinement:
             variants[placed.key] = variants.get(placed.key, 0) + 1
     return np.array(
         [
             SURE_NATS
             + np.log(kinds(pool))
             + np.log(len(locations[placed.name]))
-            + np.log(placed.tried if placed.tried > 1 else variants.get(placed.key, 1))
+            + np.log(placed.multiplicity if placed.multiplicity > 1 else variants.get(placed.key, 1))
             for placed in pool.candidates
         ]
     )
@@ -276,7 +276,7 @@ def losses(problem: Problem, hypothesis: Hypothesis) -> Array:
     lost = []
     for c in hypothesis.chosen:
         own = np.array([at[int(column)] for column in problem.pool.columns[c.candidate]])
-        added = (problem.sizes[c.size] * np.array(problem.pool.candidates[c.candidate].shape)) ** 2
+        added = (problem.sizes[c.size] * np.array(problem.pool.candidates[c.candidate].prior_scale)) ** 2
         rest = np.maximum(hypothesis.variance[own] - added, 1e-12 * added)
         inverse = hypothesis.inverse[:, own]
         sigma = hypothesis.noise**2 * (inverse.T @ inverse)
@@ -302,7 +302,7 @@ def prior_variances(problem: Problem, chosen: tuple[Chosen, ...], background: Ba
             prior[columns] += (problem.sizes[size - 1] * shape) ** 2
     prior[pool.frames] = FRAME_PRIOR_MM**2
     for c in chosen:
-        own = np.array(pool.candidates[c.candidate].shape)
+        own = np.array(pool.candidates[c.candidate].prior_scale)
         prior[pool.columns[c.candidate]] += (problem.sizes[c.size] * own) ** 2
     return prior
 

@@ -94,7 +94,9 @@ class Search:
 
     def taken_over(self, hypothesis: Hypothesis, pool: Pool) -> Hypothesis:
         """A hypothesis on another pool, with the effects that this search's pool has, too."""
-        index = {(p.key, p.driver, p.variant): n for n, p in enumerate(self.problem.pool.candidates) if not p.fine}
+        index = {
+            (p.key, p.driver, p.variant): n for n, p in enumerate(self.problem.pool.candidates) if not p.refinement
+        }
         chosen = []
         for c in hypothesis.chosen:
             placed = pool.candidates[c.candidate]
@@ -157,7 +159,7 @@ class Search:
 
     def _generalises(self, candidate: int, member: int) -> bool:
         """Whether a candidate is a free curve that contains a member."""
-        return self.placed(candidate).reading == "curve" and self.placed(member).reading != "curve"
+        return self.placed(candidate).parametrisation == "curve" and self.placed(member).parametrisation != "curve"
 
     def _with(self, parent: Hypothesis | Changed, added: Chosen) -> Hypothesis:
         clashing = self.problem.pool.clashes[added.candidate]
@@ -232,7 +234,7 @@ class Search:
         whole = left(self.problem, self.groups.competing, hypothesis)
         moves = self.additions(hypothesis, self.branches, least=-SLACK_NATS, remaining=whole)
         for c in hypothesis.chosen:
-            if self.placed(c.candidate).reading == "curve":
+            if self.placed(c.candidate).parametrisation == "curve":
                 moves += self._split(hypothesis, c)
         for removed in taken_out(self.problem.pool, [c.candidate for c in hypothesis.chosen]):
             # at the noise as it is: without what is taken out the noise would be larger, and fine detail worth nothing
@@ -295,7 +297,7 @@ class Search:
     def _split(self, hypothesis: Hypothesis, curve: Chosen) -> list[Hypothesis]:
         """A curve taken apart into two or three of the special cases that it contains, each as large as the curve."""
         rest = self.without(hypothesis, [curve.candidate])
-        special = [c for c in self.problem.pool.clashes[curve.candidate] if self.placed(c).reading != "curve"]
+        special = [c for c in self.problem.pool.clashes[curve.candidate] if self.placed(c).parametrisation != "curve"]
         if len(special) < 2:
             return []
         gain, _ = gains(self.problem, self.groups, rest)
@@ -317,10 +319,10 @@ class Search:
     def refined(self, hypothesis: Hypothesis) -> Hypothesis:
         """With the finer form of a curve in its place wherever the evidence is for it."""
         candidates = enumerate(self.problem.pool.candidates)
-        fine = {p.key: n for n, p in candidates if p.fine and p.variant == "angle"}
+        fine = {p.key: n for n, p in candidates if p.refinement and p.variant == "angle"}
         for number, c in enumerate(hypothesis.chosen):
             placed = self.placed(c.candidate)
-            if placed.key in fine and placed.variant == "angle" and not placed.fine:
+            if placed.key in fine and placed.variant == "angle" and not placed.refinement:
                 finer = Chosen(fine[placed.key], c.size)
                 chosen = (*hypothesis.chosen[:number], finer, *hypothesis.chosen[number + 1 :])
                 other = weigh(self.problem, chosen, hypothesis.background, hypothesis.noise)
@@ -329,9 +331,11 @@ class Search:
 
     def coarse(self, hypothesis: Hypothesis) -> Hypothesis:
         """With the coarse form of every fine curve in its place."""
-        coarse = {p.key: n for n, p in enumerate(self.problem.pool.candidates) if p.variant == "angle" and not p.fine}
+        coarse = {
+            p.key: n for n, p in enumerate(self.problem.pool.candidates) if p.variant == "angle" and not p.refinement
+        }
         chosen = tuple(
-            Chosen(coarse[self.placed(c.candidate).key], c.size) if self.placed(c.candidate).fine else c
+            Chosen(coarse[self.placed(c.candidate).key], c.size) if self.placed(c.candidate).refinement else c
             for c in hypothesis.chosen
         )
         return (

@@ -46,7 +46,7 @@ def group(pool: Pool) -> Groups:
     """Candidates that compete, by their number of columns."""
     by_size: dict[int, list[int]] = {}
     for number, columns in enumerate(pool.columns):
-        if not pool.candidates[number].fine:
+        if not pool.candidates[number].refinement:
             by_size.setdefault(len(columns), []).append(number)
     all_columns = [pool.columns[m] for members in by_size.values() for m in members]
     competing = np.unique(np.concatenate(all_columns)) if all_columns else np.empty(0, dtype=np.intp)
@@ -54,7 +54,7 @@ def group(pool: Pool) -> Groups:
         competing,
         tuple(np.array(members) for members in by_size.values()),
         tuple(np.searchsorted(competing, [pool.columns[m] for m in members]) for members in by_size.values()),
-        tuple(np.array([pool.candidates[m].shape for m in members]) for members in by_size.values()),
+        tuple(np.array([pool.candidates[m].prior_scale for m in members]) for members in by_size.values()),
     )
 
 
@@ -273,7 +273,7 @@ def joint_gains(problem: Problem, rest: Hypothesis, sets: Sequence[tuple[Chosen,
     for chosen in sets:
         own = np.concatenate([at[c.candidate] for c in chosen])
         size = np.concatenate(
-            [problem.sizes[c.size] * np.array(problem.pool.candidates[c.candidate].shape) for c in chosen]
+            [problem.sizes[c.size] * np.array(problem.pool.candidates[c.candidate].prior_scale) for c in chosen]
         )
         A = np.eye(len(own)) + inner[np.ix_(own, own)] * np.outer(size, size)
         u = size * r[own]

@@ -54,7 +54,7 @@ class Pause:
     rows: float
 
 
-def drift_with_pauses(pauses: Sequence[Pause], tried: int) -> Placed:
+def drift_with_pauses(pauses: Sequence[Pause], multiplicity: int) -> Placed:
     """A base that moves steadily in time, of which only the order of rows is known, and where it paused."""
     terms = tuple(
         replace(
@@ -72,7 +72,7 @@ def drift_with_pauses(pauses: Sequence[Pause], tried: int) -> Placed:
     rows = ", ".join(f"{p.row:g}" for p in pauses)
     told = f"order of rows, with a pause before row{'s' if len(pauses) > 1 else ''} {rows}"
     variant = " ".join(["rows", *(f"{p.row:g}/{p.run}+{p.rows:.1f}" for p in pauses)])
-    return Placed(BASE_DRIFT, "base", terms, (1.0,) * 6, told, tried=tried, variant=variant)
+    return Placed(BASE_DRIFT, "base", terms, (1.0,) * 6, told, multiplicity=multiplicity, variant=variant)
 
 
 def pauses_of(placed: Placed) -> list[Pause]:
@@ -108,18 +108,18 @@ def _axes_of_tool(recordings: Recordings) -> tuple[str, ...]:
     return AXES[:3] if recordings.orientation is None else AXES
 
 
-def base_shift(recordings: Recordings, row: int, tried: int) -> Placed:
+def base_shift(recordings: Recordings, row: int, multiplicity: int) -> Placed:
     """The base jumps before a row (0-based) and stays so until the end of the row's run."""
-    return _shift(BASE_SHIFT, "base", AXES, recordings, row, tried)
+    return _shift(BASE_SHIFT, "base", AXES, recordings, row, multiplicity)
 
 
-def tool_shift(recordings: Recordings, row: int, tried: int) -> Placed:
+def tool_shift(recordings: Recordings, row: int, multiplicity: int) -> Placed:
     """The tool jumps before a row (0-based) and stays so until the end of the row's run."""
-    return _shift(TOOL_SHIFT, "tool", _axes_of_tool(recordings), recordings, row, tried)
+    return _shift(TOOL_SHIFT, "tool", _axes_of_tool(recordings), recordings, row, multiplicity)
 
 
 def _shift(
-    effect: Effect, location: str, axes: tuple[str, ...], recordings: Recordings, row: int, tried: int
+    effect: Effect, location: str, axes: tuple[str, ...], recordings: Recordings, row: int, multiplicity: int
 ) -> Placed:
     run = str(recordings.run[row])
     several = f", run {run}" if len(np.unique(recordings.run)) > 1 else ""
@@ -137,7 +137,7 @@ def _shift(
         (1.0,) * len(axes),
         ("time" if recordings.time is not None else "order of rows") + several,
         scanned=(scanned,),
-        tried=tried,
+        multiplicity=multiplicity,
         variant=f"{run} {scanned[2]:g}",
     )
 

@@ -97,26 +97,26 @@ class Placed:
         effect: its definition.
         location: where, in the words of the verdict ("joint 2", "joint 6 from joint 5").
         terms: its linear parameters.
-        shape: relative size that each term is expected to have at the tool; one number per term.
+        prior_scale: relative size that each term is expected to have at the tool; one number per term.
         driver: what it follows, in words.
         scanned: numbers that were found by scanning (periods per turn, time of a jump), with their units.
-        tried: how many values of the scanned numbers compete: the evidence pays for them.
+        multiplicity: how many values of the scanned numbers compete: the evidence pays for them.
         variant: which of several forms of the effect at this location this is.
-        reading: how the terms' values are told: "plain", or "sine" for (sine, cosine) pairs as amplitude and phase,
-            or "curve" for a free curve.
-        fine: a finer form of a curve: it does not compete, it may take the curve's place once that is chosen.
+        parametrisation: how the terms' values are told: "plain", or "sine" for (sine, cosine) pairs as amplitude and
+            phase, or "curve" for a free curve.
+        refinement: a finer form of a curve: it does not compete, it may take the curve's place once that is chosen.
     """
 
     effect: Effect
     location: str
     terms: tuple[Term, ...]
-    shape: tuple[float, ...]
+    prior_scale: tuple[float, ...]
     driver: str
     scanned: tuple[tuple[str, str, float], ...] = ()
-    tried: int = 1
+    multiplicity: int = 1
     variant: str = ""
-    reading: Literal["plain", "sine", "curve"] = "plain"
-    fine: bool = False
+    parametrisation: Literal["plain", "sine", "curve"] = "plain"
+    refinement: bool = False
 
     @property
     def name(self) -> str:
@@ -150,8 +150,8 @@ class Effect:
         confirm: one sentence: how to confirm it on the real arm.
         cure: one sentence: how to cure it.
         needs: context columns without which it can't be seen.
-        rests_on: family without which it does nothing: a payload's error shows through what gives way.
-        along: its one value is not negative: what gives way does so along its load.
+        requires: family without which it does nothing: a payload's error shows through what gives way.
+        nonnegative: its one value is not negative: what gives way does so along its load.
     """
 
     name: str
@@ -161,8 +161,8 @@ class Effect:
     confirm: str = field(compare=False)
     cure: str = field(compare=False)
     needs: tuple[str, ...] = ()
-    rests_on: str = ""
-    along: bool = False
+    requires: str = ""
+    nonnegative: bool = False
 
 
 CONTAINED = {
@@ -183,10 +183,10 @@ def clash(one: Placed, other: Placed) -> bool:
     if one.name == other.name:
         if one.name == "base_drift":
             return True  # one base moves one way; with pauses or without is the same motion
-        several = one.tried > 2 or one.reading == "curve" or one.family == "drift"
+        several = one.multiplicity > 2 or one.parametrisation == "curve" or one.family == "drift"
         return one.variant == other.variant if several else True
     for curve, special in ((one, other), (other, one)):
-        if curve.reading == "curve" and special.name in CONTAINED.get(curve.variant, set()):
+        if curve.parametrisation == "curve" and special.name in CONTAINED.get(curve.variant, set()):
             return special.name != "backlash" or special.variant == curve.variant
     return False
 

@@ -122,9 +122,9 @@ def _place_wobbles(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
                 (1.0,) * 4,
                 f"angle of joint {j}",
                 scanned=(("per_turn", "1/turn", per_turn),),
-                tried=2,
+                multiplicity=2,
                 variant=str(per_turn),
-                reading="sine",
+                parametrisation="sine",
             )
 
 

@@ -68,7 +68,7 @@ PAYLOAD_ERROR = Effect(
     "Weigh the tool and its load, and find its centre of mass by hanging it from two points.",
     "Correct the payload's data in the controller.",
     needs=("payload_kg",),
-    rests_on="elastic",
+    requires="elastic",
 )
 
 EFFECTS = [PAYLOAD_ERROR]

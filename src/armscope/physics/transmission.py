@@ -45,10 +45,10 @@ GEAR_RATIO = Effect(
 def _place_eccentricities(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     for j in moving_joints(recordings):
         for per_turn in (1, 2):
-            yield _cyclic(GEAR_ECCENTRICITY, j, per_turn, tried=2)
+            yield _cyclic(GEAR_ECCENTRICITY, j, per_turn, multiplicity=2)
 
 
-def _cyclic(effect: Effect, j: int, per_turn: int, tried: int) -> Placed:
+def _cyclic(effect: Effect, j: int, per_turn: int, multiplicity: int) -> Placed:
     return Placed(
         effect,
         f"joint {j}",
@@ -56,9 +56,9 @@ def _cyclic(effect: Effect, j: int, per_turn: int, tried: int) -> Placed:
         (1.0, 1.0),
         f"angle of joint {j}",
         scanned=(("per_turn", "1/turn", per_turn),),
-        tried=tried,
+        multiplicity=multiplicity,
         variant=str(per_turn),
-        reading="sine",
+        parametrisation="sine",
     )
 
 
@@ -74,7 +74,7 @@ GEAR_ECCENTRICITY = Effect(
 
 def mesh(j: int, per_turn: int) -> Placed:
     """A gear mesh error of motor j with ``per_turn`` periods per joint turn."""
-    return _cyclic(GEAR_MESH, j, per_turn, tried=len(MESH_COUNTS))
+    return _cyclic(GEAR_MESH, j, per_turn, multiplicity=len(MESH_COUNTS))
 
 
 GEAR_MESH = Effect(

@@ -114,7 +114,7 @@ def _placed(arm: Arm, table: Recordings, effects: Sequence[str]) -> list[Placed]
             continue
         if name not in known:
             raise InputError("--effects", "", name, "no effect of this name", nearest(name, {*known, GEOMETRY}))
-        here = [each for each in everywhere if each.name == name and not each.fine]
+        here = [each for each in everywhere if each.name == name and not each.refinement]
         first = {each.location: each for each in reversed(here)}  # one form of it per location
         if not here:
             needs = ", ".join(known[name].needs)

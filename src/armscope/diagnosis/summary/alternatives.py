@@ -41,18 +41,18 @@ def alternatives(search: Search, best: Hypothesis, candidate: int) -> list[tuple
     paid = _price_of_curve(search, candidate) if rest else 0.0
     lines = {p.location: p for p in search.problem.pool.candidates if p.effect is JOINT_COMPLIANCE and not p.variant}
     # what a coarse prediction puts far behind is not weighed
-    listed_nats = LISTED_NATS_OF_SPECIAL_CASES if search.placed(candidate).reading == "curve" else LISTED_NATS
+    listed_nats = LISTED_NATS_OF_SPECIAL_CASES if search.placed(candidate).parametrisation == "curve" else LISTED_NATS
     lost = best.value - base.value
     least = lost - paid - listed_nats - COARSELY * max(lost, 0.0) - SLACK_NATS
     for other in search.additions(base, LOOKED_AT, [candidate], least):
         placed = search.placed(other.chosen[-1].candidate)
         gap = best.value - other.value - paid
-        curve = search.placed(candidate).reading == "curve"
+        curve = search.placed(candidate).parametrisation == "curve"
         special = curve and other.chosen[-1].candidate in search.problem.pool.clashes[candidate]
         same = bool(rest) and other.chosen[-1].candidate in search.problem.pool.clashes[candidate]
         if same or placed.key in taken or gap > (LISTED_NATS_OF_SPECIAL_CASES if special else LISTED_NATS):
             continue
-        if rest and placed.variant == "load" and placed.reading == "curve":
+        if rest and placed.variant == "load" and placed.parametrisation == "curve":
             placed = lines.get(placed.location, placed)
         if placed.key not in nearest or gap < nearest[placed.key][0]:
             nearest[placed.key] = (gap, placed, other)
@@ -62,7 +62,7 @@ def alternatives(search: Search, best: Hypothesis, candidate: int) -> list[tuple
 def _price_of_curve(search: Search, line: int) -> float:
     """What the curve that a line was taken from cost, nats: its names were free."""
     problem = search.problem
-    curves = [n for n in problem.pool.clashes[line] if problem.pool.candidates[n].reading == "curve"]
+    curves = [n for n in problem.pool.clashes[line] if problem.pool.candidates[n].parametrisation == "curve"]
     return float(problem.costs[curves[0]] + np.log(len(problem.sizes))) if curves else 0.0
 
 
@@ -87,7 +87,7 @@ def listed(found: Sequence[tuple[float, Placed, Hypothesis]]) -> tuple[Alternati
 
 def name(placed: Placed, rivals: Sequence[Placed]) -> tuple[Specific, str]:
     """How specific the name may be, and the name in words, given the rivals that cannot be told apart from it."""
-    if not rivals and placed.reading == "curve":
+    if not rivals and placed.parametrisation == "curve":
         return "effect", f"an unknown error at {placed.location} that follows the {placed.driver}"
     if not rivals:
         return "effect", f"{_words(placed.name)} at {placed.location}"

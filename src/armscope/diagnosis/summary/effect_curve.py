@@ -45,7 +45,7 @@ def curve_of(placed: Placed, values: Array, covariance: Array, scene: Scene) -> 
     for direction in sorted(directions, key=lambda d: (d.location, d.axis)):
         inside = [n for n, term in enumerate(placed.terms) if term.products[0].direction == direction]
         basis = _basis(placed, inside, at)
-        if placed.reading == "curve":
+        if placed.parametrisation == "curve":
             # a constant is the base's or the joint's zero: only the shape about the mean is the curve's own
             basis = basis - _basis(placed, inside, recorded).mean(axis=0)
         value = basis @ values[inside]

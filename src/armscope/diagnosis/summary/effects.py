@@ -82,9 +82,13 @@ def _sized(evidence: Evidence, chosen: Chosen, values: Array, covariance: Array)
     """
     problem = evidence.problem
     placed = problem.pool.candidates[chosen.candidate]
-    if placed.reading == "curve":
+    if placed.parametrisation == "curve":
         return values  # its prior is that already
-    scale = problem.sizes[chosen.size] * np.array(placed.shape) / problem.scale[problem.pool.columns[chosen.candidate]]
+    scale = (
+        problem.sizes[chosen.size]
+        * np.array(placed.prior_scale)
+        / problem.scale[problem.pool.columns[chosen.candidate]]
+    )
     # the posterior with this prior in place of a flat one
     scaled = covariance / np.outer(scale, scale)
     return np.asarray(scale * (np.linalg.solve(np.eye(len(scale)) + scaled, values / scale)))

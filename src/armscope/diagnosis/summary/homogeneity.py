@@ -97,7 +97,7 @@ def _agreements(problem: Problem, best: Hypothesis, parts: Sequence[Gram]) -> di
     agree = {}
     for c in lines:
         placed = problem.pool.candidates[c.candidate]
-        if placed.reading != "plain" or placed.family == "drift":
+        if placed.parametrisation != "plain" or placed.family == "drift":
             continue
         at = [np.searchsorted(h.columns, problem.pool.columns[c.candidate]) for h in alone]
         values = np.array([h.mean[a] for h, a in zip(alone, at, strict=True)])

@@ -135,7 +135,9 @@ def _without(placed: Placed, named: set[Term]) -> Placed | None:
     kept = [n for n, term in enumerate(placed.terms) if term not in named]
     if not kept:
         return None
-    return replace(placed, terms=tuple(placed.terms[n] for n in kept), shape=tuple(placed.shape[n] for n in kept))
+    return replace(
+        placed, terms=tuple(placed.terms[n] for n in kept), prior_scale=tuple(placed.prior_scale[n] for n in kept)
+    )
 
 
 def _start(model: FittedModel, background: Sequence[Placed], effects: Sequence[tuple[Placed, float]]) -> FittedModel:
@@ -162,7 +164,7 @@ def _precision(parts: Pool, gram: Gram, sizes: Sequence[float], effects: Sequenc
         variance[columns] = (size * TOLERANCE) ** 2 if number == 0 else (size * shape / scale[columns]) ** 2
     for (placed, size), at in zip(effects, parts.columns, strict=True):
         wide = 1.0 if _part_of_it_unseen(placed) else FREE
-        variance[at] = (wide * size * np.array(placed.shape) / scale[at]) ** 2
+        variance[at] = (wide * size * np.array(placed.prior_scale) / scale[at]) ** 2
         # nor farther than frames go, however much of it they would absorb
         variance[at] = np.minimum(variance[at], FRAME_PRIOR_MM**2 * gram.n / np.maximum(np.diag(gram.G)[at], 1e-24))
     variance[parts.frames] = (FRAME_PRIOR_MM / scale[parts.frames]) ** 2
@@ -174,7 +176,7 @@ def _part_of_it_unseen(placed: Placed) -> bool:
 
     Of an axis that wobbles once per turn, half turns with the tool, whose offset is free, where no joint follows.
     """
-    return placed.reading == "curve" or placed.variant == "unknown masses" or placed.name == "axis_wobble"
+    return placed.parametrisation == "curve" or placed.variant == "unknown masses" or placed.name == "axis_wobble"
 
 
 def _solve(A: Array, b: Array) -> tuple[Array, Array]:
