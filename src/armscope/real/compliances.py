@@ -24,7 +24,7 @@ from scipy.stats import f as f_distribution
 
 from armscope.check.preconditions import check_table, with_orientations
 from armscope.core.types import Array
-from armscope.fitting.linearisation import accumulate, missed
+from armscope.fitting.linearisation import missed, normal_equations_by_block
 from armscope.fitting.model_space import Pool, pool
 from armscope.fitting.refit import moved_frames
 from armscope.fitting.registration import fit_frames
