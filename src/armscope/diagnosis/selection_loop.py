@@ -1,6 +1,6 @@
 """Rounds of columns -> selection -> exact refit -> scan, until neither effects, suspect rows nor scatter change.
 
-A long table is diagnosed on a sample of its rows first; all rows then weigh what could matter, once.
+A long table is diagnosed on a sample of its rows first; all rows then evaluate what could matter, once.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from armscope.fitting.linearisation import keep_drivers, missed, normal_equation
 from armscope.fitting.model_space import Pool, pool
 from armscope.fitting.refit import Refit, refit
 from armscope.inference.evidence import Hypothesis, Problem, background_sizes, problem
-from armscope.inference.normal_equations import Gram, total
+from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.search import STARTS, Search
-from armscope.inference.updates import gains
+from armscope.inference.updates import best_additions
 from armscope.measurement import robust
 from armscope.measurement.noise import (
     Growth,
@@ -66,7 +66,7 @@ class Selected:
     """Where the rounds ended; ``point`` is where the blocks were linearised; ``best`` is ``found`` with names."""
 
     problem: Problem
-    blocks: list[Gram]
+    blocks: list[NormalEquations]
     point: FittedModel
     found: Hypothesis
     best: Hypothesis
@@ -85,11 +85,11 @@ def select(
 ) -> Selected:
     """The effects that the evidence asks for, fitted with the exact model."""
     if len(recordings) <= SAMPLE_ROWS:
-        return Rounds(start, recordings, noise, frames, block_of_row, tell).until_settled()
+        return SelectionLoop(start, recordings, noise, frames, block_of_row, tell).run()
     rows = _sample(recordings)
-    small = Rounds(start, recordings.rows(rows), noise, frames, block_of_row[rows], tell)
-    found = small.until_settled(of_a_sample=True)
-    whole = Rounds(start, recordings, noise, frames, block_of_row, tell, _promising(found))
+    small = SelectionLoop(start, recordings.rows(rows), noise, frames, block_of_row[rows], tell)
+    found = small.run(of_a_sample=True)
+    whole = SelectionLoop(start, recordings, noise, frames, block_of_row, tell, _promising(found))
     whole.follow(small)
     tell("weighing all rows", 0.45)
     whole.round((found.best.background,))
@@ -112,12 +112,12 @@ def _promising(found: Selected) -> list[Placed]:
     coarse = {candidates[n].key for n in kept if candidates[n].refinement and candidates[n].variant == "angle"}
     kept |= {n for n, placed in enumerate(candidates) if placed.key in coarse and placed.variant == "angle"}
     for hypothesis in (found.best, search.empty()):
-        gain, _ = gains(found.problem, search.groups, hypothesis)
+        gain, _ = best_additions(found.problem, search.groups, hypothesis)
         kept |= {int(c) for c in np.argsort(-gain)[: PROMISING // 2]}
     return [candidates[c] for c in sorted(kept) if candidates[c].effect is not PAYLOAD_ERROR]
 
 
-class Rounds:
+class SelectionLoop:
     """The rounds on one table.
 
     Args:
@@ -156,7 +156,7 @@ class Rounds:
         self.weights = self.rows.first_weights(self.missed, noise.least_mm)
         self.last: tuple[Hypothesis, Pool] | None = None
 
-    def until_settled(self, of_a_sample: bool = False) -> Selected:
+    def run(self, of_a_sample: bool = False) -> Selected:
         """Rounds until nothing changes; those on all rows still follow where these are a sample."""
         previous: State | None = None
         settled = False
@@ -185,7 +185,7 @@ class Rounds:
                 self.round(None)
         return self.selected()
 
-    def follow(self, other: Rounds) -> None:
+    def follow(self, other: SelectionLoop) -> None:
         """Go on from where the rounds on a sample of the rows ended."""
         self.model, self.last, self.scatter, self.growth = other.model, other.last, other.scatter, other.growth
         self.missed = missed(self.model, self.recordings)
@@ -204,7 +204,7 @@ class Rounds:
         self.blocks = normal_equations_by_block(self.pool, model, self.recordings, self.weights, self.block_of_row)
         self.problem = problem(self.pool, total(self.blocks), self.noise.least_mm)
         search = Search.on(self.problem)
-        warm = None if self.last is None else search.taken_over(*self.last)
+        warm = None if self.last is None else search.transferred(*self.last)
         if starts is None:
             starts = STARTS if warm is None else (warm.background,)
         found = search.best(starts, warm)
@@ -223,7 +223,7 @@ class Rounds:
     def _fitted(self, model: FittedModel) -> Refit:
         """The best hypothesis fitted with the exact model."""
         effects = [
-            (self.pool.candidates[c.candidate], float(self.problem.sizes[c.size]) * (WITHIN if c.within else 1.0))
+            (self.pool.candidates[c.candidate], float(self.problem.sizes[c.size]) * (WITHIN if c.nested else 1.0))
             for c in self.best.chosen
         ]
         small = list(zip(self.families, background_sizes(self.problem, self.best), strict=True))
@@ -235,7 +235,7 @@ class Rounds:
         return [
             c.candidate
             for c, part in zip(self.best.chosen, self.fit.model.parts, strict=True)
-            if c.within and self.pool.along[c.candidate] and part.values[0] < 0
+            if c.nested and self.pool.nonnegative[c.candidate] and part.values[0] < 0
         ]
 
     def _weigh_rows(self, noise: float, white: Array | None) -> None:
@@ -303,7 +303,7 @@ class Rounds:
         return find_scatter(self.left[rows] / relative, self.moved[:, rows] / relative, self.noise.least_mm)
 
     def _take_scatter(self, found: list[Scattered]) -> None:
-        """Whiten the rows by scatter of these places and sizes, and weigh them anew."""
+        """Whiten the rows by scatter of these places and sizes, and evaluate them anew."""
         self.scatter = found
         between = noise_between(self.left, self.moved, found, self.noise.least_mm)
         white = whitening(found, self.moved, between)

@@ -14,7 +14,7 @@ from armscope.fitting.linearisation import current_parameters, missed, normal_eq
 from armscope.fitting.model_space import Pool, pool
 from armscope.fitting.registration import moved_base
 from armscope.inference.evidence import FRAME_PRIOR_MM, TOLERANCE
-from armscope.inference.normal_equations import Gram, scales
+from armscope.inference.normal_equations import NormalEquations, column_scales
 from armscope.measurement import robust
 from armscope.measurement.row_weights import Missed, RowNoise, RowWeights
 from armscope.physics.effect import AXES, Placed, Term
@@ -50,7 +50,7 @@ class Refit:
 
     model: FittedModel
     pool: Pool
-    gram: Gram
+    gram: NormalEquations
     precision: Array
     covariance: Array
     noise: float
@@ -156,9 +156,11 @@ def _start(model: FittedModel, background: Sequence[Placed], effects: Sequence[t
     )
 
 
-def _precision(parts: Pool, gram: Gram, sizes: Sequence[float], effects: Sequence[tuple[Placed, float]]) -> Array:
+def _precision(
+    parts: Pool, gram: NormalEquations, sizes: Sequence[float], effects: Sequence[tuple[Placed, float]]
+) -> Array:
     """(p,) prior precisions in SI units."""
-    scale = scales(gram, parts.frames)
+    scale = column_scales(gram, parts.frames)
     variance = np.full(len(parts.terms), np.inf)
     for number, (columns, shape, size) in enumerate(zip(parts.background, parts.background_shape, sizes, strict=True)):
         variance[columns] = (size * TOLERANCE) ** 2 if number == 0 else (size * shape / scale[columns]) ** 2

@@ -9,7 +9,7 @@ from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import region
 
 
-def taken_out(pool: Pool, chosen: Sequence[int]) -> list[tuple[int, ...]]:
+def block_removals(pool: Pool, chosen: Sequence[int]) -> list[tuple[int, ...]]:
     """Each effect by itself; all of one region; a drift and one more of the base."""
     return [*((candidate,) for candidate in chosen), *_regions(pool, chosen), *_drifting(pool, chosen)]
 

@@ -29,7 +29,7 @@ from armscope.fitting.model_space import Pool, pool
 from armscope.fitting.refit import moved_frames
 from armscope.fitting.registration import fit_frames
 from armscope.inference.evidence import TOLERANCE
-from armscope.inference.normal_equations import Gram, total
+from armscope.inference.normal_equations import NormalEquations, total
 from armscope.measurement import robust
 from armscope.measurement.row_weights import RowNoise
 from armscope.physics import elastic, geometric
@@ -166,7 +166,7 @@ def _precision(parts: Pool) -> Array:
 
 def _settled(
     parts: Pool, model: FittedModel, small: Sequence[Placed], table: Recordings, precision: Array
-) -> tuple[list[Gram], float]:
+) -> tuple[list[NormalEquations], float]:
     """Sums over each block of rows where the exact fit settles, and the noise there (mm): Gauss-Newton, robust."""
     rows = RowNoise(np.ones(len(table)), np.ones(len(table)))
     block = np.arange(len(table)) * BLOCKS // len(table)
@@ -193,7 +193,7 @@ def _at(parts: Pool, model: FittedModel, values: Array) -> FittedModel:
     return replace(moved, background=tuple(Part(p.placed, values[parts.of(p.placed)]) for p in model.background))
 
 
-def _jackknifed(blocks: Sequence[Gram], noise: float, precision: Array) -> tuple[Array, Array, Array]:
+def _jackknifed(blocks: Sequence[NormalEquations], noise: float, precision: Array) -> tuple[Array, Array, Array]:
     """Posterior mean, posterior covariance if the model were true, and with the rows' part as the blocks scatter.
 
     Without block b the mean is theta_b; the rows' part is (B-1)/B sum (theta_b - mean)(theta_b - mean)' (Tukey 1958).
