@@ -102,7 +102,7 @@ def plant(
     from armscope.real.making import Places, make_altered, make_original, make_withheld
     from armscope.real.settings import PlantSettings
     from armscope.real.staging import of_run, stage, with_payload
-    from armscope.recordings.table import read_text_table
+    from armscope.recordings.textfile import read_text_table
     from armscope.robot import load_arm
 
     chosen = parsed(PlantSettings, settings)

@@ -165,20 +165,12 @@ def _precision(
     for number, (columns, shape, size) in enumerate(zip(parts.background, parts.background_shape, sizes, strict=True)):
         variance[columns] = (size * TOLERANCE) ** 2 if number == 0 else (size * shape / scale[columns]) ** 2
     for (placed, size), at in zip(effects, parts.columns, strict=True):
-        wide = 1.0 if _part_of_it_unseen(placed) else FREE
+        wide = 1.0 if placed.partly_unseen else FREE
         variance[at] = (wide * size * np.array(placed.prior_scale) / scale[at]) ** 2
         # nor farther than frames go, however much of it they would absorb
         variance[at] = np.minimum(variance[at], FRAME_PRIOR_MM**2 * gram.n / np.maximum(np.diag(gram.G)[at], 1e-24))
     variance[parts.frames] = (FRAME_PRIOR_MM / scale[parts.frames]) ** 2
     return np.asarray(1 / variance)
-
-
-def _part_of_it_unseen(placed: Placed) -> bool:
-    """Whether recordings may not tell some combination of an effect's values, which then stays as wide as its size.
-
-    Of an axis that wobbles once per turn, half turns with the tool, whose offset is free, where no joint follows.
-    """
-    return placed.parametrisation == "curve" or placed.variant == "unknown masses" or placed.name == "axis_wobble"
 
 
 def _solve(A: Array, b: Array) -> tuple[Array, Array]:

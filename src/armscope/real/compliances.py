@@ -23,6 +23,7 @@ import numpy as np
 from scipy.stats import f as f_distribution
 
 from armscope.check.preconditions import check_table, with_orientations
+from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.fitting.linearisation import missed, normal_equations_by_block
 from armscope.fitting.model_space import Pool, pool
@@ -112,7 +113,7 @@ def fit_give(arm: Arm, recordings: Recordings, run: str) -> Give:
     blocks, noise = _settled(parts, model, small, table, precision)
     mean, posterior, covariance = _jackknifed(blocks, noise, precision)
     at = np.concatenate([parts.of(placed) for placed in (*drives, *bearings)])
-    joint = [int(placed.location.split()[1]) - 1 for placed in (*drives, *bearings)]
+    joint = [Location.of(placed.location).index for placed in (*drives, *bearings)]
     number = np.array(joint) + arm.n_motors * (np.arange(len(joint)) >= len(drives))
 
     def of_all(matrix: Array) -> Array:
