@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from armscope.core.types import Array
-from armscope.fitting.linearisation import accumulate, missed, pool_values
+from armscope.fitting.linearisation import current_parameters, missed, normal_equations_by_block
 from armscope.fitting.model_space import Pool, pool
 from armscope.fitting.registration import moved_base
 from armscope.inference.evidence import FRAME_PRIOR_MM, TOLERANCE
@@ -98,8 +98,8 @@ def refit(
     noise = least_noise
     left = missed(model, recordings)
     for _ in range(STEPS):
-        weights = rows.weighed(left, least_noise, whitening)
-        gram = accumulate(parts, model, recordings, weights, blocks)[0]
+        weights = rows.weights(left, least_noise, whitening)
+        gram = normal_equations_by_block(parts, model, recordings, weights, blocks)[0]
         noise = noise or robust.scale_of(left.shift)
         precision = _precision(parts, gram, [size for _, size in backgrounds], effects)
         A = gram.G + np.diag(noise**2 * precision)
@@ -189,7 +189,7 @@ def _updated(
     share: float,
 ) -> FittedModel:
     """The model with new values, or a share of the way there; frame columns are increments where it stands."""
-    present = pool_values(parts, model)
+    present = current_parameters(parts, model)
     values = present + share * (values - present)
 
     def new(placed: Placed) -> Array:

@@ -183,7 +183,7 @@ def _placed_anew(
 def _steps(model: FittedModel, recordings: Recordings, terms: Sequence[Term]) -> dict[Term, float]:
     """A step of each of the free frames' terms, SI units."""
     left = residuals(model, recordings)
-    weight = robust.first_weights(left, np.ones(len(left)), 0.0)
+    weight = robust.huber_weights(left, np.ones(len(left)), 0.0)
     G, b = np.zeros((len(terms), len(terms))), np.zeros(len(terms))
     for rows, posture in chunks(model, recordings):
         X = columns(posture, terms)

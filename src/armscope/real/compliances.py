@@ -25,7 +25,7 @@ from scipy.stats import f as f_distribution
 from armscope.check.preconditions import check_table, with_orientations
 from armscope.core.location import Location
 from armscope.core.types import Array
-from armscope.fitting.linearisation import accumulate, missed
+from armscope.fitting.linearisation import missed, normal_equations_by_block
 from armscope.fitting.model_space import Pool, pool
 from armscope.fitting.refit import moved_frames
 from armscope.fitting.registration import fit_frames
@@ -175,7 +175,7 @@ def _settled(
     left = missed(model, table)
     values, noise = np.zeros(len(parts.terms)), robust.scale_of(left.shift)
     for _ in range(STEPS):
-        blocks = accumulate(parts, model, table, rows.weighed(left, 0.0), block)
+        blocks = normal_equations_by_block(parts, model, table, rows.weights(left, 0.0), block)
         gram = total(blocks)
         covariance = _inverse(gram.G / noise**2 + np.diag(precision))
         before, values = values, covariance @ gram.b / noise**2
@@ -186,7 +186,7 @@ def _settled(
         inner = np.concatenate(parts.background)
         if np.all(np.abs(values - before)[inner] < SETTLED * np.sqrt(np.diag(covariance))[inner]):
             break
-    return accumulate(parts, model, table, rows.weighed(left, 0.0), block), noise
+    return normal_equations_by_block(parts, model, table, rows.weights(left, 0.0), block), noise
 
 
 def _at(parts: Pool, model: FittedModel, values: Array) -> FittedModel:
