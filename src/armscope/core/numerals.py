@@ -42,7 +42,16 @@ def rounded(value: float) -> str:
 
 
 def size_of(value: float, unit: str, sign: bool = False) -> str:
-    """A number's size in the field's unit with two digits, for a sentence; its sign only where asked."""
+    """A number's size in the field's unit, for a sentence.
+
+    Args:
+        value: in a unit of the files.
+        unit: that unit.
+        sign: whether its sign is said, too.
+
+    Returns:
+        Two significant digits and the unit.
+    """
     factor, shown = shown_unit(unit, abs(value))
     plus = ("+" if value > 0 else "−") if sign else ""
     return f"{plus}{rounded(factor * abs(value))} {shown}"
