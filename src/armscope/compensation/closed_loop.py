@@ -74,7 +74,7 @@ def physical_candidate(model: FittedModel, identified: Identified) -> Candidate:
     return Candidate(points, lambda path: compensate_physical(model, identified, path, options))
 
 
-def left_over(
+def remaining_errors(
     arm: Arm,
     candidates: Mapping[str, Candidate],
     identification: MeasuredPath,
@@ -115,7 +115,7 @@ def cross_table(left: pd.DataFrame) -> pd.DataFrame:
     """Model by trajectory by stage: the RMS of what is left of the error.
 
     Args:
-        left: see `left_over`.
+        left: see `remaining_errors`.
 
     Returns:
         Columns model, trajectory, stage, axis ("x", "y", "z", "3D"), points, refused, rms_mm, rss_mm; points without a
@@ -139,7 +139,7 @@ def _left(candidate: Candidate, path: MeasuredPath) -> Array:
 
 
 def vectors(model: str, trajectory: str, stage: str, error_mm: Array) -> pd.DataFrame:
-    """One part of `left_over`'s table.
+    """One part of `remaining_errors`'s table.
 
     Args:
         model: the model's name.

@@ -14,8 +14,8 @@ from armscope.compensation.closed_loop import (
     Candidate,
     MeasuredPath,
     black_box_candidate,
-    left_over,
     physical_candidate,
+    remaining_errors,
     vectors,
 )
 from armscope.compensation.physical import identified_on
@@ -42,7 +42,7 @@ def paper_closed_loop(
     regions: Sequence[tuple[ModelSpec, int]] = (),
     diagnosed: bool = True,
 ) -> pd.DataFrame:
-    """What is left at every point by model, trajectory and stage, for the first robot of a study; see `left_over`.
+    """What is left at every point by model, trajectory and stage, for a study's first robot; see `remaining_errors`.
 
     Args:
         arm: the nominal arm.
@@ -69,7 +69,7 @@ def paper_closed_loop(
         )
     if diagnosed:
         candidates[DIAGNOSED] = _diagnosed(arm, identification)
-    return left_over(
+    return remaining_errors(
         arm,
         candidates,
         _measured(identification),
@@ -113,7 +113,7 @@ def real_left_over(
     order.
 
     Returns:
-        As `left_over`, with the stages "fit" and "prediction" only.
+        As `remaining_errors`, with the stages "fit" and "prediction" only.
     """
     rows = measurements.identification
     found: dict[str, Callable[[PoseSet], Array]] = {NO_MODEL: lambda each: np.zeros_like(each.errors_mm[0])}
