@@ -25,14 +25,14 @@ from scipy.stats import f as f_distribution
 from armscope.check.preconditions import check_table, with_orientations
 from armscope.core.types import Array
 from armscope.fitting.linearisation import accumulate, missed
-from armscope.fitting.model_space import Pool, pool
+from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
 from armscope.fitting.refit import moved_frames
 from armscope.fitting.registration import fit_frames
-from armscope.inference.evidence import TOLERANCE
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.measurement import robust
 from armscope.measurement.row_weights import RowNoise
 from armscope.physics import elastic, geometric
+from armscope.physics.backgrounds import TOLERANCE
 from armscope.physics.effect import Placed
 from armscope.physics.frames import free_frames
 from armscope.physics.model import FittedModel
@@ -107,7 +107,10 @@ def fit_give(arm: Arm, recordings: Recordings, run: str) -> Give:
     bearings = list(elastic.BEARING_COMPLIANCE.place(arm, table))
     waves = [mesh(j, per_turn) for j in moving_joints(table) for per_turn in WAVES]
     families = [geometric.background(arm), [*drives, *bearings], [*waves, *geometric.AXIS_WOBBLE.place(arm, table)]]
-    parts, small = pool(free_frames(table, tool_per_run), families, []), [p for family in families for p in family]
+    parts, small = (
+        parameter_layout(free_frames(table, tool_per_run), families, []),
+        [p for family in families for p in family],
+    )
     precision = _precision(parts)
     blocks, noise = _settled(parts, model, small, table, precision)
     mean, posterior, covariance = _jackknifed(blocks, noise, precision)
@@ -156,7 +159,7 @@ def gravity_as_recorded(arm: Arm, table: Recordings) -> Array:
     return smooth
 
 
-def _precision(parts: Pool) -> Array:
+def _precision(parts: ParameterLayout) -> Array:
     """(p,) prior precisions, SI units; frames are free."""
     precision = np.zeros(len(parts.terms))
     for columns, size in zip(parts.background, (TOLERANCE, PRIOR, WAVE), strict=True):
@@ -165,7 +168,7 @@ def _precision(parts: Pool) -> Array:
 
 
 def _settled(
-    parts: Pool, model: FittedModel, small: Sequence[Placed], table: Recordings, precision: Array
+    parts: ParameterLayout, model: FittedModel, small: Sequence[Placed], table: Recordings, precision: Array
 ) -> tuple[list[NormalEquations], float]:
     """Sums over each block of rows where the exact fit settles, and the noise there (mm): Gauss-Newton, robust."""
     rows = RowNoise(np.ones(len(table)), np.ones(len(table)))
@@ -188,7 +191,7 @@ def _settled(
     return accumulate(parts, model, table, rows.weighed(left, 0.0), block), noise
 
 
-def _at(parts: Pool, model: FittedModel, values: Array) -> FittedModel:
+def _at(parts: ParameterLayout, model: FittedModel, values: Array) -> FittedModel:
     moved = moved_frames(model, dict(zip(parts.terms, values, strict=True)))
     return replace(moved, background=tuple(Part(p.placed, values[parts.of(p.placed)]) for p in model.background))
 
