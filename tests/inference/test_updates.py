@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis.model_space import build_model_space
-from armscope.fitting.linearisation import accumulate
+from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.fitting.registration import fit_frames
 from armscope.inference import linear_algebra
 from armscope.inference.additions import addition_scores, group_candidates
@@ -30,7 +30,7 @@ def setting() -> Problem:
     arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [2e-7]}, ROWS, 0.03, seed=1)
     model = fit_frames(arm, table)
     parts = build_model_space(free_frames(table, False), list(backgrounds(arm, table).values()), library(arm, table))
-    gram = total(accumulate(parts.layout, model, table, RowWeights(np.ones(ROWS)), np.arange(ROWS) % 5))
+    gram = total(normal_equations_by_block(parts.layout, model, table, RowWeights(np.ones(ROWS)), np.arange(ROWS) % 5))
     return replace(build_problem(parts, gram, 0.0), least_noise=NOISE)
 
 

@@ -16,7 +16,7 @@ from scipy.special import log_ndtr
 
 from armscope.core.types import Array
 from armscope.diagnosis.model_space import build_model_space
-from armscope.fitting.linearisation import accumulate, residuals
+from armscope.fitting.linearisation import normal_equations_by_block, residuals
 from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.normal_equations import total
 from armscope.inference.problem import SURE_NATS, Problem, build_problem
@@ -102,7 +102,7 @@ class _Valley:
         self.start, self.recordings, self.noise = start, recordings, noise
         self.frames = free_frames(recordings, tool_per_run)
         left = residuals(start, recordings)
-        self.weights = RowWeights(robust.first_weights(left, np.ones(len(left)), noise.least_mm))
+        self.weights = RowWeights(robust.huber_weights(left, np.ones(len(left)), noise.least_mm))
         self.known: dict[tuple[float, ...], float] = {}
 
     def depth(self, tilt: Array) -> float:
@@ -117,7 +117,9 @@ class _Valley:
         space = build_model_space(self.frames, list(backgrounds(arm, self.recordings).values()), [])
         model = FittedModel(arm, self.start.bases, self.start.tools)
         blocks = np.zeros(len(self.recordings), dtype=np.intp)
-        made = build_problem(space, total(accumulate(space.layout, model, self.recordings, self.weights, blocks)), 0.0)
+        made = build_problem(
+            space, total(normal_equations_by_block(space.layout, model, self.recordings, self.weights, blocks)), 0.0
+        )
         start = max(made.mismatch, 1e-4)
         geometric, elastic, _ = (range(family.sizes) for family in space.families)
         sizes = [(g, e, 0) for g in (0, geometric[-1]) for e in elastic[1:]]

@@ -5,10 +5,18 @@ from __future__ import annotations
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.fitting.joint_scatter import Scattered, find_scatter, levers, noise_between, whitening
+from armscope.fitting.joint_scatter import Scattered, find_scatter, motor_jacobians, noise_between, whitening
 from armscope.measurement import robust
-from armscope.measurement.noise import Growth, Noise, distances, growth, independent_shares, poses, relative_uncertainty
-from armscope.measurement.row_weights import COUNTS, Missed, RowNoise
+from armscope.measurement.noise import (
+    Growth,
+    Noise,
+    distances,
+    growth,
+    independence_weights,
+    poses,
+    relative_uncertainty,
+)
+from armscope.measurement.row_weights import INLIER_WEIGHT, Missed, RowNoise
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 
@@ -34,14 +42,14 @@ class NoiseOfRows:
 
     def __init__(self, start: FittedModel, recordings: Recordings, noise: Noise, residuals: Missed) -> None:
         self.recordings, self.least_mm = recordings, noise.least_mm
-        self.moved, self.pose = levers(start, recordings), poses(recordings)
+        self.moved, self.pose = motor_jacobians(start, recordings), poses(recordings)
         self.residuals = residuals
         self.scatter: list[Scattered] = []
         self.growth: Growth | None = None
         uncertainty = relative_uncertainty(recordings, robust.scale_of(residuals.shift))
         near = np.ones(len(recordings), dtype=bool)
-        self.rows = RowNoise(uncertainty, independent_shares(residuals.shift, self.pose, near))
-        self.weights = self.rows.weighed_first(residuals, self.least_mm)
+        self.rows = RowNoise(uncertainty, independence_weights(residuals.shift, self.pose, near))
+        self.weights = self.rows.first_weights(residuals, self.least_mm)
 
     def follow(self, other: NoiseOfRows, residuals: Missed, noise_mm: float) -> None:
         """Go on from what other rows told."""
@@ -55,9 +63,11 @@ class NoiseOfRows:
         if self.growth is not None:
             by_distance = self.growth.at(np.linalg.norm(self.recordings.positions, axis=1))
         uncertainty = relative_uncertainty(self.recordings, noise_mm, by_distance)
-        alone = RowNoise(uncertainty, np.ones(len(uncertainty))).weighed(residuals, self.least_mm)
-        self.rows = RowNoise(uncertainty, independent_shares(residuals.shift, self.pose, alone.trust > COUNTS))
-        self.weights = self.rows.weighed(residuals, self.least_mm, white)
+        alone = RowNoise(uncertainty, np.ones(len(uncertainty))).weights(residuals, self.least_mm)
+        self.rows = RowNoise(
+            uncertainty, independence_weights(residuals.shift, self.pose, alone.robust_weight > INLIER_WEIGHT)
+        )
+        self.weights = self.rows.weights(residuals, self.least_mm, white)
 
     def has_changed(self, model: FittedModel, noise_mm: float) -> bool:
         """Look for noise that grows with the distance, or else for scatter; whether something new was found."""
@@ -80,7 +90,7 @@ class NoiseOfRows:
         if self.recordings.sigma is not None or self.growth is not None or self.scatter:
             return False
         away = distances(model, self.recordings)
-        found = None if away is None else growth(self.residuals.shift, away, self.weights.trust > COUNTS)
+        found = None if away is None else growth(self.residuals.shift, away, self.weights.robust_weight > INLIER_WEIGHT)
         if found is None or found.evidence < sum(each.evidence for each in self._find_scatter()):
             return False
         self.growth = found
@@ -99,4 +109,4 @@ class NoiseOfRows:
         self.scatter = found
         between = noise_between(self.residuals.shift, self.moved, found, self.least_mm)
         white = whitening(found, self.moved, between)
-        self.weights = self.rows.weighed(self.residuals, self.least_mm, white)
+        self.weights = self.rows.weights(self.residuals, self.least_mm, white)

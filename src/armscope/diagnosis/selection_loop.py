@@ -17,7 +17,7 @@ from armscope.diagnosis.scans.context import ScanContext
 from armscope.diagnosis.scans.gear_mesh import mesh_lines
 from armscope.diagnosis.scans.pauses import pauses
 from armscope.fitting.joint_scatter import Scattered
-from armscope.fitting.linearisation import accumulate, keep_drivers, missed
+from armscope.fitting.linearisation import keep_drivers, missed, normal_equations_by_block
 from armscope.fitting.refit import Refit, refit
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import BackgroundSizes
@@ -25,7 +25,7 @@ from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, background_sizes, build_problem
 from armscope.inference.search import Search
 from armscope.measurement.noise import Growth, Noise
-from armscope.measurement.row_weights import COUNTS
+from armscope.measurement.row_weights import INLIER_WEIGHT
 from armscope.physics.backgrounds import backgrounds
 from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import Placed
@@ -154,7 +154,9 @@ class SelectionLoop:
         self.point, payload = _payload(self.model, self.recordings)
         self.space = build_model_space(self.frames, self.families, [*self.candidates, *payload])
         weights = self.noise.weights
-        self.blocks = accumulate(self.space.layout, self.point, self.recordings, weights, self.block_of_row)
+        self.blocks = normal_equations_by_block(
+            self.space.layout, self.point, self.recordings, weights, self.block_of_row
+        )
         self.problem = build_problem(self.space, total(self.blocks), self.noise.least_mm)
         search = Search.on(self.problem)
         found = search.best(starts, None if self.last is None else search.transferred(*self.last))
@@ -205,7 +207,7 @@ class SelectionLoop:
     def _state(self) -> State:
         """What must not change any more: the effects and the rows that do not count."""
         chosen = [self.space.candidates[c] for c in self.best.candidates]
-        return frozenset(c.label + c.variant for c in chosen), self.noise.weights.trust < COUNTS
+        return frozenset(c.label + c.variant for c in chosen), self.noise.weights.robust_weight < INLIER_WEIGHT
 
     def _alike(self, state: State, previous: State) -> bool:
         """Whether two rounds ended alike: the same effects, and the same rows count but for a few of very many."""

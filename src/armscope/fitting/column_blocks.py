@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from armscope.core.types import Array, Indices
-from armscope.fitting.design_matrix import arranged, stacked
-from armscope.fitting.linearisation import chunks, pool_values, response
+from armscope.fitting.design_matrix import grouped_columns, structured_design
+from armscope.fitting.linearisation import chunks, current_parameters, response
 from armscope.fitting.parameter_layout import ParameterLayout
 from armscope.inference.linear_algebra import ColumnBlocks
 from armscope.measurement.row_weights import RowWeights
@@ -36,20 +36,22 @@ def column_blocks(
         weights: of the rows.
     """
     m, c = len(blocks), len(blocks[0])
-    beside = arranged([term for block in blocks for term in block])
-    model_terms = arranged([layout.terms[i] for i in inside])
+    beside = grouped_columns([term for block in blocks for term in block])
+    model_terms = grouped_columns([layout.terms[i] for i in inside])
     values, active, present = active_effects(layout, model)
-    arrangement = arranged(present)
+    column_order = grouped_columns(present)
     k = len(inside)
     own, cross, b = np.zeros((m * c, m * c)), np.zeros((k, m * c)), np.zeros(m * c)
     for rows, posture in chunks(model, recordings):
         lens = weights.lens(rows)
         seen = posture.through(lens)
-        y = response(model, posture, lens).T + stacked(seen, arrangement).combined(values[active][arrangement.order])
-        E = stacked(seen, beside)
+        y = response(model, posture, lens).T + structured_design(seen, column_order).matvec(
+            values[active][column_order.order]
+        )
+        E = structured_design(seen, beside)
         E.add_products(own)
-        cross += stacked(seen, model_terms).products(E)
-        b += E.onto(y)
+        cross += structured_design(seen, model_terms).products(E)
+        b += E.rmatvec(y)
     own = beside.whole(own).reshape(m, c, m, c)[np.arange(m), :, np.arange(m), :]
     cross = cross[np.ix_(model_terms.back, beside.back)]
     return ColumnBlocks(own, np.moveaxis(cross.reshape(k, m, c), 1, 0), b[beside.back].reshape(m, c))
@@ -57,6 +59,6 @@ def column_blocks(
 
 def active_effects(layout: ParameterLayout, model: FittedModel) -> tuple[Array, Indices, list[Term]]:
     """The model's values (p,), which of them are not zero, and their terms."""
-    values = pool_values(layout, model)
+    values = current_parameters(layout, model)
     active = np.flatnonzero(values)
     return values, active, [layout.terms[i] for i in active]

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from armscope.core.types import Array, Indices
-from armscope.fitting.design_matrix import Arrangement, arranged
+from armscope.fitting.design_matrix import ColumnOrder, grouped_columns
 from armscope.physics.effect import Placed, Term
 
 
@@ -32,9 +32,9 @@ class ParameterLayout:
     columns: tuple[Indices, ...]
 
     @functools.cached_property
-    def arrangement(self) -> Arrangement:
+    def column_order(self) -> ColumnOrder:
         """The columns sorted by how they are best multiplied."""
-        return arranged(self.terms)
+        return grouped_columns(self.terms)
 
     def of(self, placed: Placed) -> Indices:
         """Columns of an effect whose terms are all in the layout."""

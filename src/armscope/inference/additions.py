@@ -97,7 +97,7 @@ def addition_scores(
     first = [int(problem.space.candidates[number].columns[0]) for number in half_line]
     pushed = rest.b[np.searchsorted(groups.competing, first)] > 0
     by_size[:, half_line] += np.where(pushed, np.log(2), -np.inf)
-    return by_size - problem.prior_costs - np.log(len(problem.sizes))
+    return np.asarray(by_size - problem.prior_costs - np.log(len(problem.sizes)))
 
 
 def joint_addition_scores(problem: Problem, rest: Hypothesis, sets: Sequence[tuple[SelectedEffect, ...]]) -> Array:

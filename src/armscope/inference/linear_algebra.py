@@ -59,7 +59,7 @@ class ColumnBlocks:
     @property
     def diagonal(self) -> Array:
         """(m, c) sums of squares of the columns."""
-        return np.einsum("mcc->mc", self.own)
+        return np.asarray(np.einsum("mcc->mc", self.own))
 
     def conditioned(self, cholesky: Array, whitened_rhs: Array) -> tuple[Array, Array]:
         """(own, b) of the blocks once the model's posterior is conditioned on.

@@ -71,7 +71,7 @@ def column_scales(equations: NormalEquations, frames: Indices) -> Array:
     raw = np.diag(equations.G)
     seen = np.maximum(raw - absorbed, LEAST_SEEN**2 * raw)
     seen[frames] = raw[frames]
-    return np.sqrt(np.maximum(seen / max(equations.n, 1.0), 1e-24))
+    return np.asarray(np.sqrt(np.maximum(seen / max(equations.n, 1.0), 1e-24)))
 
 
 def as_response(G: Array, coefficients: Array, n: float) -> NormalEquations:

@@ -89,6 +89,7 @@ BASE_DRIFT = Effect(
     "Measure fixed reference points on the base at the start and the end.",
     "Let the set-up settle and warm up; measure references in between and correct.",
     needs=("time_s, or rows in order",),
+    contained_in=("time",),
 )
 
 
@@ -157,6 +158,7 @@ BASE_SHIFT = Effect(
     "The base or the instrument jumped during the recording.",
     "Look into the log for what happened at that time; measure reference points on the base.",
     "Fasten the base and the instrument; register again after each change.",
+    several=True,
 )
 
 TOOL_SHIFT = Effect(
@@ -166,6 +168,7 @@ TOOL_SHIFT = Effect(
     "The tool or its reflector moved on the flange during the recording or between runs.",
     "Look into the log for what happened at that time; measure the tool point again.",
     "Fasten the tool; calibrate the tool point again after each change.",
+    several=True,
 )
 
 EFFECTS = [BASE_DRIFT, BASE_SHIFT, TOOL_SHIFT]

@@ -70,6 +70,7 @@ def _unknown_masses(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
             tuple(shape),
             f"load of joint {j}, masses unknown",
             variant=UNKNOWN_MASSES,
+            partly_unseen=True,
         )
 
 
@@ -97,6 +98,7 @@ JOINT_COMPLIANCE = Effect(
     "Hang a known weight on the tool in the same pose and measure how far this joint turns.",
     "Add torque x compliance to the commanded angle, or have the controller's elastic model do it.",
     nonnegative=True,
+    contained_in=("load",),
 )
 
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
@@ -41,7 +42,7 @@ def refined(arm: Arm, recordings: Recordings, curve: Placed) -> Placed | None:
     count = min(len(recordings) // ROWS_PER_FINE_WAVE, MOST_FINE_WAVES)
     if curve.effect is not UNKNOWN or curve.variant != "angle" or curve.refinement or count <= MOST_WAVES:
         return None
-    j = int(curve.location.split()[1])
+    j = Location.of(curve.location).number
     return replace(_angle_curve(arm, recordings, j, count, SMOOTH_FINE_WAVES), refinement=True)
 
 
@@ -52,7 +53,7 @@ def held(curve: Placed, recordings: Recordings) -> Placed:
     """
     if curve.parametrisation != "curve" or curve.variant != "angle":
         return curve
-    low, high = _range(recordings.motor_angles[:, int(curve.location.split()[1]) - 1])
+    low, high = _range(recordings.motor_angles[:, Location.of(curve.location).number - 1])
 
     def bounded(product: Product) -> Product:
         driver = product.driver
@@ -167,6 +168,7 @@ def _curve(
         driver,
         variant=variant,
         parametrisation="curve",
+        partly_unseen=True,
     )
 
 
@@ -194,6 +196,7 @@ UNKNOWN = Effect(
     "Something here follows its driver in a way that none of the library's effects explains.",
     "Measure this joint alone in fine steps over the driver's range.",
     "Correct by the fitted curve until its cause is found.",
+    several=True,
 )
 
 EFFECTS = [UNKNOWN]

@@ -23,8 +23,9 @@ import numpy as np
 from scipy.stats import f as f_distribution
 
 from armscope.check.preconditions import check_table, with_orientations
+from armscope.core.location import Location
 from armscope.core.types import Array
-from armscope.fitting.linearisation import accumulate, missed
+from armscope.fitting.linearisation import missed, normal_equations_by_block
 from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
 from armscope.fitting.refit import moved_frames
 from armscope.fitting.registration import fit_frames
@@ -96,6 +97,9 @@ def fit_give(arm: Arm, recordings: Recordings, run: str) -> Give:
         arm: the nominal arm, with masses.
         recordings: rows with recorded torques; their orientations are used where they were measured.
         run: what to call them.
+
+    Returns:
+        Compliances, rad/(N m), with covariances; the noise and masses that they were fitted with.
     """
     table = check_table(arm, recordings).recordings
     tool_per_run = len(np.unique(table.run)) > 1
@@ -107,15 +111,13 @@ def fit_give(arm: Arm, recordings: Recordings, run: str) -> Give:
     bearings = list(elastic.BEARING_COMPLIANCE.place(arm, table))
     waves = [mesh(j, per_turn) for j in moving_joints(table) for per_turn in WAVES]
     families = [geometric.background(arm), [*drives, *bearings], [*waves, *geometric.AXIS_WOBBLE.place(arm, table)]]
-    parts, small = (
-        parameter_layout(free_frames(table, tool_per_run), families, []),
-        [p for family in families for p in family],
-    )
+    parts = parameter_layout(free_frames(table, tool_per_run), families, [])
+    small = [p for family in families for p in family]
     precision = _precision(parts)
     blocks, noise = _settled(parts, model, small, table, precision)
     mean, posterior, covariance = _jackknifed(blocks, noise, precision)
     at = np.concatenate([parts.of(placed) for placed in (*drives, *bearings)])
-    joint = [int(placed.location.split()[1]) - 1 for placed in (*drives, *bearings)]
+    joint = [Location.of(placed.location).index for placed in (*drives, *bearings)]
     number = np.array(joint) + arm.n_motors * (np.arange(len(joint)) >= len(drives))
 
     def of_all(matrix: Array) -> Array:
@@ -177,7 +179,7 @@ def _settled(
     left = missed(model, table)
     values, noise = np.zeros(len(parts.terms)), robust.scale_of(left.shift)
     for _ in range(STEPS):
-        blocks = accumulate(parts, model, table, rows.weighed(left, 0.0), block)
+        blocks = normal_equations_by_block(parts, model, table, rows.weights(left, 0.0), block)
         gram = total(blocks)
         covariance = _inverse(gram.G / noise**2 + np.diag(precision))
         before, values = values, covariance @ gram.b / noise**2
@@ -188,7 +190,7 @@ def _settled(
         inner = np.concatenate(parts.background)
         if np.all(np.abs(values - before)[inner] < SETTLED * np.sqrt(np.diag(covariance))[inner]):
             break
-    return accumulate(parts, model, table, rows.weighed(left, 0.0), block), noise
+    return normal_equations_by_block(parts, model, table, rows.weights(left, 0.0), block), noise
 
 
 def _at(parts: ParameterLayout, model: FittedModel, values: Array) -> FittedModel:

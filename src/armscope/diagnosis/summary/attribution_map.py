@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from armscope.fitting.column_blocks import column_blocks
-from armscope.fitting.linearisation import accumulate
+from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.fitting.parameter_layout import ParameterLayout
 from armscope.inference.linear_algebra import lower_cholesky, rss_reduction, solve_lower
 from armscope.measurement.row_weights import RowWeights
@@ -42,7 +42,7 @@ def atlas(layout: ParameterLayout, model: FittedModel, recordings: Recordings, w
     table, w = recordings.rows(rows), weights.take(rows, share)
     # columns and response must stand at one and the same point and on the same rows, or what the frames absorb does not
     # cancel
-    fitted = accumulate(layout, model, table, w, np.zeros(len(rows), dtype=np.intp))[0]
+    fitted = normal_equations_by_block(layout, model, table, w, np.zeros(len(rows), dtype=np.intp))[0]
     drivers = _drivers(model, recordings)
     names = tuple(name for name, _ in drivers)
     whole = _whole_effects(model, recordings, names)

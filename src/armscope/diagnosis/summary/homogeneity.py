@@ -10,7 +10,7 @@ from scipy.stats import chi2
 from armscope.core.types import Indices
 from armscope.diagnosis.held_out import FEWEST_ROWS_PER_RUN
 from armscope.diagnosis.state import DiagnosisState
-from armscope.fitting.linearisation import accumulate
+from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem
@@ -50,7 +50,12 @@ def _divisions(state: DiagnosisState) -> Iterator[tuple[list[NormalEquations], s
         counts = np.bincount(of_row[of_row >= 0])
         if len(counts) > 1 and counts.min() >= FEWEST_ROWS_PER_RUN:
             known = np.flatnonzero(of_row >= 0)
-            yield accumulate(state.space.layout, point, table.rows(known), some.take(known), of_row[known]), kind
+            yield (
+                normal_equations_by_block(
+                    state.space.layout, point, table.rows(known), some.take(known), of_row[known]
+                ),
+                kind,
+            )
 
 
 def _payloads(recordings: Recordings) -> Indices:
