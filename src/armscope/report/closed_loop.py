@@ -11,7 +11,7 @@ import pandas as pd
 from armscope.compensation.black_box import ErrorModel, domain_of, error_model
 from armscope.compensation.closed_loop import (
     NO_MODEL,
-    Candidate,
+    Corrector,
     MeasuredPath,
     black_box_candidate,
     physical_candidate,
@@ -55,7 +55,7 @@ def paper_closed_loop(
     """
     truth = geometric_errors(arm)
     identification = measurements.identification
-    candidates: dict[str, Candidate] = {
+    candidates: dict[str, Corrector] = {
         fit.name: black_box_candidate(error_model(arm, fit, identification.motor_angles))
         for fit in fits
         if fit.label == measurements.robots[0]
@@ -156,7 +156,7 @@ def _predictor(
     return predict
 
 
-def _diagnosed(arm: Arm, identification: PoseSet) -> Candidate:
+def _diagnosed(arm: Arm, identification: PoseSet) -> Corrector:
     columns = {f"q{motor}_rad": angles for motor, angles in enumerate(identification.motor_angles.T, start=1)}
     measured = identification.nominal_mm + identification.errors_mm[0]
     columns |= {f"{axis}_mm": measured[:, n] for n, axis in enumerate("xyz")}
