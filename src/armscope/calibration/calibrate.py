@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.calibration.by_run import misses_by_run
-from armscope.calibration.fit import rms_distance, spread_of
+from armscope.calibration.fit import rms_distance
 from armscope.calibration.geometry import nominal_values
 from armscope.calibration.imitation import Imitation, imitations
 from armscope.calibration.model import Level, SetUp, State, set_up
@@ -23,6 +23,7 @@ from armscope.calibration.splits import foretold, split
 from armscope.calibration.words import in_words
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
+from armscope.measurement.robust import spread_of
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 

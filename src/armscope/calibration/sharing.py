@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from armscope.calibration.fit import placed, spread_of
+from armscope.calibration.fit import placed
 from armscope.calibration.model import set_up
+from armscope.measurement.robust import spread_of
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 

@@ -8,10 +8,11 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.calibration.fit import Fitted, least_squares, placed, robust_least_squares, spread_of
+from armscope.calibration.fit import Fitted, least_squares, placed, robust_least_squares
 from armscope.calibration.identifiability import identifiable
 from armscope.calibration.model import Level, SetUp, State
 from armscope.core.types import Array
+from armscope.measurement.robust import spread_of
 
 Redundancy = Literal["fixed", "priors"]
 WEIGHINGS = 3

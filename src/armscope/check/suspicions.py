@@ -16,12 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
-from armscope.calibration.fit import placed, rms_distance, robust_least_squares, spread_of
+from armscope.calibration.fit import placed, rms_distance, robust_least_squares
 from armscope.calibration.model import SetUp, State, set_up
 from armscope.check.contents import MOVED_RAD
 from armscope.check.orientations import orientation_mistakes
 from armscope.check.suspicion import Suspicion
 from armscope.core.types import Array
+from armscope.measurement.robust import spread_of
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
