@@ -17,7 +17,15 @@ from scipy.special import log_ndtr
 from armscope.core.types import Array
 from armscope.fitting.linearisation import accumulate, residuals
 from armscope.fitting.model_space import pool
-from armscope.inference.evidence import BACKGROUND_SIZES, FAMILY_SIZES, SURE_NATS, Hypothesis, Problem, problem, weigh
+from armscope.inference.evidence import (
+    BACKGROUND_SIZES,
+    FAMILY_SIZES,
+    SURE_NATS,
+    Hypothesis,
+    Problem,
+    evaluate,
+    problem,
+)
 from armscope.inference.normal_equations import total
 from armscope.measurement import robust
 from armscope.measurement.noise import Noise
@@ -120,8 +128,8 @@ class _Valley:
         start = max(made.mismatch, 1e-4)
         geometric = (0, len(BACKGROUND_SIZES) - 1)
         sizes = [(g, e, 0) for g in geometric for e in range(1, FAMILY_SIZES)]
-        weighed = (weigh(made, (), size, start) for size in sizes)
-        return -max(each.value + _gives_along(made, each) for each in weighed)
+        weighed = (evaluate(made, (), size, start) for size in sizes)
+        return -max(each.log_posterior + _gives_along(made, each) for each in weighed)
 
 
 def _gives_along(made: Problem, hypothesis: Hypothesis) -> float:

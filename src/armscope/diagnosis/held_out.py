@@ -12,8 +12,8 @@ from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import columns, stacked
 from armscope.fitting.linearisation import chunks, pool_values, response
 from armscope.fitting.model_space import Pool
-from armscope.inference.evidence import PERFECT, Chosen, Hypothesis, Problem, weigh
-from armscope.inference.normal_equations import Gram, total
+from armscope.inference.evidence import PERFECT, Hypothesis, Problem, SelectedEffect, evaluate
+from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.search import LARGE, STARTS, Search
 from armscope.measurement.row_weights import COUNTS, RowWeights
 from armscope.physics.effect import Term
@@ -59,7 +59,7 @@ def split(recordings: Recordings, rng: np.random.Generator) -> Blocks:
 
 def cross_validate(
     problem: Problem,
-    blocks: Sequence[Gram],
+    blocks: Sequence[NormalEquations],
     split: Blocks,
     best: Hypothesis,
     order: Sequence[int],
@@ -85,7 +85,7 @@ def cross_validate(
     fitted = _readings(problem, sets, best, noise)
     values = {}
     for fold in folds:
-        trained = problem.with_gram(whole - total([blocks[int(k)] for k in np.flatnonzero(split.fold == fold)]))
+        trained = problem.with_equations(whole - total([blocks[int(k)] for k in np.flatnonzero(split.fold == fold)]))
         chosen = _chosen_again(trained, best)
         readings = [*_readings(trained, sets, best, noise), chosen]
         values[fold] = np.array([h.coefficients(len(problem.scale)) / problem.scale for h in readings])
@@ -130,12 +130,12 @@ def _chosen_again(trained: Problem, best: Hypothesis) -> Hypothesis:
 
 
 def _readings(
-    problem: Problem, sets: Sequence[tuple[Chosen, ...]], best: Hypothesis, first_noise: float
+    problem: Problem, sets: Sequence[tuple[SelectedEffect, ...]], best: Hypothesis, first_noise: float
 ) -> list[Hypothesis]:
     """The waterfall's hypotheses: nothing, growing sets of effects, all of them with the background."""
     noises = [first_noise, *[best.noise] * (len(sets) - 1)]
     backgrounds = [*[PERFECT] * (len(sets) - 1), best.background]
-    return [weigh(problem, *each) for each in zip(sets, backgrounds, noises, strict=True)]
+    return [evaluate(problem, *each) for each in zip(sets, backgrounds, noises, strict=True)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,7 +190,7 @@ def _plain(posture: Posture) -> Lens:
 
 
 def _held_out_errors(
-    problem: Problem, blocks: Sequence[Gram], split: Blocks, rows: Rows, values: Mapping[int, Array]
+    problem: Problem, blocks: Sequence[NormalEquations], split: Blocks, rows: Rows, values: Mapping[int, Array]
 ) -> Array:
     """(K, N, 3 or 6) errors, mm and mrad, of every row under the readings of the fold that it took no part in.
 
@@ -239,7 +239,7 @@ def _rms(errors: Array, which: slice = POINTS) -> Array:
     return np.sqrt(np.divide(sums, counts, out=np.full(len(errors), np.nan), where=counts > 0))
 
 
-def _steps(best: Hypothesis, order: Sequence[int]) -> list[tuple[Chosen, ...]]:
+def _steps(best: Hypothesis, order: Sequence[int]) -> list[tuple[SelectedEffect, ...]]:
     """Growing sets of effects, and the whole set once more for the background."""
     chosen = {c.candidate: c for c in best.chosen}
     sets = [tuple(chosen[c] for c in order[:n]) for n in range(len(order) + 1)]

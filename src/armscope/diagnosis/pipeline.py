@@ -14,7 +14,7 @@ from armscope.diagnosis.gravity_direction import lean
 from armscope.diagnosis.held_out import split
 from armscope.diagnosis.judgement import judge, undecided
 from armscope.diagnosis.selection_loop import select
-from armscope.diagnosis.state import Evidence
+from armscope.diagnosis.state import DiagnosisState
 from armscope.fitting.linearisation import missed
 from armscope.fitting.registration import fit_frames, other_tools
 from armscope.measurement.noise import Noise, known_noise
@@ -85,7 +85,7 @@ def diagnose(
     layout = split(table, rng)
     found = select(start, table, noise, frames, layout.of_row, tell)
     verdict = judge(
-        Evidence(
+        DiagnosisState(
             **vars(found), start=start, recordings=table, first=first, noise=noise, notices=notices, layout=layout
         ),
         settings.resamples,

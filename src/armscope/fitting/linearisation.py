@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import stacked
 from armscope.fitting.model_space import Pool
-from armscope.inference.normal_equations import Gram
+from armscope.inference.normal_equations import NormalEquations
 from armscope.measurement.row_weights import Missed, RowWeights
 from armscope.physics.lens import Lens
 from armscope.physics.model import FittedModel
@@ -117,7 +117,7 @@ def response(model: FittedModel, posture: Posture, lens: Lens) -> Array:
 
 def accumulate(
     pool: Pool, model: FittedModel, recordings: Recordings, weights: RowWeights, blocks: Indices
-) -> list[Gram]:
+) -> list[NormalEquations]:
     """Gram matrices per block of rows.
 
     The response is the residual of the model plus what its own effects contribute linearly, so that every hypothesis
@@ -147,7 +147,7 @@ def accumulate(
             n[block] += numbers[at].sum()
     back = arrangement.back
     # one after the other: each has millions of numbers
-    return [Gram(arrangement.whole(G.pop(0)), b[k][back], float(yy[k]), float(n[k])) for k in range(count)]
+    return [NormalEquations(arrangement.whole(G.pop(0)), b[k][back], float(yy[k]), float(n[k])) for k in range(count)]
 
 
 def _where(inside: NDArray[np.bool_]) -> slice | Indices:

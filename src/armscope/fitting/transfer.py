@@ -16,6 +16,7 @@ from armscope.fitting.linearisation import chunks, residuals
 from armscope.fitting.refit import moved_frames
 from armscope.fitting.registration import fit_frames
 from armscope.measurement import robust
+from armscope.physics.drivers import follows
 from armscope.physics.effect import Placed, Term
 from armscope.physics.frames import free_frames
 from armscope.physics.model import FittedModel
@@ -26,8 +27,6 @@ Frame = Literal["base", "tool"]
 
 BACKGROUND = "background"
 """Stands for the small errors that were allowed for everywhere and are not named."""
-OF_ITS_RUN = {"time", "temperature", "order of rows"}
-"""Drivers of curves that describe the run on which they were learned, not the arm."""
 STEPS = 8
 NEGLIGIBLE_MM = 1e-6
 
@@ -114,7 +113,9 @@ def transfer(
 
 def belongs_to_the_arm(placed: Placed) -> bool:
     """Whether an effect may be expected on another run, too."""
-    curve_of_a_run = placed.reading == "curve" and placed.driver in OF_ITS_RUN
+    curve_of_a_run = placed.parametrisation == "curve" and any(
+        follows("run", product.driver) for term in placed.terms for product in term.products
+    )
     return placed.family not in ("drift", "frame") and not curve_of_a_run
 
 

@@ -200,7 +200,7 @@ def _part_out(part: Part) -> dict[str, Any]:
         "location": placed.location,
         "driver": placed.driver,
         "scanned": [{"name": name, "unit": unit, "value": value} for name, unit, value in placed.scanned],
-        "reading": placed.reading,
+        "reading": placed.parametrisation,
         "variant": placed.variant,
         "terms": [
             {
@@ -235,7 +235,7 @@ def _part_in(content: Mapping[str, Any]) -> Part:
         content["driver"],
         tuple((s["name"], s["unit"], float(s["value"])) for s in content["scanned"]),
         variant=content["variant"],
-        reading=content["reading"],
+        parametrisation=content["reading"],
     )
     return Part(placed, np.array([float(term["value"]) for term in content["terms"]]))
 

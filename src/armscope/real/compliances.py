@@ -23,6 +23,7 @@ import numpy as np
 from scipy.stats import f as f_distribution
 
 from armscope.check.preconditions import check_table, with_orientations
+from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.fitting.gauss_newton import Quadratic, gauss_newton
 from armscope.fitting.linearisation import accumulate, missed
@@ -30,7 +31,7 @@ from armscope.fitting.model_space import Pool, pool
 from armscope.fitting.refit import ModelFit
 from armscope.fitting.registration import fit_frames
 from armscope.inference.evidence import TOLERANCE
-from armscope.inference.normal_equations import Gram, total
+from armscope.inference.normal_equations import NormalEquations, total
 from armscope.measurement.row_weights import RowNoise
 from armscope.physics import elastic, geometric
 from armscope.physics.effect import Placed
@@ -112,7 +113,7 @@ def fit_give(arm: Arm, recordings: Recordings, run: str) -> Give:
     blocks, noise = _settled(parts, model, small, table, precision)
     mean, posterior, covariance = _jackknifed(blocks, noise, precision)
     at = np.concatenate([parts.of(placed) for placed in (*drives, *bearings)])
-    joint = [int(placed.location.split()[1]) - 1 for placed in (*drives, *bearings)]
+    joint = [Location.of(placed.location).index for placed in (*drives, *bearings)]
     number = np.array(joint) + arm.n_motors * (np.arange(len(joint)) >= len(drives))
 
     def of_all(matrix: Array) -> Array:
@@ -166,7 +167,7 @@ def _precision(parts: Pool) -> Array:
 
 def _settled(
     parts: Pool, model: FittedModel, small: Sequence[Placed], table: Recordings, precision: Array
-) -> tuple[list[Gram], float]:
+) -> tuple[list[NormalEquations], float]:
     """Sums over each block of rows where the exact fit settles, and the noise there (mm)."""
     rows = RowNoise(np.ones(len(table)), np.ones(len(table)))
     model = replace(model, background=tuple(Part(placed, np.zeros(len(placed.terms))) for placed in small))
@@ -176,14 +177,14 @@ def _settled(
     return accumulate(parts, found.state, table, rows.weighed(found.residual, 0.0), block), problem.noise
 
 
-def _jackknifed(blocks: Sequence[Gram], noise: float, precision: Array) -> tuple[Array, Array, Array]:
+def _jackknifed(blocks: Sequence[NormalEquations], noise: float, precision: Array) -> tuple[Array, Array, Array]:
     """Posterior mean, posterior covariance if the model were true, and with the rows' part as the blocks scatter.
 
     Without block b the mean is theta_b; the rows' part is (B-1)/B sum (theta_b - mean)(theta_b - mean)' (Tukey 1958).
     """
     gram, start = total(blocks), np.zeros(len(precision))
 
-    def solved(sums: Gram) -> Quadratic:
+    def solved(sums: NormalEquations) -> Quadratic:
         return Quadratic(sums.G / noise**2 + np.diag(precision), sums.b / noise**2, start)
 
     whole = solved(gram)

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import orth
 
+from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.world.effects import REFERENCE_C, close_loop
 from armscope.world.kinds import Scene, joints, links_longer_than
@@ -41,7 +42,7 @@ class Patterns:
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
         geometry, session = scene.geometry, scene.session
-        self.bending = [int(place.split()[1]) - 1 for place in links_longer_than(0.1)(scene.description)]
+        self.bending = [Location.of(place).index for place in links_longer_than(0.1)(scene.description)]
         layout = Layout(
             row_errors=np.zeros((geometry.n_joints, 4)),
             freedoms=all_freedoms(geometry.n_joints),
