@@ -59,7 +59,7 @@ def test_readings_are_told_at_the_point_where_their_columns_were_taken() -> None
     round_.round((PERFECT,))
     found = round_.selected()
     values = found.best.coefficients(len(found.problem.scale)) / found.problem.scale
-    rows = Rows(found.point, table, found.fit.weights.row)
+    rows = Rows(found.point, table, found.fit.weights.weight)
     left = left_over(rows, found.problem.pool, values[None])[0]
     np.testing.assert_allclose(left, found.fit.residuals, atol=0.004)
     assert np.abs(residuals(off, table) - residuals(found.fit.model, table)).max() > 0.2

@@ -24,7 +24,7 @@ from armscope.diagnosis.summary.unexplained import (
     unexplained_part,
 )
 from armscope.fitting.discrepancy import model_error
-from armscope.fitting.linearisation import accumulate
+from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.fitting.refit import Refit
 from armscope.inference.detection import averaged_log_odds
 from armscope.inference.normal_equations import NormalEquations
@@ -38,6 +38,7 @@ from armscope.verdict.headline import headline
 from armscope.verdict.schema import (
     Answer,
     Background,
+    Diagnosis,
     FoundEffect,
     HeldOut,
     Notice,
@@ -45,7 +46,6 @@ from armscope.verdict.schema import (
     Residuals,
     SuspectRow,
     Unexplained,
-    Verdict,
     WaterfallStep,
 )
 
@@ -55,7 +55,7 @@ LISTED_SUSPECTS = 200
 
 def judge(
     state: DiagnosisState, resamples: int, cross_validation: bool, rng: np.random.Generator, tell: Progress
-) -> Verdict:
+) -> Diagnosis:
     """Certainty, validation, atlas and words."""
     fit, best, problem = state.fit, state.best, state.problem
     search = Search.on(problem)
@@ -94,7 +94,7 @@ def judge(
         unexplained = too_faint(averaged_log_odds(search))
     answer, mismatch = _answer(effects, background, unexplained)
     separating = next_poses(search, best, rivals, fit, state.recordings, rng)
-    draft = Verdict(
+    draft = Diagnosis(
         arm=fit.model.arm.name,
         source=state.recordings.source,
         rows=len(state.recordings),
@@ -140,7 +140,7 @@ def _plain_gram(state: DiagnosisState) -> NormalEquations:
     if fit.weights.whitening is None and fit.weights.turns is None:
         return fit.gram
     one_block = np.zeros(len(state.recordings), dtype=np.intp)
-    return accumulate(fit.pool, fit.model, state.recordings, fit.weights.of_points, one_block)[0]
+    return normal_equations_by_block(fit.pool, fit.model, state.recordings, fit.weights.of_points, one_block)[0]
 
 
 def _variance_after_frames(gram: NormalEquations, frames: NDArray[np.intp]) -> float:
@@ -152,7 +152,7 @@ def _variance_after_frames(gram: NormalEquations, frames: NDArray[np.intp]) -> f
 
 
 def _weighted_rms(fit: Refit) -> float:
-    trusted = fit.weights.trust > SUSPECT_WEIGHT
+    trusted = fit.weights.robust_weight > SUSPECT_WEIGHT
     return float(np.sqrt(np.mean(fit.residuals[trusted] ** 2)))
 
 
@@ -180,7 +180,7 @@ def _residuals(state: DiagnosisState) -> Residuals:
         points=fit.model.to_base(table.positions, table.run) * 1e3,
         before=state.first.shift,
         after=fit.residuals,
-        weight=fit.weights.trust,
+        weight=fit.weights.robust_weight,
         id=table.id,
         run=table.run,
     )
@@ -190,7 +190,7 @@ def _orientations(state: DiagnosisState) -> Orientations | None:
     fit, before = state.fit, state.first.turn
     if fit.missed.turn is None or fit.weights.turns is None or before is None:
         return None
-    trusted = fit.weights.turns.row > SUSPECT_WEIGHT * np.asarray(fit.weights.turns.clean)
+    trusted = fit.weights.turns.weight > SUSPECT_WEIGHT * np.asarray(fit.weights.turns.nominal_weight)
     return Orientations(
         rows=int(np.isfinite(fit.missed.turn).all(axis=1).sum()),
         noise_mrad=1e3 * float(np.sqrt(np.mean(fit.missed.turn[trusted] ** 2))),
@@ -201,7 +201,7 @@ def _orientations(state: DiagnosisState) -> Orientations | None:
 
 def _suspects(state: DiagnosisState) -> tuple[SuspectRow, ...]:
     fit, table = state.fit, state.recordings
-    relative = fit.weights.trust
+    relative = fit.weights.robust_weight
     rows = np.flatnonzero(relative < SUSPECT_WEIGHT)
     size = np.linalg.norm(fit.residuals, axis=1)
     worst = rows[np.argsort(-size[rows])][:LISTED_SUSPECTS]
@@ -233,12 +233,12 @@ def undecided(
     noise: Noise,
     notices: tuple[Notice, ...],
     seconds: float,
-) -> Verdict:
+) -> Diagnosis:
     """The verdict where no effect can honestly be named."""
     rms = float(np.sqrt(np.mean(residuals**2)))
     points = start.to_base(recordings.positions, recordings.run) * 1e3
     count = len(recordings)
-    return Verdict(
+    return Diagnosis(
         arm=start.arm.name,
         source=recordings.source,
         rows=count,

@@ -23,7 +23,7 @@ from armscope.physics.frames import free_frames
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-from armscope.verdict.schema import Notice, Verdict
+from armscope.verdict.schema import Diagnosis, Notice
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ def diagnose(
     recordings: Recordings,
     settings: Settings | None = None,
     progress: Progress | None = None,
-) -> Verdict:
+) -> Diagnosis:
     """Find where in the arm the mismatch arises, which physics was left out, and how large it is.
 
     Args:

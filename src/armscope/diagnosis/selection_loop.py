@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from armscope.core.types import Array, Indices, Progress
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.scans.scanning import jumps, mesh_lines, pauses
-from armscope.fitting.joint_scatter import Scattered, find_scatter, levers, noise_between, whitening
-from armscope.fitting.linearisation import accumulate, keep_drivers, missed
+from armscope.fitting.joint_scatter import Scattered, find_scatter, motor_jacobians, noise_between, whitening
+from armscope.fitting.linearisation import keep_drivers, missed, normal_equations_by_block
 from armscope.fitting.model_space import Pool, pool
 from armscope.fitting.refit import Refit, refit
 from armscope.inference.evidence import Hypothesis, Problem, background_sizes, problem
@@ -23,8 +23,16 @@ from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.search import STARTS, Search
 from armscope.inference.updates import best_additions
 from armscope.measurement import robust
-from armscope.measurement.noise import Growth, Noise, distances, growth, independent_shares, poses, relative_uncertainty
-from armscope.measurement.row_weights import COUNTS, RowNoise
+from armscope.measurement.noise import (
+    Growth,
+    Noise,
+    distances,
+    growth,
+    independence_weights,
+    poses,
+    relative_uncertainty,
+)
+from armscope.measurement.row_weights import INLIER_WEIGHT, RowNoise
 from armscope.physics.backgrounds import backgrounds
 from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import Placed
@@ -137,15 +145,15 @@ class SelectionLoop:
         self.block_of_row = block_of_row
         self.candidates = library(start.arm, recordings) if candidates is None else list(candidates)
         self.families = list(backgrounds(start.arm, recordings).values())
-        self.moved = levers(start, self.recordings)
+        self.moved = motor_jacobians(start, self.recordings)
         self.model, self.missed = start, missed(start, self.recordings)
         self.scatter: list[Scattered] = []
         self.pose = poses(self.recordings)
         self.growth: Growth | None = None
         uncertainty = relative_uncertainty(self.recordings, robust.scale_of(self.left))
         near = np.ones(len(self.recordings), dtype=bool)
-        self.rows = RowNoise(uncertainty, independent_shares(self.left, self.pose, near))
-        self.weights = self.rows.weighed_first(self.missed, noise.least_mm)
+        self.rows = RowNoise(uncertainty, independence_weights(self.left, self.pose, near))
+        self.weights = self.rows.first_weights(self.missed, noise.least_mm)
         self.last: tuple[Hypothesis, Pool] | None = None
 
     def run(self, of_a_sample: bool = False) -> Selected:
@@ -193,7 +201,7 @@ class SelectionLoop:
         model, payload = _payload(self.model, self.recordings)
         self.pool = pool(self.frames, self.families, [*self.candidates, *payload])
         self.point = model
-        self.blocks = accumulate(self.pool, model, self.recordings, self.weights, self.block_of_row)
+        self.blocks = normal_equations_by_block(self.pool, model, self.recordings, self.weights, self.block_of_row)
         self.problem = problem(self.pool, total(self.blocks), self.noise.least_mm)
         search = Search.on(self.problem)
         warm = None if self.last is None else search.transferred(*self.last)
@@ -233,9 +241,11 @@ class SelectionLoop:
     def _weigh_rows(self, noise: float, white: Array | None) -> None:
         """What the residuals tell about the rows' noise, and their weights by it."""
         uncertainty = relative_uncertainty(self.recordings, noise, self._by_distance())
-        alone = RowNoise(uncertainty, np.ones(len(uncertainty))).weighed(self.missed, self.noise.least_mm)
-        self.rows = RowNoise(uncertainty, independent_shares(self.left, self.pose, alone.trust > COUNTS))
-        self.weights = self.rows.weighed(self.missed, self.noise.least_mm, white)
+        alone = RowNoise(uncertainty, np.ones(len(uncertainty))).weights(self.missed, self.noise.least_mm)
+        self.rows = RowNoise(
+            uncertainty, independence_weights(self.left, self.pose, alone.robust_weight > INLIER_WEIGHT)
+        )
+        self.weights = self.rows.weights(self.missed, self.noise.least_mm, white)
 
     def selected(self) -> Selected:
         """Where the rounds stand."""
@@ -246,7 +256,7 @@ class SelectionLoop:
     def _state(self) -> State:
         """What must not change any more: the effects and the rows that do not count."""
         chosen = [self.pool.candidates[c] for c in self.best.candidates]
-        return frozenset(str(p) + p.variant for p in chosen), self.weights.trust < COUNTS
+        return frozenset(str(p) + p.variant for p in chosen), self.weights.robust_weight < INLIER_WEIGHT
 
     def _alike(self, state: State, previous: State) -> bool:
         """Whether two rounds ended alike: the same effects, and the same rows count but for a few of very many."""
@@ -279,7 +289,7 @@ class SelectionLoop:
         if self.recordings.sigma is not None or self.growth is not None or self.scatter:
             return False
         away = distances(self.model, self.recordings)
-        found = None if away is None else growth(self.left, away, self.weights.trust > COUNTS)
+        found = None if away is None else growth(self.left, away, self.weights.robust_weight > INLIER_WEIGHT)
         if found is None or found.evidence < sum(each.evidence for each in self._find_scatter()):
             return False
         self.growth = found
@@ -297,7 +307,7 @@ class SelectionLoop:
         self.scatter = found
         between = noise_between(self.left, self.moved, found, self.noise.least_mm)
         white = whitening(found, self.moved, between)
-        self.weights = self.rows.weighed(self.missed, self.noise.least_mm, white)
+        self.weights = self.rows.weights(self.missed, self.noise.least_mm, white)
 
     def _scanned(self, search: Search, model: FittedModel) -> list[Placed]:
         """New candidates whose scanned numbers promise something, given the best hypothesis and given none."""

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
-from armscope.fitting.design_matrix import arranged, stacked
-from armscope.fitting.linearisation import chunks, pool_values, response
+from armscope.fitting.design_matrix import grouped_columns, structured_design
+from armscope.fitting.linearisation import chunks, current_parameters, response
 from armscope.fitting.model_space import Pool
 from armscope.inference.evidence import solve_lower
 from armscope.measurement.row_weights import RowWeights
@@ -44,22 +44,22 @@ def weigh_blocks(
 ) -> ColumnBlocks:
     """Sums over rows for blocks of equally many terms against the pool's columns ``inside``."""
     m, c = len(blocks), len(blocks[0])
-    beside = arranged([term for block in blocks for term in block])
-    model_terms = arranged([pool.terms[i] for i in inside])
-    values = pool_values(pool, model)
+    beside = grouped_columns([term for block in blocks for term in block])
+    model_terms = grouped_columns([pool.terms[i] for i in inside])
+    values = current_parameters(pool, model)
     # the response before any effect, also of those that are not among the columns inside
     active = np.flatnonzero(values)
-    present = arranged([pool.terms[i] for i in active])
+    present = grouped_columns([pool.terms[i] for i in active])
     k = len(inside)
     own, cross, b = np.zeros((m * c, m * c)), np.zeros((k, m * c)), np.zeros(m * c)
     for rows, posture in chunks(model, recordings):
         lens = weights.lens(rows)
         seen = posture.through(lens)
-        y = response(model, posture, lens).T + stacked(seen, present).combined(values[active][present.order])
-        E = stacked(seen, beside)
+        y = response(model, posture, lens).T + structured_design(seen, present).matvec(values[active][present.order])
+        E = structured_design(seen, beside)
         E.add_products(own)
-        cross += stacked(seen, model_terms).products(E)
-        b += E.onto(y)
+        cross += structured_design(seen, model_terms).products(E)
+        b += E.rmatvec(y)
     own = beside.whole(own).reshape(m, c, m, c)[np.arange(m), :, np.arange(m), :]
     cross = cross[np.ix_(model_terms.back, beside.back)]
     return ColumnBlocks(own, np.moveaxis(cross.reshape(k, m, c), 1, 0), b[beside.back].reshape(m, c))

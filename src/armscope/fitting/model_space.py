@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
-from armscope.fitting.design_matrix import Arrangement, arranged
+from armscope.fitting.design_matrix import ColumnOrder, grouped_columns
 from armscope.physics.effect import Placed, Term, clash
 
 
@@ -91,9 +91,9 @@ class Pool:
         return all(candidates & needed for number, needed in self.requires.items() if number in candidates)
 
     @functools.cached_property
-    def arrangement(self) -> Arrangement:
+    def column_order(self) -> ColumnOrder:
         """The columns sorted by how they are best multiplied."""
-        return arranged(self.terms)
+        return grouped_columns(self.terms)
 
     def of(self, placed: Placed) -> Indices:
         """Columns of an effect whose terms are all in the pool."""

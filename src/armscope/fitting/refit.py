@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from armscope.core.types import Array
 from armscope.fitting.gauss_newton import Problem, Quadratic, gauss_newton
-from armscope.fitting.linearisation import accumulate, missed, pool_values
+from armscope.fitting.linearisation import current_parameters, missed, normal_equations_by_block
 from armscope.fitting.model_space import Pool, pool
 from armscope.fitting.registration import moved_base
 from armscope.inference.evidence import FRAME_PRIOR_MM, TOLERANCE
@@ -107,11 +107,11 @@ class ModelFit(Problem[FittedModel, Missed]):
         """Sums over weighted rows; with the noise that they leave once all is fitted."""
         self.weights = self.weigh(residual)
         blocks = np.zeros(len(self.recordings), dtype=np.intp)
-        self.gram = accumulate(self.parts, state, self.recordings, self.weights, blocks)[0]
+        self.gram = normal_equations_by_block(self.parts, state, self.recordings, self.weights, blocks)[0]
         noise = self.noise or robust.scale_of(residual.shift)
         self.precision = self.prior(self.gram)
         solved = Quadratic(
-            self.gram.G + np.diag(noise**2 * self.precision), self.gram.b, pool_values(self.parts, state)
+            self.gram.G + np.diag(noise**2 * self.precision), self.gram.b, current_parameters(self.parts, state)
         )
         self.inverse = solved.inverse
         self.spent = float(len(self.precision) - noise**2 * np.sum(np.diag(solved.inverse) * self.precision))
@@ -125,7 +125,7 @@ class ModelFit(Problem[FittedModel, Missed]):
 
     def moved(self, state: FittedModel, step: Array) -> FittedModel:
         """The model a step further; frame columns are increments where it stands."""
-        values = pool_values(self.parts, state) + step
+        values = current_parameters(self.parts, state) + step
         moved = moved_frames(state, dict(zip(self.parts.terms, step, strict=True)))
         background, parts = (
             tuple(Part(part.placed, values[self.parts.of(part.placed)]) for part in some)
@@ -167,7 +167,7 @@ def refit(
     problem = ModelFit(
         parts,
         recordings,
-        lambda left: rows.weighed(left, least_noise, whitening),
+        lambda left: rows.weights(left, least_noise, whitening),
         lambda gram: _precision(parts, gram, [size for _, size in backgrounds], effects),
         least_noise,
         CONVERGED,

@@ -188,7 +188,7 @@ class _Frames(Problem[FittedModel, Array]):
         return residuals(state, self.recordings)
 
     def quadratic(self, state: FittedModel, residual: Array) -> Quadratic:
-        weight = robust.first_weights(residual, np.ones(len(residual)), 0.0)
+        weight = robust.huber_weights(residual, np.ones(len(residual)), 0.0)
         G, b = np.zeros((len(self.terms), len(self.terms))), np.zeros(len(self.terms))
         for rows, posture in chunks(state, self.recordings):
             X = columns(posture, self.terms)

@@ -26,7 +26,7 @@ from armscope.check.preconditions import check_table, with_orientations
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.fitting.gauss_newton import Quadratic, gauss_newton
-from armscope.fitting.linearisation import accumulate, missed
+from armscope.fitting.linearisation import missed, normal_equations_by_block
 from armscope.fitting.model_space import Pool, pool
 from armscope.fitting.refit import ModelFit
 from armscope.fitting.registration import fit_frames
@@ -171,10 +171,10 @@ def _settled(
     """Sums over each block of rows where the exact fit settles, and the noise there (mm)."""
     rows = RowNoise(np.ones(len(table)), np.ones(len(table)))
     model = replace(model, background=tuple(Part(placed, np.zeros(len(placed.terms))) for placed in small))
-    problem = ModelFit(parts, table, lambda left: rows.weighed(left, 0.0), lambda gram: precision, 0.0, NEGLIGIBLE)
+    problem = ModelFit(parts, table, lambda left: rows.weights(left, 0.0), lambda gram: precision, 0.0, NEGLIGIBLE)
     found = gauss_newton(problem, model, STEPS)
     block = np.arange(len(table)) * BLOCKS // len(table)
-    return accumulate(parts, found.state, table, rows.weighed(found.residual, 0.0), block), problem.noise
+    return normal_equations_by_block(parts, found.state, table, rows.weights(found.residual, 0.0), block), problem.noise
 
 
 def _jackknifed(blocks: Sequence[NormalEquations], noise: float, precision: Array) -> tuple[Array, Array, Array]:

@@ -102,7 +102,7 @@ class Theatre:
         columns = self._frames
         train = np.concatenate([3 * self.stage.train + axis for axis in range(3)])
         step = np.linalg.lstsq(columns[train], moved.ravel()[train], rcond=None)[0]
-        return moved - (columns @ step).reshape(-1, 3)
+        return np.asarray(moved - (columns @ step).reshape(-1, 3))
 
     @property
     def _frames(self) -> Array:

@@ -164,7 +164,7 @@ def _twisted_row(patterns: Patterns, j: int) -> Array:
     geometry = patterns.scene.geometry
     if geometry.modified:
         # alpha turns about x through the row's start; the tilt about x through the joint's origin, d further along z
-        return patterns.of(f"tilt {j + 1} x") - geometry.rows[j, 2] * patterns.of(f"shift {j + 1} y")
+        return np.asarray(patterns.of(f"tilt {j + 1} x") - geometry.rows[j, 2] * patterns.of(f"shift {j + 1} y"))
     if j + 1 == geometry.n_joints:
         return np.zeros_like(patterns.tool)
     return patterns.of(f"tilt {j + 2} x")

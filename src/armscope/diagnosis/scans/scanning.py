@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from armscope.core.types import Array
 from armscope.fitting.column_blocks import ColumnBlocks, schur_complement, weigh_blocks
 from armscope.fitting.design_matrix import columns
-from armscope.fitting.linearisation import chunks, pool_values, response
+from armscope.fitting.linearisation import chunks, current_parameters, response
 from armscope.inference.evidence import Hypothesis, Problem, solve_lower
 from armscope.measurement.row_weights import RowWeights
 from armscope.physics.drift import BASE_SHIFT, Pause, base_shift, drift_with_pauses, pauses_of, row_number, tool_shift
@@ -269,7 +269,7 @@ def _step_sums(
     terms = build(recordings, int(rows[0]), 1).terms
     c, k = len(terms), len(inside)
     model_terms = [pool.terms[i] for i in inside]
-    values = pool_values(pool, model)
+    values = current_parameters(pool, model)
     active = np.flatnonzero(values)
     present = [pool.terms[i] for i in active]
     segment = np.searchsorted(cuts, np.arange(len(rows)), side="right")

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.linalg import cholesky, solve_triangular
 
 from armscope.fitting.column_blocks import rss_reduction, schur_complement, weigh_blocks
-from armscope.fitting.linearisation import accumulate
+from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.fitting.model_space import Pool
 from armscope.inference.normal_equations import NormalEquations
 from armscope.measurement.row_weights import RowWeights
@@ -44,7 +44,7 @@ def atlas(pool: Pool, model: FittedModel, recordings: Recordings, weights: RowWe
     table, w = recordings.rows(rows), weights.take(rows, share)
     # columns and response must stand at one and the same point and on the same rows, or what the frames absorb does not
     # cancel
-    fitted = accumulate(pool, model, table, w, np.zeros(len(rows), dtype=np.intp))[0]
+    fitted = normal_equations_by_block(pool, model, table, w, np.zeros(len(rows), dtype=np.intp))[0]
     drivers = _drivers(model, recordings)
     names = tuple(name for name, _ in drivers)
     whole = _whole_effects(model, recordings, names)

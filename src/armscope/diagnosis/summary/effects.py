@@ -15,7 +15,7 @@ from armscope.diagnosis.summary import alternatives as certainty
 from armscope.diagnosis.summary.effect_curve import curve_of
 from armscope.diagnosis.summary.parameters import parameters
 from armscope.fitting.discrepancy import ModelError
-from armscope.fitting.joint_scatter import levers
+from armscope.fitting.joint_scatter import motor_jacobians
 from armscope.inference.evidence import Hypothesis, SelectedEffect
 from armscope.inference.normal_equations import NormalEquations, projected_rms
 from armscope.inference.search import Search
@@ -123,7 +123,7 @@ def with_weight(found: FoundEffect, background: Sequence[Background]) -> FoundEf
 
 def scattered_effects(state: DiagnosisState, variance: float) -> Iterator[FoundEffect]:
     """Scatter that has a place but follows nothing in the table."""
-    moved = levers(state.fit.model, state.recordings)
+    moved = motor_jacobians(state.fit.model, state.recordings)
     for scattered in state.scatter:
         rms = scattered.size * float(np.sqrt(np.mean(moved[scattered.motor - 1] ** 2)))
         location = f"joint {scattered.motor}"

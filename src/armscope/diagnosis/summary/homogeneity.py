@@ -9,7 +9,7 @@ from scipy.stats import chi2
 
 from armscope.core.types import Indices
 from armscope.diagnosis.held_out import FEWEST_ROWS_PER_RUN, Blocks
-from armscope.fitting.linearisation import accumulate
+from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.inference.evidence import Hypothesis, Problem, evaluate
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.measurement.row_weights import RowWeights
@@ -64,7 +64,10 @@ def _divisions(
         counts = np.bincount(of_row[of_row >= 0])
         if len(counts) > 1 and counts.min() >= FEWEST_ROWS_PER_RUN:
             known = np.flatnonzero(of_row >= 0)
-            yield accumulate(problem.pool, point, table.rows(known), some.take(known), of_row[known]), kind
+            yield (
+                normal_equations_by_block(problem.pool, point, table.rows(known), some.take(known), of_row[known]),
+                kind,
+            )
 
 
 def _payloads(recordings: Recordings) -> Indices:

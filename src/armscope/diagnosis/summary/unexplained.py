@@ -11,7 +11,7 @@ from armscope.inference.detection import Detection
 from armscope.inference.evidence import background_sizes
 from armscope.inference.normal_equations import NormalEquations, projected_rms
 from armscope.inference.search import Search
-from armscope.measurement.row_weights import COUNTS
+from armscope.measurement.row_weights import INLIER_WEIGHT
 from armscope.physics.backgrounds import FAMILIES
 from armscope.verdict.schema import Background, FoundEffect, Unexplained
 
@@ -63,12 +63,12 @@ def unexplained_part(effects: Sequence[FoundEffect], state: DiagnosisState) -> U
 
 def rows_apart(state: DiagnosisState) -> Unexplained:
     """Rows that fit nothing, where they are too many to be bad shots: another unit, another frame, another arm."""
-    apart = state.fit.weights.trust < COUNTS
+    apart = state.fit.weights.robust_weight < INLIER_WEIGHT
     if np.mean(apart) < MOST_BAD_SHOTS:
         return Unexplained(False)
     size = float(np.sqrt(np.mean(state.fit.residuals[apart] ** 2)))
     runs = np.unique(state.recordings.run[apart])
-    whole = [str(run) for run in runs if run and np.mean(apart[state.recordings.run == run]) > COUNTS]
+    whole = [str(run) for run in runs if run and np.mean(apart[state.recordings.run == run]) > INLIER_WEIGHT]
     words = f"{np.count_nonzero(apart)} of {len(apart)} rows fit neither the nominal arm nor any effect"
     return Unexplained(True, None, None, size, words + (f": most of run {', '.join(whole)}" if whole else ""))
 
