@@ -17,7 +17,7 @@ from armscope.calibration.geometry import nominal_values
 from armscope.calibration.imitation import Imitation, imitations
 from armscope.calibration.model import Level, SetUp, State, set_up
 from armscope.calibration.sanity import lost, no_gain, odd_loads, require_loads
-from armscope.calibration.sharing import exchanged_tool, moved_base
+from armscope.calibration.sharing import sharing
 from armscope.calibration.solve import Priors, Redundancy, Solved, scales_of, solve
 from armscope.calibration.splits import foretold, split
 from armscope.calibration.words import in_words
@@ -169,7 +169,7 @@ def calibrate(
             without loads.
     """
     priors = priors or Priors()
-    notes, doubts = _sharing(arm, recordings, one_base, tool_per_run)
+    notes, doubts = sharing(arm, recordings, one_base, tool_per_run)
     tool_per_run = bool(notes) if tool_per_run is None else tool_per_run
     rows = set_up(arm, recordings, one_base, tool_per_run, orientation is not False)
     require_loads(recordings, rows, level)
@@ -205,23 +205,6 @@ def calibrate(
         held=_held(solved, level),
         misses=misses,
     )
-
-
-def _sharing(
-    arm: Arm, recordings: Recordings, one_base: bool, tool_per_run: bool | None
-) -> tuple[list[str], list[str]]:
-    """(notes, doubts) on what the runs share; a note if tools must be free per run and nobody said otherwise."""
-    if len(np.unique(recordings.run)) < 2:
-        return [], []
-    notes, doubts = list[str](), list[str]()
-    if not tool_per_run and (text := exchanged_tool(arm, recordings, one_base)):
-        if tool_per_run is None:
-            notes.append(f"{text}, and is free in every run")
-        else:
-            doubts.append(text)
-    if one_base and (text := moved_base(arm, recordings, bool(notes) or bool(tool_per_run))):
-        doubts.append(text)
-    return notes, doubts
 
 
 def _held(solved: Solved, level: Level) -> tuple[Imitation, ...]:

@@ -21,7 +21,10 @@ from armscope.calibration.model import SetUp, State, set_up
 from armscope.check.contents import MOVED_RAD
 from armscope.check.orientations import orientation_mistakes
 from armscope.check.suspicion import Suspicion
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
+from armscope.fitting.exchanged_tool import exchanged_tool
+from armscope.fitting.registration import fit_frames
 from armscope.measurement.robust import spread_of
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -47,9 +50,6 @@ AS_GOOD = 1.05
 MOST_ROWS_FOR_EXCHANGE = 20_000
 FAR = 10
 """Rows further off than so many times the usual spread may have exchanged their points."""
-
-TOOL_MOVED = 0.8
-"""Tools of their own per run must bring the misfit below this share to be worth a hint."""
 
 
 @dataclass(frozen=True)
@@ -91,19 +91,19 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
     found: list[Suspicion] = []
     turned: list[Suspicion] = []
     if _share_left(rows, state) > FITS:
-        found += _moved_tools(arm, some, misfit, FITS) or [_explanation(arm, recordings)]
+        found += _moved_tools(arm, replace(some, orientation=None), explains=True) or [_explanation(arm, recordings)]
     else:
         found += _exchanged_rows(arm, recordings)
         turned = orientation_mistakes(rows, state, some.orientation)
         found += turned
-        found += _moved_tools(arm, some, misfit)
+        found += _moved_tools(arm, replace(some, orientation=None) if turned else some)
     return Consistency(misfit, spread, len(some), (*found, *_outside_limits(arm, recordings)), orientations=not turned)
 
 
 def _spread_evenly(recordings: Recordings) -> Recordings:
     if len(recordings) <= MOST_ROWS:
         return recordings
-    return recordings.rows(np.unique(np.linspace(0, len(recordings) - 1, MOST_ROWS).astype(int)))
+    return recordings.rows(spread_evenly(len(recordings), MOST_ROWS))
 
 
 def _spread(recordings: Recordings) -> float:
@@ -312,24 +312,21 @@ def _exchanged_rows(arm: Arm, recordings: Recordings) -> list[Suspicion]:
     return [Suspicion("problem", statement, "Their points fit each other's joint angles.")]
 
 
-def _moved_tools(arm: Arm, table: Recordings, misfit: float, least_share: float | None = None) -> list[Suspicion]:
+def _moved_tools(arm: Arm, table: Recordings, explains: bool = False) -> list[Suspicion]:
     """Whether a target that several runs share sits elsewhere on the flange in some of them.
 
     Args:
-        least_share: of the spread that tools of their own may leave; None asks for a clearly smaller misfit only.
+        explains: only where tools of their own explain the points.
     """
-    rows = set_up(arm, table, tool_per_run=True)
-    if len(rows.tool_names) == len(np.unique(table.target)):
+    found = exchanged_tool(fit_frames(arm, table), table)
+    if found is None:
         return []
-    state = placed(rows, MOST_STEPS)
-    alone = rms_distance(rows.residuals(state))
-    numbers, own = 3 * len(rows), rows.free("nominal").sum()
-    shared = own - 3 * (len(rows.tool_names) - len(np.unique(table.target)))
-    expected = misfit * np.sqrt(max(numbers - own, 0) / max(numbers - shared, 1))  # of tools that did not move
-    if alone > TOOL_MOVED * expected or (least_share is not None and _share_left(rows, state) > least_share):
-        return []
-    statement = f"the tool seems to have moved between runs: with one of its own per run {alone * 1e3:.3g} mm are left"
-    return [Suspicion("hint", statement, "Free the tool per run.")]
+    if explains:
+        rows = set_up(arm, table, tool_per_run=True)
+        if _share_left(rows, placed(rows, MOST_STEPS)) > FITS:
+            return []
+    statement = f"the tool seems to have moved between runs, {found.apart}"
+    return [Suspicion("hint", statement, f"With one of its own per run {found.own_mm:.3g} mm are left: free it there.")]
 
 
 def _outside_limits(arm: Arm, recordings: Recordings) -> list[Suspicion]:

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices, Progress
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.scans.scanning import jumps, mesh_lines, pauses
@@ -298,7 +299,7 @@ class SelectionLoop:
 
     def _find_scatter(self) -> list[Scattered]:
         """Scatter in what is left, on as many rows as it takes."""
-        rows = np.unique(np.linspace(0, len(self.left) - 1, min(len(self.left), SCATTER_ROWS)).astype(np.intp))
+        rows = spread_evenly(len(self.left), SCATTER_ROWS)
         relative = self.rows.uncertainty[rows, None]
         return find_scatter(self.left[rows] / relative, self.moved[:, rows] / relative, self.noise.least_mm)
 

@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.core.types import Array
-from armscope.fitting.linearisation import missed
 from armscope.fitting.placement import FlangePoses, place_frames
 from armscope.measurement import robust
 from armscope.physics.frames import TOOL_FRAME, ToolKey, free_frames, tool_keys
@@ -20,9 +19,6 @@ STEPS = 12
 HUBER = 2.0 * robust.MEDIAN_OF_CHI3
 """Scales beyond which a row loses weight while frames are looked for: two usual distances."""
 TURN_STEPS = 3
-WORSE, EXCHANGED = 2.0, 3.0
-"""A tool counts as exchanged when one tool for all runs leaves this many times the residual, and the tool points lie
-this many times that residual apart."""
 
 
 def fit_frames(arm: Arm, recordings: Recordings, tool_per_run: bool = False) -> FittedModel:
@@ -72,49 +68,6 @@ def _tool_turns(
             mean = on_flange.mean(robust.huber(away / robust.spread_of(away), HUBER))
         turns[key] = np.asarray(mean.as_matrix())
     return turns
-
-
-def other_tools(arm: Arm, recordings: Recordings, shared: FittedModel) -> tuple[FittedModel, str] | None:
-    """The arm with its tool free in every run, and how far a target's tools lie apart, in words, where they must.
-
-    A tool that was exchanged between runs leaves a multiple of what else there is, in its points or in its
-    orientations; lesser shifts are effects and compete with the others.
-
-    Args:
-        shared: the arm with one tool for all runs.
-    """
-    if len(shared.bases) < 2:
-        return None
-    free = fit_frames(arm, recordings, tool_per_run=True)
-    before, after = missed(shared, recordings), missed(free, recordings)
-    targets = [str(target) for target in np.unique(recordings.target)]
-    told = []
-    apart = max(_points_apart(free, target) for target in targets)
-    if _exchanged(1e3 * apart, before.shift, after.shift):
-        told.append(f"its point up to {apart * 1e3:.3g} mm")
-    if before.turn is not None and after.turn is not None:
-        apart = max(_turns_apart(free, target) for target in targets)
-        known = np.isfinite(before.turn).all(axis=1)
-        if known.any() and _exchanged(apart, before.turn[known], after.turn[known]):
-            told.append(f"its axes up to {np.degrees(apart):.3g} degrees")
-    return (free, " and ".join(told)) if told else None
-
-
-def _exchanged(apart: float, before: Array, after: Array) -> bool:
-    """Whether tools lie apart, seen by residuals (N, 3) with one tool for all runs and with one per run."""
-    left = robust.scale_of(after)
-    return robust.scale_of(before) > WORSE * left and apart > EXCHANGED * left
-
-
-def _points_apart(model: FittedModel, target: str) -> float:
-    """Largest difference of a coordinate between a target's tool points, m."""
-    return float(np.ptp([part.values for part in model.tools if part.placed.variant == target], axis=0).max())
-
-
-def _turns_apart(model: FittedModel, target: str) -> float:
-    """Largest angle between a target's tool and its tool in the first run, rad."""
-    turns = Rotation.from_matrix([turn for (of, _), turn in model.tool_turns.items() if of == target] or [np.eye(3)])
-    return float((turns[0].inv() * turns).magnitude().max())
 
 
 def _tool_parts(recordings: Recordings, per_run: bool, tools: Array) -> tuple[Part, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.errormodels import PAPER_MODELS, ModelSpec, fit_least_squares
 from armscope.recordings import Recordings
@@ -24,7 +25,7 @@ def held_out_rms(arm: Arm, recordings: Recordings, residual: Array, seed: int = 
         residual: (N, 3) what is to be modelled, mm: measured minus nominal after the free frames.
         seed: of the folds.
     """
-    rows = np.unique(np.linspace(0, len(residual) - 1, min(len(residual), MOST_ROWS)).astype(int))
+    rows = spread_evenly(len(residual), MOST_ROWS)
     angles = recordings.motor_angles[rows]
     inputs = {"cartesian": 1e3 * forward_kinematics(arm, angles), "angular": angles}
     folds = _folds(angles, np.random.default_rng(seed))

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cholesky, solve_triangular
 
+from armscope.core.sampling import spread_evenly
 from armscope.fitting.column_blocks import rss_reduction, schur_complement, weigh_blocks
 from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.fitting.model_space import Pool
@@ -39,7 +40,7 @@ def atlas(pool: Pool, model: FittedModel, recordings: Recordings, weights: RowWe
     Args:
         pool: of the fitted model.
     """
-    rows = np.unique(np.linspace(0, len(recordings) - 1, min(len(recordings), ATLAS_ROWS)).astype(np.intp))
+    rows = spread_evenly(len(recordings), ATLAS_ROWS)
     share = len(rows) / len(recordings)
     table, w = recordings.rows(rows), weights.take(rows, share)
     # columns and response must stand at one and the same point and on the same rows, or what the frames absorb does not
