@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from armscope.check.preconditions import FEWEST_ROWS, check_table, too_far, with_orientations
+from armscope.check.orientations import with_orientations
+from armscope.check.preconditions import FEWEST_ROWS, check_table, too_far
 from armscope.core.types import Progress
 from armscope.diagnosis.gravity_direction import lean
 from armscope.diagnosis.held_out import split

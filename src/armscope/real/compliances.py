@@ -22,7 +22,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.stats import f as f_distribution
 
-from armscope.check.preconditions import check_table, with_orientations
+from armscope.check.orientations import with_orientations
+from armscope.check.preconditions import check_table
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.fitting.gauss_newton import Quadratic, gauss_newton
