@@ -87,6 +87,9 @@ def least_squares(
         stiffness: (P,) m^2 per squared unit, holds parameters near zero (a prior); None holds none.
         rule: weights of the rows by what is left of them; all count alike where not given.
         most_steps: after so many steps the fit stops where it is.
+
+    Returns:
+        The state, weights, steps, and why it stopped.
     """
     problem = _Calibration(set_up, free, np.zeros(len(free)) if stiffness is None else stiffness, rule)
     found = gauss_newton(problem, state, most_steps)
@@ -105,6 +108,15 @@ def robust_least_squares(
     """As `least_squares`, with Tukey's biweight on the 3D distances: bad shots lose their say, and keep their rows.
 
     Huber's weights come first, since the biweight is only safe near its solution. The scale is the median distance.
+
+    Args:
+        set_up: rows and arm.
+        state: the start.
+        free: (P,) which parameters move.
+        stiffness: (P,) m^2 per squared unit; None holds none.
+
+    Returns:
+        As `least_squares`, with the final weights (N,).
     """
     steps = 0
     for rule in (np.ones_like, _huber, _bisquare):
