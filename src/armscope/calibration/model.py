@@ -206,7 +206,16 @@ class SetUp:
         return Posed(arm, frames, left)
 
     def jacobian(self, state: State, posed: Posed, free: NDArray[np.bool_]) -> Array:
-        """(cN, free) columns of the prediction at a state, in the axes of each row's arm base."""
+        """Columns of the prediction at a state.
+
+        Args:
+            state: values of everything.
+            posed: the arm there, see `posed`.
+            free: (P,) which parameters' columns.
+
+        Returns:
+            (cN, free), m per unit of each parameter, in the axes of each row's arm base.
+        """
         arm, frames = posed.arm, posed.frames
         counts = len(self.base_names), len(self.tool_names)
         n_frames = 6 * counts[0] + 3 * counts[1]

@@ -20,7 +20,17 @@ ROWS = 1000
 
 
 def sharing(arm: Arm, recordings: Recordings, one_base: bool, tool_per_run: bool | None) -> tuple[list[str], list[str]]:
-    """(notes, doubts) on what the runs share; a note if tools must be free per run and nobody said otherwise."""
+    """What speaks against the frames that runs are said to share.
+
+    Args:
+        arm: the nominal arm.
+        recordings: measured points.
+        one_base: whether all runs are said to share a base frame.
+        tool_per_run: whether every run has a tool of its own; None: nobody said.
+
+    Returns:
+        (notes, doubts), sentences; a note if tools must be free per run and nobody said otherwise.
+    """
     if len(np.unique(recordings.run)) < 2:
         return [], []
     notes, doubts = list[str](), list[str]()

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from armscope.check.suspicions import explanation
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
-from armscope.physics.placing import STANDS_STILL_RAD, varies
+from armscope.physics.placing import varies
 from armscope.recordings import Recordings
+from armscope.recordings.motion import moving
 from armscope.robot import Arm
 from armscope.verdict.schema import Notice
 
@@ -90,7 +91,7 @@ def _not_clipped(recordings: Recordings) -> NDArray[np.bool_]:
         values = recordings.positions[:, axis]
         for extreme in (values.min(), values.max()):
             at = values == extreme
-            if at.sum() >= SAME_VALUE_ROWS and np.ptp(recordings.motor_angles[at], axis=0).max() > STANDS_STILL_RAD:
+            if at.sum() >= SAME_VALUE_ROWS and moving(recordings.motor_angles[at]).any():
                 good &= ~at
     return good
 
@@ -101,14 +102,14 @@ def _not_stuck(recordings: Recordings) -> NDArray[np.bool_]:
     good = np.ones(len(recordings), dtype=bool)
     for point in np.flatnonzero(count > 1):
         rows = np.flatnonzero(which == point)
-        if np.ptp(recordings.motor_angles[rows], axis=0).max() > STANDS_STILL_RAD:
+        if moving(recordings.motor_angles[rows]).any():
             good[rows[1:]] = False
     return good
 
 
 def _limits(arm: Arm, recordings: Recordings) -> list[Notice]:
     notices = []
-    still = np.flatnonzero(np.ptp(recordings.motor_angles, axis=0) <= STANDS_STILL_RAD) + 1
+    still = np.flatnonzero(~moving(recordings.motor_angles)) + 1
     if len(still):
         joints = ", ".join(f"joint {j}" for j in still)
         notices.append(Notice("joints that never move", f"{joints}: nothing that follows their angle can be found."))

@@ -14,7 +14,6 @@ from scipy.optimize import linear_sum_assignment
 
 from armscope.calibration.fit import placed, rms_distance, robust_least_squares
 from armscope.calibration.model import SetUp, State, set_up
-from armscope.check.contents import MOVED_RAD
 from armscope.check.orientations import orientation_mistakes
 from armscope.check.suspicion import Suspicion
 from armscope.check.trials import trials
@@ -23,6 +22,7 @@ from armscope.fitting.exchanged_tool import exchanged_tool
 from armscope.fitting.registration import fit_frames
 from armscope.measurement.robust import spread_of
 from armscope.recordings import Recordings
+from armscope.recordings.motion import moving
 from armscope.robot import Arm
 
 MOST_ROWS = 400
@@ -79,7 +79,7 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
     if 3 * len(rows) < ROWS_PER_PARAMETER * rows.free("nominal").sum():
         hint = Suspicion("hint", "too few rows to fit base and tool, so nothing was tried against the arm")
         return Consistency(float("nan"), _spread(recordings), 0, (hint,))
-    if np.ptp(recordings.motor_angles, axis=0).max() < MOVED_RAD:  # what is left is noise
+    if not moving(recordings.motor_angles).any():  # what is left is noise
         return Consistency(float("nan"), _spread(recordings), 0, ())
     state = placed(rows, MOST_STEPS)
     misfit = rms_distance(rows.residuals(state))

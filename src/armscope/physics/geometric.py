@@ -9,9 +9,10 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
-from armscope.physics.placing import STANDS_STILL_RAD, moving_joints
+from armscope.physics.placing import moving_joints
 from armscope.physics.scene import LINKAGE_JOINT, Part, Scene
 from armscope.recordings import Recordings
+from armscope.recordings.motion import moving
 from armscope.robot import Arm
 from armscope.robot.parallelogram import forearm_deviation
 
@@ -107,8 +108,7 @@ BACKGROUND = Effect(
 
 
 def _place_wobbles(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    spans = np.ptp(recordings.motor_angles @ arm.actuation.T, axis=0)
-    for j in np.flatnonzero(spans > STANDS_STILL_RAD) + 1:
+    for j in np.flatnonzero(moving(recordings.motor_angles @ arm.actuation.T)) + 1:
         for per_turn in (1, 2):
             terms = tuple(
                 term(
