@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from armscope.calibration.geometry import Constant, constants_of, corrected, turn_columns
 from armscope.calibration.geometry import columns as constant_columns
+from armscope.core.grouping import by_label
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.fitting.placement import frame_columns
@@ -294,12 +295,12 @@ def set_up(
             f"{arm.name} has {arm.n_motors}",
             "Is this the right robot for the recordings?",
         )
-    base_names, base = _groups(np.full(len(recordings), "") if one_base else recordings.run)
+    base_names, base = by_label(np.full(len(recordings), "") if one_base else recordings.run)
     labels = recordings.target
     if tool_per_run:
         joined = [" in ".join(filter(None, pair)) for pair in zip(recordings.target, recordings.run, strict=True)]
         labels = np.array(joined)
-    tool_names, tool = _groups(labels)
+    tool_names, tool = by_label(labels)
     loads, load_source = _loads(arm, recordings)
     return SetUp(
         arm=arm,
@@ -324,15 +325,6 @@ def _matrices(quaternions: Array | None) -> Array | None:
     matrices = np.full((len(quaternions), 3, 3), np.nan)
     matrices[known] = Rotation.from_quat(quaternions[known][:, [1, 2, 3, 0]]).as_matrix()
     return matrices
-
-
-def _groups(labels: NDArray[np.str_]) -> tuple[tuple[str, ...], NDArray[np.intp]]:
-    """Names in the order of their first row, and each row's number among them."""
-    names, first, number = np.unique(labels, return_index=True, return_inverse=True)
-    order = np.argsort(first)
-    rank = np.empty_like(order)
-    rank[order] = np.arange(len(order))
-    return tuple(str(name) for name in names[order]), rank[number]
 
 
 def _loads(arm: Arm, recordings: Recordings) -> tuple[Array | None, str]:
