@@ -8,7 +8,6 @@ import scipy.optimize
 
 from armscope.core.types import Array
 from armscope.fitting.gauss_newton import SETTLED, STUCK, UNSETTLED, Problem, Quadratic, gauss_newton
-from armscope.measurement.robust import huber
 
 AT = np.linspace(0, 4, 60)
 
@@ -23,7 +22,7 @@ class Decay(Problem[Array, Array]):
         return np.asarray(self.y - state[0] * np.exp(-state[1] * AT))
 
     def quadratic(self, state: Array, residual: Array) -> Quadratic:
-        self.weights = huber(np.abs(residual) / self.scale, 1.0)
+        self.weights = np.minimum(1.0, self.scale / np.abs(residual))
         shape = np.exp(-state[1] * AT)
         X = np.column_stack([shape, -state[0] * AT * shape])
         normal = (X * self.weights[:, None]).T @ X + self.held * np.eye(2)

@@ -23,7 +23,7 @@ from armscope.calibration.splits import foretold, split
 from armscope.calibration.words import in_words
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
-from armscope.measurement.robust import spread_of
+from armscope.measurement.robust import scale_of
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -155,7 +155,7 @@ def calibrate(
         redundancy: parameters that imitate each other are "fixed" at nominal until the rest can be told apart
             (rank-revealing QR), or all free and held by "priors".
         priors: sizes for `redundancy` "priors"; None takes the defaults.
-        robust: take the say from bad shots (Tukey's biweight).
+        robust: take the say from bad shots (weights fall with the fourth power).
         one_base: one base frame for all runs.
         tool_per_run: a tool of its own for every run; None: where one for all leaves more than twice as much.
         orientation: use measured orientations, weighed by the scatter that positions and orientations show; None uses
@@ -201,7 +201,7 @@ def calibrate(
         covariance=covariance,
         steps=fitted.steps,
         reason=fitted.reason,
-        suspects=distance > SUSPECT_SIGMAS * spread_of(distance),
+        suspects=distance > SUSPECT_SIGMAS * scale_of(rows.residuals(fitted.state)),
         ids=np.array(ids),
         notes=tuple(notes + odd_loads(solved, level, covariance) + no_gain(misses)),
         doubts=tuple(doubts + lost(solved)),

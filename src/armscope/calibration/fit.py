@@ -19,12 +19,8 @@ LARGEST_STEPS = 60
 NEGLIGIBLE = 1e-8
 """Steps that move the tool by less than this, in metres RMS, end the fit: a hundredth of a micrometre."""
 
-HUBER_TUNING = 2.0
-BISQUARE_TUNING = 5.49
-"""Tukey's biweight on the 3D distance in units of its 1-sigma per axis: 95 % efficient where errors are normal."""
-
 Rule = Callable[[Array], Array]
-"""(N,) weights by distances (N,) in units of their 1-sigma per axis."""
+"""(N,) weights by what is left of the points (N, 3), m."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +31,11 @@ class Fitted:
     weights: Array
     steps: int
     reason: Reason
+
+
+def all_alike(left: Array) -> Array:
+    """(N,) ones."""
+    return np.ones(len(left))
 
 
 class _Calibration(Problem[State, Posed]):
@@ -50,8 +51,7 @@ class _Calibration(Problem[State, Posed]):
         return self.set_up.posed(state)
 
     def quadratic(self, state: State, residual: Posed) -> Quadratic:
-        distance = np.linalg.norm(residual.left[:, :3], axis=1)
-        self.weights = self.rule(distance / robust.spread_of(distance))
+        self.weights = self.rule(residual.left[:, :3])
         X = self.set_up.jacobian(state, residual, self.free)
         weighted = X * np.repeat(self.weights, residual.left.shape[1])[:, None]
         held = self.stiffness[self.free]
@@ -75,7 +75,7 @@ def least_squares(
     state: State,
     free: NDArray[np.bool_],
     stiffness: Array | None = None,
-    rule: Rule = np.ones_like,
+    rule: Rule = all_alike,
     most_steps: int = LARGEST_STEPS,
 ) -> Fitted:
     """Minimise sum of weights * squared residuals + sum of stiffness * squared change, from ``state``.
@@ -105,9 +105,9 @@ def _changes(state: State) -> Array:
 def robust_least_squares(
     set_up: SetUp, state: State, free: NDArray[np.bool_], stiffness: Array | None = None
 ) -> Fitted:
-    """As `least_squares`, with Tukey's biweight on the 3D distances: bad shots lose their say, and keep their rows.
+    """As `least_squares`, with the weights of the diagnosis: bad shots lose their say, and keep their rows.
 
-    Huber's weights come first, since the biweight is only safe near its solution. The scale is the median distance.
+    Huber's weights come first, since those that fall with the fourth power are only safe near their solution.
 
     Args:
         set_up: rows and arm.
@@ -119,7 +119,7 @@ def robust_least_squares(
         As `least_squares`, with the final weights (N,).
     """
     steps = 0
-    for rule in (np.ones_like, _huber, _bisquare):
+    for rule in (all_alike, _huber, _quartic):
         fitted = least_squares(set_up, state, free, stiffness, rule)
         state, steps = fitted.state, steps + fitted.steps
     return replace(fitted, steps=steps)
@@ -130,12 +130,12 @@ def rms_distance(residuals: Array) -> float:
     return float(np.sqrt(np.mean(np.sum(residuals**2, axis=1))))
 
 
-def _huber(distance: Array) -> Array:
-    return robust.huber(distance, HUBER_TUNING)
+def _huber(left: Array) -> Array:
+    return robust.huber_weights(left, np.ones(len(left)), 0.0)
 
 
-def _bisquare(distance: Array) -> Array:
-    return np.clip(1 - (distance / BISQUARE_TUNING) ** 2, 0.0, None) ** 2
+def _quartic(left: Array) -> Array:
+    return robust.quartic_weights(left, np.ones(len(left)), 0.0)
 
 
 def placed(set_up: SetUp, most_steps: int = LARGEST_STEPS) -> State:
@@ -151,7 +151,7 @@ def placed(set_up: SetUp, most_steps: int = LARGEST_STEPS) -> State:
     tools = np.tile(set_up.arm.tool, (n_tools, 1))
     # the second start fails where the poses hardly turn, the first where the tool is far from nominal
     starts = [start for start in (poses.start(tools, n_bases), poses.start_of_far_tools(tools, n_bases)) if start]
-    tried = [place_frames(poses, start, most_steps, lambda left: np.ones(len(left))) for start in starts]
+    tried = [place_frames(poses, start, most_steps, all_alike) for start in starts]
     found = min(tried, key=lambda each: float(np.sum(each.residual**2))).state
     state = State(
         found.rotations,

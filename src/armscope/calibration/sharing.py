@@ -11,7 +11,7 @@ from armscope.calibration.model import set_up
 from armscope.core.sampling import spread_evenly
 from armscope.fitting.exchanged_tool import LEAST_NUMBERS, WORSE, exchanged_tool
 from armscope.fitting.registration import fit_frames
-from armscope.measurement.robust import spread_of
+from armscope.measurement.robust import scale_of
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -59,5 +59,5 @@ def _usual_miss(arm: Arm, recordings: Recordings, one_base: bool, tool_per_run: 
     measured, spent = 3 * len(rows), 6 * len(rows.base_names) + 3 * len(rows.tool_names)
     if measured < LEAST_NUMBERS * spent:
         return float(np.inf)
-    spread = spread_of(np.linalg.norm(rows.residuals(placed(rows)), axis=1))
+    spread = scale_of(rows.residuals(placed(rows)))
     return spread * float(np.sqrt(measured / (measured - spent)))

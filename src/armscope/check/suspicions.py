@@ -20,7 +20,7 @@ from armscope.check.trials import trials
 from armscope.core.sampling import spread_evenly
 from armscope.fitting.exchanged_tool import exchanged_tool
 from armscope.fitting.registration import fit_frames
-from armscope.measurement.robust import spread_of
+from armscope.measurement.robust import scale_of
 from armscope.recordings import Recordings
 from armscope.recordings.motion import moving
 from armscope.robot import Arm
@@ -183,12 +183,11 @@ def _exchanged_rows(arm: Arm, recordings: Recordings) -> list[Suspicion]:
     some = recordings.rows(slice(0, MOST_ROWS_FOR_EXCHANGE))
     rows = set_up(arm, some)
     state = placed(rows, MOST_STEPS)
-    distance = np.linalg.norm(rows.residuals(state), axis=1)
-    if distance.max() < FAR * spread_of(distance):
+    residuals = rows.residuals(state)
+    if np.linalg.norm(residuals, axis=1).max() < FAR * scale_of(residuals):
         return []
     residuals = rows.residuals(robust_least_squares(rows, state, rows.free("nominal")).state)
-    distance = np.linalg.norm(residuals, axis=1)
-    usual = spread_of(distance)
+    distance, usual = np.linalg.norm(residuals, axis=1), scale_of(residuals)
     far = np.flatnonzero(distance > FAR * usual)
     if not 2 <= len(far) <= 500:
         return []

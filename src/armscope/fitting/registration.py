@@ -16,8 +16,6 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm, chain
 
 STEPS = 12
-HUBER = 2.0 * robust.MEDIAN_OF_CHI3
-"""Scales beyond which a row loses weight while frames are looked for: two usual distances."""
 TURN_STEPS = 3
 
 
@@ -64,8 +62,7 @@ def _tool_turns(
         on_flange = Rotation.from_matrix(placed).inv() * measured
         mean = on_flange.mean()
         for _ in range(TURN_STEPS):
-            away = np.asarray((mean.inv() * on_flange).magnitude())
-            mean = on_flange.mean(robust.huber(away / robust.spread_of(away), HUBER))
+            mean = on_flange.mean(_weights((mean.inv() * on_flange).as_rotvec()))
         turns[key] = np.asarray(mean.as_matrix())
     return turns
 
@@ -86,9 +83,8 @@ def _tool_of_row(recordings: Recordings, keys: list[tuple[str, str | None]]) -> 
 
 
 def _weights(residual: Array) -> Array:
-    """(N,) Huber's, by the points' distances."""
-    away = np.linalg.norm(residual, axis=1)
-    return robust.huber(away / robust.spread_of(away), HUBER)
+    """(N,) Huber's."""
+    return robust.huber_weights(residual, np.ones(len(residual)), 0.0)
 
 
 def moved_base(base: Base, twist: Array) -> Base:

@@ -23,16 +23,6 @@ def scale_of(residuals: Array, least: float = 0.0) -> float:
     return max(float(np.median(np.linalg.norm(residuals, axis=1))) / MEDIAN_OF_CHI3, least, 1e-9)
 
 
-def spread_of(distances: Array) -> float:
-    """1-sigma per axis that the median of 3D distances (N,) says, for normal errors; never zero."""
-    return max(float(np.median(distances)) / MEDIAN_OF_CHI3, 1e-9)
-
-
-def huber(distances: Array, tuning: float) -> Array:
-    """(N,) weights of distances in scales: 1 up to ``tuning``, then falling in proportion (Huber 1964)."""
-    return np.minimum(1.0, tuning / np.maximum(distances, 1e-12))
-
-
 def huber_weights(residuals: Array, uncertainty: Array, least: float) -> Array:
     """(N,) weights while structure may still be in the residuals: Huber's, so that nothing is silenced yet."""
     far = _distance(residuals, uncertainty, least)
