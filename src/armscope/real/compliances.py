@@ -28,13 +28,13 @@ from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.fitting.gauss_newton import Quadratic, gauss_newton
 from armscope.fitting.linearisation import missed, normal_equations_by_block
-from armscope.fitting.model_space import Pool, pool
+from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
 from armscope.fitting.refit import ModelFit
 from armscope.fitting.registration import fit_frames
-from armscope.inference.evidence import TOLERANCE
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.measurement.row_weights import RowNoise
 from armscope.physics import elastic, geometric
+from armscope.physics.backgrounds import TOLERANCE
 from armscope.physics.effect import Placed
 from armscope.physics.frames import free_frames
 from armscope.physics.model import FittedModel
@@ -112,7 +112,8 @@ def fit_give(arm: Arm, recordings: Recordings, run: str) -> Give:
     bearings = list(elastic.BEARING_COMPLIANCE.place(arm, table))
     waves = [mesh(j, per_turn) for j in moving_joints(table) for per_turn in WAVES]
     families = [geometric.background(arm), [*drives, *bearings], [*waves, *geometric.AXIS_WOBBLE.place(arm, table)]]
-    parts, small = pool(free_frames(table, tool_per_run), families, []), [p for family in families for p in family]
+    parts = parameter_layout(free_frames(table, tool_per_run), families, [])
+    small = [p for family in families for p in family]
     precision = _precision(parts)
     blocks, noise = _settled(parts, model, small, table, precision)
     mean, posterior, covariance = _jackknifed(blocks, noise, precision)
@@ -161,7 +162,7 @@ def gravity_as_recorded(arm: Arm, table: Recordings) -> Array:
     return smooth
 
 
-def _precision(parts: Pool) -> Array:
+def _precision(parts: ParameterLayout) -> Array:
     """(p,) prior precisions, SI units; frames are free."""
     precision = np.zeros(len(parts.terms))
     for columns, size in zip(parts.background, (TOLERANCE, PRIOR, WAVE), strict=True):
@@ -170,7 +171,7 @@ def _precision(parts: Pool) -> Array:
 
 
 def _settled(
-    parts: Pool, model: FittedModel, small: Sequence[Placed], table: Recordings, precision: Array
+    parts: ParameterLayout, model: FittedModel, small: Sequence[Placed], table: Recordings, precision: Array
 ) -> tuple[list[NormalEquations], float]:
     """Sums over each block of rows where the exact fit settles, and the noise there (mm)."""
     rows = RowNoise(np.ones(len(table)), np.ones(len(table)))
