@@ -7,12 +7,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from armscope.diagnosis.verdict import Curve, Parameter
+from armscope.errormodels.reference_models import held_out_rms
 from armscope.physics.registry import EFFECTS
 from armscope.report.diagnosis_figures import location_shares
 from armscope.report.effect_cards import card, chosen_how_often, title_of, told_parameters
 from armscope.report.headline import exact_phrase, headline
 from armscope.report.page import unbroken
-from armscope.report.reference_models import held_out_rms
 from armscope.report.wording import (
     UNITS,
     evidence_in_words,

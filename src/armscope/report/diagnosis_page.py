@@ -13,6 +13,7 @@ import pandas as pd
 
 from armscope.diagnosis.checks import check_table
 from armscope.diagnosis.verdict import FoundEffect, NextPoses, SuspectRow, Verdict
+from armscope.errormodels.reference_models import held_out_rms
 from armscope.files import write_text
 from armscope.recordings import Recordings
 from armscope.report.diagnosis_figures import SavedFigure, location_shares, save_all, waterfall_steps
@@ -20,7 +21,6 @@ from armscope.report.effect_cards import Card, card
 from armscope.report.error_field import MOST_ROWS, ErrorField, turnable
 from armscope.report.headline import headline
 from armscope.report.page import render_page
-from armscope.report.reference_models import held_out_rms
 from armscope.report.wording import main_and_minor, millimetres, percent, rounded
 from armscope.robot import Arm
 
