@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
@@ -76,14 +77,14 @@ class FittedModel:
         """What each swarm ended with: the RMS residual of its axis, or of the error vector (joint layout), S x H."""
         if self.layout is Layout.PER_AXIS:
             return self.fitness_mm
-        return np.linalg.norm(self.fitness_mm, axis=1, keepdims=True)
+        return np.asarray(np.sqrt(np.sum(self.fitness_mm**2, axis=1, keepdims=True)))
 
     @property
     def optimum_mm(self) -> Array:
         """The same by least squares, H."""
         if self.layout is Layout.PER_AXIS:
             return self.least_squares_mm
-        return np.linalg.norm(self.least_squares_mm, keepdims=True)
+        return np.asarray(np.sqrt(np.sum(self.least_squares_mm**2, keepdims=True)))
 
     @property
     def excess_mm(self) -> Array:
@@ -150,7 +151,7 @@ class FittedModel:
             "iterations": self.iterations.tolist(),
         }
         if history:
-            content["history_mm"] = self.history_mm.tolist()
+            content["history_mm"] = _packed(self.history_mm)
         return content
 
     @staticmethod
@@ -158,7 +159,8 @@ class FittedModel:
         """The inverse of `to_dict`; histories that were not kept come back as their first axes with no columns."""
         fitness = np.array(content["fitness_mm"], dtype=float)
         iterations = np.array(content["iterations"], dtype=np.int64)
-        reasons = np.empty(iterations.shape, dtype=object)
+        shape = iterations.shape
+        reasons = np.empty(shape, dtype=object)
         reasons[:] = [[StopReason(sentence) for sentence in of_seed] for of_seed in content["reasons"]]
         return FittedModel(
             label=content["label"],
@@ -174,8 +176,21 @@ class FittedModel:
             least_squares_mm=np.array(content["least_squares_mm"], dtype=float),
             reasons=reasons,
             iterations=iterations,
-            history_mm=np.array(content.get("history_mm", np.empty((*iterations.shape, 0))), dtype=float),
+            history_mm=_unpacked(content["history_mm"])
+            if "history_mm" in content
+            else np.empty((*iterations.shape, 0)),
             rows=content["rows"],
             particles=content["particles"],
             layout=Layout(content["layout"]),
         )
+
+
+def _packed(history: Array) -> dict[str, Any]:
+    """Histories are long, and seven digits of them are enough: single precision, as text."""
+    bits = history.astype("<f4").tobytes()
+    return {"shape": list(history.shape), "float32": base64.b64encode(bits).decode()}
+
+
+def _unpacked(content: dict[str, Any]) -> Array:
+    bits = np.frombuffer(base64.b64decode(content["float32"]), dtype="<f4")
+    return bits.reshape(content["shape"]).astype(float)

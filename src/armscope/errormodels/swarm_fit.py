@@ -127,7 +127,8 @@ class _Prepared:
     @property
     def factor(self) -> Array:
         """R of one swarm's objective |R z - b|^2 + rest: the basis's, once for each axis on the diagonal if joint."""
-        return np.kron(np.eye(len(self.axes) // self.swarms_per_seed), self.basis.triangular)
+        axes_together = np.eye(len(self.axes) // self.swarms_per_seed)
+        return np.asarray(np.kron(axes_together, self.basis.triangular), dtype=float)
 
     def of_one_seed(self) -> tuple[Array, Array, Array]:
         """b (H x D), rest (H) and half the width of the search box (H x D) of the swarms of one seed."""
@@ -163,9 +164,7 @@ def _prepared(problem: FitProblem, job: _Job) -> _Prepared:
     return _Prepared(problem, features, inputs, errors, basis, job.layout)
 
 
-def _fit(
-    problems: Sequence[FitProblem], seeds: Sequence[int], job: _Job, search: Search
-) -> list[FittedModel]:
+def _fit(problems: Sequence[FitProblem], seeds: Sequence[int], job: _Job, search: Search) -> list[FittedModel]:
     if not len(problems):
         return []
     if not len(seeds) or len(set(seeds)) < len(seeds) or any(seed < 0 for seed in seeds):

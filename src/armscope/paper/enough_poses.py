@@ -46,9 +46,7 @@ def enough_poses(plan: StudyPlan, study: VirtualStudy, spec: ModelSpec = FDP_CI)
         left = [each.errors_mm - features.matrix(each.inputs(spec)) @ coefficients for each in paths]
         mean_squares = [np.mean(np.sum(each**2, axis=2), axis=1) for each in left]
         rms = np.sqrt(np.mean(mean_squares, axis=0))
-        tables.append(
-            pd.DataFrame({"robot": study.robots.names, "model": spec.name, "poses": count, "rms_mm": rms})
-        )
+        tables.append(pd.DataFrame({"robot": study.robots.names, "model": spec.name, "poses": count, "rms_mm": rms}))
     return pd.concat(tables, ignore_index=True)
 
 
@@ -57,4 +55,3 @@ def smallest_sufficient(table: pd.DataFrame) -> pd.Series:
     wide = table.pivot_table(index="robot", columns="poses", values="rms_mm", sort=False)
     sufficient = wide.le(TOLERATED * wide[wide.columns.max()], axis=0)
     return sufficient.idxmax(axis=1)
-

@@ -102,7 +102,9 @@ class StudyPlan:
     @property
     def errors(self) -> GeometricErrors:
         """The possible geometric errors and their sizes."""
-        return geometric_errors(self.arm, self.sizes.link_m, self.sizes.link_rad, self.sizes.base_m, self.sizes.base_rad)
+        return geometric_errors(
+            self.arm, self.sizes.link_m, self.sizes.link_rad, self.sizes.base_m, self.sizes.base_rad
+        )
 
     def follow(self) -> pd.DataFrame:
         """Pose table of the test paths.

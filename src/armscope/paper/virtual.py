@@ -133,7 +133,8 @@ def measure_virtual(
     arrays = {name: pose_arrays(poses[poses["trajectory"] == name]) for name in names}
     for_tracker, for_ensemble, for_arm = np.random.default_rng(seed).spawn(3)
     noise = {
-        name: tracker.measurement_errors(nominal * 1e-3, for_tracker) + repeat_m * for_arm.standard_normal(nominal.shape)
+        name: tracker.measurement_errors(nominal * 1e-3, for_tracker)
+        + repeat_m * for_arm.standard_normal(nominal.shape)
         for name, (_, nominal) in arrays.items()
     }
     robots = anchor(errors, arrays[IDENTIFICATION][0], noise[IDENTIFICATION], ensemble, for_ensemble)

@@ -1,4 +1,4 @@
-"""The paper's claims, each judged on every robot drawn under its printed equations, by the method as printed and improved."""
+"""The paper's claims, judged on robots drawn under its printed equations, by the method as printed and improved."""
 
 from armscope.paper.claims.evidence import AS_PRINTED, IMPROVED, LEAST_SQUARES, Evidence
 from armscope.paper.claims.table import SKIPPED, judge, summarise

@@ -1,4 +1,4 @@
-"""What claims are judged on: the errors that one method's fits leave on every robot, and what only least squares did."""
+"""What claims are judged on: the errors that one method's fits leave on every robot, and what needs no swarm."""
 
 from __future__ import annotations
 

@@ -81,7 +81,9 @@ def cartesian_beats_angular(evidence: Evidence, trajectory: str) -> Judged:
     degrees = [d for d in ("FDP", "SDP") if {f"{d}(CI)", f"{d}(AI)"} <= set(evidence.models)]
     ratios = [evidence.spatial(f"{d}(AI)", trajectory) / evidence.spatial(f"{d}(CI)", trajectory) for d in degrees]
     smaller, printed = np.asarray(np.min(ratios, axis=0)), printed_spatial()
-    return Judged(smaller > 1, smaller, min(printed[f"{d}(AI)", trajectory] / printed[f"{d}(CI)", trajectory] for d in degrees))
+    return Judged(
+        smaller > 1, smaller, min(printed[f"{d}(AI)", trajectory] / printed[f"{d}(CI)", trajectory] for d in degrees)
+    )
 
 
 def fourier_beats_ordinary(evidence: Evidence) -> Judged:

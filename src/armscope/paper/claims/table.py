@@ -6,16 +6,17 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
+from scipy.stats import fisher_exact
 
 from armscope.paper.anchoring import ANCHORED
-from armscope.paper.claims.catalogue import BY_SWARM, CLAIMS, Claim
+from armscope.paper.claims.catalogue import CLAIMS
+from armscope.paper.claims.claim import BY_SWARM, Claim
 from armscope.paper.claims.evidence import AS_PRINTED, IMPROVED, LEAST_SQUARES, Evidence, Judged
 from armscope.paper.claims.verdicts import interval, under_assumptions, verdict
 
-Array = NDArray[np.float64]
-
 SKIPPED = "skipped"
+SIGNIFICANT = 0.05
+"""An assumption moves a share if Fisher's exact test says so at this level over all scenarios together (Bonferroni)."""
 
 
 def judge(evidence: Mapping[str, Evidence]) -> tuple[pd.DataFrame, pd.DataFrame]:
@@ -31,18 +32,22 @@ def judge(evidence: Mapping[str, Evidence]) -> tuple[pd.DataFrame, pd.DataFrame]
         number_anchored, number_low, number_high (5 and 95 % of the robots), number_printed (the same from the printed
         Table 2), why_skipped. Robots has columns key, method, robot, true, number: one row per robot.
     """
-    rows, per_robot = [], []
+    rows: list[dict[str, object]] = []
+    per_robot = [pd.DataFrame(columns=["key", "method", "robot", "true", "number"])]
     for claim in CLAIMS:
         for method, of_method in _methods(claim, evidence):
+            place: dict[str, object] = {"key": claim.key, "method": method}
             reason = _missing(claim, of_method)
             judged = None if reason else claim.judge(of_method)
             if judged is None:
-                rows.append({"key": claim.key, "method": method, "verdict": SKIPPED, "why_skipped": reason or "not run"})
+                rows.append({**place, "verdict": SKIPPED, "why_skipped": reason or "not run"})
                 continue
-            rows.append({"key": claim.key, "method": method, **_row(of_method.robots, judged), "why_skipped": ""})
-            outcome = {"key": claim.key, "method": method, "robot": of_method.robots}
-            per_robot.append(pd.DataFrame({**outcome, "true": judged.per_robot, "number": judged.numbers}))
-    return pd.DataFrame(rows), pd.concat(per_robot, ignore_index=True)
+            rows.append({**place, **_row(of_method.robots, judged)})
+            outcome = {"robot": of_method.robots, "true": judged.per_robot, "number": judged.numbers}
+            per_robot.append(pd.DataFrame({**place, **outcome}))
+    table = pd.DataFrame(rows)
+    outcomes = pd.concat(per_robot[1:] or per_robot, ignore_index=True)
+    return table.assign(why_skipped=table.get("why_skipped", "")), outcomes
 
 
 def _methods(claim: Claim, evidence: Mapping[str, Evidence]) -> list[tuple[str, Evidence]]:
@@ -66,7 +71,7 @@ def _row(robots: Sequence[str], judged: Judged) -> dict[str, object]:
     anchored = np.flatnonzero(~drawn)
     true, count = int(judged.per_robot[drawn].sum()), int(drawn.sum())
     if not count:
-        return {"verdict": SKIPPED}
+        return {"verdict": SKIPPED, "why_skipped": "no robots were drawn"}
     share_low, share_high = interval(true, count)
     # where some are infinite there is no interpolating between values
     low, median, high = np.quantile(judged.numbers[drawn], [0.05, 0.5, 0.95], method="nearest")
@@ -94,45 +99,54 @@ def summarise(judged: pd.DataFrame, sensitivity: pd.DataFrame) -> pd.DataFrame:
         sensitivity: see `armscope.paper.sensitivity`; may be empty.
 
     Returns:
-        Columns key, group, claim, source, wording, criterion, then those of `judge`, unit, number_is, scenarios (how
-        many others the claim was judged in), share_least, share_most (over all scenarios), under_assumptions ("holds
-        under all", "fails under all", "depends on the robot", "depends on the assumption", "too few robots to tell",
-        "not varied"), depends_on (which assumptions).
+        Columns key, group, claim, source, wording, criterion, unit, number_is, then those of `judge`, and scenarios
+        (how many others the claim was judged in), moved_by (assumptions that move the share significantly),
+        share_least, share_most (over all scenarios), under_assumptions ("holds under all", "fails under all", "depends
+        on the robot", "depends on the assumption", "too few robots to tell", "not varied"), depends_on (which
+        assumptions).
     """
-    by_key = {claim.key: claim for claim in CLAIMS}
-    words = pd.DataFrame(
-        [
-            {
-                "key": key,
-                "group": by_key[key].group,
-                "claim": by_key[key].claim,
-                "source": by_key[key].source,
-                "wording": by_key[key].wording,
-                "criterion": by_key[key].criterion,
-                "unit": by_key[key].unit,
-                "number_is": by_key[key].number_is,
-            }
-            for key in dict.fromkeys(judged["key"])
-        ]
-    )
-    varied = [_varied(row, sensitivity) for row in judged.to_dict("records")]
-    return words.merge(pd.concat([judged, pd.DataFrame(varied)], axis=1), on="key")
+    words = [
+        {
+            "key": claim.key,
+            "group": claim.group,
+            "claim": claim.claim,
+            "source": claim.source,
+            "wording": claim.wording,
+            "criterion": claim.criterion,
+            "unit": claim.unit,
+            "number_is": claim.number_is,
+        }
+        for claim in CLAIMS
+    ]
+    varied = pd.DataFrame([_varied(row, sensitivity) for _, row in judged.iterrows()])
+    return pd.DataFrame(words).merge(pd.concat([judged, varied], axis=1), on="key")
 
 
-def _varied(row: Mapping[str, object], sensitivity: pd.DataFrame) -> dict[str, object]:
-    nothing = {"scenarios": 0, "share_least": row.get("share"), "share_most": row.get("share")}
-    if sensitivity.empty or row["verdict"] == SKIPPED:
-        return {**nothing, "under_assumptions": "not varied", "depends_on": ""}
-    mine = sensitivity[(sensitivity["key"] == row["key"]) & (sensitivity["method"] == row["method"])]
-    mine = mine[mine["verdict"] != SKIPPED]
-    if mine.empty:
-        return {**nothing, "under_assumptions": "not varied", "depends_on": ""}
+def _varied(row: pd.Series, sensitivity: pd.DataFrame) -> dict[str, object]:
+    """What the scenarios make of one claim by one method."""
+    mine = sensitivity
+    if len(mine):
+        same = (mine["key"] == row["key"]) & (mine["method"] == row["method"])
+        mine = mine[same & (mine["verdict"] != SKIPPED)]
+    if mine.empty or row["verdict"] == SKIPPED:
+        only = row.get("share", np.nan)
+        nothing = {"under_assumptions": "not varied", "depends_on": ""}
+        return {"scenarios": 0, "moved_by": "", "share_least": only, "share_most": only, **nothing}
     found, factors = under_assumptions(str(row["verdict"]), zip(mine["factor"], mine["verdict"], strict=True))
+    level = SIGNIFICANT / len(mine)
+    moved = [str(scenario["factor"]) for _, scenario in mine.iterrows() if _differs(row, scenario, level)]
     shares = [*mine["share"], row["share"]]
     return {
         "scenarios": len(mine),
+        "moved_by": ", ".join(dict.fromkeys(moved)),
         "share_least": min(shares),
         "share_most": max(shares),
         "under_assumptions": found,
         "depends_on": ", ".join(factors),
     }
+
+
+def _differs(base: pd.Series, other: pd.Series, level: float) -> bool:
+    """Whether two shares of robots differ (Fisher's exact test)."""
+    counts = np.array([[each["true"], each["robots"] - each["true"]] for each in (base, other)], dtype=int)
+    return bool(fisher_exact(counts).pvalue < level)

@@ -1,0 +1,79 @@
+"""Figures and pages of the paper's reproduction."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from armscope.cli.studies import Errors, Fits, Poses, Settings, parsed, read_fits, read_measurements
+from armscope.inputs import InputError
+
+app = typer.Typer()
+
+
+@app.command()
+def figure(
+    name: Annotated[str, typer.Argument(help="fig03 ... fig11")],
+    poses: Poses,
+    errors: Errors,
+    fits: Fits,
+    output: Annotated[Path, typer.Option("--output", "-o", help="a path; PNG, SVG and PDF are written there")],
+) -> None:
+    """Draw one figure of the paper from what was measured and fitted."""
+    from armscope.inputs import nearest
+    from armscope.report.paper_figures import FIGURES, draw
+    from armscope.report.style import save_figure
+
+    if name not in FIGURES:
+        raise InputError("the figure's name", "", name, "the paper's plots are Figs. 3-11", nearest(name, FIGURES))
+    save_figure(draw(name, read_measurements(poses, errors), read_fits(fits)), output)
+
+
+@app.command("convergence-figure")
+def convergence_figure(
+    history: Annotated[Path, typer.Argument(help="convergence.csv")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="a path; PNG, SVG and PDF are written there")],
+) -> None:
+    """Draw how the swarms converge."""
+    from armscope.files import read_table
+    from armscope.report.paper_figures import convergence
+    from armscope.report.style import save_figure
+
+    save_figure(convergence(read_table(history, ["model", "rule"], "the table convergence.csv of a study")), output)
+
+
+@app.command()
+def report(
+    results: Annotated[Path, typer.Argument(help="folder with the study's tables and figures")],
+    proof: Annotated[Path, typer.Argument(help="folder of the small proof of the diagnosis")],
+    robot: Annotated[Path, typer.Option(help="robot.yaml")],
+    compensation: Annotated[Path, typer.Option(help="folder with the closed loop's tables and figures")],
+    settings: Settings,
+    output: Annotated[Path, typer.Option("--output", "-o", help="report.html; table2.html is written beside it")],
+) -> None:
+    """One page that shows what the paper claimed, what holds, and what is assumed."""
+    from armscope.cli.paper_settings import ReportSettings
+    from armscope.files import read_table
+    from armscope.report.paper_page import Outlook, RealArm, error_field, write_paper_page, write_table2
+    from armscope.robot import load_arm
+
+    chosen = parsed(ReportSettings, settings)
+    arms = [RealArm(arm.title, Path(arm.folder) if arm.folder else None, arm.reason) for arm in chosen.real]
+    write_table2(output.with_name("table2.html"), read_table(results / "table2.csv"))
+    left_over = read_table(compensation / "closed_loop_points.csv")
+    field = error_field(load_arm(robot), read_table(results / "poses.csv"), left_over)
+    write_paper_page(output, chosen.paper, chosen.seed, results, proof, arms, field, Outlook(compensation))
+
+
+@app.command("readme")
+def readme_(
+    readme: Annotated[Path, typer.Argument(help="README.md; its numbers are replaced")],
+    results: Annotated[Path, typer.Argument(help="folder with the study's tables")],
+    proof: Annotated[Path, typer.Argument(help="folder with the tables of the full proof")],
+) -> None:
+    """Fill the README's numbers from results."""
+    from armscope.report.readme import fill_readme
+
+    fill_readme(readme, results, proof)
