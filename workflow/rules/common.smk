@@ -4,10 +4,10 @@ import shlex
 import sys
 from pathlib import Path
 
-from armscope.config import Config
-from armscope.inputs import InputError, validate
-from armscope.provenance import digest
-from armscope.recordings.fetching import load_source
+from armscope.core.config import Config
+from armscope.core.inputs import InputError, validate
+from armscope.core.provenance import digest
+from armscope.recordings.importing.fetching import load_source
 
 # `snakemake` may be called by its path, without the environment being activated
 shell.prefix(f"set -euo pipefail; export PATH={shlex.quote(str(Path(sys.executable).parent))}:$PATH; ")

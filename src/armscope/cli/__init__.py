@@ -13,7 +13,7 @@ import typer
 
 from armscope.cli import calibration, compensation, diagnosis, outlook, paper, poses, proof, real, recordings, sweep
 from armscope.cli.panels import EXPERIMENTS
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 
 app = typer.Typer(
     name="armscope",
@@ -63,7 +63,7 @@ def print_schema() -> None:
     """Print the JSON schema of config.yaml."""
     import json
 
-    from armscope.config import schema
+    from armscope.core.config import schema
 
     print(json.dumps(schema(), indent=2))
 

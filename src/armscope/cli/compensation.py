@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from armscope.cli.studies import model_named
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -97,7 +97,7 @@ def fit_error_model(
     """Fit one of the paper's error models to recordings, ready for `armscope compensate`: three axes, or all six."""
     from armscope.compensation import fit_error_model as fit
     from armscope.compensation import save_error_model
-    from armscope.inputs import nearest
+    from armscope.core.inputs import nearest
     from armscope.recordings import read_recordings
     from armscope.robot import load_arm
 

@@ -38,7 +38,7 @@ def measure(
 ) -> None:
     """Anchor virtual robots to the printed equations and measure them on identification poses and test paths."""
     from armscope.cli.paper_settings import MeasureSettings, plan_of
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.enough_poses import enough_poses
     from armscope.paper.study import measured
     from armscope.robot import load_arm
@@ -67,7 +67,7 @@ def measure_real(
 ) -> None:
     """Take identification and held-out rows from real recordings, in the form of the paper's measurements."""
     from armscope.cli.paper_settings import RealSettings
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.real import real_measurements, select_rows
     from armscope.recordings import read_recordings
     from armscope.robot import load_arm
@@ -113,7 +113,7 @@ def fit(
 @app.command()
 def residuals(poses: Poses, errors: Errors, fits: Fits, output: Output) -> None:
     """What every fit leaves of the errors, for every robot of a table."""
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.residuals import residual_table
 
     write_table(output, residual_table(read_measurements(poses, errors), read_fits(fits)))
@@ -126,7 +126,7 @@ def table2_(
     beside_printed: Annotated[bool, typer.Option(help="beside what the paper prints of its own arm")] = True,
 ) -> None:
     """Table 2: the first robot's errors that are left over, beside the printed ones and those of its ensemble."""
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.table2 import table2
 
     table = table2(read_residuals(residuals))
@@ -138,7 +138,7 @@ def table2_(
 @app.command()
 def coefficients(fits: Fits, output: Output) -> None:
     """The fitted coefficients of one robot, beside Eqs. (9)-(20)."""
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.coefficients import coefficient_table
 
     write_table(output, coefficient_table(read_fits(fits)), digits=6)
@@ -147,7 +147,7 @@ def coefficients(fits: Fits, output: Output) -> None:
 @app.command("cross-check")
 def cross_check_(residuals: Residuals, fits: ManyFits, output: Output) -> None:
     """Hold the robots against printed numbers that anchoring did not use."""
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.cross_check import cross_check
 
     write_table(output, cross_check(read_residuals(residuals), read_fits(*fits)), digits=5)
@@ -156,7 +156,7 @@ def cross_check_(residuals: Residuals, fits: ManyFits, output: Output) -> None:
 @app.command("sub-volumes")
 def sub_volumes_(poses: Poses, errors: ManyErrors, output: Output) -> None:
     """What one model for each of several regions of the workspace leaves of the errors."""
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.sub_volumes import sub_volumes
 
     write_table(output, sub_volumes(read_measurements(poses, *errors)), digits=6)
@@ -170,7 +170,7 @@ def outlook_(
     seed: Annotated[int, typer.Option(help="of the folds")] = 0,
 ) -> None:
     """What blended sub-volumes and products between inputs leave of the errors, chosen by cross-validation."""
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.outlook import outlook
 
     write_table(output, outlook(read_measurements(poses, *errors), seed=seed), digits=6)
@@ -179,7 +179,7 @@ def outlook_(
 @app.command("reading")
 def reading_(poses: Poses, output: Output) -> None:
     """Read the printed Eqs. (15)-(17) as a rigid motion, a scale and a rest."""
-    from armscope.files import read_table, write_table
+    from armscope.core.files import read_table, write_table
     from armscope.paper.reading import reading
 
     table = read_table(poses, ["trajectory", "x_mm", "y_mm", "z_mm"], "the table poses.csv of a study")
@@ -191,7 +191,7 @@ def reading_(poses: Poses, output: Output) -> None:
 def convergence(poses: Poses, errors: Errors, settings: Settings, output: Output) -> None:
     """Compare the velocity updates: which reaches the least-squares optimum, and when."""
     from armscope.cli.paper_settings import SwarmStudySettings, specs_of, swarm_settings_of
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.convergence import convergence as histories
 
     chosen = parsed(SwarmStudySettings, settings)

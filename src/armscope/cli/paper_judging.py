@@ -29,7 +29,7 @@ Robot = Annotated[Path, typer.Argument(help="robot.yaml")]
 def reach(robot: Robot, settings: Settings, output: Output) -> None:
     """Follow the test paths under all assumptions that will be tried, before anything else is done with them."""
     from armscope.cli.paper_settings import ScenarioSettings, plan_of, scenarios_of
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.scenarios import check_reach
     from armscope.robot import load_arm
 
@@ -49,8 +49,8 @@ def scenario(
     import pandas as pd
 
     from armscope.cli.paper_settings import ScenarioSettings, fitting_of, scenarios_of
-    from armscope.files import write_table
-    from armscope.inputs import InputError, nearest
+    from armscope.core.files import write_table
+    from armscope.core.inputs import InputError, nearest
     from armscope.paper.sensitivity import judge_scenario
     from armscope.robot import load_arm
 
@@ -70,7 +70,7 @@ def scenario(
 @app.command("join")
 def join_(tables: Annotated[list[Path], typer.Argument(help="tables of the same columns")], output: Output) -> None:
     """Put tables one after the other."""
-    from armscope.files import write_table
+    from armscope.core.files import write_table
 
     write_table(output, read_tables(tables))
 
@@ -85,7 +85,7 @@ def method_(
 ) -> None:
     """Excess over least squares for every basis, layout and update rule."""
     from armscope.cli.paper_settings import MethodSettings, specs_of, swarm_settings_of
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.method import method_table
 
     chosen = parsed(MethodSettings, settings)
@@ -110,7 +110,7 @@ def judge_(
     per_robot: Annotated[Path, typer.Option(help="table of the outcome for every robot")],
 ) -> None:
     """Whether each claim of the paper holds, for which share of the robots, by the method as printed and improved."""
-    from armscope.files import read_table, write_table
+    from armscope.core.files import read_table, write_table
     from armscope.paper.claims import judge
     from armscope.paper.evidence import gather
 
@@ -132,7 +132,7 @@ def claims_(
     output: Annotated[Path, typer.Option("--output", "-o", help="claims.csv")],
 ) -> None:
     """Each claim with the paper's wording, its verdicts, and what remains of them under other assumptions."""
-    from armscope.files import read_table, write_table
+    from armscope.core.files import read_table, write_table
     from armscope.paper.claims import summarise
 
     write_table(output, summarise(read_table(judged), read_table(sensitivity)), digits=5)
@@ -146,7 +146,7 @@ def why_(
     figure: Annotated[Path, typer.Option(help="picture")],
 ) -> None:
     """Which geometric errors of a robot decide the claims that depend on it."""
-    from armscope.files import read_table, write_table
+    from armscope.core.files import read_table, write_table
     from armscope.paper.why import reasons
     from armscope.report.figures.why import why_figure
     from armscope.report.style import save_figure
@@ -164,7 +164,7 @@ def audit_(
 ) -> None:
     """Whether the printed table, equations and trajectories can all be true."""
     from armscope.cli.paper_settings import AuditSettings, audit_scope_of
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.audit import audit
 
     write_table(output, audit(audit_scope_of(parsed(AuditSettings, settings))), digits=4)

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from armscope.cli.studies import Errors, Fits, Poses, Settings, parsed, read_fits, read_measurements
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 
 app = typer.Typer()
 
@@ -22,8 +22,8 @@ def figure(
     output: Annotated[Path, typer.Option("--output", "-o", help="a path; PNG, SVG and PDF are written there")],
 ) -> None:
     """Draw one figure of the paper from what was measured and fitted."""
-    from armscope.inputs import nearest
-    from armscope.report.paper_figures import FIGURES, draw
+    from armscope.core.inputs import nearest
+    from armscope.report.figures.paper import FIGURES, draw
     from armscope.report.style import save_figure
 
     if name not in FIGURES:
@@ -37,8 +37,8 @@ def convergence_figure(
     output: Annotated[Path, typer.Option("--output", "-o", help="a path; PNG, SVG and PDF are written there")],
 ) -> None:
     """Draw how the swarms converge."""
-    from armscope.files import read_table
-    from armscope.report.paper_figures import convergence
+    from armscope.core.files import read_table
+    from armscope.report.figures.paper import convergence
     from armscope.report.style import save_figure
 
     save_figure(convergence(read_table(history, ["model", "rule"], "the table convergence.csv of a study")), output)
@@ -55,8 +55,8 @@ def report(
 ) -> None:
     """One page that shows what the paper claimed, what holds, and what is assumed."""
     from armscope.cli.paper_settings import ReportSettings
-    from armscope.files import read_table
-    from armscope.report.paper_page import Outlook, RealArm, error_field, write_paper_page, write_table2
+    from armscope.core.files import read_table
+    from armscope.report.pages.paper import Outlook, RealArm, error_field, write_paper_page, write_table2
     from armscope.robot import load_arm
 
     chosen = parsed(ReportSettings, settings)
@@ -74,6 +74,6 @@ def readme_(
     proof: Annotated[Path, typer.Argument(help="folder with the tables of the full proof")],
 ) -> None:
     """Fill the README's numbers from results."""
-    from armscope.report.readme import fill_readme
+    from armscope.report.pages.readme import fill_readme
 
     fill_readme(readme, results, proof)

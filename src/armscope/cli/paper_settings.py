@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from armscope.config import (
+from armscope.core.config import (
     Audit,
     Count,
     Identification,
@@ -15,15 +15,15 @@ from armscope.config import (
     Tracker,
     Trajectories,
 )
+from armscope.core.inputs import Strict
+from armscope.core.variants import Variant
 from armscope.errormodels import ModelSpec
-from armscope.inputs import Strict
 from armscope.paper.audit import AuditScope
 from armscope.paper.scenarios import Scenario, Varied, scenarios
 from armscope.paper.sensitivity import Fitting
 from armscope.paper.study import PlannedPaths, PlannedPoses, Sizes, StudyPlan
 from armscope.robot import Arm, load_arm
 from armscope.swarm import SwarmSettings
-from armscope.variants import Variant
 from armscope.world.tracker import Tracker as VirtualTracker
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 
 if TYPE_CHECKING:
     from armscope.poses.choose import Choice
@@ -47,13 +47,13 @@ def poses(
     seed: Annotated[int, typer.Option(min=0, help="of candidates, starts and comparison")] = 0,
 ) -> None:
     """Choose the poses that show a set of effects best, and say what they are worth beside random ones and a grid."""
+    from armscope.core.files import write_table
+    from armscope.core.inputs import nearest
     from armscope.design.indices import SOURCES
-    from armscope.files import write_table
-    from armscope.inputs import nearest
     from armscope.poses.choose import by_other_criteria, choose
     from armscope.poses.compare import compare
     from armscope.poses.output import write_choice
-    from armscope.report.choice_figure import choice_figure
+    from armscope.report.figures.pose_choice import choice_figure
     from armscope.report.style import save_figure
     from armscope.robot import load_arm
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from armscope.compensation.rapid import write_rapid
 from armscope.compensation.result import Compensated
-from armscope.files import write_json, write_table
-from armscope.inputs import InputError
+from armscope.core.files import write_json, write_table
+from armscope.core.inputs import InputError
 
 FORMATS = (".csv", ".csv.gz", ".json", ".mod")
 

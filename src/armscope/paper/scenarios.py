@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import pandas as pd
 from scipy.stats import qmc
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.paper.study import Point, Sizes, StudyPlan
 from armscope.robot import Arm
 

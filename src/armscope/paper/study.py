@@ -7,10 +7,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.paper.virtual import (
     VirtualStudy,
     identification_poses,
@@ -23,7 +22,6 @@ from armscope.world.poses import Choice
 from armscope.world.tolerances import GeometricErrors, geometric_errors
 from armscope.world.tracker import Tracker
 
-Array = NDArray[np.float64]
 Point = tuple[float, float, float]
 
 

@@ -12,9 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from armscope.core.types import Array
 
 MOST_ERRORS = 3
 FOLDS = 10

@@ -10,12 +10,11 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.errormodels import FittedModel
 from armscope.paper.measurements import Measurements
 from armscope.paper.printed import PRINTED_MODELS, TEST_TRAJECTORIES, printed_table2
 from armscope.paper.residuals import SPATIAL, spatial_rms
-
-Array = NDArray[np.float64]
 
 AS_PRINTED, IMPROVED, LEAST_SQUARES = "as printed", "improved", "least squares"
 """The paper's method as it prints it; with the configured swarm; and what needs no swarm."""

@@ -6,15 +6,13 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.errormodels import FOURIER_2_AI, POLYNOMIAL_4_AI, FittedModel
 from armscope.paper.claims.evidence import Evidence, Judged, printed_cells, printed_spatial
 from armscope.paper.enough_poses import PRINTED_COUNT, smallest_sufficient
 from armscope.paper.outlook import PLAIN, SUB_VOLUMES
 from armscope.paper.printed import AXES, IDENTIFICATION, TEST_TRAJECTORIES, TRAJECTORIES, UNCOMPENSATED
-
-Array = NDArray[np.float64]
 
 CLOSE_PER_CENT = 1.0
 """A swarm counts as equal to least squares if it stays within this above it."""

@@ -57,8 +57,8 @@ OWN_CLAIMS = (
         OWN,
         "p. 961, Fig. 4",
         "the modeling performance in the x and z directions are quite similar",
-        f"errors left on the identification poses differ between axes by at most a factor of {judges.SIMILAR:g}, in each "
-        "model",
+        f"errors left on the identification poses differ between axes by at most a factor of {judges.SIMILAR:g}, in "
+        "each model",
         "largest ratio of two axes over the models",
         "",
         judges.axes_similar,
