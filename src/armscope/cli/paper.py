@@ -111,12 +111,22 @@ def fit(
 
 
 @app.command()
-def residuals(poses: Poses, errors: Errors, fits: Fits, output: Output) -> None:
+def residuals(
+    poses: Poses,
+    errors: Errors,
+    fits: Fits,
+    output: Output,
+    bands: Annotated[Path | None, typer.Option(help="table of where the robots' errors lie at every point")] = None,
+) -> None:
     """What every fit leaves of the errors, for every robot of a table."""
     from armscope.core.files import write_table
+    from armscope.paper.bands import ensemble_bands
     from armscope.paper.residuals import residual_table
 
-    write_table(output, residual_table(read_measurements(poses, errors), read_fits(fits)))
+    measurements, fitted = read_measurements(poses, errors), read_fits(fits)
+    write_table(output, residual_table(measurements, fitted))
+    if bands is not None:
+        write_table(bands, ensemble_bands(measurements, fitted), digits=5)
 
 
 @app.command("table2")
@@ -130,9 +140,8 @@ def table2_(
     from armscope.paper.table2 import table2
 
     table = table2(read_residuals(residuals))
-    write_table(
-        output, table if beside_printed else table.drop(columns=["printed", "rss_ratio", "rms_ratio"]), digits=6
-    )
+    of_printed = [name for name in table.columns if name == "printed" or name.endswith("_ratio")]
+    write_table(output, table if beside_printed else table.drop(columns=of_printed), digits=6)
 
 
 @app.command()

@@ -15,20 +15,33 @@ app = typer.Typer()
 
 @app.command()
 def figure(
-    name: Annotated[str, typer.Argument(help="fig03 ... fig11")],
+    name: Annotated[str, typer.Argument(help="fig01 ... fig11")],
     poses: Poses,
     errors: Errors,
     fits: Fits,
     output: Annotated[Path, typer.Option("--output", "-o", help="a path; PNG, SVG and PDF are written there")],
+    settings: Settings,
+    robot: Annotated[Path | None, typer.Option(help="robot.yaml, for Figs. 1 and 2")] = None,
+    bands: Annotated[Path | None, typer.Option(help="where the drawn robots' errors lie")] = None,
 ) -> None:
     """Draw one figure of the paper from what was measured and fitted."""
+    import numpy as np
+    import pandas as pd
+
+    from armscope.cli.paper_settings import FigureSettings
+    from armscope.core.files import read_table
     from armscope.core.inputs import nearest
-    from armscope.report.figures.paper import FIGURES, draw
+    from armscope.report.figures.paper import FIGURES, Shown, draw
     from armscope.report.style import save_figure
+    from armscope.robot import load_arm
 
     if name not in FIGURES:
-        raise InputError("the figure's name", "", name, "the paper's plots are Figs. 3-11", nearest(name, FIGURES))
-    save_figure(draw(name, read_measurements(poses, errors), read_fits(fits)), output)
+        raise InputError("the figure's name", "", name, "the paper's plots are Figs. 1-11", nearest(name, FIGURES))
+    tracker = np.array(parsed(FigureSettings, settings).tracker.position_mm.value)
+    ranges = pd.DataFrame() if bands is None else read_table(bands)
+    arm = None if robot is None else load_arm(robot)
+    shown = Shown(read_measurements(poses, errors), read_fits(fits), ranges, arm, tracker)
+    save_figure(draw(name, shown), output)
 
 
 @app.command("convergence-figure")
@@ -38,7 +51,7 @@ def convergence_figure(
 ) -> None:
     """Draw how the swarms converge."""
     from armscope.core.files import read_table
-    from armscope.report.figures.paper import convergence
+    from armscope.report.figures.convergence import convergence
     from armscope.report.style import save_figure
 
     save_figure(convergence(read_table(history, ["model", "rule"], "the table convergence.csv of a study")), output)
@@ -56,15 +69,18 @@ def report(
     """One page that shows what the paper claimed, what holds, and what is assumed."""
     from armscope.cli.paper_settings import ReportSettings
     from armscope.core.files import read_table
-    from armscope.report.pages.paper import Outlook, RealArm, error_field, write_paper_page, write_table2
+    from armscope.report.pages.paper import PaperPage, write_table2
+    from armscope.report.pages.paper_field import error_field
+    from armscope.report.pages.paper_outlook import Outlook, RealArm
     from armscope.robot import load_arm
 
     chosen = parsed(ReportSettings, settings)
     arms = [RealArm(arm.title, Path(arm.folder) if arm.folder else None, arm.reason) for arm in chosen.real]
-    write_table2(output.with_name("table2.html"), read_table(results / "table2.csv"))
+    table, audit = read_table(results / "table2.csv"), read_table(results / "audit.csv")
+    write_table2(output.with_name("table2.html"), table, audit)
     left_over = read_table(compensation / "closed_loop_points.csv")
     field = error_field(load_arm(robot), read_table(results / "poses.csv"), left_over)
-    write_paper_page(output, chosen.paper, chosen.seed, results, proof, arms, field, Outlook(compensation))
+    PaperPage(chosen.paper, chosen.seed, results, proof, arms, field, Outlook(compensation)).write(output)
 
 
 @app.command("readme")

@@ -38,10 +38,15 @@ class MeasureSettings(Strict):
     tracker: Tracker
 
 
-class ScenarioSettings(MeasureSettings):
-    """`armscope paper scenario` and `armscope paper reach`: the study, what is varied, and how it is fitted."""
+class ReachSettings(MeasureSettings):
+    """`armscope paper reach`: the study, and what is varied."""
 
     sensitivity: Sensitivity
+
+
+class ScenarioSettings(ReachSettings):
+    """`armscope paper scenario`: also how it is fitted."""
+
     models: tuple[Model, ...]
     swarm: Swarm
 
@@ -103,6 +108,12 @@ class ReportSettings(Strict):
     real: tuple[ReportedArm, ...]
 
 
+class FigureSettings(Strict):
+    """`armscope paper figure`."""
+
+    tracker: Tracker
+
+
 class AuditSettings(Strict):
     """`armscope paper audit`."""
 
@@ -150,7 +161,7 @@ def varied_of(chosen: Sensitivity, seed: int) -> Varied:
     )
 
 
-def scenarios_of(settings: ScenarioSettings, arm: Arm) -> list[Scenario]:
+def scenarios_of(settings: ReachSettings, arm: Arm) -> list[Scenario]:
     """Every scenario of the sensitivity study."""
     base = plan_of(settings, arm, settings.sensitivity.robots)
     return scenarios(base, varied_of(settings.sensitivity, settings.seed))
