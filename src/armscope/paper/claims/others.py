@@ -32,7 +32,7 @@ def _extended(kind: str, model: str, words: str) -> Claim:
         words,
         REGIONS if kind == SUB_VOLUMES else PRODUCT,
         "p. 961, section 6.3; p. 965, section 8" if kind == SUB_VOLUMES else "p. 962, section 6.3",
-        "can further be improved by dividing the manipulator workspace into sub-volumes"
+        "can further be improved by dividing the manipulator workspace into subvolumes"
         if kind == SUB_VOLUMES
         else "the multiplication of the same polynomials can be used […] will be investigated and reported later",
         f"3D error of {model} so extended below that without, over I–III together",
