@@ -80,7 +80,12 @@ use rule fit as fit_ensemble with:
 
 
 use rule fit as fit_as_printed with:
-    # the paper's own coordinates, one swarm for all axes, and the velocity update exactly as section 5 prints it
+    # the paper's own coordinates, one swarm for all axes, and the velocity update exactly as section 5 prints it; one run, as
+    # there and as in the scenarios that it is compared with
+    input:
+        poses=f"{RESULTS}/{{study}}/poses.csv",
+        errors=f"{RESULTS}/{{study}}/errors.csv",
+        settings=fit_settings("fit_as_printed", seeds=CONFIG.paper.sensitivity.seeds),
     output:
         f"{RESULTS}/{{study}}/fits_as_printed.json.gz",
     params:
@@ -91,6 +96,10 @@ use rule fit as fit_as_printed with:
 
 
 use rule fit_ensemble as fit_ensemble_as_printed with:
+    input:
+        poses=rules.measure.output.poses,
+        errors=rules.measure.output.ensemble,
+        settings=fit_settings("fit_as_printed", seeds=CONFIG.paper.sensitivity.seeds),
     output:
         f"{PAPER}/ensemble_fits_as_printed.json.gz",
     params:

@@ -15,15 +15,17 @@ from armscope.robot import Arm
 
 LEAST_MM = 1.0
 """Lengths below this are not drawn."""
+BENT_DEG = (0, 20, -25, 0, 0, 0)
+"""Motor angles under which the parallelogram is open and no piece covers another."""
 
 
 def arm_with_frames(arm: Arm) -> Figure:
-    """Fig. 1: the arm from the side with all motors at zero, its D-H lengths in mm, and the parallelogram.
+    """Fig. 1: the arm from the side, its D-H lengths in mm, and the parallelogram.
 
     Args:
         arm: described by D-H rows.
     """
-    shape = arm_shape(arm, np.zeros(arm.n_motors))
+    shape = arm_shape(arm, np.radians(BENT_DEG) if arm.n_motors == len(BENT_DEG) else np.zeros(arm.n_motors))
     with styled():
         figure, panel = plt.subplots(figsize=(7.4, 5.6))
         if shape.rod is not None:
@@ -39,7 +41,9 @@ def arm_with_frames(arm: Arm) -> Figure:
         centres = 1e3 * shape.centres
         panel.plot(centres[:, 0], centres[:, 2], "o", color="white", markeredgecolor=BLACK, markersize=9, zorder=3)
         for place, names in _together(centres):
-            panel.annotate(names, (place[0], place[2]), xytext=(9, 9), textcoords="offset points", color=BLUE)
+            panel.annotate(
+                names, (place[0], place[2]), xytext=(-8, 8), textcoords="offset points", color=BLUE, ha="right"
+            )
         _lengths(panel, arm, shape.parts)
         panel.plot(*(1e3 * shape.tool[[0, 2]]), "*", color=VERMILION, markersize=13, label="reflector", zorder=4)
         panel.axhline(0, color=GREY, linewidth=1)
@@ -72,17 +76,22 @@ def _lengths(panel: Axes, arm: Arm, parts: tuple[tuple[str, Array], ...]) -> Non
             ((line[0], line[1]), (line[1], line[2])), (f"d_{number}", f"a_{number}"), (row.d_mm, row.a_mm), strict=True
         ):
             if abs(length) >= LEAST_MM:
-                middle = (start + end) / 2
-                upright = abs(end[2] - start[2]) > abs(end[0] - start[0])
-                panel.annotate(
-                    f"${name}$ = {length:g}", (middle[0], middle[2]),
-                    xytext=(10, -3) if upright else (0, -15), textcoords="offset points",
-                    ha="left" if upright else "center", fontsize=8,
-                )  # fmt: skip
+                _beside(panel, start, end, f"${name}$ = {length:g}")
     start, end = 1e3 * dict(parts)["tool"]
+    _beside(panel, start, end, f"{1e3 * np.linalg.norm(arm.tool):g}")
+
+
+def _beside(panel: Axes, start: Array, end: Array, text: str) -> None:
+    """A label to the lower right of a piece, clear of it."""
+    along = (end - start)[[0, 2]]
+    normal = np.array([along[1], -along[0]]) / np.linalg.norm(along)
+    if normal[0] - normal[1] < 0:
+        normal = -normal
+    middle = (start + end)[[0, 2]] / 2
+    steep = abs(along[1]) > abs(along[0])
     panel.annotate(
-        f"{1e3 * np.linalg.norm(arm.tool):g}", ((start[0] + end[0]) / 2, (start[2] + end[2]) / 2),
-        xytext=(10, -3), textcoords="offset points", fontsize=8,
+        text, tuple(middle), xytext=tuple(11 * normal), textcoords="offset points", fontsize=8,
+        ha="left" if steep else "center", va="center" if steep else "top",
     )  # fmt: skip
 
 

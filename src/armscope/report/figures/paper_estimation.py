@@ -49,7 +49,9 @@ def estimation_performance(
                     panel.set_ylabel(f"$\\delta_{AXIS_NAMES[axis]}$ (mm)")
             panels[0, column].set_title(model)
             panels[-1, column].set_xlabel("target point")
-        legend_above(figure)
+        labelled = [panel.get_legend_handles_labels() for panel in panels.flat]
+        entries = {label: handle for handles, labels in labelled for handle, label in zip(handles, labels, strict=True)}
+        legend_above(figure, list(entries.values()), list(entries))
     return figure
 
 

@@ -69,9 +69,9 @@ README_CLAIMS = ("smaller", "as_printed", "alternative", "cartesian_1", "fourier
 def _claim_lines(claims: pd.DataFrame) -> list[str]:
     robots = int(claims["robots"].dropna().iloc[0])
     lines = [
-        f"The paper's main claims, on {robots} virtual robots drawn so that its printed Eqs. (15)-(17) come out (assumed "
-        "geometry, poses and tolerances): share of the robots for which each is true, with exact 95 % intervals, and what "
-        "remains under other assumptions:",
+        f"The paper's main claims, on {robots} virtual robots drawn so that its printed Eqs. (15)-(17) come out "
+        "(assumed geometry, poses and tolerances): share of the robots for which each is true, with exact 95 % "
+        "intervals, and what remains under other assumptions:",
         "",
         "| claim | method as printed | improved | under other assumptions |",
         "|---|---|---|---|",
@@ -109,8 +109,8 @@ def _table_lines(table: pd.DataFrame) -> list[str]:
     columns = [f"rss_ensemble_{name}" for name in ("median", "low", "high")]
     ours = {place: [significant(value, 2) for value in row[columns]] for place, row in whole.iterrows()}
     lines = [
-        "Table 2 in short: median of the drawn robots (5–95 % of them) / printed; length of the x, y, z errors, each the "
-        "root of the sum of squares, mm; identification fitted, tests held out:",
+        "Table 2 in short: median of the drawn robots (5–95 % of them) / printed; length of the x, y, z errors, each "
+        "the root of the sum of squares, mm; identification fitted, tests held out:",
         "",
         "| | " + " | ".join(TRAJECTORIES) + " |",
         "|---|" + "---|" * len(TRAJECTORIES),
