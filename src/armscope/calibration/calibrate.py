@@ -278,4 +278,4 @@ def _covariance(solved: Solved) -> Array:
         return inverse * float(residual @ residual) / freedom
     weighed = (per_component * residual).reshape(-1, per_row)
     pull = np.einsum("nc,ncp->np", weighed, jacobian.reshape(-1, per_row, free.sum()))
-    return inverse @ (pull.T @ pull) @ inverse * len(residual) / freedom
+    return np.asarray(inverse @ (pull.T @ pull) @ inverse * len(residual) / freedom)

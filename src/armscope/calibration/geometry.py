@@ -59,7 +59,7 @@ def nominal_values(arm: Arm, constants: tuple[Constant, ...]) -> Array:
     rows = arm.description.dh.joints
     stated = [float(getattr(rows[each.joint - 1], DH_FIELDS[each.kind])) for each in constants]
     to_si = [1e-3 if each.unit == "m" else np.pi / 180 for each in constants]
-    return np.array(stated) * np.array(to_si)
+    return np.asarray(np.array(stated) * to_si)
 
 
 def corrected(arm: Arm, constants: tuple[Constant, ...], values: Array) -> Arm:

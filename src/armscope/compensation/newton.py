@@ -60,7 +60,7 @@ class Wanted:
         """(N, 3 or 6, m) how the gap closes by unit turns of the motors, m/rad."""
         if self.rotations is None:
             return stand.jacobian[:, :3]
-        return stand.jacobian * np.repeat([1.0, lever], 3)[None, :, None]
+        return np.asarray(stand.jacobian * np.repeat([1.0, lever], 3)[None, :, None])
 
 
 @dataclass(frozen=True, eq=False)

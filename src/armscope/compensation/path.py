@@ -12,7 +12,8 @@ import pandas as pd
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.recordings import Recordings
-from armscope.recordings.table import as_recordings, read_text_table
+from armscope.recordings.table import as_recordings
+from armscope.recordings.textfile import read_text_table
 from armscope.robot import Arm
 
 Frame = Literal["base", "measurement"]

@@ -53,7 +53,7 @@ class Basis:
     @property
     def dimensions(self) -> int:
         """m, the number of coordinates."""
-        return self.triangular.shape[0]
+        return int(self.triangular.shape[0])
 
     def targets(self, errors: Array) -> tuple[Array, Array]:
         """b (axes x m) and the unexplainable mean square (axes) for ``errors`` (N x axes)."""
@@ -71,13 +71,13 @@ class Basis:
         """
         rms_errors = np.sqrt(np.mean(np.square(errors), axis=0))
         rms_columns = np.linalg.norm(self.triangular, axis=0)
-        return rms_errors[:, None] / rms_columns
+        return np.asarray(rms_errors[:, None] / rms_columns)
 
     def residual_rms(self, errors: Array, coordinates: Array) -> Array:
         """(S x axes) RMS residual of ``errors`` (N x axes) at coordinates z (S x axes x m)."""
         targets, rests = self.targets(errors)
         gaps = coordinates @ self.triangular.T - targets
-        return np.sqrt(np.sum(gaps**2, axis=2) + rests)
+        return np.asarray(np.sqrt(np.sum(gaps**2, axis=2) + rests))
 
     def raw_coefficients(self, coordinates: Array) -> Array:
         """Raw coefficients (... x n) of coordinates z (... x m)."""

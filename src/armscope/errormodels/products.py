@@ -126,7 +126,7 @@ class ProductFeatures:
         k, kind, order = factor
         if kind == "T":
             z = (table[:, k] - self.centre[k]) / self.half_range[k]
-            return np.asarray(chebyshev.chebval(z, chebyshev.chebder(np.eye(order + 1)[order]))) / self.half_range[k]
+            return np.asarray(chebyshev.chebval(z, chebyshev.chebder(np.eye(order + 1)[order])) / self.half_range[k])
         angle = order * self._unit(k)
         slope = -np.sin(angle * table[:, k]) if kind == "cos" else np.cos(angle * table[:, k])
         return np.asarray(angle * slope)

@@ -78,7 +78,7 @@ def target(outcome: pd.DataFrame) -> Array:
     """What is explained: the logarithm of a positive number, else whether the claim is true (0 or 1)."""
     numbers = outcome["number"].to_numpy(dtype=float)
     if np.isfinite(numbers).all() and (numbers > 0).all():
-        return np.log(numbers)
+        return np.asarray(np.log(numbers))
     return outcome["true"].to_numpy(dtype=float)
 
 
@@ -126,7 +126,8 @@ def meaning(name: str) -> str:
 
 def _columns(errors: Array, chosen: list[int]) -> Array:
     mine = errors[:, chosen]
-    return np.column_stack([np.ones(len(errors)), mine, np.abs(mine)])
+    columns: Array = np.column_stack([np.ones(len(errors)), mine, np.abs(mine)])
+    return columns
 
 
 def _chosen(errors: Array, number: Array) -> list[int]:

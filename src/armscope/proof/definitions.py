@@ -57,6 +57,8 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
+from armscope.core.location import Location
+
 Name = tuple[str, str]
 
 CLEAR_STRENGTH = 2.95
@@ -74,8 +76,7 @@ SEEDS = ("fixed", "fresh", "all")
 
 def place(location: str) -> str:
     """Where along the arm: joint 2, link 2 and "joint 2 from joint 1" are one place."""
-    words = location.split()
-    return words[1] if len(words) > 1 and words[0] in ("joint", "link") else location
+    return Location.of(location).region
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation
 
+from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics import elastic, geometric, transmission
 from armscope.physics.model import Base, FittedModel, predict, predict_orientation
@@ -76,7 +77,7 @@ def record(arm: Arm, rows: Recordings, drawn: Drawn, softer: float, rng: np.rand
     # the sensors' errors of one row come with another, so that nobody can know them
     recorded = torque + rng.permutation(rows.torque - torque)
     give = [
-        Part(placed, np.array([softer * compliances[int(placed.location.split()[1]) - 1]]))
+        Part(placed, np.array([softer * compliances[Location.of(placed.location).index]]))
         for effect, compliances in (
             (elastic.JOINT_COMPLIANCE, drawn.drives),
             (elastic.BEARING_COMPLIANCE, drawn.bearings),

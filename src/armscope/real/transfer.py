@@ -12,7 +12,7 @@ from armscope.calibration.fit import least_squares, placed, rms_distance
 from armscope.calibration.held_out import held_out
 from armscope.calibration.model import LEVELS, Level, SetUp, State, set_up
 from armscope.calibration.solve import Priors, solve
-from armscope.diagnosis import Settings, Verdict, diagnose
+from armscope.diagnosis import Diagnosis, Settings, diagnose
 from armscope.fitting.transfer import transfer as carry_over
 from armscope.real.curves import turned_by_curves
 from armscope.real.protocol import ARMSCOPE
@@ -45,7 +45,7 @@ def calibrated_transfer(arm: Arm, recordings: Recordings, transfer: ReferenceTra
     return found
 
 
-def diagnosed_transfer(learned: Verdict, rows: Recordings, transfer: ReferenceTransfer) -> dict[str, float]:
+def diagnosed_transfer(learned: Diagnosis, rows: Recordings, transfer: ReferenceTransfer) -> dict[str, float]:
     """RMS of the 3D distance (mm) on the other run of a whole verdict's model, and of its elastic part alone."""
     if "tool" not in transfer.refitted:
         known = [part.placed.variant for part in learned.model.tools]
@@ -57,7 +57,7 @@ def diagnosed_transfer(learned: Verdict, rows: Recordings, transfer: ReferenceTr
     return found
 
 
-def curves_transfer(arm: Arm, learned: Verdict, rows: Recordings) -> dict[str, float]:
+def curves_transfer(arm: Arm, learned: Diagnosis, rows: Recordings) -> dict[str, float]:
     """Held-out RMS of the 3D distance (mm) on the other run with its own geometry, without and with learned curves.
 
     A curve and the geometry beside which it was learned imitate each other in part, so curves are judged beside a
@@ -72,7 +72,7 @@ def curves_transfer(arm: Arm, learned: Verdict, rows: Recordings) -> dict[str, f
     return found
 
 
-def learn(arm: Arm, recordings: Recordings, transfers: Sequence[ReferenceTransfer]) -> dict[str, Verdict]:
+def learn(arm: Arm, recordings: Recordings, transfers: Sequence[ReferenceTransfer]) -> dict[str, Diagnosis]:
     """The verdict of every run that something is learned on: from points alone, as what stands beside it."""
     settings = Settings(resamples=0, cross_validation=False, orientation=False)
     runs = dict.fromkeys(transfer.learned for transfer in transfers)
@@ -83,7 +83,7 @@ def measure_transfers(
     arm: Arm,
     recordings: Recordings,
     transfers: Sequence[ReferenceTransfer],
-    verdicts: Mapping[str, Verdict],
+    verdicts: Mapping[str, Diagnosis],
     tell: Callable[[str], None] = lambda text: None,
 ) -> list[tuple[ReferenceTransfer, dict[str, float]]]:
     """RMS of the 3D distance (mm) on rows of the other run, by model; ``verdicts`` as `learn` gives them."""

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.robot.arm import Arm
 
@@ -37,12 +38,12 @@ class Chain:
 
     def frame(self, location: str) -> tuple[Array, Array]:
         """Rotation (N, 3, 3) and origin (N, 3) of the frame at "base", "joint j", "link j" or "tool"."""
-        kind, _, number = location.partition(" ")
-        if kind == "joint":
-            return self.joint_rotation[:, int(number) - 1], self.joint_origin[:, int(number) - 1]
-        if kind == "link":
-            return self.link_rotation[:, int(number) - 1], self.link_origin[:, int(number) - 1]
-        if kind == "tool":
+        place = Location.of(location)
+        if place.kind == "joint":
+            return self.joint_rotation[:, place.index], self.joint_origin[:, place.index]
+        if place.kind == "link":
+            return self.link_rotation[:, place.index], self.link_origin[:, place.index]
+        if place.kind == "tool":
             return self.tool_rotation, self.tool
         return np.broadcast_to(np.eye(3), self.tool_rotation.shape), np.zeros_like(self.tool)
 

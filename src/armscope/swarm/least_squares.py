@@ -73,7 +73,7 @@ class LeastSquares:
             gaps -= self.targets[swarms, None, :]
         squares = np.einsum("spd,spd->sp", gaps, gaps)
         squares += self.rests[swarms, None]
-        return squares
+        return np.asarray(squares)
 
 
 def minimise_least_squares(

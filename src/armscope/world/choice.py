@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.location import Location
 from armscope.world.catalogue import KINDS, Wish
 from armscope.world.kinds import LOAD, Concealed, Kind, Scene, number
 from armscope.world.rivals import Judge, Visibility
@@ -114,7 +115,7 @@ def _taken(kind: Kind, place: str, chosen: list[Sized]) -> bool:
 
 def _loaded(scene: Scene, kind: Kind, place: str) -> bool:
     """Whether gravity turns the motor that an effect of load is to sit at."""
-    if kind.driver != LOAD or not place.startswith("joint") or kind.effect == "bearing_compliance":
+    if kind.driver != LOAD or Location.of(place).kind != "joint" or kind.effect == "bearing_compliance":
         return True
     return bool(scene.torque_scale[number(place)] > LEAST_TORQUE * scene.torque_scale.max())
 

@@ -89,7 +89,7 @@ def _identifiable(jacobian: Array) -> Array:
     """The Jacobian by the combinations of parameters that the candidates can show at all."""
     _, singular, directions = np.linalg.svd(jacobian.reshape(-1, jacobian.shape[2]), full_matrices=False)
     kept = directions[singular > IDENTIFIABLE * singular[0]]
-    return jacobian @ kept.T
+    return np.asarray(jacobian @ kept.T)
 
 
 def _index(reduced: Array, rows: NDArray[np.intp]) -> float:

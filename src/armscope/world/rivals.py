@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import orth
 
+from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.world.effects import REFERENCE_C, close_loop
 from armscope.world.kinds import Scene, joints, links_longer_than
@@ -41,7 +42,7 @@ class Patterns:
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
         geometry, session = scene.geometry, scene.session
-        self.bending = [int(place.split()[1]) - 1 for place in links_longer_than(0.1)(scene.description)]
+        self.bending = [Location.of(place).index for place in links_longer_than(0.1)(scene.description)]
         layout = Layout(
             row_errors=np.zeros((geometry.n_joints, 4)),
             freedoms=all_freedoms(geometry.n_joints),
@@ -163,7 +164,7 @@ def _twisted_row(patterns: Patterns, j: int) -> Array:
     geometry = patterns.scene.geometry
     if geometry.modified:
         # alpha turns about x through the row's start; the tilt about x through the joint's origin, d further along z
-        return patterns.of(f"tilt {j + 1} x") - geometry.rows[j, 2] * patterns.of(f"shift {j + 1} y")
+        return np.asarray(patterns.of(f"tilt {j + 1} x") - geometry.rows[j, 2] * patterns.of(f"shift {j + 1} y"))
     if j + 1 == geometry.n_joints:
         return np.zeros_like(patterns.tool)
     return patterns.of(f"tilt {j + 2} x")

@@ -91,7 +91,8 @@ def _beside(panel: Axes, start: Array, end: Array, text: str) -> None:
     steep = abs(along[1]) > abs(along[0])
     panel.annotate(
         text, tuple(middle), xytext=tuple(11 * normal), textcoords="offset points", fontsize=8,
-        ha="left" if steep else "center", va="center" if steep else "top",
+        ha="left" if steep else "center", va="center" if steep else "top", zorder=5,
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8},
     )  # fmt: skip
 
 
