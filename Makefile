@@ -23,7 +23,7 @@ test: .venv/installed-test
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/python workflow/lint.py
-	$(BIN)/snakemake -j2 --configfile config/small.yaml --forceall
+	$(BIN)/snakemake -j2 all poses --configfile config/small.yaml --forceall
 	$(BIN)/pytest -n 2
 
 # the packages compared with need older versions of ours, so they live in environments of their own

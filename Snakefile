@@ -33,7 +33,6 @@ rule all:
     input:
         rules.paper.input,
         rules.proof_small.input,
-        rules.poses.input,
 
 
 onsuccess:

@@ -1,47 +1,30 @@
 # The paper's claims: judged by the method as printed and improved, under other assumptions, and why they depend.
-FACTORS = {
-    "geometry": "arm geometry",
-    "tolerances": "size of the tolerances",
-    "pose_ranges": "ranges of the poses",
-    "theta6": "range of theta6",
-    "corners": "corners of trajectory I",
-    "rise": "rise of II and III",
-    "noise": "noise",
-}
 VARIED = CONFIG.paper.sensitivity
-HAS_LEVELS = {
-    "geometry": VARIED.geometry.value,
-    "tolerances": VARIED.tolerance_factors.value,
-    "pose_ranges": VARIED.margins_rad.value,
-    "theta6": VARIED.motor_6_rad.value,
-    "corners": VARIED.corners_mm.value,
-    "rise": VARIED.rises_mm.value,
-    "noise": VARIED.repeats_mm.value,
-}
-BATCHES = [factor for factor in FACTORS if HAS_LEVELS[factor]] + (["together"] if VARIED.together else [])
+SCENARIO_PARTS = 2  # jobs; each starts once and takes every second scenario
 
 
 rule scenario:
-    # each job draws, measures, fits and judges robots of its own under the other values of one assumption
+    # every scenario draws, measures, fits and judges robots of its own
     input:
         robot=CONFIG.paper.robot.value,
         others=VARIED.geometry.value,
         reach=ancient(rules.reach.output),
         settings=settings("scenario", sensitivity=VARIED, models=CONFIG.paper.models, swarm=CONFIG.paper.swarm, **STUDY),
     output:
-        f"{PAPER}/sensitivity/{{factor}}.csv",
+        f"{PAPER}/sensitivity/{{part}}.csv",
     params:
-        factor=lambda wildcards: FACTORS.get(wildcards.factor, "several at once"),
+        parts=SCENARIO_PARTS,
         code=code("armscope.cli.paper_judging:scenario"),
     log:
-        f"{RESULTS}/logs/sensitivity/{{factor}}.log",
+        f"{RESULTS}/logs/sensitivity/{{part}}.log",
     shell:
-        "armscope paper scenario {input.robot} --settings {input.settings} --factor {params.factor:q} -o {output} > {log} 2>&1"
+        "armscope paper scenario {input.robot} --settings {input.settings} --part {wildcards.part} --parts {params.parts} "
+        "-o {output} > {log} 2>&1"
 
 
 rule sensitivity:
     input:
-        expand(f"{PAPER}/sensitivity/{{factor}}.csv", factor=BATCHES),
+        expand(f"{PAPER}/sensitivity/{{part}}.csv", part=range(1, SCENARIO_PARTS + 1)),
     output:
         report(f"{PAPER}/sensitivity.csv", caption="../report/sensitivity.rst", category="Claims"),
     params:

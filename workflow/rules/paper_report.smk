@@ -5,34 +5,49 @@ NEEDS = {"fig06": "cartesian", "fig07": "angular", "fig10": "cartesian", "fig11"
 FIGURES = [f"fig{number:02}" for number in range(1, 12) if NEEDS.get(f"fig{number:02}") in {None, *SPACES}]
 
 
+def figure_files(suffix):
+    """The files of all figures in one format."""
+    return [f"{PAPER}/figures/{figure}.{suffix}" for figure in FIGURES]
+
+
 rule figure:
+    # all in one job: drawing one takes less than starting
     input:
-        poses=f"{RESULTS}/{{study}}/poses.csv",
-        errors=f"{RESULTS}/{{study}}/errors.csv",
-        fits=f"{RESULTS}/{{study}}/fits.json.gz",
-        robot=lambda wildcards: CONFIG.paper.robot.value if wildcards.study == "paper" else [],
-        bands=lambda wildcards: rules.ensemble_residuals.output.bands if wildcards.study == "paper" else [],
-        settings=settings("figure", tracker=CONFIG.paper.tracker),
+        poses=rules.measure.output.poses,
+        errors=rules.measure.output.errors,
+        fits=f"{PAPER}/fits.json.gz",
+        robot=CONFIG.paper.robot.value,
+        bands=rules.ensemble_residuals.output.bands,
+        settings=settings("figure", tracker=CONFIG.paper.tracker, figures=FIGURES),
     output:
-        png=report(
-            f"{RESULTS}/{{study}}/figures/{{figure}}.png",
-            caption="../report/figure.rst",
-            category="Figures",
-            subcategory="{study}",
-            labels={"figure": "{figure}"},
-        ),
-        svg=f"{RESULTS}/{{study}}/figures/{{figure}}.svg",
-        pdf=f"{RESULTS}/{{study}}/figures/{{figure}}.pdf",
+        report(figure_files("png"), caption="../report/figure.rst", category="Figures"),
+        figure_files("svg"),
+        figure_files("pdf"),
+    params:
+        folder=subpath(output[0], parent=True),
+        code=code("armscope.cli.paper_pages:figures"),
+    log:
+        f"{RESULTS}/logs/figure.log",
+    shell:
+        "armscope paper figures {input.poses} {input.errors} {input.fits} --robot {input.robot} --bands {input.bands} "
+        "--settings {input.settings} -o {params.folder} > {log} 2>&1"
+
+
+rule figure_real:
+    input:
+        poses=f"{RESULTS}/real/{{set}}/paper/poses.csv",
+        errors=f"{RESULTS}/real/{{set}}/paper/errors.csv",
+        fits=f"{RESULTS}/real/{{set}}/paper/fits.json.gz",
+    output:
+        multiext(f"{RESULTS}/real/{{set}}/paper/figures/{{figure}}", png=".png", svg=".svg", pdf=".pdf"),
     wildcard_constraints:
         figure=r"fig\d\d",
     params:
-        virtual=lambda wildcards, input: f"--robot {input.robot} --bands {input.bands}" if input.robot else "",
         code=code("armscope.cli.paper_pages:figure"),
     log:
-        f"{RESULTS}/logs/{{study}}/{{figure}}.log",
+        f"{RESULTS}/logs/real/{{set}}/{{figure}}.log",
     shell:
-        "armscope paper figure {wildcards.figure} {input.poses} {input.errors} {input.fits} {params.virtual} "
-        "--settings {input.settings} -o {output.png} > {log} 2>&1"
+        "armscope paper figure {wildcards.figure} {input.poses} {input.errors} {input.fits} -o {output.png} > {log} 2>&1"
 
 
 rule convergence_figure:

@@ -42,37 +42,34 @@ def reach(robot: Robot, settings: Settings, output: Output) -> None:
 def scenario(
     robot: Robot,
     settings: Settings,
-    factor: Annotated[str, typer.Option(help="the assumption to vary")],
     output: Output,
+    part: Annotated[int, typer.Option(min=1, help="which part of the scenarios")] = 1,
+    parts: Annotated[int, typer.Option(min=1, help="of how many")] = 1,
 ) -> None:
-    """Judge every claim under each other value of one assumption."""
+    """Judge every claim under other assumptions, one scenario after the other."""
     import pandas as pd
 
     from armscope.cli.paper_settings import ScenarioSettings, fitting_of, scenarios_of
     from armscope.core.files import write_table
-    from armscope.core.inputs import InputError, nearest
-    from armscope.paper.sensitivity import judge_scenario
+    from armscope.paper.sensitivity import COLUMNS, judge_scenario
     from armscope.robot import load_arm
 
     chosen = parsed(ScenarioSettings, settings)
-    every = scenarios_of(chosen, load_arm(robot))
-    mine = [each for each in every if each.factor == factor]
-    if not mine:
-        known = {each.factor for each in every}
-        raise InputError("--factor", "", factor, "no scenario varies this", nearest(factor, known))
-    tables = []
+    mine = scenarios_of(chosen, load_arm(robot))[part - 1 :: parts]
+    tables = [pd.DataFrame(columns=COLUMNS)]
     for number, each in enumerate(mine, start=1):
         tell(f"{number} of {len(mine)}: {each.factor}, {each.level}")
         tables.append(judge_scenario(each, fitting_of(chosen)))
-    write_table(output, pd.concat(tables, ignore_index=True), digits=5)
+    write_table(output, pd.concat(tables[1:] or tables, ignore_index=True), digits=5)
 
 
 @app.command("join")
 def join_(tables: Annotated[list[Path], typer.Argument(help="tables of the same columns")], output: Output) -> None:
-    """Put tables one after the other."""
+    """Put tables one after the other, scenarios in their order."""
     from armscope.core.files import write_table
 
-    write_table(output, read_tables(tables))
+    joined = read_tables(tables)
+    write_table(output, joined.sort_values("scenario", kind="stable") if "scenario" in joined else joined)
 
 
 @app.command("method")

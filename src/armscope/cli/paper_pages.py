@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from armscope.cli.studies import Errors, Fits, Poses, Settings, parsed, read_fits, read_measurements
+from armscope.cli.studies import Errors, Fits, Poses, Settings, parsed, read_fits, read_measurements, tell
 from armscope.core.inputs import InputError
 
 app = typer.Typer()
@@ -15,33 +15,51 @@ app = typer.Typer()
 
 @app.command()
 def figure(
-    name: Annotated[str, typer.Argument(help="fig01 ... fig11")],
+    name: Annotated[str, typer.Argument(help="fig03 ... fig11")],
     poses: Poses,
     errors: Errors,
     fits: Fits,
     output: Annotated[Path, typer.Option("--output", "-o", help="a path; PNG, SVG and PDF are written there")],
-    settings: Settings,
-    robot: Annotated[Path | None, typer.Option(help="robot.yaml, for Figs. 1 and 2")] = None,
-    bands: Annotated[Path | None, typer.Option(help="where the drawn robots' errors lie")] = None,
 ) -> None:
-    """Draw one figure of the paper from what was measured and fitted."""
-    import numpy as np
+    """Draw one figure of the paper from what was measured and fitted, of any arm."""
     import pandas as pd
+
+    from armscope.core.inputs import nearest
+    from armscope.report.figures.paper import ARM_FIGURES, FIGURES, Shown, draw
+    from armscope.report.style import save_figure
+
+    known = [each for each in FIGURES if each not in ARM_FIGURES]
+    if name not in known:
+        raise InputError("the figure's name", "", name, "the paper's plots are Figs. 3-11", nearest(name, known))
+    save_figure(draw(name, Shown(read_measurements(poses, errors), read_fits(fits), pd.DataFrame())), output)
+
+
+@app.command()
+def figures(
+    poses: Poses,
+    errors: Errors,
+    fits: Fits,
+    settings: Settings,
+    robot: Annotated[Path, typer.Option(help="robot.yaml, for Figs. 1 and 2")],
+    bands: Annotated[Path, typer.Option(help="where the drawn robots' errors lie")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="folder; PNG, SVG and PDF are written there")],
+) -> None:
+    """Draw the paper's figures of the virtual arm, with the drawn robots behind the anchored one."""
+    import numpy as np
 
     from armscope.cli.paper_settings import FigureSettings
     from armscope.core.files import read_table
-    from armscope.core.inputs import nearest
-    from armscope.report.figures.paper import FIGURES, Shown, draw
+    from armscope.report.figures.paper import Shown, draw
     from armscope.report.style import save_figure
     from armscope.robot import load_arm
 
-    if name not in FIGURES:
-        raise InputError("the figure's name", "", name, "the paper's plots are Figs. 1-11", nearest(name, FIGURES))
-    tracker = np.array(parsed(FigureSettings, settings).tracker.position_mm.value)
-    ranges = pd.DataFrame() if bands is None else read_table(bands)
-    arm = None if robot is None else load_arm(robot)
-    shown = Shown(read_measurements(poses, errors), read_fits(fits), ranges, arm, tracker)
-    save_figure(draw(name, shown), output)
+    chosen = parsed(FigureSettings, settings)
+    tracker = np.array(chosen.tracker.position_mm.value)
+    measurements, fitted = read_measurements(poses, errors), read_fits(fits)
+    shown = Shown(measurements, fitted, read_table(bands), load_arm(robot), tracker)
+    for name in chosen.figures:
+        tell(name)
+        save_figure(draw(name, shown), output / f"{name}.png")
 
 
 @app.command("convergence-figure")

@@ -109,9 +109,10 @@ class ReportSettings(Strict):
 
 
 class FigureSettings(Strict):
-    """`armscope paper figure`."""
+    """`armscope paper figures`."""
 
     tracker: Tracker
+    figures: tuple[str, ...]
 
 
 class AuditSettings(Strict):

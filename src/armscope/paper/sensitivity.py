@@ -21,6 +21,9 @@ from armscope.paper.study import measured
 from armscope.paper.sub_volumes import sub_volumes
 from armscope.swarm import SwarmSettings
 
+COLUMNS = ["scenario", "factor", "level", "key", "method", "verdict", "true", "robots", "share"]
+"""What every table of scenarios has at least."""
+
 
 @dataclass(frozen=True)
 class Fitting:
