@@ -75,7 +75,8 @@ def claim_rows(claims: pd.DataFrame, why: pd.DataFrame) -> dict[str, list[ClaimR
 
 
 def _text(value: object) -> str:
-    return value if isinstance(value, str) else ""
+    """Empty cells come as NaN; joints have their Greek letters."""
+    return value.replace("theta", "θ") if isinstance(value, str) else ""
 
 
 def _verdict(row: pd.Series) -> Cell:
@@ -170,7 +171,7 @@ def sensitivity_table(claims: pd.DataFrame, sensitivity: pd.DataFrame) -> tuple[
         .reindex(own["key"])
     )
     first = sensitivity.drop_duplicates("scenario")
-    words = {row["scenario"]: f"{row['factor']}: {row['level']}" for _, row in first.iterrows()}
+    words = {row["scenario"]: _text(f"{row['factor']}: {row['level']}") for _, row in first.iterrows()}
     table = pd.DataFrame({"claim": own["claim"].to_numpy(), "configured": _percent(100 * own["share"])})
     for number, scenario in enumerate(wide.columns, start=1):
         table[str(number)] = _percent(wide[scenario])

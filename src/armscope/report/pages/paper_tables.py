@@ -113,7 +113,13 @@ def method_rows(method: pd.DataFrame) -> pd.DataFrame:
     )
     keys = ["basis", "layout", "update"]
     wide = shown.pivot_table(index=keys, columns="model", values="cell", aggfunc="first", sort=False)
-    return wide.rename_axis(columns=None).reset_index()
+    return _named(wide)
+
+
+def _named(by_combination: pd.DataFrame) -> pd.DataFrame:
+    """Combinations of basis, layout and update as columns."""
+    table = by_combination.rename_axis(columns=None).reset_index()
+    return table.assign(basis=table["basis"].replace("qr", "QR"))
 
 
 def _size(percent: float) -> str:
@@ -132,7 +138,7 @@ def method_claim_rows(claims: pd.DataFrame) -> pd.DataFrame:
     )
     keys = ["basis", "layout", "update"]
     wide = shown.pivot_table(index=keys, columns="claim", values="cell", aggfunc="first", sort=False)
-    return wide.rename_axis(columns=None).reset_index()
+    return _named(wide)
 
 
 def yes_no(values: pd.Series) -> list[str]:
