@@ -63,6 +63,9 @@ def fit_swarms(
         engine: see `minimise_least_squares`.
         layout: what one swarm looks for.
 
+    Returns:
+        One fit per problem, in the order of the problems, with every seed's coefficients.
+
     Raises:
         ValueError: problems, seeds or settings that can't be used.
     """
@@ -81,7 +84,20 @@ def fit_random_search(
     basis: BasisKind | str = BasisKind.QR,
     layout: Layout | str = Layout.PER_AXIS,
 ) -> list[FittedModel]:
-    """The baseline: as `fit_swarms`, in the same box, with as many evaluations, but of independent random points."""
+    """The baseline: as `fit_swarms`, in the same box, with as many evaluations, but of independent random points.
+
+    Args:
+        problems: what to fit.
+        seeds: at least one; the same seed gives the same fit.
+        settings: of the swarm that it stands beside; the threshold is in mm.
+        basis: the coordinates to search in.
+
+    Returns:
+        One fit per problem, in the order of the problems.
+
+    Raises:
+        ValueError: as `fit_swarms`.
+    """
     settings = settings or SwarmSettings()
 
     def search(objective: LeastSquares, low: Array, high: Array, generators: list[np.random.Generator]) -> SwarmResult:

@@ -9,6 +9,7 @@ import numpy as np
 
 from armscope.core.location import Location
 from armscope.core.types import Array
+from armscope.physics.cure import command
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.elastic import has_load, loaded_joints
@@ -195,7 +196,13 @@ UNKNOWN = Effect(
     _place,
     "Something here follows its driver in a way that none of the library's effects explains.",
     "Measure this joint alone in fine steps over the driver's range.",
-    "Correct by the fitted curve until its cause is found.",
+    command("Correct by the fitted curve until its cause is found: commanded = wanted - curve."),
+    clauses=(
+        "{location} scatters by {scatter} for a reason that the table does not record",
+        "something unexplained at {location} follows the {driver}, by up to {reaches}",
+        "something unexplained at {location} follows the {driver}",
+    ),
+    labels={"scatter": "scatter (1 sigma)"},
     several=True,
 )
 
