@@ -91,6 +91,7 @@ def fit_random_search(
         seeds: at least one; the same seed gives the same fit.
         settings: of the swarm that it stands beside; the threshold is in mm.
         basis: the coordinates to search in.
+        layout: what one search looks for.
 
     Returns:
         One fit per problem, in the order of the problems.
