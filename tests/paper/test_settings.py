@@ -10,9 +10,8 @@ from armscope.core.inputs import InputError
 
 PLACE = {"value": [4000, 0, 1500], "source": "assumed"}
 STATED = {"value": 1, "source": "assumed"}
-TRACKER = {"position_mm": PLACE} | dict.fromkeys(
-    ("accuracy_ppm", "repeatability_ppm", "resolution_um", "readings"), STATED
-)
+NUMBERS = ("accuracy_ppm", "repeatability_ppm", "resolution_um", "readings")
+TRACKER = {"position_mm": PLACE} | dict.fromkeys(NUMBERS, STATED)
 GIVEN = {"tracker": TRACKER, "figures": ["fig01"]}
 
 
