@@ -124,7 +124,16 @@ class AuditSettings(Strict):
 
 
 def plan_of(settings: MeasureSettings, arm: Arm, robots: int | None = None) -> StudyPlan:
-    """What a study assumes, in SI units; ``robots`` drawn instead of the configured number."""
+    """What a study assumes, in SI units.
+
+    Args:
+        settings: of the measurement: tolerances, trajectories, poses, tracker, size of the ensemble, seed.
+        arm: the nominal arm.
+        robots: drawn instead of the configured number, where given.
+
+    Returns:
+        The plan; lengths in m, angles in rad.
+    """
     sizes, paths, poses = settings.tolerances, settings.trajectories, settings.identification
     links = (sizes.link_mm, sizes.link_mrad, sizes.base_mm, sizes.base_mrad)
     return StudyPlan(
