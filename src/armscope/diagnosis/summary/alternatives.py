@@ -19,8 +19,6 @@ LISTED_NATS = 10.0
 """Alternatives that lose more evidence than this are not listed."""
 LISTED_NATS_OF_SPECIAL_CASES = 40.0
 """A curve's special cases are listed farther: most of it may be one of them."""
-INDISTINGUISHABLE_NATS = 3.0
-"""Evidence of 20 to 1: two readings closer than this are both named."""
 LOOKED_AT = 12
 COARSELY = 0.25
 """Where taking an effect out costs much, the noise is another one without it: predictions miss less than this share."""
@@ -78,10 +76,11 @@ def discriminability(best: Hypothesis, other: Hypothesis, effect: Placed, rival:
     return min(gap, max((other.rss - best.rss) / (2 * best.noise**2), 0.0))
 
 
-def listed(found: Sequence[tuple[float, Placed, Hypothesis]]) -> tuple[Alternative, ...]:
-    """Alternatives as a verdict lists them."""
+def listed(found: Sequence[tuple[float, Placed, Hypothesis]], apart: Sequence[float]) -> tuple[Alternative, ...]:
+    """Alternatives as a verdict lists them; ``apart``: the `discriminability` of each."""
     return tuple(
-        Alternative(placed.name, placed.location, placed.family, float(gap), placed.driver) for gap, placed, _ in found
+        Alternative(placed.name, placed.location, placed.family, float(gap), placed.driver, float(nats))
+        for (gap, placed, _), nats in zip(found, apart, strict=True)
     )
 
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.design.separation import nats_apart, separating
-from armscope.diagnosis.summary.alternatives import INDISTINGUISHABLE_NATS, discriminability
+from armscope.diagnosis.summary.alternatives import discriminability
 from armscope.fitting.design_matrix import columns
 from armscope.fitting.refit import Refit
 from armscope.inference.evidence import FRAME_PRIOR_MM, Hypothesis
@@ -18,7 +18,7 @@ from armscope.physics.effect import ONE, Placed
 from armscope.physics.scene import Scene
 from armscope.poses.obstacles import Surroundings, refusals
 from armscope.recordings import Recordings
-from armscope.verdict.schema import NextPoses
+from armscope.verdict.schema import INDISTINGUISHABLE_NATS, NextPoses
 
 Rivals = Mapping[int, Sequence[tuple[float, Placed, Hypothesis]]]
 

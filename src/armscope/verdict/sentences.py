@@ -1,11 +1,12 @@
-"""The first sentence of a report, in plain words: what gives, by how much, and what share of the mismatch that is."""
+"""A verdict in one sentence, the same in verdict.json, on the page and on the terminal; and one effect as a clause."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
 
-from armscope.report.text.wording import (
+from armscope.verdict.schema import Diagnosis, FoundEffect, Parameter
+from armscope.verdict.wording import (
     capitalised,
     main_and_minor,
     millimetres,
@@ -16,7 +17,6 @@ from armscope.report.text.wording import (
     rounded,
     spelled,
 )
-from armscope.verdict.schema import Diagnosis, FoundEffect, Parameter
 
 MOST_TOLD = 3
 """More effects than this are counted, not told."""
@@ -87,7 +87,8 @@ def _cannot_tell(verdict: Diagnosis) -> str:
             "but they follow nothing that was recorded."
         )
     why = verdict.notices[-1].text.rstrip(".") if verdict.notices else "the recordings do not say"
-    settle = "; the measurements named below would settle it" if verdict.next_poses is not None else ""
+    poses = verdict.next_poses
+    settle = "" if poses is None else f"; {spelled(len(poses.motor_angles))} further poses would settle it"
     return f"Cannot tell: {why[:1].lower() if why[1:2].islower() else why[:1]}{why[1:]}{settle}."
 
 
