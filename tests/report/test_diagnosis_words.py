@@ -6,7 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from armscope.core.numerals import UNITS, rounded, shown_unit, size_of
 from armscope.physics.registry import EFFECTS
+from armscope.report.figures.diagnosis import location_shares
 from armscope.report.html import unbroken
 from armscope.report.reference_models import held_out_rms
 from armscope.report.sections.effect_cards import card, chosen_how_often, title_of, told_parameters
@@ -14,14 +16,10 @@ from armscope.robot import forward_kinematics
 from armscope.verdict.schema import Alternative, Curve, Parameter
 from armscope.verdict.sentences import exact_phrase, headline
 from armscope.verdict.wording import (
-    UNITS,
     evidence_in_words,
-    number_of,
     percent,
     reach,
     read_parameter,
-    rounded,
-    shown_unit,
     spelled,
 )
 from tests.report import verdicts
@@ -178,9 +176,8 @@ def test_two_digits_are_kept_when_rounding_for_a_sentence(value):
 
 
 def test_a_sign_stands_only_where_it_means_something():
-    offset = Parameter("offset", "rad", -2e-3, 1e-5)
-    assert number_of(offset, sign=True) == "−2.0 mrad"
-    assert number_of(offset) == "2.0 mrad"
+    assert size_of(-2e-3, "rad", sign=True) == "−2.0 mrad"
+    assert size_of(-2e-3, "rad") == "2.0 mrad"
 
 
 @pytest.mark.parametrize(
@@ -291,3 +288,8 @@ def test_a_rival_that_fits_alike_is_too_close_although_its_size_costs_it_evidenc
     assert [other.too_close for other in shown] == [True, False]
     assert "only because it has one number more" in shown[0].gap
     assert shown[1].gap == "5.2 nats worse"
+
+
+def test_no_place_has_more_than_all_of_the_mismatch():
+    case = verdicts.case(effects=(compliance(share=53.0), compliance("joint 3", share=48.0)))
+    assert location_shares(case.verdict) == {"joint 2": 1.0, "joint 3": 1.0}

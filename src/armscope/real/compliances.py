@@ -97,6 +97,9 @@ def fit_give(arm: Arm, recordings: Recordings, run: str) -> Give:
         arm: the nominal arm, with masses.
         recordings: rows with recorded torques; their orientations are used where they were measured.
         run: what to call them.
+
+    Returns:
+        Compliances, rad/(N m), with covariances; the noise and masses that they were fitted with.
     """
     table = check_table(arm, recordings).recordings
     tool_per_run = len(np.unique(table.run)) > 1

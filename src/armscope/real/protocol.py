@@ -63,6 +63,9 @@ def measure_run(
         diagnosed_splits: on how many of the splits the diagnosis is repeated; None takes all.
         oriented_splits: on how many of these it is repeated with orientations, too; None takes all.
         tell: hears what is being done.
+
+    Returns:
+        Held-out errors by model and split, mm, and what was named on each split.
     """
     table = rows_of_run(recordings, reference.run, reference.first_id)
     seeds = range(reference.splits)
@@ -123,7 +126,16 @@ def named(verdict: Diagnosis) -> list[dict[str, object]]:
 
 
 def paper_models(arm: Arm, table: Recordings, seed: int = 0) -> list[dict[str, object]]:
-    """The paper's models at 85 identification rows, by least squares: rows of model, split, train, test, rms_mm."""
+    """The paper's models at 85 identification rows, by least squares: rows of model, split, train, test, rms_mm.
+
+    Args:
+        arm: the nominal arm.
+        table: rows of one run.
+        seed: of the split.
+
+    Returns:
+        One dictionary per model and split.
+    """
     sets = {each.name: each for each in real_measurements(arm, table, seed, PAPER_ROWS).measurements.sets}
     train, test = sets.pop(IDENTIFICATION), next(iter(sets.values()))
     found: list[tuple[str, Array]] = [(UNCORRECTED, test.errors_mm[0])]

@@ -70,7 +70,7 @@ def found_effect(
         curve=curve_of(placed, part.values, covariance, scene),
         physics=placed.effect.physics,
         confirm=placed.effect.confirm,
-        cure=placed.effect.cure,
+        cure=placed.effect.cure.words,
     )
 
 

@@ -12,6 +12,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from armscope.core.numerals import shown_unit
 from armscope.recordings import Recordings
 from armscope.report.figures.arm_picture import draw_arm
 from armscope.report.figures.atlas import draw_atlas
@@ -23,7 +24,7 @@ from armscope.report.style import save_figure
 from armscope.robot import Arm, chain, position_jacobian
 from armscope.verdict.schema import INTERVAL, Atlas, Diagnosis, FoundEffect, Verdict, WaterfallStep
 from armscope.verdict.schema import Curve as FoundCurve
-from armscope.verdict.wording import plain, shown_unit
+from armscope.verdict.wording import plain
 
 FORMATS = ("png", "svg")
 MOST_ROWS = 20_000
