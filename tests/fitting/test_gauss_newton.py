@@ -7,12 +7,12 @@ import pytest
 import scipy.optimize
 
 from armscope.core.types import Array
-from armscope.fitting.gauss_newton import SETTLED, STUCK, UNSETTLED, Problem, Quadratic, gauss_newton
+from armscope.fitting.gauss_newton import SETTLED, STUCK, UNSETTLED, NonlinearProblem, Quadratic, gauss_newton
 
 AT = np.linspace(0, 4, 60)
 
 
-class Decay(Problem[Array, Array]):
+class Decay(NonlinearProblem[Array, Array]):
     """y = a exp(-k t), a prior of unit precision times ``held`` about zero, Huber weights of fixed scale."""
 
     def __init__(self, y: Array, held: float = 0.0, scale: float = np.inf) -> None:

@@ -22,4 +22,4 @@ def test_a_joint_of_half_a_hundredth_never_moves_whoever_is_asked() -> None:
     verdict = diagnose(arm, table, Settings(resamples=0, cross_validation=False))
     (told,) = (notice.text for notice in verdict.notices if notice.kind == "joints that never move")
     assert told.startswith("joint 5:")
-    assert any("joint 5" in text and "never move" in text for text in assumptions(verdict, arm, table))
+    assert any("joint 5" in text and "Never moved" in text for text in assumptions(verdict, arm, table))

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from armscope.calibration.model import Posed, SetUp, State
 from armscope.core.types import Array
-from armscope.fitting.gauss_newton import Problem, Quadratic, Reason, gauss_newton
+from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic, Reason, gauss_newton
 from armscope.fitting.placement import FlangePoses, place_frames
 from armscope.measurement import robust
 
@@ -38,7 +38,7 @@ def all_alike(left: Array) -> Array:
     return np.ones(len(left))
 
 
-class _Calibration(Problem[State, Posed]):
+class _Calibration(NonlinearProblem[State, Posed]):
     """Some of a set-up's parameters, each held near zero by its own stiffness."""
 
     least_damping = 1e-13

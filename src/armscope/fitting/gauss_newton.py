@@ -69,7 +69,7 @@ class Quadratic:
         return np.asarray(scale * scipy.linalg.solve(scaled, scale * downhill, assume_a="pos"))
 
 
-class Problem(ABC, Generic[State, Residual]):
+class NonlinearProblem(ABC, Generic[State, Residual]):
     """What is fitted to what.
 
     Attributes:
@@ -102,7 +102,7 @@ class Problem(ABC, Generic[State, Residual]):
 
 
 @dataclass(frozen=True, eq=False)
-class Solution(Generic[State, Residual]):
+class FitResult(Generic[State, Residual]):
     """Where a fit ended, what that leaves, how many steps it took, and why it stopped."""
 
     state: State
@@ -111,7 +111,9 @@ class Solution(Generic[State, Residual]):
     reason: Reason
 
 
-def gauss_newton(problem: Problem[State, Residual], start: State, most_steps: int) -> Solution[State, Residual]:
+def gauss_newton(
+    problem: NonlinearProblem[State, Residual], start: State, most_steps: int
+) -> FitResult[State, Residual]:
     """Minimise a problem's robust, penalised sum of squares from a start.
 
     Args:
@@ -128,12 +130,12 @@ def gauss_newton(problem: Problem[State, Residual], start: State, most_steps: in
             candidate = problem.moved(state, quadratic.step(damping))
             left = problem.residual(candidate)
             if problem.settled(residual, left):
-                return Solution(candidate, left, steps, SETTLED)
+                return FitResult(candidate, left, steps, SETTLED)
             if problem.misfit(candidate, left) <= bound:
                 break
             damping = max(10 * damping, FIRST_DAMPING)
             if damping > MOST_DAMPING:
-                return Solution(state, residual, steps, STUCK)
+                return FitResult(state, residual, steps, STUCK)
         state, residual = candidate, left
         damping = max(damping / 100 if damping > 1e-6 else 0.0, problem.least_damping)
-    return Solution(state, residual, most_steps, UNSETTLED)
+    return FitResult(state, residual, most_steps, UNSETTLED)

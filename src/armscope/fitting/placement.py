@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from armscope.core.types import Array, Indices
-from armscope.fitting.gauss_newton import Problem, Quadratic, Solution, gauss_newton
+from armscope.fitting.gauss_newton import FitResult, NonlinearProblem, Quadratic, gauss_newton
 
 NEGLIGIBLE_M = 1e-9
 
@@ -145,7 +145,7 @@ def frame_columns(points: Array, turned: Array, base: Indices, tool: Indices, co
     return columns
 
 
-class _Placement(Problem[Frames, Array]):
+class _Placement(NonlinearProblem[Frames, Array]):
     """Bases and tools of a rigid arm; residuals (N, 3) m in the axes of each row's base."""
 
     least_damping = 1e-9
@@ -181,6 +181,6 @@ class _Placement(Problem[Frames, Array]):
 
 def place_frames(
     poses: FlangePoses, start: Frames, most_steps: int, weigh: Callable[[Array], Array]
-) -> Solution[Frames, Array]:
+) -> FitResult[Frames, Array]:
     """Bases and tools together, refined from a start; rows weighed by what is left of them (N, 3), m."""
     return gauss_newton(_Placement(poses, weigh), start, most_steps)

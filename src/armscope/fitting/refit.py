@@ -9,7 +9,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from armscope.core.types import Array
-from armscope.fitting.gauss_newton import Problem, Quadratic, gauss_newton
+from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic, gauss_newton
 from armscope.fitting.linearisation import current_parameters, missed, normal_equations_by_block
 from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
 from armscope.fitting.registration import moved_base
@@ -68,7 +68,7 @@ class Refit:
         return np.asarray(self.covariance[np.ix_(at, at)])
 
 
-class ModelFit(Problem[FittedModel, Missed]):
+class ModelFit(NonlinearProblem[FittedModel, Missed]):
     """A model's frames, background and effects fitted to recordings with the exact model; noise found on the way.
 
     Args:

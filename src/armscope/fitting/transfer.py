@@ -11,7 +11,7 @@ import numpy as np
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.fitting.design_matrix import columns
-from armscope.fitting.gauss_newton import Problem, Quadratic, gauss_newton
+from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic, gauss_newton
 from armscope.fitting.linearisation import chunks, residuals
 from armscope.fitting.refit import moved_frames
 from armscope.fitting.registration import fit_frames
@@ -175,7 +175,7 @@ def _placed_anew(
     return gauss_newton(problem, replace(model, bases=dict(bases), tools=tools), STEPS).state
 
 
-class _Frames(Problem[FittedModel, Array]):
+class _Frames(NonlinearProblem[FittedModel, Array]):
     """Some of the free frames' terms beside a model that stays: points, Huber weights."""
 
     least_damping = 1e-9
