@@ -8,7 +8,7 @@ import pytest
 from scipy.stats import beta
 
 from armscope.errormodels import FDP_AI, FDP_CI, fit_swarms
-from armscope.paper.claims import AS_PRINTED, IMPROVED, Evidence, judge, summarise
+from armscope.paper.claims import AS_PRINTED, IMPROVED, Evidence, judge_claims, summarise
 from armscope.paper.claims.catalogue import CLAIMS
 from armscope.paper.claims.claim import GROUPS
 from armscope.paper.claims.judges import arrival, cost_ratio
@@ -36,7 +36,7 @@ def evidence(study, fits, printed_fits):
 
 @pytest.fixture(scope="module")
 def judged(evidence):
-    table, _ = judge(evidence)
+    table, _ = judge_claims(evidence)
     return table.set_index(["key", "method"])
 
 
@@ -140,26 +140,30 @@ def test_a_claim_turns_when_the_numbers_turn(evidence):
     """Negative control: with angular and Cartesian fits exchanged, the verdict on 'Cartesian beats angular' turns."""
     names = {"FDP(CI)": "FDP(AI)", "FDP(AI)": "FDP(CI)", "SDP(CI)": "SDP(AI)", "SDP(AI)": "SDP(CI)"}
     swapped = replace(evidence[IMPROVED], cells=evidence[IMPROVED].cells.rename(columns=names, level="model"))
-    before = judge(evidence)[0].set_index(["key", "method"]).loc["cartesian_1", IMPROVED]["share"]
-    after = judge({**evidence, IMPROVED: swapped})[0].set_index(["key", "method"]).loc["cartesian_1", IMPROVED]["share"]
+    before = judge_claims(evidence)[0].set_index(["key", "method"]).loc["cartesian_1", IMPROVED]["share"]
+    after = (
+        judge_claims({**evidence, IMPROVED: swapped})[0]
+        .set_index(["key", "method"])
+        .loc["cartesian_1", IMPROVED]["share"]
+    )
     assert before > 0.5 > after
 
 
 def test_claims_whose_models_are_missing_are_skipped_with_a_reason(study):
     problems = study.measurements.fit_problems((FDP_CI,), list(study.measurements.robots))
     alone = Evidence.of(study.measurements, fit_swarms(problems, [0]))
-    table = judge({AS_PRINTED: alone, IMPROVED: alone})[0].set_index(["key", "method"])
+    table = judge_claims({AS_PRINTED: alone, IMPROVED: alone})[0].set_index(["key", "method"])
     assert table.loc["cartesian_1", IMPROVED]["verdict"] == "skipped"
     assert table.loc["cartesian_1", IMPROVED]["why_skipped"] == "FDP(AI) not among the configured models"
     assert table.loc["smaller", IMPROVED]["verdict"] != "skipped"
     no_paper = study.measurements.fit_problems((replace(FDP_AI, order=3),), list(study.measurements.robots))
     other = Evidence.of(study.measurements, fit_swarms(no_paper, [0]))
-    table = judge({AS_PRINTED: other, IMPROVED: other})[0].set_index(["key", "method"])
+    table = judge_claims({AS_PRINTED: other, IMPROVED: other})[0].set_index(["key", "method"])
     assert table.loc["smaller", IMPROVED]["why_skipped"] == "none of the paper's models is configured"
 
 
 def test_the_summary_says_which_assumption_decides(evidence):
-    table = judge(evidence)[0]
+    table = judge_claims(evidence)[0]
     row = table[(table["key"] == "alternative") & (table["method"] == IMPROVED)].iloc[0]
     turned = {"scenario": "s1", "factor": "rise", "level": "0", "key": "alternative", "method": IMPROVED}
     base = table.assign(verdict=HOLDS, true=100, robots=100, share=1.0)

@@ -7,7 +7,7 @@ import pytest
 from armscope.errormodels import FDP_CI, ModelSpec, fit_swarms
 from armscope.paper.bands import TRUE, band_of, ensemble_bands
 from armscope.paper.measurements import Measurements, PoseSet
-from armscope.report.figures.paper import FIGURES, Shown, draw
+from armscope.report.figures.paper import FIGURES, PaperResults, draw
 from armscope.robot import load_arm
 from tests.robot.arms import SK120
 
@@ -28,7 +28,7 @@ def measurements():
 
 def shown(measurements, *specs):
     fits = fit_swarms(measurements.fit_problems(specs, ["anchored"]), [0])
-    return Shown(measurements, fits, pd.DataFrame(), load_arm(SK120), np.array([4000.0, 0.0, 1500.0]))
+    return PaperResults(measurements, fits, pd.DataFrame(), load_arm(SK120), np.array([4000.0, 0.0, 1500.0]))
 
 
 @pytest.mark.parametrize("name", [name for name in FIGURES if name not in ("fig06", "fig10")])
@@ -68,6 +68,6 @@ def test_bands_are_quantiles_of_the_robots_and_thin_ones_have_no_entry(measureme
     for axis in "xyz":
         thin.loc[mine, f"high_{axis}_mm"] = thin.loc[mine, f"low_{axis}_mm"] + 1e-4
     for table, expected in ((bands, True), (thin, False)):
-        figure = draw("fig06", Shown(measurements, shown(measurements, FDP_CI).fits, table))
+        figure = draw("fig06", PaperResults(measurements, shown(measurements, FDP_CI).fits, table))
         entries = [text.get_text() for text in figure.legends[0].get_texts()]
         assert ("estimated, 5–95 % of them" in entries) == expected

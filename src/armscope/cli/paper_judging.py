@@ -108,7 +108,7 @@ def judge_(
 ) -> None:
     """Whether each claim of the paper holds, for which share of the robots, by the method as printed and improved."""
     from armscope.core.files import read_table, write_table
-    from armscope.paper.claims import judge
+    from armscope.paper.claims import judge_claims
     from armscope.paper.evidence import gather
 
     measurements = read_measurements(poses, *errors)
@@ -117,7 +117,7 @@ def judge_(
         "outlook": read_table(outlook),
         "poses": read_table(enough_poses),
     }
-    judged, robots = judge(gather(measurements, read_fits(*fits), read_fits(*as_printed), tables, tell))
+    judged, robots = judge_claims(gather(measurements, read_fits(*fits), read_fits(*as_printed), tables, tell))
     write_table(output, judged, digits=5)
     write_table(per_robot, robots, digits=5)
 

@@ -25,13 +25,13 @@ def figure(
     import pandas as pd
 
     from armscope.core.inputs import nearest
-    from armscope.report.figures.paper import ARM_FIGURES, FIGURES, Shown, draw
+    from armscope.report.figures.paper import ARM_FIGURES, FIGURES, PaperResults, draw
     from armscope.report.style import save_figure
 
     known = [each for each in FIGURES if each not in ARM_FIGURES]
     if name not in known:
         raise InputError("the figure's name", "", name, "the paper's plots are Figs. 3-11", nearest(name, known))
-    save_figure(draw(name, Shown(read_measurements(poses, errors), read_fits(fits), pd.DataFrame())), output)
+    save_figure(draw(name, PaperResults(read_measurements(poses, errors), read_fits(fits), pd.DataFrame())), output)
 
 
 @app.command()
@@ -49,14 +49,14 @@ def figures(
 
     from armscope.cli.paper_settings import FigureSettings
     from armscope.core.files import read_table
-    from armscope.report.figures.paper import Shown, draw
+    from armscope.report.figures.paper import PaperResults, draw
     from armscope.report.style import save_figure
     from armscope.robot import load_arm
 
     chosen = parsed(FigureSettings, settings)
     tracker = np.array(chosen.tracker.position_mm.value)
     measurements, fitted = read_measurements(poses, errors), read_fits(fits)
-    shown = Shown(measurements, fitted, read_table(bands), load_arm(robot), tracker)
+    shown = PaperResults(measurements, fitted, read_table(bands), load_arm(robot), tracker)
     for name in chosen.figures:
         tell(name)
         save_figure(draw(name, shown), output / f"{name}.png")

@@ -10,7 +10,7 @@ import pandas as pd
 
 from armscope.errormodels import FitProblem, FittedModel, ModelSpec, fit_random_search, fit_swarms
 from armscope.paper.anchoring import ANCHORED
-from armscope.paper.claims import AS_PRINTED, IMPROVED, Evidence, judge
+from armscope.paper.claims import AS_PRINTED, IMPROVED, Evidence, judge_claims
 from armscope.paper.enough_poses import enough_poses
 from armscope.paper.method import PRINTED_BASIS, PRINTED_LAYOUT, as_printed
 from armscope.paper.outlook import outlook
@@ -48,7 +48,7 @@ def judge_scenario(scenario: Scenario, fitting: Fitting) -> pd.DataFrame:
     """Every claim under one set of assumptions.
 
     Returns:
-        Columns scenario, factor, level, then those of `armscope.paper.claims.judge`, and anchored_rank (place of the
+        Columns scenario, factor, level, then those of `armscope.paper.claims.judge_claims`, and anchored_rank (place of the
         anchored robot's FDP(CI) residual on the identification poses among all, 1 the smallest) and robots_drawn.
     """
     plan = scenario.plan
@@ -68,7 +68,7 @@ def judge_scenario(scenario: Scenario, fitting: Fitting) -> pd.DataFrame:
         poses=enough_poses(plan, study),
         outlook=outlook(measurements, seed=plan.seed) if fitting.everything else pd.DataFrame(),
     )
-    table, _ = judge(evidence)
+    table, _ = judge_claims(evidence)
     where = {"scenario": scenario.name, "factor": scenario.factor, "level": scenario.level}
     rank, count = rank_of_anchored(evidence[IMPROVED].by_least_squares)
     return table.assign(**where, anchored_rank=rank, robots_drawn=count)[

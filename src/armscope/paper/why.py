@@ -46,7 +46,7 @@ def reasons(per_robot: pd.DataFrame, geometric: pd.DataFrame) -> pd.DataFrame:
     """For each claim that some robots bear out and others don't, what decides.
 
     Args:
-        per_robot: columns key, method, robot, true, number (see `armscope.paper.claims.judge`).
+        per_robot: columns key, method, robot, true, number (see `armscope.paper.claims.judge_claims`).
         geometric: one row per drawn robot, columns robot and each geometric error in tolerances.
 
     Returns:

@@ -34,7 +34,7 @@ MOST_COLUMNS = 2
 
 
 @dataclass(frozen=True, eq=False)
-class Shown:
+class PaperResults:
     """What figures are drawn from.
 
     Attributes:
@@ -61,7 +61,7 @@ class Shown:
         return band_of(self.bands, trajectory, model)
 
 
-def draw(name: str, shown: Shown) -> Figure:
+def draw(name: str, shown: PaperResults) -> Figure:
     """One of `FIGURES`.
 
     Raises:
