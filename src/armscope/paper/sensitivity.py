@@ -48,7 +48,7 @@ def judge_scenario(scenario: Scenario, fitting: Fitting) -> pd.DataFrame:
     """Every claim under one set of assumptions.
 
     Returns:
-        Columns scenario, factor, level, then those of `armscope.paper.claims.judge_claims`, and anchored_rank (place of the
+        Columns scenario, factor, level, those of `armscope.paper.claims.judge_claims`, and anchored_rank (place of the
         anchored robot's FDP(CI) residual on the identification poses among all, 1 the smallest) and robots_drawn.
     """
     plan = scenario.plan

@@ -92,14 +92,14 @@ def _row(robots: Sequence[str], judged: Judged) -> dict[str, object]:
 
 
 def summarise(judged: pd.DataFrame, sensitivity: pd.DataFrame) -> pd.DataFrame:
-    """The table of claims: what `judge_claims` found, the words of each claim, and its verdict under varied assumptions.
+    """The table of claims: the words of each, what was judged of it, and its verdict under varied assumptions.
 
     Args:
         judged: the claims of the configured study.
         sensitivity: see `armscope.paper.sensitivity`; may be empty.
 
     Returns:
-        Columns key, group, claim, source, wording, criterion, unit, number_is, then those of `judge_claims`, and scenarios
+        Columns key, group, claim, source, wording, criterion, unit, number_is, those of `judge_claims`, and scenarios
         (how many others the claim was judged in), moved_by (assumptions that move the share significantly),
         share_least, share_most (over all scenarios), under_assumptions ("holds under all", "fails under all", "depends
         on the robot", "depends on the assumption", "too few robots to tell", "not varied"), depends_on (which
