@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import diagnose
-from armscope.fitting.design_matrix import columns
+from armscope.fitting.design_matrix import point_columns
 from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.fitting.model_space import pool
 from armscope.fitting.registration import fit_frames
@@ -35,9 +35,11 @@ def setting() -> tuple[Problem, np.ndarray]:
     arm, table = planted("six-axis", {}, ROWS, NOISE_MM, seed=5)
     model = fit_frames(arm, table)
     parts = pool(free_frames(table, False), list(backgrounds(arm, table).values()), library(arm, table))
-    gram = total(normal_equations_by_block(parts, model, table, RowWeights(np.ones(ROWS)), np.arange(ROWS) % 5))
+    gram = total(
+        normal_equations_by_block(parts, model, table, RowWeights.of_positions(np.ones(ROWS)), np.arange(ROWS) % 5)
+    )
     problem = evidence.problem(parts, gram, 0.97 * NOISE_MM)
-    return problem, columns(model.posture(model.scene(table)), parts.terms) / problem.scale
+    return problem, point_columns(model.posture(model.scene(table)), parts.terms) / problem.scale
 
 
 def read(problem: Problem, X: np.ndarray, y: np.ndarray) -> Problem:

@@ -27,7 +27,9 @@ def setting() -> Problem:
     arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [2e-7]}, ROWS, 0.03, seed=1)
     model = fit_frames(arm, table)
     parts = pool(free_frames(table, False), list(backgrounds(arm, table).values()), library(arm, table))
-    gram = total(normal_equations_by_block(parts, model, table, RowWeights(np.ones(ROWS)), np.arange(ROWS) % 5))
+    gram = total(
+        normal_equations_by_block(parts, model, table, RowWeights.of_positions(np.ones(ROWS)), np.arange(ROWS) % 5)
+    )
     return replace(evidence.problem(parts, gram, 0.0), least_noise=NOISE)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
+from armscope.measurement.channel import Channel, ChannelResiduals
 from armscope.physics.placing import STANDS_STILL_RAD, varies
 from armscope.recordings import Recordings
 from armscope.robot import Arm, forward_kinematics
@@ -19,8 +21,6 @@ FEWEST_ROWS = 15
 """Below, frames and a handful of effects take up all there is."""
 TOO_FAR = 0.03
 """Share of the arm's reach beyond which a residual is no calibration error."""
-TURNED_TOO_FAR = 0.05
-"""Median turn (rad) between modelled and measured orientations beyond which they are not the tool's."""
 FLAT = 1e-3
 SAME_VALUE_ROWS = 4
 LARGEST_ROW_SHIFT = 3
@@ -157,26 +157,23 @@ def too_far(arm: Arm, recordings: Recordings, residuals: Array) -> Notice | None
     return Notice("wrong robot", text)
 
 
-def with_orientations(recordings: Recordings, turns: Array | None) -> tuple[Recordings, list[Notice]]:
-    """The table with its orientations, if they are the arm's; and what to say of them.
+def trusted_channels(
+    channels: Sequence[Channel], recordings: Recordings, left: ChannelResiduals
+) -> tuple[tuple[Channel, ...], Recordings, list[Notice]]:
+    """Channels whose readings are the arm's, the table without the others' readings, and what to say of those.
 
     Args:
-        turns: (N, 3) rad, between modelled and measured orientations after the free frames, NaN where not measured.
+        left: what the free frames leave in every channel.
     """
-    if turns is None:
-        return recordings, []
-    size = np.linalg.norm(turns[np.isfinite(turns).all(axis=1)], axis=1)
-    bare = replace(recordings, orientation=None)
-    if len(size) < FEWEST_ROWS:
-        text = f"Only {len(size)} rows hold an orientation: positions alone were used."
-        return bare, [Notice("few orientations", text)]
-    if np.median(size) > TURNED_TOO_FAR:
-        text = (
-            f"The measured orientations lie {np.degrees(np.median(size)):.3g} degrees (median) from the arm's, however "
-            "the tool is turned: positions alone were used. Are the quaternions in the order w, x, y, z?"
-        )
-        return bare, [Notice("orientations not the arm's", text)]
-    return recordings, []
+    kept, notices = [], []
+    for channel in channels:
+        doubt = channel.doubt(left[channel.name])
+        if doubt is None:
+            kept.append(channel)
+        else:
+            recordings = channel.without(recordings)
+            notices.append(Notice(*doubt))
+    return tuple(kept), recordings, notices
 
 
 def _spread(points: Array) -> float:

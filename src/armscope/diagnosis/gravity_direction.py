@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from scipy.special import log_ndtr
 
 from armscope.core.types import Array
-from armscope.fitting.linearisation import normal_equations_by_block, residuals
+from armscope.fitting.linearisation import normal_equations_by_block, point_residuals
 from armscope.fitting.model_space import pool
 from armscope.inference.evidence import (
     BACKGROUND_SIZES,
@@ -108,8 +108,8 @@ class _Valley:
     def __init__(self, start: FittedModel, recordings: Recordings, noise: Noise, tool_per_run: bool) -> None:
         self.start, self.recordings, self.noise = start, recordings, noise
         self.frames = free_frames(recordings, tool_per_run)
-        left = residuals(start, recordings)
-        self.weights = RowWeights(robust.huber_weights(left, np.ones(len(left)), noise.least_mm))
+        left = point_residuals(start, recordings)
+        self.weights = RowWeights.of_positions(robust.huber_weights(left, np.ones(len(left)), noise.least_mm))
         self.known: dict[tuple[float, ...], float] = {}
 
     def depth(self, tilt: Array) -> float:

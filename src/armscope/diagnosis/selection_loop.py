@@ -15,7 +15,7 @@ from armscope.core.types import Array, Indices, Progress
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.scans.scanning import jumps, mesh_lines, pauses
 from armscope.fitting.joint_scatter import Scattered, find_scatter, motor_jacobians, noise_between, whitening
-from armscope.fitting.linearisation import keep_drivers, missed, normal_equations_by_block
+from armscope.fitting.linearisation import LinearisedTable, Measured, linearised, normal_equations_by_block, residuals
 from armscope.fitting.model_space import Pool, pool
 from armscope.fitting.refit import Refit, refit
 from armscope.inference.evidence import Hypothesis, Problem, background_sizes, problem
@@ -77,19 +77,19 @@ class Selected:
 
 def select(
     start: FittedModel,
-    recordings: Recordings,
+    table: LinearisedTable,
     noise: Noise,
     frames: Sequence[Placed],
     block_of_row: Indices,
     tell: Progress,
 ) -> Selected:
     """The effects that the evidence asks for, fitted with the exact model."""
-    if len(recordings) <= SAMPLE_ROWS:
-        return SelectionLoop(start, recordings, noise, frames, block_of_row, tell).run()
-    rows = _sample(recordings)
-    small = SelectionLoop(start, recordings.rows(rows), noise, frames, block_of_row[rows], tell)
+    if len(table) <= SAMPLE_ROWS:
+        return SelectionLoop(start, table, noise, frames, block_of_row, tell).run()
+    rows = _sample(table.recordings)
+    small = SelectionLoop(start, table.rows(rows), noise, frames, block_of_row[rows], tell)
     found = small.run(of_a_sample=True)
-    whole = SelectionLoop(start, recordings, noise, frames, block_of_row, tell, _promising(found))
+    whole = SelectionLoop(start, table, noise, frames, block_of_row, tell, _promising(found))
     whole.follow(small)
     tell("weighing all rows", 0.45)
     whole.round((found.best.background,))
@@ -122,7 +122,7 @@ class SelectionLoop:
 
     Args:
         start: the arm with its frames fitted.
-        recordings: the rows.
+        rows: a table, or recordings.
         noise: what is known of it.
         frames: the free frames.
         block_of_row: (N,) which block of rows each row is in.
@@ -133,27 +133,29 @@ class SelectionLoop:
     def __init__(
         self,
         start: FittedModel,
-        recordings: Recordings,
+        rows: Measured,
         noise: Noise,
         frames: Sequence[Placed],
         block_of_row: Indices,
         tell: Progress,
         candidates: Sequence[Placed] | None = None,
     ) -> None:
-        self.recordings = keep_drivers(recordings, np.argsort(block_of_row, kind="stable"))
+        recordings = linearised(rows).recordings
+        self.table = LinearisedTable(recordings, linearised(rows).channels, np.argsort(block_of_row, kind="stable"))
+        self.recordings = recordings
         self.noise, self.frames, self.tell = noise, frames, tell
         self.block_of_row = block_of_row
         self.candidates = library(start.arm, recordings) if candidates is None else list(candidates)
         self.families = list(backgrounds(start.arm, recordings).values())
-        self.moved = motor_jacobians(start, self.recordings)
-        self.model, self.missed = start, missed(start, self.recordings)
+        self.moved = motor_jacobians(start, self.table)
+        self.model, self.residuals = start, residuals(start, self.table)
         self.scatter: list[Scattered] = []
         self.pose = poses(self.recordings)
         self.growth: Growth | None = None
         uncertainty = relative_uncertainty(self.recordings, robust.scale_of(self.left))
         near = np.ones(len(self.recordings), dtype=bool)
         self.rows = RowNoise(uncertainty, independence_weights(self.left, self.pose, near))
-        self.weights = self.rows.first_weights(self.missed, noise.least_mm)
+        self.weights = self.rows.first_weights(self.residuals, noise.least_mm)
         self.last: tuple[Hypothesis, Pool] | None = None
 
     def run(self, of_a_sample: bool = False) -> Selected:
@@ -188,20 +190,20 @@ class SelectionLoop:
     def follow(self, other: SelectionLoop) -> None:
         """Go on from where the rounds on a sample of the rows ended."""
         self.model, self.last, self.scatter, self.growth = other.model, other.last, other.scatter, other.growth
-        self.missed = missed(self.model, self.recordings)
+        self.residuals = residuals(self.model, self.table)
         self._weigh_rows(other.fit.noise, whitening(self.scatter, self.moved, other.fit.noise))
 
     @property
     def left(self) -> Array:
         """(N, 3) mm, what the model leaves of the points."""
-        return self.missed.shift
+        return self.residuals.points_mm
 
     def round(self, starts: Sequence[tuple[int, ...]] | None, scanning: bool = False) -> list[Placed]:
         """One round; returns new candidates that scanning found. Without starts it goes on from the last round."""
         model, payload = _payload(self.model, self.recordings)
         self.pool = pool(self.frames, self.families, [*self.candidates, *payload])
         self.point = model
-        self.blocks = normal_equations_by_block(self.pool, model, self.recordings, self.weights, self.block_of_row)
+        self.blocks = normal_equations_by_block(self.pool, model, self.table, self.weights, self.block_of_row)
         self.problem = problem(self.pool, total(self.blocks), self.noise.least_mm)
         search = Search.on(self.problem)
         warm = None if self.last is None else search.transferred(*self.last)
@@ -216,7 +218,7 @@ class SelectionLoop:
             self.best = search.without(self.best, against)
             self.fit = self._fitted(model)
         new = self._scanned(search, model) if scanning else []
-        self.model, self.missed, self.weights = self.fit.model, self.fit.missed, self.fit.weights
+        self.model, self.residuals, self.weights = self.fit.model, self.fit.left, self.fit.weights
         self._weigh_rows(self.fit.noise, self.weights.whitening)
         return new
 
@@ -228,7 +230,7 @@ class SelectionLoop:
         ]
         small = list(zip(self.families, background_sizes(self.problem, self.best), strict=True))
         white = self.weights.whitening
-        return refit(model, self.recordings, self.frames, small, effects, self.rows, self.noise.least_mm, white)
+        return refit(model, self.table, self.frames, small, effects, self.rows, self.noise.least_mm, white)
 
     def _against_their_load(self) -> list[int]:
         """Names within a background whose fitted values turned out negative where they can't be."""
@@ -241,11 +243,11 @@ class SelectionLoop:
     def _weigh_rows(self, noise: float, white: Array | None) -> None:
         """What the residuals tell about the rows' noise, and their weights by it."""
         uncertainty = relative_uncertainty(self.recordings, noise, self._by_distance())
-        alone = RowNoise(uncertainty, np.ones(len(uncertainty))).weights(self.missed, self.noise.least_mm)
+        alone = RowNoise(uncertainty, np.ones(len(uncertainty))).weights(self.residuals, self.noise.least_mm)
         self.rows = RowNoise(
             uncertainty, independence_weights(self.left, self.pose, alone.robust_weight > INLIER_WEIGHT)
         )
-        self.weights = self.rows.weights(self.missed, self.noise.least_mm, white)
+        self.weights = self.rows.weights(self.residuals, self.noise.least_mm, white)
 
     def selected(self) -> Selected:
         """Where the rounds stand."""
@@ -307,7 +309,7 @@ class SelectionLoop:
         self.scatter = found
         between = noise_between(self.left, self.moved, found, self.noise.least_mm)
         white = whitening(found, self.moved, between)
-        self.weights = self.rows.weights(self.missed, self.noise.least_mm, white)
+        self.weights = self.rows.weights(self.residuals, self.noise.least_mm, white)
 
     def _scanned(self, search: Search, model: FittedModel) -> list[Placed]:
         """New candidates whose scanned numbers promise something, given the best hypothesis and given none."""

@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array
 from armscope.fitting.design_matrix import grouped_columns, structured_design
-from armscope.fitting.linearisation import chunks, current_parameters, response
+from armscope.fitting.linearisation import Measured, current_parameters, linearised
 from armscope.fitting.model_space import Pool
 from armscope.inference.evidence import solve_lower
 from armscope.measurement.row_weights import RowWeights
+from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.effect import Term
 from armscope.physics.model import FittedModel
-from armscope.recordings import Recordings
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +39,7 @@ def weigh_blocks(
     pool: Pool,
     inside: NDArray[np.intp],
     model: FittedModel,
-    recordings: Recordings,
+    rows: Measured,
     weights: RowWeights,
 ) -> ColumnBlocks:
     """Sums over rows for blocks of equally many terms against the pool's columns ``inside``."""
@@ -52,10 +52,10 @@ def weigh_blocks(
     present = grouped_columns([pool.terms[i] for i in active])
     k = len(inside)
     own, cross, b = np.zeros((m * c, m * c)), np.zeros((k, m * c)), np.zeros(m * c)
-    for rows, posture in chunks(model, recordings):
-        lens = weights.lens(rows)
-        seen = posture.through(lens)
-        y = response(model, posture, lens).T + structured_design(seen, present).matvec(values[active][present.order])
+    for chunk, posture in linearised(rows).chunks(model):
+        whitener = weights.whitener(chunk)
+        seen = WhitenedPosture(posture, whitener)
+        y = whitener.response(model, posture).T + structured_design(seen, present).matvec(values[active][present.order])
         E = structured_design(seen, beside)
         E.add_products(own)
         cross += structured_design(seen, model_terms).products(E)

@@ -2,26 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from armscope.core.types import Array
-from armscope.fitting.linearisation import current_parameters, missed, normal_equations_by_block
+from armscope.fitting.linearisation import (
+    LinearisedTable,
+    Measured,
+    current_parameters,
+    linearised,
+    normal_equations_by_block,
+    residuals,
+)
 from armscope.fitting.model_space import Pool, pool
-from armscope.fitting.registration import moved_base
 from armscope.inference.evidence import FRAME_PRIOR_MM, TOLERANCE
 from armscope.inference.normal_equations import NormalEquations, column_scales
 from armscope.measurement import robust
-from armscope.measurement.row_weights import Missed, RowNoise, RowWeights
-from armscope.physics.effect import AXES, Placed, Term
-from armscope.physics.frames import ToolKey, tool_key
+from armscope.measurement.channel import Channel, ChannelResiduals, retracted
+from armscope.measurement.row_weights import RowNoise, RowWeights
+from armscope.physics.effect import Placed, Term
 from armscope.physics.model import FittedModel
 from armscope.physics.scene import Part
-from armscope.recordings import Recordings
 
 STEPS = 6
 CONVERGED_MM, CONVERGED = 1e-6, 0.05
@@ -45,7 +49,7 @@ class Refit:
         covariance: (p, p) of all values, SI units.
         noise: mm per axis.
         spent: effective number of fitted values.
-        missed: what the model leaves.
+        left: what the model leaves.
     """
 
     model: FittedModel
@@ -56,12 +60,12 @@ class Refit:
     noise: float
     spent: float
     weights: RowWeights
-    missed: Missed
+    left: ChannelResiduals
 
     @property
     def residuals(self) -> Array:
         """(N, 3) mm, base axes."""
-        return self.missed.shift
+        return self.left.points_mm
 
     def covariance_of(self, placed: Placed) -> Array:
         """Covariance of one effect's terms, SI units."""
@@ -71,11 +75,11 @@ class Refit:
 
 def refit(
     model: FittedModel,
-    recordings: Recordings,
+    rows: Measured,
     frames: Sequence[Placed],
     backgrounds: Sequence[tuple[Sequence[Placed], float]],
     effects: Sequence[tuple[Placed, float]],
-    rows: RowNoise,
+    row_noise: RowNoise,
     least_noise: float,
     whitening: Array | None = None,
 ) -> Refit:
@@ -86,7 +90,8 @@ def refit(
         backgrounds: per family (effects, size): a share of the tolerance for the first, mm at the tool for the others;
             families of size 0 are left out.
         effects: (effect, size at the tool, mm).
-        rows: relative uncertainty of the rows, and which are independent.
+        rows: a table, or recordings.
+        row_noise: relative uncertainty of the rows, and which are independent.
         whitening: (N, 3, 3) of rows that scatter along known directions.
     """
     named = {term for placed, _ in effects for term in placed.terms}
@@ -94,13 +99,13 @@ def refit(
     background = [placed for family in kept for placed in family]
     parts = pool(frames, kept, [placed for placed, _ in effects])
     model = _start(model, background, effects)
-    blocks = np.zeros(len(recordings), dtype=np.intp)
+    table, blocks = linearised(rows), np.zeros(len(rows), dtype=np.intp)
     noise = least_noise
-    left = missed(model, recordings)
+    left = residuals(model, table)
     for _ in range(STEPS):
-        weights = rows.weights(left, least_noise, whitening)
-        gram = normal_equations_by_block(parts, model, recordings, weights, blocks)[0]
-        noise = noise or robust.scale_of(left.shift)
+        weights = row_noise.weights(left, least_noise, whitening)
+        gram = normal_equations_by_block(parts, model, table, weights, blocks)[0]
+        noise = noise or robust.scale_of(left.points_mm)
         precision = _precision(parts, gram, [size for _, size in backgrounds], effects)
         A = gram.G + np.diag(noise**2 * precision)
         values, covariance = _solve(A, gram.b)
@@ -108,9 +113,11 @@ def refit(
         misfit = gram.rss(values)
         noise = max(float(np.sqrt(max(misfit, 0.0) / max(gram.n - spent, 1.0))), 1e-9)
         before = left
-        model, left = _not_worse(partial(_updated, model, parts, background, effects, values), recordings, left)
+        model, left = _not_worse(
+            partial(_updated, table.channels, model, parts, background, effects, values), table, left
+        )
         uncertain = noise * np.sqrt(spent / max(gram.n, 1.0))
-        if np.sqrt(np.mean((left.shift - before.shift) ** 2)) < max(CONVERGED_MM, CONVERGED * uncertain):
+        if np.sqrt(np.mean((left.points_mm - before.points_mm) ** 2)) < max(CONVERGED_MM, CONVERGED * uncertain):
             break
     # a lucky residual does not make the instrument better than it is known to be
     covariance = max(noise, least_noise) ** 2 * covariance
@@ -118,14 +125,14 @@ def refit(
 
 
 def _not_worse(
-    updated: Callable[[float], FittedModel], recordings: Recordings, left: Missed
-) -> tuple[FittedModel, Missed]:
+    updated: Callable[[float], FittedModel], table: LinearisedTable, left: ChannelResiduals
+) -> tuple[FittedModel, ChannelResiduals]:
     """The model after a step that is shortened until it does not lead away, and what it leaves."""
-    share, here = 1.0, robust.scale_of(left.shift)
+    share, here = 1.0, robust.scale_of(left.points_mm)
     while True:
         model = updated(share)
-        new = missed(model, recordings)
-        if share < SHORTEST_STEP or robust.scale_of(new.shift) < LEADS_AWAY * here:
+        new = residuals(model, table)
+        if share < SHORTEST_STEP or robust.scale_of(new.points_mm) < LEADS_AWAY * here:
             return model, new
         share /= 2
 
@@ -181,6 +188,7 @@ def _solve(A: Array, b: Array) -> tuple[Array, Array]:
 
 
 def _updated(
+    channels: Sequence[Channel],
     model: FittedModel,
     parts: Pool,
     background: Sequence[Placed],
@@ -195,32 +203,9 @@ def _updated(
     def new(placed: Placed) -> Array:
         return values[[parts.index[term] for term in placed.terms]]
 
-    moved = moved_frames(model, dict(zip(parts.terms, values, strict=True)))
+    moved = retracted(channels, model, dict(zip(parts.terms, values, strict=True)))
     return replace(
         moved,
         background=tuple(Part(p, new(p)) for p in background),
         parts=tuple(Part(placed, new(placed)) for placed, _ in effects),
     )
-
-
-def moved_frames(model: FittedModel, steps: Mapping[Term, float]) -> FittedModel:
-    """The model with its bases and tools moved by steps (SI units) of the free frames' terms; others don't count."""
-    twists: dict[str, Array] = {}
-    turns: dict[ToolKey, Array] = {}
-    for term, value in steps.items():
-        product = term.products[0]
-        axis = AXES.index(product.direction.axis) if product.direction.axis in AXES else -1
-        if product.driver.kind == "in run" and product.direction.location == "base":
-            twists.setdefault(str(product.driver.arguments[0]), np.zeros(6))[axis] = value
-        elif product.driver.kind.startswith("on target") and product.direction.location == "tool" and axis >= 3:
-            turns.setdefault(tool_key(product.driver), np.zeros(3))[axis - 3] = value
-    bases = {run: moved_base(base, twists.get(run, np.zeros(6))) for run, base in model.bases.items()}
-    tools = tuple(
-        Part(part.placed, part.values + np.array([steps.get(term, 0.0) for term in part.placed.terms]))
-        for part in model.tools
-    )
-    turned = {
-        key: Rotation.from_rotvec(turns.get(key, np.zeros(3))).as_matrix() @ turn
-        for key, turn in model.tool_turns.items()
-    }
-    return replace(model, bases=bases, tools=tools, tool_turns=turned)

@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.core.types import Array
-from armscope.fitting.linearisation import missed
+from armscope.fitting.linearisation import residuals
+from armscope.measurement.positions import moved_base
 from armscope.measurement.robust import scale_of
 from armscope.physics.frames import TOOL_FRAME, ToolKey, free_frames, tool_keys
 from armscope.physics.model import Base, FittedModel
@@ -60,16 +61,13 @@ def _tool_turns(
     which_tool: NDArray[np.intp],
 ) -> dict[ToolKey, Array]:
     """How each tool is turned on the last frame (N, 3, 3): the mean of its rows without those far off."""
-    if recordings.orientation is None:
-        return {}
-    known = np.isfinite(recordings.orientation).all(axis=1)
     turns = {}
     for number, key in enumerate(keys):
-        rows = np.flatnonzero(known & (which_tool == number))
+        rows = np.flatnonzero(recordings.oriented & (which_tool == number))
         if not len(rows):
             continue
         placed = np.array([bases[r].rotation for r in which_run[rows]]) @ modelled[rows]
-        measured = Rotation.from_quat(recordings.orientation[rows], scalar_first=True)
+        measured = Rotation.from_quat(recordings.quaternions[rows], scalar_first=True)
         on_flange = Rotation.from_matrix(placed).inv() * measured
         mean = on_flange.mean()
         for _ in range(TURN_STEPS):
@@ -92,35 +90,20 @@ def other_tools(arm: Arm, recordings: Recordings, shared: FittedModel) -> tuple[
     if len(shared.bases) < 2:
         return None
     free = fit_frames(arm, recordings, tool_per_run=True)
-    before, after = missed(shared, recordings), missed(free, recordings)
-    targets = [str(target) for target in np.unique(recordings.target)]
+    before, after = residuals(shared, recordings), residuals(free, recordings)
     told = []
-    apart = max(_points_apart(free, target) for target in targets)
-    if _exchanged(1e3 * apart, before.shift, after.shift):
-        told.append(f"its point up to {apart * 1e3:.3g} mm")
-    if before.turn is not None and after.turn is not None:
-        apart = max(_turns_apart(free, target) for target in targets)
-        known = np.isfinite(before.turn).all(axis=1)
-        if known.any() and _exchanged(apart, before.turn[known], after.turn[known]):
-            told.append(f"its axes up to {np.degrees(apart):.3g} degrees")
+    for channel, left in before.by_channel.items():
+        known = np.isfinite(left).all(axis=1)
+        apart = max(channel.tools_apart(free, str(target)) for target in np.unique(recordings.target))
+        if known.any() and _exchanged(1e3 * apart, 1e3 * left[known], 1e3 * after[channel.name][known]):
+            told.append(channel.apart_in_words(apart))
     return (free, " and ".join(told)) if told else None
 
 
 def _exchanged(apart: float, before: Array, after: Array) -> bool:
-    """Whether tools lie apart, seen by residuals (N, 3) with one tool for all runs and with one per run."""
+    """Whether tools lie apart, by residuals (N, c) in the same unit with one tool and with one per run."""
     left = scale_of(after)
     return scale_of(before) > WORSE * left and apart > EXCHANGED * left
-
-
-def _points_apart(model: FittedModel, target: str) -> float:
-    """Largest difference of a coordinate between a target's tool points, m."""
-    return float(np.ptp([part.values for part in model.tools if part.placed.variant == target], axis=0).max())
-
-
-def _turns_apart(model: FittedModel, target: str) -> float:
-    """Largest angle between a target's tool and its tool in the first run, rad."""
-    turns = Rotation.from_matrix([turn for (of, _), turn in model.tool_turns.items() if of == target] or [np.eye(3)])
-    return float((turns[0].inv() * turns).magnitude().max())
 
 
 def _tool_parts(recordings: Recordings, per_run: bool, tools: Array) -> tuple[Part, ...]:
@@ -189,9 +172,3 @@ def _robust_step(residual: Array, columns: Array) -> Array:
     # a held wrist leaves the tool's offset to the base: the tiny ridge keeps such a fit at its start
     normal[np.diag_indices_from(normal)] += 1e-9 * np.trace(normal) / len(normal)
     return np.asarray(np.linalg.solve(normal, left.T @ residual))
-
-
-def moved_base(base: Base, twist: Array) -> Base:
-    """The base after a twist (translation m, rotation rad) in its own axes."""
-    turn = Rotation.from_rotvec(twist[3:]).as_matrix()
-    return Base(base.rotation @ turn, base.translation + base.rotation @ twist[:3])

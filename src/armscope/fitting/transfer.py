@@ -10,11 +10,12 @@ import numpy as np
 
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
-from armscope.fitting.design_matrix import columns
-from armscope.fitting.linearisation import chunks, residuals
-from armscope.fitting.refit import moved_frames
+from armscope.fitting.design_matrix import point_columns
+from armscope.fitting.linearisation import linearised, point_residuals
 from armscope.fitting.registration import fit_frames
 from armscope.measurement import robust
+from armscope.measurement.channel import retracted
+from armscope.measurement.registry import supported
 from armscope.physics.drivers import follows
 from armscope.physics.effect import Placed, Term
 from armscope.physics.frames import free_frames
@@ -91,7 +92,7 @@ def transfer(
     if "tool" not in frames:
         _check_targets(model, recordings)
     own, bare = (_placed_anew(each, recordings, frames, tool_per_run) for each in (own, bare))
-    left, before = residuals(own, recordings), residuals(bare, recordings)
+    left, before = point_residuals(own, recordings), point_residuals(bare, recordings)
     return Transferred(
         rows=len(recordings),
         applied=_words(parts, background),
@@ -174,7 +175,7 @@ def _placed_anew(
     free = [p for p in free_frames(recordings, tool_per_run) if p.location in frames]
     for _ in range(STEPS):
         steps = _steps(model, recordings, [term for placed in free for term in placed.terms])
-        model = moved_frames(model, steps)
+        model = retracted(supported(recordings), model, steps)
         if max(abs(step) for step in steps.values()) < CONVERGED:
             break
     return model
@@ -182,11 +183,11 @@ def _placed_anew(
 
 def _steps(model: FittedModel, recordings: Recordings, terms: Sequence[Term]) -> dict[Term, float]:
     """A step of each of the free frames' terms, SI units."""
-    left = residuals(model, recordings)
+    left = point_residuals(model, recordings)
     weight = robust.huber_weights(left, np.ones(len(left)), 0.0)
     G, b = np.zeros((len(terms), len(terms))), np.zeros(len(terms))
-    for rows, posture in chunks(model, recordings):
-        X = columns(posture, terms)
+    for rows, posture in linearised(recordings).chunks(model):
+        X = point_columns(posture, terms)
         weighted = X * np.repeat(weight[rows], 3)[:, None]
         G += weighted.T @ X
         b += weighted.T @ left[rows].reshape(-1)

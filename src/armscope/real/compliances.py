@@ -22,16 +22,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.stats import f as f_distribution
 
-from armscope.check.preconditions import check_table, with_orientations
+from armscope.check.preconditions import check_table, trusted_channels
 from armscope.core.location import Location
 from armscope.core.types import Array
-from armscope.fitting.linearisation import missed, normal_equations_by_block
+from armscope.fitting.linearisation import normal_equations_by_block, residuals
 from armscope.fitting.model_space import Pool, pool
-from armscope.fitting.refit import moved_frames
 from armscope.fitting.registration import fit_frames
 from armscope.inference.evidence import TOLERANCE
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.measurement import robust
+from armscope.measurement.channel import retracted
+from armscope.measurement.registry import CHANNELS, supported
 from armscope.measurement.row_weights import RowNoise
 from armscope.physics import elastic, geometric
 from armscope.physics.effect import Placed
@@ -103,7 +104,7 @@ def fit_give(arm: Arm, recordings: Recordings, run: str) -> Give:
     arm, masses = as_heavy_as_recorded(arm, table)
     table = replace(table, torque=gravity_as_recorded(arm, table))
     model = fit_frames(arm, table, tool_per_run)
-    table = with_orientations(table, missed(model, table).turn)[0]
+    _, table, _ = trusted_channels(supported(table), table, residuals(model, table))
     drives = [placed for placed in elastic.JOINT_COMPLIANCE.place(arm, table) if placed.variant == ""]
     bearings = list(elastic.BEARING_COMPLIANCE.place(arm, table))
     waves = [mesh(j, per_turn) for j in moving_joints(table) for per_turn in WAVES]
@@ -172,8 +173,8 @@ def _settled(
     rows = RowNoise(np.ones(len(table)), np.ones(len(table)))
     block = np.arange(len(table)) * BLOCKS // len(table)
     model = replace(model, background=tuple(Part(placed, np.zeros(len(placed.terms))) for placed in small))
-    left = missed(model, table)
-    values, noise = np.zeros(len(parts.terms)), robust.scale_of(left.shift)
+    left = residuals(model, table)
+    values, noise = np.zeros(len(parts.terms)), robust.scale_of(left.points_mm)
     for _ in range(STEPS):
         blocks = normal_equations_by_block(parts, model, table, rows.weights(left, 0.0), block)
         gram = total(blocks)
@@ -182,7 +183,7 @@ def _settled(
         spent = len(values) - float(np.diag(covariance) @ precision)
         noise = float(np.sqrt(max(gram.rss(values), 0.0) / max(gram.n - spent, 1.0)))
         model = _at(parts, model, values)
-        left = missed(model, table)
+        left = residuals(model, table)
         inner = np.concatenate(parts.background)
         if np.all(np.abs(values - before)[inner] < SETTLED * np.sqrt(np.diag(covariance))[inner]):
             break
@@ -190,7 +191,7 @@ def _settled(
 
 
 def _at(parts: Pool, model: FittedModel, values: Array) -> FittedModel:
-    moved = moved_frames(model, dict(zip(parts.terms, values, strict=True)))
+    moved = retracted(CHANNELS, model, dict(zip(parts.terms, values, strict=True)))
     return replace(moved, background=tuple(Part(p.placed, values[parts.of(p.placed)]) for p in model.background))
 
 

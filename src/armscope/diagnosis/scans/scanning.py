@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 from armscope.core.types import Array
 from armscope.fitting.column_blocks import ColumnBlocks, schur_complement, weigh_blocks
 from armscope.fitting.design_matrix import columns
-from armscope.fitting.linearisation import chunks, current_parameters, response
+from armscope.fitting.linearisation import current_parameters, linearised
 from armscope.inference.evidence import Hypothesis, Problem, solve_lower
 from armscope.measurement.row_weights import RowWeights
+from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.drift import BASE_SHIFT, Pause, base_shift, drift_with_pauses, pauses_of, row_number, tool_shift
 from armscope.physics.effect import Placed
 from armscope.physics.model import FittedModel
@@ -274,10 +275,9 @@ def _step_sums(
     present = [pool.terms[i] for i in active]
     segment = np.searchsorted(cuts, np.arange(len(rows)), side="right")
     own, cross, b = np.zeros((len(cuts) + 1, c, c)), np.zeros((len(cuts) + 1, k, c)), np.zeros((len(cuts) + 1, c))
-    for part, posture in chunks(model, table):
-        here = rows[part]
-        lens = weights.lens(here)
-        seen, y = posture.through(lens), response(model, posture, lens)
+    for part, posture in linearised(table).chunks(model):
+        whitener = weights.whitener(rows[part])
+        seen, y = WhitenedPosture(posture, whitener), whitener.response(model, posture)
         if present:
             # the response before any effect
             y = y + (columns(seen, present) @ values[active]).reshape(y.shape)

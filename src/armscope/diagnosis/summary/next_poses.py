@@ -9,7 +9,7 @@ import numpy as np
 
 from armscope.design.separation import nats_apart, separating
 from armscope.diagnosis.summary.alternatives import INDISTINGUISHABLE_NATS, discriminability
-from armscope.fitting.design_matrix import columns
+from armscope.fitting.design_matrix import point_columns
 from armscope.fitting.refit import Refit
 from armscope.inference.evidence import FRAME_PRIOR_MM, Hypothesis
 from armscope.inference.search import Search
@@ -59,9 +59,9 @@ def next_poses(
     table = _reachable(fit, recordings, rng)
     scene = Scene(fit.model.arm, table)
     posture = scene.posture()
-    X = columns(posture, search.problem.pool.terms).reshape(len(table), 3, -1) / search.problem.scale
+    X = point_columns(posture, search.problem.pool.terms).reshape(len(table), 3, -1) / search.problem.scale
     # the poses will be a run of their own, with a base that is fitted anew
-    new_base = columns(posture, six_terms("base", ONE)).reshape(len(table), 3, 6)
+    new_base = point_columns(posture, six_terms("base", ONE)).reshape(len(table), 3, 6)
     p = X.shape[2]
     between = X @ (best.coefficients(p) - other.coefficients(p))
     covariance = other.noise**2 * other.inverse.T @ other.inverse
