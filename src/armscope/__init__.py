@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import pandas as pd
 
-    from armscope.diagnosis import Settings, Verdict
+    from armscope.diagnosis import Diagnosis, Settings
     from armscope.recordings import Recordings
     from armscope.robot import Arm
 
@@ -17,13 +17,16 @@ __all__ = ["diagnose"]
 
 def diagnose(
     robot: Arm | Path | str, recordings: Recordings | pd.DataFrame | Path | str, settings: Settings | None = None
-) -> Verdict:
+) -> Diagnosis:
     """Find where simulation and recordings differ, and which physics was left out: `armscope diagnose` for notebooks.
 
     Args:
         robot: an arm, or the path of its robot.yaml.
         recordings: a recordings table, a data frame with its columns, or the path of one.
         settings: see `armscope.diagnosis.Settings`.
+
+    Returns:
+        The verdict.
 
     Raises:
         InputError: something that can't be used; it says what, where, and how to mend it.

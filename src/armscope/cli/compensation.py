@@ -56,7 +56,7 @@ def compensate(
         read_path,
     )
     from armscope.compensation.output import FORMATS, write_commands
-    from armscope.physics.model import load_model
+    from armscope.physics.model_file import load_model
     from armscope.robot.inverse import LARGEST_STEP_RAD
 
     if not str(output).endswith(FORMATS):

@@ -158,8 +158,9 @@ def _by_physics(
     model: Path, poses: Path, pose: bool
 ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None, Recordings]:
     """Points (N, 3), m, and orientations (N, 3, 3) in the measurement frame, and the rows they are of."""
-    from armscope.physics.model import load_model, predict_orientation
     from armscope.physics.model import predict as predicted_points
+    from armscope.physics.model import predict_orientation
+    from armscope.physics.model_file import load_model
     from armscope.recordings import read_recordings
 
     fitted = load_model(model)

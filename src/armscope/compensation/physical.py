@@ -123,7 +123,16 @@ def drivers_of(model: FittedModel) -> set[str]:
 
 
 def missing_context(model: FittedModel, identified: Identified, rows: Recordings) -> dict[str, NDArray[np.bool_]]:
-    """By column that the model needs: (N,) which rows lack it."""
+    """By column that the model needs: (N,) which rows lack it.
+
+    Args:
+        model: of a diagnosis.
+        identified: what its recordings held.
+        rows: of the path.
+
+    Returns:
+        Masks (N,) by column.
+    """
     used = [KINDS[kind] for kind in drivers_of(model)]
     needed = {kind.needs for kind in used} | {"payload" for kind in used if "payload" in kind.follows}
     # an arm that was never loaded: none is meant
@@ -141,7 +150,16 @@ def missing_context(model: FittedModel, identified: Identified, rows: Recordings
 
 
 def beyond_time(model: FittedModel, identified: Identified, rows: Recordings) -> NDArray[np.bool_]:
-    """(N,) rows at times to which a drift of the model would have to be continued: a tenth beyond what was recorded."""
+    """(N,) rows at times to which a drift of the model would have to be continued: a tenth beyond what was recorded.
+
+    Args:
+        model: of a diagnosis.
+        identified: what its recordings held.
+        rows: of the path.
+
+    Returns:
+        (N,) whether a row's time is beyond; all False where nothing drifts.
+    """
     if "hours" not in drivers_of(model) or identified.time_s is None or rows.time is None:
         return np.zeros(len(rows), dtype=bool)
     first, last = identified.time_s
@@ -171,6 +189,15 @@ def with_torques(model: FittedModel, identified: Identified, rows: Recordings, a
 
     Torques of a diagnosis may come from recordings. A path has none yet: gravity of mass moments fitted to the
     recorded torques gives them.
+
+    Args:
+        model: of a diagnosis.
+        identified: what its recordings held, with the mass moments fitted to their torques.
+        rows: of the path.
+        angles: (N, m) rad, NaN where unknown.
+
+    Returns:
+        The rows, and the sentence; it is empty where none are needed, the path has its own, or no moments were fitted.
     """
     if (
         not any("torque" in KINDS[kind].follows for kind in drivers_of(model))

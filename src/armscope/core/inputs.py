@@ -84,7 +84,19 @@ class _UniqueKeyLoader(yaml.SafeLoader):
 
 
 def validate(model: type[Model], content: Any, file: object) -> Model:
-    """``content`` as a ``model``; the first thing wrong becomes an `InputError` that names its place in ``file``."""
+    """``content`` as a ``model``; the first thing wrong becomes an `InputError` that names its place in ``file``.
+
+    Args:
+        model: the pydantic model that the content must fit.
+        content: what was read.
+        file: where it was read, for the error.
+
+    Returns:
+        The content as the model.
+
+    Raises:
+        InputError: the first thing that doesn't fit, with the nearest known key where a key is unknown.
+    """
     try:
         return model.model_validate(content)
     except pydantic.ValidationError as error:

@@ -40,7 +40,16 @@ IDENTIFIABLE = 1e-6
 
 
 def observability(index: str, singular: Array, poses: int) -> Array:
-    """An index (..) from singular values (.., p) of the stacked Jacobian of so many poses; 0 where one of them is 0."""
+    """An index (..) from singular values (.., p) of the stacked Jacobian of so many poses; 0 where one of them is 0.
+
+    Args:
+        index: O1 ... O5.
+        singular: (.., p) singular values in units that compare.
+        poses: how many poses they are of.
+
+    Returns:
+        (..) the index, of the unit of the singular values (O2 has none).
+    """
     s = np.sort(np.asarray(singular, dtype=float), axis=-1)[..., ::-1]
     smallest, largest = s[..., -1], s[..., 0]
     with np.errstate(divide="ignore", invalid="ignore"):

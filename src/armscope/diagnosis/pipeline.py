@@ -13,7 +13,7 @@ from armscope.core.types import Progress
 from armscope.diagnosis.gravity_direction import lean
 from armscope.diagnosis.held_out import split
 from armscope.diagnosis.judgement import judge, undecided
-from armscope.diagnosis.selection_loop import select
+from armscope.diagnosis.selection import select
 from armscope.diagnosis.state import DiagnosisState
 from armscope.fitting.linearisation import LinearisedTable, residuals
 from armscope.fitting.registration import fit_frames, other_tools
@@ -24,7 +24,7 @@ from armscope.physics.effect import Placed
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-from armscope.verdict.schema import Notice, Verdict
+from armscope.verdict.schema import Diagnosis, Notice
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ def diagnose(
     settings: Settings | None = None,
     progress: Progress | None = None,
     channels: Sequence[Channel] = CHANNELS,
-) -> Verdict:
+) -> Diagnosis:
     """Find where in the arm the mismatch arises, which physics was left out, and how large it is.
 
     Args:

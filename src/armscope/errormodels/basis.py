@@ -81,6 +81,14 @@ class Basis:
 def make_basis(kind: BasisKind | str, columns: Array, names: Sequence[str]) -> Basis:
     """The basis of a model's ``columns`` (N x n, the first constant) named ``names``.
 
+    Args:
+        kind: one of `BasisKind`.
+        columns: N x n, the model's terms at the identification rows, the first constant.
+        names: n, of the terms.
+
+    Returns:
+        The basis; terms that others imply are dropped and named in it.
+
     Raises:
         ValueError: a first column that is not constant, an unknown kind, or numbers that are not finite.
     """

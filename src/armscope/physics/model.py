@@ -1,29 +1,18 @@
-"""The fitted model: an arm, its frames, its effects; it predicts exactly, and is a file of its own (model.yaml)."""
+"""The fitted model: an arm, its frames, its effects; it predicts exactly (`model_file` keeps it as model.yaml)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.core.files import write_yaml
-from armscope.core.inputs import InputError, read_yaml, validate
 from armscope.core.types import Array
-from armscope.physics.effect import Direction, Driver, Effect, Placed, Product, Term
-from armscope.physics.frames import BASE_FRAME, TOOL_FRAME, ToolKey
-from armscope.physics.geometric import BACKGROUND
-from armscope.physics.registry import EFFECTS
+from armscope.physics.frames import ToolKey
 from armscope.physics.scene import Part, Posture, Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-from armscope.robot.arm import build_arm
-from armscope.robot.description import RobotDescription
-
-FORMAT = "armscope model 1"
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,118 +115,3 @@ def predict_orientation(model: FittedModel, recordings: Recordings) -> Array:
         rows = recordings.run == run
         turned[rows] = model.base_of(str(run)).rotation @ rotations[rows]
     return turned
-
-
-def save_model(path: Path | str, model: FittedModel, extra: Mapping[str, Any] | None = None) -> None:
-    """Write model.yaml; the robot's description is part of it (a URDF by its path)."""
-    write_yaml(
-        path,
-        {
-            "format": FORMAT,
-            **(extra or {}),
-            "robot": model.arm.description.model_dump(mode="json", exclude_none=True),
-            "bases": {
-                run: {"rotation": base.rotation.tolist(), "translation_m": base.translation.tolist()}
-                for run, base in model.bases.items()
-            },
-            "tools": [_part_out(part) for part in model.tools],
-            "tool_turns": [
-                {"target": target, "run": run, "rotation": turn.tolist()}
-                for (target, run), turn in model.tool_turns.items()
-            ],
-            "effects": [_part_out(part) for part in model.parts],
-            "background": [_part_out(part) for part in model.background],
-        },
-    )
-
-
-def load_model(path: Path | str) -> FittedModel:
-    """Read model.yaml.
-
-    Raises:
-        InputError: it is no model of this format.
-    """
-    content = read_yaml(path)
-    if not isinstance(content, dict) or content.get("format") != FORMAT:
-        found = content.get("format", "no key format") if isinstance(content, dict) else "no mapping"
-        raise InputError(
-            path, "format", found, f"a model file says `format: {FORMAT}`", "`armscope diagnose` writes one."
-        )
-    try:
-        arm = build_arm(validate(RobotDescription, content["robot"], path))
-        return FittedModel(
-            arm=arm,
-            bases={
-                str(run): Base(np.array(base["rotation"], dtype=float), np.array(base["translation_m"], dtype=float))
-                for run, base in content["bases"].items()
-            },
-            tools=tuple(_part_in(part) for part in content["tools"]),
-            parts=tuple(_part_in(part) for part in content["effects"]),
-            background=tuple(_part_in(part) for part in content["background"]),
-            tool_turns={
-                (turn["target"], turn["run"]): np.array(turn["rotation"], dtype=float)
-                for turn in content.get("tool_turns", [])
-            },
-        )
-    except KeyError as error:
-        raise InputError(path, str(error.args[0]), "nothing", "this key is missing", "Was the file edited?") from error
-
-
-def _part_out(part: Part) -> dict[str, Any]:
-    placed = part.placed
-    return {
-        "effect": placed.name,
-        "location": placed.location,
-        "driver": placed.driver,
-        "scanned": [{"name": name, "unit": unit, "value": value} for name, unit, value in placed.scanned],
-        "reading": placed.parametrisation,
-        "variant": placed.variant,
-        "terms": [
-            {
-                "name": term.name,
-                "unit": term.unit,
-                "si": term.si,
-                "value": float(value),
-                "products": [
-                    [p.direction.location, p.direction.axis, p.factor, *_driver_out(p.driver)] for p in term.products
-                ],
-            }
-            for term, value in zip(placed.terms, part.values, strict=True)
-        ],
-    }
-
-
-def _part_in(content: Mapping[str, Any]) -> Part:
-    terms = tuple(
-        Term(
-            term["name"],
-            term["unit"],
-            float(term["si"]),
-            tuple(Product(Direction(p[0], p[1]), _driver_in(p[3:]), float(p[2])) for p in term["products"]),
-        )
-        for term in content["terms"]
-    )
-    placed = Placed(
-        _definitions()[content["effect"]],
-        content["location"],
-        terms,
-        (1.0,) * len(terms),
-        content["driver"],
-        tuple((s["name"], s["unit"], float(s["value"])) for s in content["scanned"]),
-        variant=content["variant"],
-        parametrisation=content["reading"],
-    )
-    return Part(placed, np.array([float(term["value"]) for term in content["terms"]]))
-
-
-def _driver_out(driver: Driver) -> list[Any]:
-    return [driver.kind, *[_driver_out(a) if isinstance(a, Driver) else a for a in driver.arguments]]
-
-
-def _driver_in(content: Iterable[Any]) -> Driver:
-    kind, *arguments = content
-    return Driver(kind, tuple(_driver_in(a) if isinstance(a, list) else a for a in arguments))
-
-
-def _definitions() -> dict[str, Effect]:
-    return {effect.name: effect for effect in (BASE_FRAME, TOOL_FRAME, BACKGROUND, *EFFECTS)}

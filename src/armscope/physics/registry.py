@@ -19,9 +19,9 @@ EFFECTS: tuple[Effect, ...] = (
 )
 
 
-def effect_named(name: str) -> Effect:
-    """The definition of an effect by its name."""
-    return next(effect for effect in EFFECTS if effect.name == name)
+def effect_named(name: str) -> Effect | None:
+    """The definition of an effect by its name; None where nothing of that name is installed."""
+    return next((effect for effect in EFFECTS if effect.name == name), None)
 
 
 def library(arm: Arm, recordings: Recordings) -> list[Placed]:

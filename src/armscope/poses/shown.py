@@ -85,6 +85,9 @@ def shown(arm: Arm, table: Recordings, effects: Sequence[str] = (GEOMETRY,)) -> 
         table: candidate poses with the context that effects follow.
         effects: names of the vocabulary, or `GEOMETRY`.
 
+    Returns:
+        The parameters with their natural sizes, and the names of those that the poses don't tell apart.
+
     Raises:
         InputError: an unknown name, or an effect that poses alone cannot show.
     """

@@ -137,7 +137,17 @@ THRESHOLD_AIM = (0.0, 1.25)
 
 
 def judged(cases: int, estimate: float, low: float, high: float, aim: tuple[float, float]) -> str:
-    """ "met", "open", "not met" or "too few cases" for an estimate with an interval, against the aim's bounds."""
+    """ "met", "open", "not met" or "too few cases" for an estimate with an interval, against the aim's bounds.
+
+    Args:
+        cases: how many; too few are not judged.
+        estimate: of the share or ratio.
+        low, high: its 95 % interval.
+        aim: least and most that are aimed at.
+
+    Returns:
+        One of the four.
+    """
     if cases < FEWEST_CASES or not np.isfinite(estimate):
         return "too few cases"
     least, most = aim

@@ -49,6 +49,12 @@ def compare_runs(
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """What every run says of the joints asked for, and which runs agree: from points alone, and from orientations, too.
 
+    Args:
+        arm: the nominal arm, with masses.
+        recordings: all runs of a set.
+        reference: which runs and joints are asked for.
+        tell: hears what is being done.
+
     Returns:
         Compliances: learned, run, of (joint, or the combination that all runs tell best), value, stderr, low, high,
         reference, all in microrad/(N m); noise_mm, masses. And agreement, a row per pair of runs and combination that

@@ -151,6 +151,9 @@ def plant(
         level: what the arm leaves unexplained, RMS per axis, m.
         rng: draws place and numbers.
 
+    Yields:
+        The recordings with the effect in them, and the truth, size by size.
+
     Raises:
         CannotPlantError: the recordings have no place where this effect could be seen.
     """

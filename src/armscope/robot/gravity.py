@@ -20,6 +20,9 @@ def gravity_wrenches(arm: Arm, frames: Chain, payload: Array | None = None) -> t
         arm: the arm; a tool load counts with the last link.
         frames: its frames at N poses.
         payload: (N,) kg, a point mass at the tool point; None or NaN counts as none.
+
+    Returns:
+        Force, N, and moment, N m, both (N, n, 3), in base axes at each joint's origin.
     """
     n_poses, n_joints = frames.joint_origin.shape[:2]
     weights = np.broadcast_to(arm.masses[:, None] * arm.gravity, (n_poses, n_joints, 3))
@@ -34,7 +37,16 @@ def gravity_wrenches(arm: Arm, frames: Chain, payload: Array | None = None) -> t
 
 
 def gravity_torques(arm: Arm, frames: Chain, payload: Array | None = None) -> Array:
-    """(N, m) torque of gravity on each motor, N m, positive along its angle: virtual work through `actuation`."""
+    """(N, m) torque of gravity on each motor, N m, positive along its angle: virtual work through `actuation`.
+
+    Args:
+        arm: the arm; a tool load counts with the last link.
+        frames: its frames at N poses.
+        payload: (N,) kg, a point mass at the tool point; None or NaN counts as none.
+
+    Returns:
+        (N, m) torques, N m.
+    """
     _, moment = gravity_wrenches(arm, frames, payload)
     return np.asarray(np.einsum("nji,nji->nj", frames.joint_rotation[..., 2], moment) @ arm.actuation)
 

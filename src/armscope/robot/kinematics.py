@@ -55,6 +55,9 @@ def chain(arm: Arm, motor_angles: Array, twists: Twists | None = None) -> Chain:
         arm: the arm.
         motor_angles: (N, m) rad.
         twists: small twists by location ("base", "joint j", "link j", "tool"), each (6,) or (N, 6).
+
+    Returns:
+        Rotations and origins of every joint's and link's frame, and the tool point, in the base frame, m.
     """
     twists = twists or {}
     angles = np.atleast_2d(motor_angles) @ arm.actuation.T
@@ -83,7 +86,16 @@ def chain(arm: Arm, motor_angles: Array, twists: Twists | None = None) -> Chain:
 
 
 def forward_kinematics(arm: Arm, motor_angles: Array, twists: Twists | None = None) -> Array:
-    """Tool points (N, 3), m, in the base frame, at motor angles (N, m) rad."""
+    """Tool points (N, 3), m, in the base frame, at motor angles (N, m) rad.
+
+    Args:
+        arm: the arm.
+        motor_angles: (N, m) rad.
+        twists: small twists by location, m and rad, as for `chain`.
+
+    Returns:
+        (N, 3) tool points in the base frame, m.
+    """
     return chain(arm, motor_angles, twists).tool
 
 

@@ -94,6 +94,9 @@ def minimise_least_squares(
         engine: "numba" (needs SFC64 generators), "numpy", or "auto": numba where it can be used. Both follow the same
             trajectories up to rounding.
 
+    Returns:
+        As `minimise`, the fitness being the RMS residual.
+
     Raises:
         ValueError: as `minimise`; an unknown engine, or one that cannot be used here.
     """

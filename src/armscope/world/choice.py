@@ -38,6 +38,9 @@ def choose(
         ambiguous: take what can't be told apart; otherwise, what can.
         rng: draws places and numbers.
 
+    Returns:
+        The concealed effects, the story's first wish first.
+
     Raises:
         RuntimeError: the first wish of the story can't be had anywhere in this arm.
     """
@@ -121,14 +124,34 @@ def _loaded(scene: Scene, kind: Kind, place: str) -> bool:
 
 
 def visibilities(judge: Judge, chosen: list[Sized], sigma: float) -> list[Visibility]:
-    """How well each of the concealed effects can be found beside the others."""
+    """How well each of the concealed effects can be found beside the others.
+
+    Args:
+        judge: of what can be told apart.
+        chosen: the concealed effects.
+        sigma: noise per axis, m.
+
+    Returns:
+        One per effect.
+    """
     return [judge.visibility(size, _others(size, chosen), sigma) for size in chosen]
 
 
 def visibilities_in_runs(
     judge: Judge, chosen: list[Sized], known: Sequence[Visibility], sigma: float, run: NDArray[np.int64]
 ) -> list[Visibility]:
-    """The same where the table says each row's run (N,), so that the base is free in each; ``known`` without it."""
+    """The same where the table says each row's run (N,), so that the base is free in each; ``known`` without it.
+
+    Args:
+        judge: of what can be told apart.
+        chosen: the concealed effects.
+        known: of `visibilities`.
+        sigma: noise per axis, m.
+        run: (N,) number of each row's run.
+
+    Returns:
+        One per effect.
+    """
     return [
         judge.seen_in_runs(visibility, size, _others(size, chosen), sigma, run)
         for visibility, size in zip(known, chosen, strict=True)

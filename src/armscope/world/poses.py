@@ -43,6 +43,14 @@ def candidate_poses(low: ArrayLike, high: ArrayLike, count: int, seed: int) -> A
     """(count, m) motor angles spread evenly between ``low`` and ``high`` (m,) rad; held motors have low = high.
 
     A scrambled Halton sequence over the motors that move.
+
+    Args:
+        low, high: (m,) rad.
+        count: how many.
+        seed: of the scrambling.
+
+    Returns:
+        (count, m) rad.
     """
     low, high = np.asarray(low, dtype=float), np.asarray(high, dtype=float)
     moving = np.flatnonzero(high > low)
@@ -69,6 +77,9 @@ def choose_poses(jacobian: Array, count: int, rng: np.random.Generator, random_d
         count: how many to choose, at most N.
         rng: draws the random choices that the index is compared with.
         random_draws: how many of those.
+
+    Returns:
+        The chosen rows, their index, and the median index of random choices.
 
     Raises:
         ValueError: fewer candidates than poses, or too few poses for the parameters.

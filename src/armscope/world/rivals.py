@@ -209,7 +209,16 @@ class Judge:
         self._starts = np.cumsum([0] + [rival.columns.shape[1] for rival in self.rivals])
 
     def visibility(self, truth: Sized, others: list[Sized], sigma: float) -> Visibility:
-        """How well ``truth`` can be found beside ``others`` at noise ``sigma`` (m per axis)."""
+        """How well ``truth`` can be found beside ``others`` at noise ``sigma`` (m per axis).
+
+        Args:
+            truth: the concealed effect.
+            others: what is concealed beside it.
+            sigma: noise per axis, m.
+
+        Returns:
+            Noncentrality, numbers of the effect and of the frames, and rivals that predict nearly the same.
+        """
         nuisance, pattern = self._beyond(self.frames, truth, others, sigma)
         matrix = self._matrix - nuisance @ (nuisance.T @ self._matrix)
         gram, overlap = matrix.T @ matrix, matrix.T @ pattern
@@ -238,6 +247,16 @@ class Judge:
         """``known`` for an oracle who must fit a base in each run, as a table with runs, (N,) ``run``, asks for.
 
         The alternatives stay those in front of one base: what a free base per run hides besides is no further answer.
+
+        Args:
+            known: of `visibility`.
+            truth: the concealed effect.
+            others: what is concealed beside it.
+            sigma: noise per axis, m.
+            run: (N,) number of each row's run.
+
+        Returns:
+            As known, with another noncentrality and more numbers of frames.
         """
         frames = free_frames(self.tool, self.tool_turn, run)
         _, pattern = self._beyond(frames, truth, others, sigma)
