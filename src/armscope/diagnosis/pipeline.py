@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from armscope.check.preconditions import FEWEST_ROWS, check_table, too_far, trusted_channels
+from armscope.check.preconditions import FEWEST_ROWS, check_table, suspected, too_far, trusted_channels
 from armscope.core.types import Progress
 from armscope.diagnosis.gravity_direction import lean
 from armscope.diagnosis.held_out import split
@@ -75,7 +75,7 @@ def diagnose(
     start, tool_per_run, told = _frames(arm, table, settings.tool_per_run)
     first = residuals(start, LinearisedTable(table, supported(table, channels)))
     channels, table, doubts = trusted_channels(tuple(first.by_channel), table, first)
-    notices = (*checked.notices, *told, *doubts)
+    notices = (*suspected(arm, checked.recordings), *checked.notices, *told, *doubts)
     noise = known_noise(arm, table)
     frames = nuisances(channels, table, tool_per_run)
     obstacle = too_far(arm, table, first.points_mm) or _too_few(table, frames)

@@ -243,7 +243,7 @@ class Agreement:
     probability: float
 
 
-def compare(one: Give, other: Give) -> Agreement:
+def compare_compliances(one: Give, other: Give) -> Agreement:
     """Whether two runs agree about the compliances, in what both determine.
 
     Both means lean to the same prior, so their errors have a part in common:

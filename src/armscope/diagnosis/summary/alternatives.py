@@ -21,8 +21,6 @@ LISTED_NATS = 10.0
 """Alternatives that lose more evidence than this are not listed."""
 LISTED_NATS_OF_SPECIAL_CASES = 40.0
 """A curve's special cases are listed farther: most of it may be one of them."""
-INDISTINGUISHABLE_NATS = 3.0
-"""Evidence of 20 to 1: two readings closer than this are both named."""
 LOOKED_AT = 12
 COARSELY = 0.25
 """Where taking an effect out costs much, the noise is another one without it: predictions miss less than this share."""
@@ -85,9 +83,12 @@ def discriminability(best: Hypothesis, other: Hypothesis, effect: Candidate, riv
     return min(gap, max((other.rss - best.rss) / (2 * best.noise**2), 0.0))
 
 
-def listed(found: Sequence[Rival]) -> tuple[Alternative, ...]:
-    """Alternatives as a verdict lists them."""
-    return tuple(Alternative(c.kind, c.location, c.family, float(gap), c.driver) for gap, c, _ in found)
+def listed(found: Sequence[Rival], apart: Sequence[float]) -> tuple[Alternative, ...]:
+    """Alternatives as a verdict lists them; ``apart``: the `discriminability` of each."""
+    return tuple(
+        Alternative(c.kind, c.location, c.family, float(gap), c.driver, float(nats))
+        for (gap, c, _), nats in zip(found, apart, strict=True)
+    )
 
 
 def name(effect: Candidate, rivals: Sequence[Candidate]) -> tuple[Specific, str]:

@@ -14,7 +14,7 @@ from armscope.physics.effect import AXES, ONE, Direction, Driver, Term, motor, t
 from armscope.physics.elastic import has_load
 from armscope.physics.model import FittedModel
 from armscope.physics.placing import varies
-from armscope.physics.registry import EFFECTS
+from armscope.physics.registry import effects
 from armscope.recordings import Recordings
 from armscope.verdict.schema import TOGETHER, Atlas
 
@@ -61,7 +61,7 @@ def _whole_effects(model: FittedModel, recordings: Recordings) -> list[tuple[str
     """(location, driver, terms) of the library's effects that are weighed as a whole: `Effect.atlas`."""
     return [
         (placed.location, effect.atlas, placed.terms)
-        for effect in EFFECTS
+        for effect in effects()
         if effect.atlas
         for placed in effect.place(model.arm, recordings)
     ]

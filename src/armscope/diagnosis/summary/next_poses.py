@@ -9,7 +9,7 @@ import numpy as np
 
 from armscope.design.separation import nats_apart, separating
 from armscope.diagnosis.state import DiagnosisState
-from armscope.diagnosis.summary.alternatives import INDISTINGUISHABLE_NATS, Rival, discriminability
+from armscope.diagnosis.summary.alternatives import Rival, discriminability
 from armscope.fitting.design_matrix import point_columns
 from armscope.inference.problem import FRAME_PRIOR_MM
 from armscope.physics.drift import six_terms
@@ -18,7 +18,7 @@ from armscope.physics.scene import Scene
 from armscope.poses.obstacles import Surroundings, refusals
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-from armscope.verdict.schema import NextPoses
+from armscope.verdict.schema import INDISTINGUISHABLE_NATS, NextPoses
 
 TRIED = 400
 ASKED = 12
