@@ -66,10 +66,6 @@ class Channel(ABC):
         """How far a target's tools lie apart between runs, in the channel's unit; 0 where it can't tell."""
         return 0.0
 
-    def apart_in_words(self, apart: float) -> str:
-        """`tools_apart` as half a sentence."""
-        return f"its {self.name} up to {apart:.3g} {self.unit}"
-
 
 @dataclass(frozen=True, eq=False)
 class ChannelResiduals:

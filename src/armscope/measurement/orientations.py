@@ -17,10 +17,11 @@ from armscope.physics.model import FittedModel
 from armscope.physics.scene import Posture
 from armscope.recordings import Recordings
 
-FEWEST_ROWS = 15
-"""Fewer orientations than this hardly outweigh the turn of the tool that is free with them."""
-TURNED_TOO_FAR = 0.05
-"""Median turn (rad) between modelled and measured orientations beyond which they are not the tool's."""
+FEWEST = 15
+"""Fewer orientations are not used: the frames of the tools take up too much of what they tell."""
+NOT_THE_TOOLS_RAD = np.radians(5)
+"""Median turn between modelled and measured orientations beyond which they are not the tool's; joint zeros two degrees
+off leave less."""
 
 
 class Orientations(Channel):
@@ -70,9 +71,9 @@ class Orientations(Channel):
     def doubt(self, residual: Array) -> tuple[str, str] | None:
         """Too few of them, or so far from the arm's that they are another frame's."""
         size = np.linalg.norm(residual[np.isfinite(residual).all(axis=1)], axis=1)
-        if len(size) < FEWEST_ROWS:
+        if len(size) < FEWEST:
             return "few orientations", f"Only {len(size)} rows hold an orientation: positions alone were used."
-        if np.median(size) > TURNED_TOO_FAR:
+        if np.median(size) > NOT_THE_TOOLS_RAD:
             return "orientations not the arm's", (
                 f"The measured orientations lie {np.degrees(np.median(size)):.3g} degrees (median) from the arm's, "
                 "however the tool is turned: positions alone were used. Are the quaternions in the order w, x, y, z?"
@@ -88,10 +89,6 @@ class Orientations(Channel):
         turns = [turn for (of, _), turn in model.tool_turns.items() if of == target]
         rotations = Rotation.from_matrix(turns or [np.eye(3)])
         return float((rotations[0].inv() * rotations).magnitude().max())
-
-    def apart_in_words(self, apart: float) -> str:
-        """In degrees."""
-        return f"its axes up to {np.degrees(apart):.3g} degrees"
 
 
 ORIENTATIONS = Orientations()

@@ -59,10 +59,6 @@ class Positions(Channel):
         """Largest difference of a coordinate between a target's tool points, m."""
         return float(np.ptp([part.values for part in model.tools if part.placed.variant == target], axis=0).max())
 
-    def apart_in_words(self, apart: float) -> str:
-        """In mm."""
-        return f"its point up to {apart * 1e3:.3g} mm"
-
 
 def moved_base(base: Base, twist: Array) -> Base:
     """The base after a twist (translation m, rotation rad) in its own axes."""
