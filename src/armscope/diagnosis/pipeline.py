@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from armscope.check.orientations import trusted_channels
-from armscope.check.preconditions import FEWEST_ROWS, check_table, suspected, too_far
+from armscope.check.preconditions import FEWEST_ROWS, as_notices, check_table, suspected, too_far
 from armscope.core.types import Progress
 from armscope.diagnosis.gravity_direction import lean
 from armscope.diagnosis.held_out import split
@@ -77,10 +77,11 @@ def diagnose(
     start, tool_per_run, told = _frames(arm, table, settings.tool_per_run)
     first = residuals(start, LinearisedTable(table, supported(table, channels)))
     channels, table, doubts = trusted_channels(tuple(first.by_channel), table, first)
-    notices = (*suspected(arm, checked.recordings), *checked.notices, *told, *doubts)
     noise = known_noise(arm, table)
     frames = nuisances(channels, table, tool_per_run)
-    obstacle = too_far(arm, table, first.points_mm) or _too_few(table, frames)
+    problems = suspected(arm, checked.recordings)
+    obstacle = too_far(arm, table, first.points_mm, problems) or _too_few(table, frames)
+    notices = (*as_notices(problems, obstacle), *checked.notices, *told, *doubts)
     if obstacle is not None:
         return undecided(start, table, first.points_mm, noise, (*notices, obstacle), time.perf_counter() - started)
     if settings.estimate_gravity:
