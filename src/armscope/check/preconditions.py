@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.check.report import check
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.physics.placing import STANDS_STILL_RAD, varies
@@ -58,6 +59,12 @@ def check_table(arm: Arm, recordings: Recordings) -> Checked:
     table = _without_empty_context(recordings if kept.all() else recordings.rows(kept))
     notices += _limits(arm, table)
     return Checked(table, tuple(notices))
+
+
+def suspected(arm: Arm, recordings: Recordings) -> tuple[Notice, ...]:
+    """What looks wrong with units, signs, orders and frames of the rows that are used, as `armscope check` finds it."""
+    texts = [found.text() for found in check(recordings, arm).suspicions if found.weight == "problem"]
+    return tuple(Notice("check", text[0].upper() + text[1:]) for text in texts)
 
 
 def _without_empty_context(recordings: Recordings) -> Recordings:

@@ -8,12 +8,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from armscope.check.preconditions import FEWEST_ROWS, check_table, too_far, with_orientations
+from armscope.check.preconditions import FEWEST_ROWS, check_table, suspected, too_far, with_orientations
 from armscope.core.types import Progress
 from armscope.diagnosis.gravity_direction import lean
 from armscope.diagnosis.held_out import split
 from armscope.diagnosis.judgement import judge, undecided
-from armscope.diagnosis.selection_loop import select
+from armscope.diagnosis.selection import select
 from armscope.diagnosis.state import DiagnosisState
 from armscope.fitting.linearisation import missed
 from armscope.fitting.registration import fit_frames, other_tools
@@ -72,7 +72,7 @@ def diagnose(
     start, tool_per_run, told = _frames(arm, table, settings.tool_per_run)
     first = missed(start, table)
     table, told_of_turns = with_orientations(table, first.turn)
-    notices = (*checked.notices, *told, *told_of_turns)
+    notices = (*suspected(arm, checked.recordings), *checked.notices, *told, *told_of_turns)
     noise = known_noise(arm, table)
     frames = free_frames(table, tool_per_run)
     obstacle = too_far(arm, table, first.shift) or _too_few(table, frames)

@@ -21,7 +21,17 @@ FEWEST_ORDERED_ROWS = 20
 
 
 def six_terms(location: str, driver: Driver, per: str = "", axes: tuple[str, ...] = AXES) -> tuple[Term, ...]:
-    """One term per direction of a frame, named x, y, z, rx, ry, rz, mm and rad."""
+    """One term per direction of a frame, named x, y, z, rx, ry, rz, mm and rad.
+
+    Args:
+        location: a frame of the chain.
+        driver: what each term follows.
+        per: what stands below the fraction of the unit, such as "/h".
+        axes: which directions.
+
+    Returns:
+        One term per direction.
+    """
     return tuple(
         term(
             axis.removeprefix("t"),
@@ -134,12 +144,30 @@ def _axes_of_tool(recordings: Recordings) -> tuple[str, ...]:
 
 
 def base_shift(recordings: Recordings, row: int, multiplicity: int) -> Placed:
-    """The base jumps before a row (0-based) and stays so until the end of the row's run."""
+    """The base jumps before a row (0-based) and stays so until the end of the row's run.
+
+    Args:
+        recordings: the table.
+        row: the first after the jump.
+        multiplicity: how many moments compete.
+
+    Returns:
+        The effect in place.
+    """
     return _shift(BASE_SHIFT, "base", AXES, recordings, row, multiplicity)
 
 
 def tool_shift(recordings: Recordings, row: int, multiplicity: int) -> Placed:
-    """The tool jumps before a row (0-based) and stays so until the end of the row's run."""
+    """The tool jumps before a row (0-based) and stays so until the end of the row's run.
+
+    Args:
+        recordings: the table.
+        row: the first after the jump.
+        multiplicity: how many moments compete.
+
+    Returns:
+        The effect in place.
+    """
     return _shift(TOOL_SHIFT, "tool", _axes_of_tool(recordings), recordings, row, multiplicity)
 
 

@@ -87,7 +87,17 @@ class Term:
 
 
 def term(name: str, unit: str, *products: Product | tuple[Direction, Driver], si: float = 1.0) -> Term:
-    """A term from products or (direction, driver) pairs."""
+    """A term from products or (direction, driver) pairs.
+
+    Args:
+        name: of the parameter.
+        unit: of the parameter in files.
+        products: products of directions and drivers.
+        si: SI units per file unit.
+
+    Returns:
+        The term.
+    """
     return Term(name, unit, si, tuple(p if isinstance(p, Product) else Product(*p) for p in products))
 
 

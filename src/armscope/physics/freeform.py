@@ -39,7 +39,16 @@ def waves(recordings: Recordings) -> int:
 
 
 def refined(arm: Arm, recordings: Recordings, curve: Placed) -> Placed | None:
-    """A free curve of a joint's own angle with the finest waves that a long table carries; None for other curves."""
+    """A free curve of a joint's own angle with the finest waves that a long table carries; None for other curves.
+
+    Args:
+        arm: the nominal arm.
+        recordings: the table.
+        curve: a curve in place.
+
+    Returns:
+        The finer curve in place.
+    """
     count = min(len(recordings) // ROWS_PER_FINE_WAVE, MOST_FINE_WAVES)
     if curve.effect is not UNKNOWN or curve.variant != "angle" or curve.refinement or count <= MOST_WAVES:
         return None
@@ -176,7 +185,18 @@ def _curve(
 def spline_terms(
     source: Driver, values: Array, direction: Direction, unit: str, count: int = KNOTS
 ) -> tuple[Term, ...]:
-    """Cubic B-splines over the range of a driver's values, each a term in one direction."""
+    """Cubic B-splines over the range of a driver's values, each a term in one direction.
+
+    Args:
+        source: the driver.
+        values: (N,) its values in the table.
+        direction: which way it moves the tool.
+        unit: of the parameters.
+        count: how many splines.
+
+    Returns:
+        One term per spline.
+    """
     return tuple(
         term(f"at_{n}", unit, (direction, Driver("spline", (source, centre, width))))
         for n, (centre, width) in enumerate(_knots(values, count))

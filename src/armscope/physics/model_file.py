@@ -15,7 +15,7 @@ from armscope.physics.effect import Direction, Driver, Effect, Placed, Product, 
 from armscope.physics.frames import BASE_FRAME, TOOL_FRAME
 from armscope.physics.geometric import BACKGROUND
 from armscope.physics.model import Base, FittedModel
-from armscope.physics.registry import EFFECTS
+from armscope.physics.registry import effects
 from armscope.physics.scene import Part
 from armscope.robot.arm import build_arm
 from armscope.robot.description import RobotDescription
@@ -205,4 +205,4 @@ def _driver_in(content: Iterable[Any]) -> Driver:
 
 
 def _definitions() -> Mapping[str, Effect]:
-    return {effect.name: effect for effect in (BASE_FRAME, TOOL_FRAME, BACKGROUND, *EFFECTS)}
+    return {effect.name: effect for effect in (BASE_FRAME, TOOL_FRAME, BACKGROUND, *effects())}

@@ -185,7 +185,7 @@ JOINT_COUPLING = Effect(
     "Turn the other motor alone over its range and watch this joint.",
     command(
         "Put minus the coefficient into the controller's wrist coupling table: "
-        "commanded = wanted - coupling x angle of the other motor."
+        "commanded = wanted - coupling x other (other: the angle of the motor it follows)."
     ),
     clauses=("{joint} turns by {coupling} of {source}",),
 )

@@ -15,7 +15,7 @@ from markupsafe import Markup
 from pandas.io.formats.style import Styler
 
 from armscope.core.files import write_text
-from armscope.report.text.wording import plain
+from armscope.verdict.wording import plain
 
 _TEMPLATES = jinja2.Environment(
     loader=jinja2.PackageLoader("armscope.report", "templates"),

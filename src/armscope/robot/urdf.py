@@ -22,7 +22,7 @@ BEYOND_LIMITS = 0.01
 """A joint may be held beyond its limits by this share of its range: recorded positions are not exact."""
 
 
-class Cut(NamedTuple):
+class SerialPart(NamedTuple):
     """How a whole robot becomes one arm: joints to lock, in which configuration, and what its tip is called then."""
 
     locked: list[int]
@@ -43,7 +43,7 @@ def read_urdf(path: str) -> pin.Model:
         raise InputError(path, "", "no valid URDF", str(error).rstrip("."), "`check_urdf` may say more.") from error
 
 
-def cut(description: RobotDescription, full: pin.Model) -> Cut:
+def cut(description: RobotDescription, full: pin.Model) -> SerialPart:
     """What is locked, and where, so that the chain from the root to the tip is left without the joints that are held.
 
     Raises:
@@ -69,7 +69,7 @@ def cut(description: RobotDescription, full: pin.Model) -> Cut:
         raise InputError(file, "hold_joints", ", ".join(description.hold_joints), "every joint of the chain is held")
     _refuse_followers(description, full, sorted(left))
     _tell_frames_apart(full)
-    return Cut([joint for joint in range(1, full.njoints) if joint not in left], configuration, frame.name)
+    return SerialPart([joint for joint in range(1, full.njoints) if joint not in left], configuration, frame.name)
 
 
 def frame_named(model: pin.Model, name: str) -> pin.Frame:

@@ -21,10 +21,10 @@ from armscope.report.figures.next_poses import draw_poses
 from armscope.report.figures.residual_vectors import draw_along_joints, draw_vectors, evenly
 from armscope.report.figures.waterfall import draw_waterfall
 from armscope.report.style import save_figure
-from armscope.report.text.wording import plain
 from armscope.robot import Arm, chain, position_jacobian
 from armscope.verdict.schema import INTERVAL, Atlas, Diagnosis, FoundEffect, Verdict, WaterfallStep
 from armscope.verdict.schema import Curve as FoundCurve
+from armscope.verdict.wording import plain
 
 FORMATS = ("png", "svg")
 MOST_ROWS = 20_000
