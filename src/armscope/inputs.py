@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import difflib
+import os
+import stat
 from collections.abc import Hashable, Iterable
+from contextvars import ContextVar
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -11,6 +14,25 @@ import pydantic
 import yaml
 
 Model = TypeVar("Model", bound=pydantic.BaseModel)
+
+FILES_READ: ContextVar[set[tuple[int, int]] | None] = ContextVar("files read", default=None)
+"""Identities of the files that the command that runs has read: what it must not overwrite."""
+
+
+def reading(path: Path | str) -> None:
+    """Note that a file is read."""
+    read, found = FILES_READ.get(), identity(path)
+    if read is not None and found is not None:
+        read.add(found)
+
+
+def identity(path: Path | str) -> tuple[int, int] | None:
+    """Device and number of a regular file, the same by whatever name; None where there is none."""
+    try:
+        about = os.stat(path)
+    except (OSError, ValueError):
+        return None
+    return (about.st_dev, about.st_ino) if stat.S_ISREG(about.st_mode) else None
 
 
 class InputError(ValueError):
@@ -54,6 +76,7 @@ class Strict(pydantic.BaseModel):
 def read_yaml(path: Path | str) -> Any:
     """The content of a YAML file; an unreadable one is an `InputError` that names line and column."""
     path = Path(path)
+    reading(path)
     try:
         with path.open(encoding="utf-8-sig") as stream:
             return yaml.load(stream, Loader=_UniqueKeyLoader)

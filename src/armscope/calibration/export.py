@@ -18,6 +18,8 @@ from armscope.robot import Arm
 
 Array = NDArray[np.float64]
 TIP = "calibrated_flange"
+FILES = ("robot.yaml", "robot.urdf", "robot_urdf.yaml", "frames.yaml")
+"""All that `export` may write."""
 
 
 def export(calibration: Calibration, folder: Path | str, target: str | None = None) -> tuple[Path, ...]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
+from armscope.cli.commands import Commands
 from armscope.cli.studies import model_named
 from armscope.inputs import InputError
 
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from armscope.physics.model import FittedModel
     from armscope.robot import Arm
 
-app = typer.Typer()
+app = Commands()
 
 MOST_CAUSES = 10
 REFUSED = 3
@@ -56,10 +57,11 @@ def compensate(
         read_path,
     )
     from armscope.compensation.output import FORMATS, write_commands
+    from armscope.outputs import is_stream
     from armscope.physics.model import load_model
     from armscope.robot.inverse import LARGEST_STEP_RAD
 
-    if not str(output).endswith(FORMATS):
+    if not str(output).endswith(FORMATS) and not is_stream(output):
         raise InputError("--output", "", str(output), f"the file's ending says the format: {', '.join(FORMATS)}")
     step = np.inf if separate_points else LARGEST_STEP_RAD
     fitted: ErrorModel | FittedModel = load_error_model(model) if model.suffix == ".json" else load_model(model)

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from armscope.cli.commands import Commands
+
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
@@ -19,7 +21,7 @@ if TYPE_CHECKING:
     from armscope.recordings import Recordings
     from armscope.robot import Arm
 
-app = typer.Typer()
+app = Commands()
 
 
 @app.command()
@@ -44,6 +46,7 @@ def diagnose(
     from armscope.compensation.physical import identified_on, save_identified
     from armscope.diagnosis import Settings, write_verdict
     from armscope.diagnosis import diagnose as diagnose_arm
+    from armscope.diagnosis.output import FILES
     from armscope.files import writable
     from armscope.recordings import read_recordings
     from armscope.report.headline import headline
@@ -51,7 +54,7 @@ def diagnose(
 
     arm = load_arm(robot)
     table = read_recordings(recordings, arm.n_motors)
-    writable(output)
+    writable(output, *FILES, DOMAIN, "report.html")
     for note in table.notes:
         print(f"note: {note}", file=sys.stderr)
     if run:

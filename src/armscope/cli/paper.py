@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from armscope.cli.commands import Commands
 from armscope.cli.studies import (
     Errors,
     Fits,
@@ -27,7 +28,7 @@ from armscope.inputs import InputError
 if TYPE_CHECKING:
     import pandas as pd
 
-app = typer.Typer(no_args_is_help=True)
+app = Commands("paper", no_args_is_help=True)
 
 
 @app.command()

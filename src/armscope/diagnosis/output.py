@@ -11,6 +11,11 @@ from armscope.diagnosis.verdict import Atlas, Verdict
 from armscope.files import write_json, write_table
 from armscope.physics.model import save_model
 
+FILES = (
+    "verdict.json", "model.yaml", "predicted.csv", "suspects.csv", "next_poses.csv", "curves.csv", "atlas.csv",
+)  # fmt: skip
+"""All that `write_verdict` may write."""
+
 
 def write_verdict(verdict: Verdict, folder: Path | str) -> None:
     """Write everything that `armscope diagnose` leaves behind, but the report page.

@@ -5,7 +5,6 @@ This module must not know how worlds are made, nor what a sealed truth looks lik
 
 from __future__ import annotations
 
-import shutil
 import sys
 import time
 import traceback
@@ -15,7 +14,7 @@ from pathlib import Path
 import pandas as pd
 
 from armscope.diagnosis import Settings, diagnose, write_verdict
-from armscope.files import write_table, write_text
+from armscope.files import new_folder, write_table, write_text
 from armscope.physics.model import predict
 from armscope.proof.answers import FAILURE, PREDICTED, TIMES
 from armscope.proof.definitions import AXES_MM
@@ -31,7 +30,7 @@ def diagnose_worlds(worlds: Iterable[Path], output: Path, settings: Settings) ->
         output: new folder; each world's verdict goes into a folder of the world's name, seconds into times.csv.
         settings: of the diagnosis.
     """
-    shutil.rmtree(output, ignore_errors=True)
+    new_folder(output)
     spent = []
     for world in worlds:
         started = time.perf_counter()

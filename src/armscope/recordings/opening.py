@@ -8,7 +8,7 @@ import zlib
 from pathlib import Path
 from typing import IO, cast
 
-from armscope.inputs import InputError
+from armscope.inputs import InputError, reading
 
 GZIP = b"\x1f\x8b"
 OTHER_THAN_TEXT: tuple[tuple[bytes, str, str], ...] = (
@@ -30,6 +30,7 @@ def start_of(path: Path, what: str) -> bytes:
     Raises:
         InputError: no readable file.
     """
+    reading(path)
     try:
         with path.open("rb") as stream:
             start = stream.read(LONGEST_SIGNATURE)

@@ -15,6 +15,7 @@ from markupsafe import Markup
 from pandas.io.formats.style import Styler
 
 from armscope.files import write_text
+from armscope.outputs import readable
 from armscope.report.wording import plain
 
 _TEMPLATES = jinja2.Environment(
@@ -54,7 +55,7 @@ def embed(figure: Path | str, alt: str = "") -> Markup:
     """An <img> that carries the picture in itself."""
     path = Path(figure)
     kind = {".svg": "image/svg+xml", ".png": "image/png"}[path.suffix]
-    data = base64.b64encode(path.read_bytes()).decode()
+    data = base64.b64encode(readable(path).read_bytes()).decode()
     return Markup('<img src="data:{};base64,{}" alt="{}">').format(kind, data, alt)
 
 

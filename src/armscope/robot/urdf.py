@@ -11,7 +11,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from armscope.inputs import InputError, nearest
+from armscope.inputs import InputError, nearest, reading
 from armscope.robot.description import RobotDescription
 
 Array = NDArray[np.float64]
@@ -105,6 +105,7 @@ def refuse_other_than_turning(file: str, model: pin.Model) -> None:
 
 
 def _root(path: str) -> ET.Element:
+    reading(path)
     try:
         root = ET.parse(path).getroot()
     except OSError as error:
