@@ -17,7 +17,7 @@ rule example:
     conda:
         "../envs/armscope.yaml"
     shell:
-        "armscope diagnose {input.recordings} --robot {input.robot} -o {params.folder} > {log} 2>&1"
+        "armscope diagnose {input.recordings} --robot {input.robot} -o {params.folder} --force > {log} 2>&1"
 
 
 rule readme:

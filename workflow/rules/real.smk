@@ -46,7 +46,7 @@ rule diagnose_real:
     conda:
         "../envs/armscope.yaml"
     shell:
-        "armscope diagnose {input.recordings} --robot {input.robot} {params.run} {params.first} -o {params.folder} > {log} 2>&1"
+        "armscope diagnose {input.recordings} --robot {input.robot} {params.run} {params.first} -o {params.folder} --force > {log} 2>&1"
 
 
 rule protocol_real:
@@ -130,7 +130,7 @@ rule real_arms:
     conda:
         "../envs/armscope.yaml"
     shell:
-        "armscope real page docs/real-arms.md --settings {params.settings:q} > {log} 2>&1"
+        "armscope real page docs/real-arms.md --settings {params.settings:q} --force > {log} 2>&1"
 
 
 rule real:
