@@ -1,0 +1,1 @@
+"""Verdicts that must stay as they are while the house is rebuilt."""
