@@ -7,7 +7,6 @@ from pathlib import Path
 from armscope.config import Config
 from armscope.inputs import InputError, validate
 from armscope.provenance import digest
-from armscope.recordings.fetching import load_source
 
 # `snakemake` may be called by its path, without the environment being activated
 shell.prefix(f"set -euo pipefail; export PATH={shlex.quote(str(Path(sys.executable).parent))}:$PATH; ")
@@ -100,6 +99,8 @@ def robot_of(wildcards):
 
 def raw_files(wildcards):
     """The raw files of a set; other files may lie beside them, such as one that was kept aside."""
+    from armscope.recordings.fetching import load_source
+
     source = load_source(f"config/recordings/{wildcards.public_set}/source.yaml")
     return [f"{RESULTS}/recordings/{wildcards.public_set}/raw/{file.name}" for file in source.files]
 
