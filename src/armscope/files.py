@@ -5,11 +5,13 @@ from __future__ import annotations
 import contextlib
 import glob
 import gzip
+import io
 import json
 import os
 import shutil
 import socket
 import tempfile
+import zlib
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
@@ -21,6 +23,11 @@ import yaml
 from armscope import outputs
 from armscope.inputs import InputError, nearest, reading
 from armscope.locks import alive
+
+LARGEST_UNPACKED_SHARE = 200
+"""Bytes for each packed one: recordings unpack to ten times their size, a bomb to a thousand times."""
+LONGEST_WHOLE = 18
+"""Digits of a whole number."""
 
 
 def writable(folder: Path | str, *names: str) -> Path:
@@ -61,7 +68,7 @@ def read_table(path: Path | str, columns: Iterable[str] = (), what: str = "a tab
         table = pd.read_csv(path)
     except OSError as error:
         raise _unreadable(path, what, error) from error
-    except (pd.errors.EmptyDataError, pd.errors.ParserError, UnicodeDecodeError, EOFError) as error:
+    except (ValueError, EOFError, zlib.error, OverflowError) as error:
         raise InputError(path, "", "no table", f"{what} is needed here", f"{error}") from error
     for column in columns:
         if column not in table:
@@ -85,11 +92,42 @@ def read_json(path: Path | str, what: str) -> Any:
     reading(path)
     try:
         content = path.read_bytes()
-        return json.loads(gzip.decompress(content) if path.suffix == ".gz" else content)
+        text = _unpacked(path, content, what) if content.startswith(b"\x1f\x8b") else content
+        return json.loads(text, parse_constant=_no_number, parse_float=_finite, parse_int=_whole)
     except OSError as error:
         raise _unreadable(path, what, error) from error
-    except (ValueError, EOFError) as error:
+    except RecursionError as error:
+        raise InputError(path, "", "no readable JSON", f"{what} is needed here", "It is nested too deeply.") from error
+    except (ValueError, EOFError, zlib.error) as error:
         raise InputError(path, "", "no readable JSON", f"{what} is needed here", str(error)) from error
+
+
+def _unpacked(path: Path, content: bytes, what: str) -> bytes:
+    """What a gzipped file holds; not what swells a few bytes into all memory."""
+    most = LARGEST_UNPACKED_SHARE * len(content) + LARGEST_UNPACKED_SHARE
+    with gzip.open(io.BytesIO(content)) as packed:
+        text = packed.read(most + 1)
+    if len(text) > most:
+        found = f"more than {LARGEST_UNPACKED_SHARE} bytes for each packed one"
+        raise InputError(path, "", found, f"{what} is needed here", "No table or model packs so well.")
+    return text
+
+
+def _no_number(name: str) -> float:
+    raise ValueError(f"{name} is no number of JSON")
+
+
+def _finite(text: str) -> float:
+    number = float(text)
+    if not np.isfinite(number):
+        raise ValueError(f"{text[:40]} is too large a number")
+    return number
+
+
+def _whole(text: str) -> int:
+    if len(text) > LONGEST_WHOLE:
+        raise ValueError(f"a whole number of {len(text)} digits")
+    return int(text)
 
 
 def _unreadable(path: Path | str, what: str, error: OSError) -> InputError:
