@@ -30,7 +30,7 @@ import numpy as np
 from armscope.calibration import calibrate
 from armscope.calibration.export import TIP, export
 from armscope.calibration.geometry import Constant, corrected
-from armscope.files import write_json
+from armscope.core.files import write_json
 from armscope.recordings import Recordings
 from armscope.robot import Arm, chain
 from armscope.robot.arm import build_arm

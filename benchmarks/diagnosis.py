@@ -63,7 +63,7 @@ def measure(visible: Path, rounds: int) -> dict[str, object]:
     arm = load_arm(visible / "robot.yaml")
     recordings = read_recordings(visible / "recordings.csv", arm.n_motors)
     atlas_times: list[float] = []
-    judge, atlas = sys.modules["armscope.diagnosis.judge"], sys.modules["armscope.diagnosis.judge"].atlas
+    judge, atlas = sys.modules["armscope.diagnosis.judgement"], sys.modules["armscope.diagnosis.judgement"].atlas
 
     def timed_atlas(*arguments: object) -> object:
         start = time.process_time()

@@ -11,8 +11,8 @@ import pandas as pd
 import pytest
 
 from armscope.calibration import calibrate
+from armscope.core.inputs import InputError
 from armscope.diagnosis import Settings, diagnose
-from armscope.inputs import InputError
 from armscope.recordings import as_recordings
 from armscope.robot.arm import build_arm
 from armscope.robot.denavit_hartenberg import as_dh

@@ -11,8 +11,8 @@ from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
 from armscope.cli import app
-from armscope.files import read_json
-from armscope.inputs import InputError
+from armscope.core.files import read_json
+from armscope.core.inputs import InputError
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "five-effects"
 ROBOT, RECORDINGS = EXAMPLE / "robot.yaml", EXAMPLE / "recordings.csv"

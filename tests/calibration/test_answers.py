@@ -15,7 +15,7 @@ from armscope.calibration.geometry import constants_of, corrected
 from armscope.calibration.imitation import Imitation
 from armscope.calibration.model import set_up
 from armscope.cli import app
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.robot.arm import build_arm
 from tests.calibration.worlds import far_away, measured, planted, poses, together, ur_like
 from tests.robot.arms import random_masses
@@ -212,7 +212,7 @@ def test_many_partners_are_told_by_the_frames_they_belong_to():
 
 
 def test_the_command_writes_what_was_found_and_nothing_that_is_doubtful(rng, tmp_path):
-    from armscope.files import write_yaml
+    from armscope.core.files import write_yaml
 
     def written(recordings, name, *options):
         angles = {f"q{j + 1}_rad": recordings.motor_angles[:, j] for j in range(6)}

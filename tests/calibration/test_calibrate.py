@@ -10,7 +10,7 @@ from armscope.calibration import Priors, calibrate, held_out
 from armscope.calibration.geometry import columns, constants_of, corrected
 from armscope.calibration.model import set_up
 from armscope.calibration.splits import split
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.recordings import read_recordings
 from armscope.robot import chain, forward_kinematics, load_arm
 from armscope.robot.arm import build_arm

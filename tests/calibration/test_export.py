@@ -11,7 +11,7 @@ import yaml
 
 from armscope.calibration import calibrate
 from armscope.calibration.export import export
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.robot import chain, forward_kinematics, load_arm
 from armscope.robot.arm import build_arm
 from armscope.robot.description import RobotDescription

@@ -145,7 +145,7 @@ def test_another_arms_model_does_not_help(paper_table):
 
 
 def test_a_model_fitted_to_recordings_in_a_far_frame_needs_registration():
-    from armscope.inputs import InputError
+    from armscope.core.inputs import InputError
 
     arm, truth = sk120(), geometric_errors(sk120())
     angles = identification_angles(85, 6)

@@ -11,7 +11,7 @@ from armscope.cli import app
 from armscope.compensation import as_path, compensate_black_box, load_error_model, save_error_model
 from armscope.compensation.physical import load_identified, save_identified
 from armscope.compensation.rapid import read_rapid
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.physics.model import save_model
 from armscope.robot import forward_kinematics
 from tests.robot.arms import CONFIG, SK120

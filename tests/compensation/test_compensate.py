@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from armscope.compensation import Options, as_path, compensate_black_box, compensate_physical
 from armscope.compensation.forward import BlackBoxArm, PhysicalArm
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.physics.model import predict
 from armscope.recordings.table import as_recordings
 from armscope.robot import chain, forward_kinematics

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from armscope.compensation.rapid import read_rapid, write_rapid
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 
 
 @settings(max_examples=25)

@@ -8,7 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from armscope.compensation import Options, as_path, compensate_black_box, compensate_physical
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.robot import chain
 
 from .arms import CONTEXT, MIDDLE, black_box, physical, physical_path, sk120, table_of, wanted_points

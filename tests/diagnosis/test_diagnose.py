@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose, write_verdict
-from armscope.diagnosis.verdict import Verdict
 from armscope.physics.model import load_model, predict
 from armscope.poses.obstacles import Surroundings, refusals
 from armscope.recordings import read_recordings
 from armscope.robot import load_arm
+from armscope.verdict.schema import Verdict
 
 from ..physics.scenes import arm_named
 from .planted import joined, one_run, planted, recorded

@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from armscope.core.inputs import InputError
 from armscope.diagnosis import Settings, diagnose
-from armscope.diagnosis.verdict import Verdict
-from armscope.inputs import InputError
 from armscope.recordings import Recordings
-from armscope.report.headline import headline
+from armscope.report.text.headline import headline
 from armscope.robot import Arm
+from armscope.verdict.schema import Verdict
 
 from ..physics.scenes import arm_named
 from .planted import joined, one_run, planted, recorded

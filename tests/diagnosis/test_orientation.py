@@ -10,13 +10,13 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from armscope.diagnosis import Settings, diagnose
-from armscope.diagnosis.frames import fit_frames
-from armscope.diagnosis.problem import missed
-from armscope.diagnosis.verdict import Verdict
+from armscope.fitting.linearisation import missed
+from armscope.fitting.registration import fit_frames
 from armscope.physics.model import load_model, save_model
 from armscope.recordings import Recordings, read_recordings
 from armscope.robot import Arm, load_arm
 from armscope.robot.arm import build_arm
+from armscope.verdict.schema import Verdict
 
 from ..physics.scenes import arm_named
 from .planted import Wanted, joined, one_run, recorded

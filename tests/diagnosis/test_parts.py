@@ -9,13 +9,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from armscope.diagnosis import Settings, diagnose, robust, rounds
-from armscope.diagnosis.curves import describe
-from armscope.diagnosis.noise import known_noise, relative_uncertainty
-from armscope.diagnosis.parameters import parameters
-from armscope.diagnosis.scatter import find_scatter, levers, whitening
-from armscope.diagnosis.validation import split
-from armscope.diagnosis.weights import RowWeights
+from armscope.diagnosis import Settings, diagnose
+from armscope.diagnosis import selection_loop as rounds
+from armscope.diagnosis.held_out import split
+from armscope.diagnosis.summary.effect_curve import describe
+from armscope.diagnosis.summary.parameters import parameters
+from armscope.fitting.joint_scatter import find_scatter, levers, whitening
+from armscope.measurement import robust
+from armscope.measurement.noise import known_noise, relative_uncertainty
+from armscope.measurement.row_weights import RowWeights
 from armscope.physics.model import Base, FittedModel
 from armscope.physics.registry import library
 

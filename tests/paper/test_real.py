@@ -7,8 +7,8 @@ import pandas as pd
 import pytest
 from scipy.spatial.transform import Rotation
 
+from armscope.core.inputs import InputError
 from armscope.errormodels import FDP_AI, FDP_CI, fit_swarms
-from armscope.inputs import InputError
 from armscope.paper.real import real_measurements, select_rows
 from armscope.paper.residuals import residual_table
 from armscope.paper.table2 import table2

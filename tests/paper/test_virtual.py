@@ -4,8 +4,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from armscope.core.inputs import InputError
 from armscope.errormodels import FDP_CI
-from armscope.inputs import InputError
 from armscope.paper.anchoring import anchor
 from armscope.paper.measurements import Measurements, pose_arrays
 from armscope.paper.printed import printed_matrix

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.physics.backgrounds import backgrounds
 from armscope.physics.drift import base_shift
 from armscope.physics.model import Base, FittedModel, load_model, predict, save_model

@@ -3,7 +3,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.poses.candidates import candidates, ranges
 from armscope.poses.choose import choose, grid_choice, short_way
 from armscope.poses.compare import compare, predicted_errors, share_won

@@ -5,7 +5,7 @@ import pytest
 from typer.testing import CliRunner
 
 from armscope.cli import app
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.recordings import read_recordings
 
 ROBOT = Path(__file__).parents[2] / "config" / "robots" / "six-axis.yaml"

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from armscope.files import write_table
+from armscope.core.files import write_table
 from armscope.proof.rates import tables
 from armscope.proof.scoring import score
-from armscope.report.proof_figures import draw_all
-from armscope.report.proof_page import write_proof_page
+from armscope.report.figures.proof import draw_all
+from armscope.report.pages.proof import write_proof_page
 from armscope.report.style import save_figure
 from tests.proof.cases import claim, concealed, world
 

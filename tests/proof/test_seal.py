@@ -8,11 +8,11 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
+from armscope.core.provenance import sources
 from armscope.proof.making import batch, make
 from armscope.proof.reading import ALLOWED, check_seal
 from armscope.proof.truth import unseal
-from armscope.provenance import sources
 from armscope.world.catalogue import catalogue
 
 REPOSITORY = Path(__file__).parents[2]

@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from armscope.cli import app
-from armscope.files import write_yaml
+from armscope.core.files import write_yaml
 from armscope.real.compliance_tables import compare_runs, in_words
 from armscope.real.compliances import PRIOR, Give, as_heavy_as_recorded, compare, fit_give, gravity_as_recorded
 from armscope.real.reference import ReferenceCompliances

@@ -10,7 +10,7 @@ import pytest
 from typer.testing import CliRunner
 
 from armscope.cli import app
-from armscope.files import write_json
+from armscope.core.files import write_json
 from tests.real.recorded import ROBOT, table
 
 SETTINGS = {

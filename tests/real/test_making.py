@@ -10,9 +10,9 @@ import pandas as pd
 import pytest
 from scipy.spatial.transform import Rotation
 
+from armscope.core.provenance import sources
 from armscope.proof.reading import ALLOWED
 from armscope.proof.truth import unsealed
-from armscope.provenance import sources
 from armscope.real.making import Places, make_altered, make_original, make_withheld
 from armscope.real.staging import AXES_MM, QUATERNION, stage, with_payload
 from armscope.recordings import as_recordings

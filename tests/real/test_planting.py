@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.real.planting import CannotPlantError, Theatre, plant, truth_of
 from armscope.real.staging import AXES_MM, stage
 from armscope.robot import chain, forward_kinematics

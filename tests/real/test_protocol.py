@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from armscope.calibration.splits import split
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.real import protocol
 from armscope.real.protocol import ARMSCOPE, ORIENTED, measure_run, paper_models, protocol_table
 from armscope.real.reference import Best, Reference, ReferenceRun, ReferenceTransfer, load_reference, rows_of_run

@@ -3,7 +3,7 @@
 import pandas as pd
 import yaml
 
-from armscope.recordings.importing import import_recordings
+from armscope.recordings.importing.tables import import_recordings
 
 TEXT = ["id", "run", "target"]
 

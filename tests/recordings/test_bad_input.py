@@ -5,7 +5,7 @@ import gzip
 import numpy as np
 import pytest
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.recordings import read_recordings
 
 HEADER = "id,q1_rad,q2_rad,x_mm,y_mm,z_mm"

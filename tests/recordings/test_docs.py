@@ -5,8 +5,8 @@ from pathlib import Path
 
 import yaml
 
-from armscope.inputs import validate
-from armscope.recordings.mapping import Columns, Mapping
+from armscope.core.inputs import validate
+from armscope.recordings.importing.mapping import Columns, Mapping
 from armscope.robot import RobotDescription
 
 PAGE = Path(__file__).parents[2] / "docs" / "bring-your-recordings.md"

@@ -9,8 +9,8 @@ import urllib.parse
 import pytest
 import yaml
 
-from armscope.inputs import InputError
-from armscope.recordings.fetching import fetch_recordings, load_source, url_of
+from armscope.core.inputs import InputError
+from armscope.recordings.importing.fetching import fetch_recordings, load_source, url_of
 
 CONTENT = b"j1,j2,x,y,z\n0,0,1,2,3\n"
 COMMIT = "0123456789abcdef0123456789abcdef01234567"

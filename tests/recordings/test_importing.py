@@ -12,12 +12,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.recordings import read_recordings
-from armscope.recordings.fetching import fetch_recordings
-from armscope.recordings.importing import import_recordings
-from armscope.recordings.mapping import TextFormat
-from armscope.recordings.rawfiles import read_pieces
+from armscope.recordings.importing.fetching import fetch_recordings
+from armscope.recordings.importing.mapping import TextFormat
+from armscope.recordings.importing.rawfiles import read_pieces
+from armscope.recordings.importing.tables import import_recordings
 
 from .raw import SIMPLE, TEXT, convert, convert_files, with_columns, with_format
 
@@ -53,8 +53,8 @@ def test_a_real_set_converts_to_the_reference_table_within_its_rounding(name, tm
 
 @pytest.mark.parametrize("folder", sorted((ROOT / "config" / "recordings").iterdir()), ids=lambda path: path.name)
 def test_every_real_set_has_an_arm_and_a_mapping_or_a_reason_for_none(folder):
-    from armscope.recordings.fetching import load_source
-    from armscope.recordings.mapping import load_mapping
+    from armscope.recordings.importing.fetching import load_source
+    from armscope.recordings.importing.mapping import load_mapping
     from armscope.robot import load_arm
 
     arm, source = load_arm(folder / "robot.yaml"), load_source(folder / "source.yaml")
@@ -202,7 +202,7 @@ def test_columns_by_number_and_filters_that_leave_nothing_out_are_reported_in_wo
 
 
 def test_filters_remember_across_pieces_of_a_long_file(tmp_path, monkeypatch):
-    monkeypatch.setattr("armscope.recordings.rawfiles.ROWS_PER_PIECE", 3)
+    monkeypatch.setattr("armscope.recordings.importing.rawfiles.ROWS_PER_PIECE", 3)
     mapping = with_columns(time={"column": "pose", "unit": "s"}) | {"rows": [{"first_of": ["pose"]}]}
     rows = "".join(f"{k // 2},0,0,{k},2,3\n" for k in range(20))
     report, table = convert(tmp_path, "pose,j1,j2,x,y,z\n" + rows, mapping)
@@ -233,7 +233,7 @@ def test_rows_of_a_file_beside_are_repeated_for_the_points_of_each_configuration
 
 @pytest.mark.parametrize("repeat", [1, 3, 7])
 def test_files_beside_are_read_along_whatever_pieces_they_come_in(repeat, tmp_path, monkeypatch):
-    monkeypatch.setattr("armscope.recordings.rawfiles.ROWS_PER_PIECE", 5)
+    monkeypatch.setattr("armscope.recordings.importing.rawfiles.ROWS_PER_PIECE", 5)
     mapping = {
         "columns": {
             "id": {"row_of": "angles"},
@@ -302,7 +302,7 @@ def test_whatever_way_a_table_is_written_it_comes_back(seed, delimiter, decimal,
 
 
 def test_a_long_file_is_read_piece_by_piece(tmp_path, monkeypatch):
-    monkeypatch.setattr("armscope.recordings.rawfiles.ROWS_PER_PIECE", 10)
+    monkeypatch.setattr("armscope.recordings.importing.rawfiles.ROWS_PER_PIECE", 10)
     (tmp_path / "raw.csv").write_text("a,b\n" + "1,2\n" * 25 + "cut")
     pieces = read_pieces(tmp_path / "raw.csv", TextFormat(), Counter())
     assert len(next(pieces)) == 10  # before the broken end is reached

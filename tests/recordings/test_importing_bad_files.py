@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import scipy.io
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 
 from .raw import SIMPLE, convert, convert_files, with_columns, with_format
 

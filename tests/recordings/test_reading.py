@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from armscope.files import write_table
+from armscope.core.files import write_table
 from armscope.recordings import as_recordings, read_recordings
 from tests.recordings.test_bad_input import ROWS, table, write
 

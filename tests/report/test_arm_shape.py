@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from armscope.report.arm_shape import arm_shape, has_parallelogram, typical_pose, upright, view_from
+from armscope.report.figures.arm_shape import arm_shape, has_parallelogram, typical_pose, upright, view_from
 from armscope.robot import chain, forward_kinematics, load_arm
 from tests.report.verdicts import ROBOTS
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from armscope.report.check_figure import draw_check
+from armscope.report.figures.check import draw_check
 from armscope.report.style import save_figure
 from tests.calibration.worlds import far_away, measured, poses, ur_like
 
@@ -39,7 +39,7 @@ def test_runs_on_the_same_poses_do_not_hide_each_other():
 
 def test_limits_are_inside_the_axes_and_the_points_of_long_tables_are_thinned(monkeypatch):
     rng = np.random.default_rng(0)
-    monkeypatch.setattr("armscope.report.check_figure.MOST_POINTS", 30)
+    monkeypatch.setattr("armscope.report.figures.check.MOST_POINTS", 30)
     arm = ur_like(joint_limits_deg=[[-360, 360]] * 6)
     recordings = measured(arm, poses(rng, 60, 6), far_away(rng), {"": [0, 0, 0.1]})
     figure = draw_check(recordings, arm)

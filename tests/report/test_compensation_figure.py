@@ -8,7 +8,7 @@ from armscope.errormodels import FDP_CI, FOURIER_2_AI, fit_swarms
 from armscope.paper.measurements import Measurements, PoseSet
 from armscope.paper.outlook import paper_products, paper_regions
 from armscope.report.closed_loop import paper_closed_loop
-from armscope.report.compensation_figure import cross_table_figure, regions_figure
+from armscope.report.figures.compensation import cross_table_figure, regions_figure
 from armscope.report.style import save_figure
 from armscope.robot import chain
 from armscope.world.tolerances import geometric_errors

@@ -4,15 +4,15 @@ import pandas as pd
 import pytest
 from matplotlib.colors import to_rgb
 
-from armscope.diagnosis.verdict import Parameter
-from armscope.report.arm_picture import draw_arm, share_colours, shares_by_place
-from armscope.report.arm_shape import arm_shape, typical_pose
-from armscope.report.atlas_figure import draw_atlas
-from armscope.report.diagnosis_figures import atlas_tables, curve_of, gathered, location_shares, waterfall_steps
-from armscope.report.pose_figure import draw_poses
-from armscope.report.residual_vectors import draw_along_joints, draw_vectors, evenly, nice, running_mean
-from armscope.report.waterfall import draw_waterfall
+from armscope.report.figures.arm_picture import draw_arm, share_colours, shares_by_place
+from armscope.report.figures.arm_shape import arm_shape, typical_pose
+from armscope.report.figures.atlas import draw_atlas
+from armscope.report.figures.diagnosis import atlas_tables, curve_of, gathered, location_shares, waterfall_steps
+from armscope.report.figures.next_poses import draw_poses
+from armscope.report.figures.residual_vectors import draw_along_joints, draw_vectors, evenly, nice, running_mean
+from armscope.report.figures.waterfall import draw_waterfall
 from armscope.robot import load_arm
+from armscope.verdict.schema import Parameter
 from tests.report import verdicts
 from tests.report.verdicts import ROBOTS, found
 

@@ -6,8 +6,8 @@ import subprocess
 import numpy as np
 import pytest
 
-from armscope.report.diagnosis_page import assumptions, write_report
-from armscope.report.headline import headline
+from armscope.report.pages.diagnosis import assumptions, write_report
+from armscope.report.text.headline import headline
 from tests.report import verdicts
 from tests.report.test_error_field import browsed
 from tests.report.verdicts import CASES

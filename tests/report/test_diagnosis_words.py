@@ -6,14 +6,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from armscope.diagnosis.verdict import Curve, Parameter
 from armscope.physics.registry import EFFECTS
-from armscope.report.diagnosis_figures import location_shares
-from armscope.report.effect_cards import card, chosen_how_often, title_of, told_parameters
-from armscope.report.headline import exact_phrase, headline
-from armscope.report.page import unbroken
+from armscope.report.figures.diagnosis import location_shares
+from armscope.report.html import unbroken
 from armscope.report.reference_models import held_out_rms
-from armscope.report.wording import (
+from armscope.report.sections.effect_cards import card, chosen_how_often, title_of, told_parameters
+from armscope.report.text.headline import exact_phrase, headline
+from armscope.report.text.wording import (
     UNITS,
     evidence_in_words,
     number_of,
@@ -25,6 +24,7 @@ from armscope.report.wording import (
     spelled,
 )
 from armscope.robot import forward_kinematics
+from armscope.verdict.schema import Curve, Parameter
 from tests.report import verdicts
 from tests.report.verdicts import compliance, found
 

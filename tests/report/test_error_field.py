@@ -11,8 +11,8 @@ import jinja2
 import numpy as np
 import pytest
 
-from armscope.report.error_field import MOST_ROWS, ErrorField, figure_data, turnable
-from armscope.report.page import beside
+from armscope.report.figures.error_field import MOST_ROWS, ErrorField, figure_data, turnable
+from armscope.report.html import beside
 from armscope.robot import forward_kinematics, load_arm
 
 ROBOTS = Path(__file__).parents[2] / "config" / "robots"

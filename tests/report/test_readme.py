@@ -3,8 +3,8 @@
 import pandas as pd
 import pytest
 
-from armscope.inputs import InputError
-from armscope.report.readme import fill_readme
+from armscope.core.inputs import InputError
+from armscope.report.pages.readme import fill_readme
 
 TEXT = "# before\n<!-- results: begin (by a rule) -->\nold numbers\n<!-- results: end -->\nafter\n"
 

@@ -9,9 +9,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from armscope.files import write_table, write_yaml
+from armscope.core.files import write_table, write_yaml
 from armscope.real.transfer import GEOMETRY_HERE, WITH_CURVES
-from armscope.report.real_arms import RealArm, write_real_arms
+from armscope.report.pages.real_arms import RealArm, write_real_arms
 
 
 @pytest.fixture

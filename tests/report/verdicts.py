@@ -8,8 +8,11 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from armscope.diagnosis.frames import fit_frames
-from armscope.diagnosis.verdict import (
+from armscope.fitting.registration import fit_frames
+from armscope.physics.registry import effect_named
+from armscope.recordings.table import Recordings, as_recordings
+from armscope.robot import Arm, forward_kinematics, load_arm
+from armscope.verdict.schema import (
     Alternative,
     Atlas,
     Background,
@@ -25,9 +28,6 @@ from armscope.diagnosis.verdict import (
     Verdict,
     WaterfallStep,
 )
-from armscope.physics.registry import effect_named
-from armscope.recordings.table import Recordings, as_recordings
-from armscope.robot import Arm, forward_kinematics, load_arm
 
 ROBOTS = Path(__file__).parents[2] / "config" / "robots"
 DRIVERS = ("constant", "angle", "waves", "load", "side of approach", "temperature", "time", "free curve")

@@ -88,7 +88,7 @@ def test_a_joint_that_mimics_another_is_refused_and_can_be_held(tmp_path):
     text = chain_urdf(CROSSING).replace(
         '<joint name="j3" type="revolute">', '<joint name="j3" type="revolute"><mimic joint="j2"/>'
     )
-    from armscope.inputs import InputError
+    from armscope.core.inputs import InputError
 
     with pytest.raises(InputError, match=r"joint j3: found 'mimic of j2'.*hold_joints: \{j3: 0\}"):
         urdf_arm(tmp_path, None, text)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import yaml
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.robot import load_arm
 from tests.robot.arms import SK120
 

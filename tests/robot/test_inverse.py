@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.robot import chain, forward_kinematics, load_arm, position_jacobian
 from armscope.robot.inverse import follow_path
 from tests.robot.arms import SK120, STANDARD, TOOL_MM, dh_arm

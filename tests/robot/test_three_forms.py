@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.robot import chain, forward_kinematics, load_arm
 from armscope.robot.arm import build_arm
 from armscope.robot.description import RobotDescription

@@ -7,7 +7,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.poses.body import collision_shapes
 from armscope.robot import forward_kinematics, load_arm
 from armscope.robot.arm import build_arm

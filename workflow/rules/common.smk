@@ -4,9 +4,9 @@ import shlex
 import sys
 from pathlib import Path
 
-from armscope.config import Config
-from armscope.inputs import InputError, validate
-from armscope.provenance import digest
+from armscope.core.config import Config
+from armscope.core.inputs import InputError, validate
+from armscope.core.provenance import digest
 
 # `snakemake` may be called by its path, without the environment being activated
 shell.prefix(f"set -euo pipefail; export PATH={shlex.quote(str(Path(sys.executable).parent))}:$PATH; ")

@@ -1,5 +1,5 @@
 # Sweeps over the swarm and the models: one job per variant of the table, drawn together.
-from armscope.variants import read_variants
+from armscope.core.variants import read_variants
 
 try:
     VARIANTS = {variant.id: variant for variant in read_variants(CONFIG.sweep)}

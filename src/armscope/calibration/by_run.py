@@ -7,14 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from armscope.calibration.fit import placed, rms_distance
 from armscope.calibration.model import SetUp, State
 from armscope.calibration.splits import foretold, split
 from armscope.recordings import Recordings
-
-Array = NDArray[np.float64]
 
 ALL = "all"
 MOST_ROWS = 3000

@@ -21,11 +21,11 @@ from armscope.calibration.sharing import exchanged_tool, moved_base
 from armscope.calibration.solve import Priors, Redundancy, Solved, scales_of, solve
 from armscope.calibration.splits import foretold, split
 from armscope.calibration.words import in_words
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
+from armscope.core.types import Array
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
-Array = NDArray[np.float64]
 SUSPECT_SIGMAS = 6.0
 DECIDING_SPLITS = 3
 """Splits on which it is decided whether orientations help."""

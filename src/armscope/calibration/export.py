@@ -8,15 +8,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.calibration.calibrate import Calibration
-from armscope.files import write_text, write_yaml
-from armscope.inputs import InputError, nearest
+from armscope.core.files import write_text, write_yaml
+from armscope.core.inputs import InputError, nearest
+from armscope.core.types import Array
 from armscope.robot import Arm
 
-Array = NDArray[np.float64]
 TIP = "calibrated_flange"
 FILES = ("robot.yaml", "robot.urdf", "robot_urdf.yaml", "frames.yaml")
 """All that `export` may write."""

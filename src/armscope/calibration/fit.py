@@ -12,8 +12,8 @@ from scipy.spatial.transform import Rotation
 
 from armscope.calibration.model import SetUp, State
 from armscope.calibration.registration import starts
+from armscope.core.types import Array
 
-Array = NDArray[np.float64]
 Reason = Literal["the step became negligible", "no step lowers the misfit", "the largest number of steps was made"]
 
 UNSETTLED: Reason = "the largest number of steps was made"

@@ -6,14 +6,13 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from armscope.core.types import Array
 from armscope.robot import Arm, Chain, twist_jacobian
 from armscope.robot.arm import build_arm
 from armscope.robot.description import DHRow
 
-Array = NDArray[np.float64]
 Unit = Literal["m", "rad"]
 
 DH_FIELDS = {"theta": "theta_offset_deg", "a": "a_mm", "alpha": "alpha_deg", "d": "d_mm", "beta": "beta_deg"}

@@ -6,7 +6,7 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from armscope.core.types import Array
 
 SMALLEST_TRACE = 1e-3
 """A constant counts as identifiable if a change of it leaves at least this share (per metre, or per radian and metre of

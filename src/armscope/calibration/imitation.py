@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.calibration.identifiability import SMALLEST_TRACE
-
-Array = NDArray[np.float64]
+from armscope.core.types import Array
 
 MOST_PARTNERS = 6
 TOLD_SINGLY = 2

@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.calibration.geometry import Constant, columns, constants_of, corrected, turn_columns
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
+from armscope.core.types import Array
 from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain, position_jacobian
 from armscope.robot.gravity import gravity_torques
 
-Array = NDArray[np.float64]
 Level = Literal["nominal", "offsets", "geometric", "compliance"]
 GRAVITY = "gravity of the mass table"
 LEVELS: tuple[Level, ...] = ("nominal", "offsets", "geometric", "compliance")

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from armscope.calibration.fit import UNSETTLED
 from armscope.calibration.model import GRAVITY, Level, SetUp
 from armscope.calibration.solve import Solved
 from armscope.calibration.words import SHOWN
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
+from armscope.core.types import Array
 from armscope.recordings import Recordings
-
-Array = NDArray[np.float64]
 
 IMPLAUSIBLE = {"m": 0.05, "rad": 0.1}
 """A constant of the drawing (share of the arm's reach, or rad) is not so wrong: the fit has lost its way."""

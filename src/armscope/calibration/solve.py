@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from armscope.calibration.fit import Fitted, least_squares, placed, robust_least_squares, spread_of
 from armscope.calibration.identifiability import identifiable
 from armscope.calibration.model import Level, SetUp, State
+from armscope.core.types import Array
 
-Array = NDArray[np.float64]
 Redundancy = Literal["fixed", "priors"]
 WEIGHINGS = 3
 """Fits with orientations: the weight of the first comes from the nominal arm, that of the next from the fit before."""

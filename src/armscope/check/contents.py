@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
+from armscope.core.types import Array
 from armscope.recordings import Recordings
-
-Array = NDArray[np.float64]
 
 MOVED_RAD = np.radians(0.5)
 """A joint that stays within this range counts as held: servo noise, not motion."""

@@ -11,8 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from armscope.calibration.model import SetUp, State
 from armscope.check.suspicion import Suspicion
-
-Array = NDArray[np.float64]
+from armscope.core.types import Array
 
 FEWEST = 5
 """Orientations below which none is judged."""

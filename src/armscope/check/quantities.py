@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from armscope.check.suspicion import Suspicion
+from armscope.core.types import Array
 from armscope.recordings import Recordings
 from armscope.robot import Arm, chain
 from armscope.robot.gravity import gravity_torques
-
-Array = NDArray[np.float64]
 
 COLDEST_C, WARMEST_C = -50.0, 120.0
 """Where arms are measured; drives and oil are warmer than rooms."""

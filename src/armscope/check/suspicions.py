@@ -21,10 +21,9 @@ from armscope.calibration.model import SetUp, State, set_up
 from armscope.check.contents import MOVED_RAD
 from armscope.check.orientations import orientation_mistakes
 from armscope.check.suspicion import Suspicion
+from armscope.core.types import Array
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-
-Array = NDArray[np.float64]
 
 MOST_ROWS = 400
 """Mistakes of a whole table show in a part of it: the trials look at so many rows, spread evenly."""

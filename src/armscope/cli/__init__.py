@@ -62,7 +62,7 @@ def print_schema() -> None:
     """Print the JSON schema of config.yaml."""
     import json
 
-    from armscope.config import schema
+    from armscope.core.config import schema
 
     print(json.dumps(schema(), indent=2))
 

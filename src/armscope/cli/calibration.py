@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 import typer
 
 from armscope.cli.commands import Commands
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 
 app = Commands()
 
@@ -32,7 +32,7 @@ def check(
     found = check_table(table, arm)
     print(found.text())
     if figure is not None:
-        from armscope.report.check_figure import draw_check
+        from armscope.report.figures.check import draw_check
         from armscope.report.style import save_figure
 
         named = figure if figure.suffix in (".png", ".svg", ".pdf") else figure.with_name(f"{figure.name}.png")
@@ -69,7 +69,7 @@ def calibrate(
     from armscope.calibration import calibrate as calibrated
     from armscope.calibration.export import FILES, export
     from armscope.check import check as check_table
-    from armscope.files import writable, write_table
+    from armscope.core.files import writable, write_table
     from armscope.recordings import read_recordings
     from armscope.robot import load_arm
 

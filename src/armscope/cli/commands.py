@@ -13,7 +13,7 @@ from typing import Annotated, Any, get_type_hints
 import typer
 
 from armscope.cli.endings import told_to_end
-from armscope.outputs import Delivery, is_stream
+from armscope.core.outputs import Delivery, is_stream
 
 OUTPUTS = ("output", "figure", "points", "visible", "sealed")
 """Parameters of this name are files or folders to write; all other paths are read."""
@@ -22,7 +22,7 @@ Force = Annotated[bool, typer.Option("--force", help="overwrite files that armsc
 
 
 class Commands(typer.Typer):
-    """Commands whose outputs are put in place together, when the command has ended well; see `armscope.outputs`.
+    """Commands whose outputs are put in place together, when the command has ended well; see `armscope.core.outputs`.
 
     Args:
         name: the words before the commands' own names.

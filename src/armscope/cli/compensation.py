@@ -11,7 +11,7 @@ import typer
 
 from armscope.cli.commands import Commands
 from armscope.cli.studies import model_named
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -57,7 +57,7 @@ def compensate(
         read_path,
     )
     from armscope.compensation.output import FORMATS, write_commands
-    from armscope.outputs import is_stream
+    from armscope.core.outputs import is_stream
     from armscope.physics.model import load_model
     from armscope.robot.inverse import LARGEST_STEP_RAD
 
@@ -99,7 +99,7 @@ def fit_error_model(
     """Fit one of the paper's error models to recordings, ready for `armscope compensate`: three axes, or all six."""
     from armscope.compensation import fit_error_model as fit
     from armscope.compensation import save_error_model
-    from armscope.inputs import nearest
+    from armscope.core.inputs import nearest
     from armscope.recordings import read_recordings
     from armscope.robot import load_arm
 

@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from armscope.diagnosis.verdict import Notice
     from armscope.recordings import Recordings
     from armscope.robot import Arm
+    from armscope.verdict.schema import Notice
 
 app = Commands()
 
@@ -44,13 +44,13 @@ def diagnose(
     """Find where simulation and recordings differ, and which physics was left out."""
     from armscope.compensation.physical import FILE as DOMAIN
     from armscope.compensation.physical import identified_on, save_identified
+    from armscope.core.files import writable
     from armscope.diagnosis import Settings, write_verdict
     from armscope.diagnosis import diagnose as diagnose_arm
-    from armscope.diagnosis.output import FILES
-    from armscope.files import writable
     from armscope.recordings import read_recordings
-    from armscope.report.headline import headline
+    from armscope.report.text.headline import headline
     from armscope.robot import load_arm
+    from armscope.verdict.files import FILES
 
     arm = load_arm(robot)
     table = read_recordings(recordings, arm.n_motors)
@@ -69,7 +69,7 @@ def diagnose(
         write_verdict(verdict, output)
         save_identified(output / DOMAIN, identified_on(arm, table))
         if report:
-            from armscope.report.diagnosis_page import write_report
+            from armscope.report.pages.diagnosis import write_report
 
             tell("drawing the report", 0.95)
             write_report(verdict, arm, table, output)
@@ -80,7 +80,7 @@ def diagnose(
 def _problems(arm: Arm, table: Recordings) -> tuple[Notice, ...]:
     """What looks wrong with units, signs, orders and frames, as `armscope check` finds it: told at once."""
     from armscope.check import check
-    from armscope.diagnosis.verdict import Notice
+    from armscope.verdict.schema import Notice
 
     texts = [found.text() for found in check(table, arm).suspicions if found.weight == "problem"]
     for text in texts:
@@ -91,7 +91,7 @@ def _problems(arm: Arm, table: Recordings) -> tuple[Notice, ...]:
 def _rows_of_runs(table: Recordings, runs: list[str]) -> NDArray[np.bool_]:
     import numpy as np
 
-    from armscope.inputs import InputError, nearest
+    from armscope.core.inputs import InputError, nearest
 
     known = set(table.run.tolist())
     for name in runs:
@@ -103,7 +103,7 @@ def _rows_of_runs(table: Recordings, runs: list[str]) -> NDArray[np.bool_]:
 def _rows_from(table: Recordings, first_id: int) -> NDArray[np.bool_]:
     import numpy as np
 
-    from armscope.inputs import InputError
+    from armscope.core.inputs import InputError
 
     kept = np.array([text.isdecimal() and int(text) >= first_id for text in table.id])
     if not kept.any():
@@ -140,8 +140,8 @@ def predict(
     import pandas as pd
     from scipy.spatial.transform import Rotation
 
-    from armscope.files import write_table
-    from armscope.inputs import read_yaml
+    from armscope.core.files import write_table
+    from armscope.core.inputs import read_yaml
 
     if model.suffix == ".json":
         points, rotations, rows = _by_black_box(model, poses, pose)
@@ -192,7 +192,7 @@ def _by_black_box(
     from armscope.compensation import load_error_model
     from armscope.compensation.black_box import domain_inputs
     from armscope.compensation.domain import ALLOWED
-    from armscope.inputs import InputError
+    from armscope.core.inputs import InputError
     from armscope.recordings import read_recordings
 
     fitted = load_error_model(model)

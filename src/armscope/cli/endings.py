@@ -11,8 +11,8 @@ import threading
 from collections.abc import Callable, Iterator
 from typing import Any, TextIO
 
-from armscope.inputs import InputError
-from armscope.locks import Busy
+from armscope.core.inputs import InputError
+from armscope.core.locks import Busy
 
 UNUSABLE = 2
 """An input or an option can't be used."""

@@ -10,7 +10,7 @@ import typer
 from armscope.cli.commands import Commands
 from armscope.cli.panels import EXPERIMENTS
 from armscope.cli.studies import model_named
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -49,9 +49,9 @@ def closed_loop(
     """Compensate the paper's test paths with every model and let the virtual arm follow the commands."""
     from armscope.cli.studies import read_fits, read_measurements
     from armscope.compensation.closed_loop import cross_table
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.report.closed_loop import paper_closed_loop
-    from armscope.report.compensation_figure import cross_table_figure
+    from armscope.report.figures.compensation import cross_table_figure
     from armscope.report.style import save_figure
     from armscope.robot import load_arm
 
@@ -82,7 +82,7 @@ def full_pose(
 ) -> None:
     """Position and orientation by every model, predicted and in closed loop, with the virtual arm's wrist bent."""
     from armscope.cli.studies import read_measurements
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.report.full_pose import paper_full_pose
     from armscope.robot import load_arm
 
@@ -108,7 +108,7 @@ def cross_table_(
 
     from armscope.cli.studies import read_fits, read_measurements
     from armscope.compensation.closed_loop import cross_table
-    from armscope.files import read_table, write_table
+    from armscope.core.files import read_table, write_table
     from armscope.report.closed_loop import real_left_over
 
     specs, divided = [model_named(name) for name in products or ()], _divided(regions)
@@ -143,9 +143,9 @@ def regions_(
 ) -> None:
     """Error against the number of blended sub-volumes, chosen by cross-validation on the identification rows."""
     from armscope.cli.studies import read_measurements
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.outlook import paper_regions
-    from armscope.report.compensation_figure import regions_figure
+    from armscope.report.figures.compensation import regions_figure
     from armscope.report.style import save_figure
 
     specs = [model_named(name) for name in model or ("FDP(CI)", "SDP(CI)", "FDP(AI)", "SDP(AI)")]
@@ -165,7 +165,7 @@ def products_(
 ) -> None:
     """Sums of one-input terms against a sparse choice of their products, on held-out rows and the test paths."""
     from armscope.cli.studies import read_measurements
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.outlook import paper_products
 
     names = model or ("SDP(CI)", "SDP(AI)", "4th-degree polynomial (AI)", "Fourier 2 (AI)", "Fourier 3 (AI)")
@@ -192,7 +192,7 @@ def _true_errors(robots: Path) -> NDArray[np.float64]:
     """Geometric errors of the anchored robot, m and rad."""
     import numpy as np
 
-    from armscope.files import read_table
+    from armscope.core.files import read_table
 
     table = read_table(robots, ["anchored"], "the table robots.csv of `armscope paper measure`")
     return np.asarray(table["anchored"], dtype=float) * 1e-3  # mm and mrad

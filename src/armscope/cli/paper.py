@@ -23,7 +23,7 @@ from armscope.cli.studies import (
     read_tables,
     write_fits,
 )
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -41,7 +41,7 @@ def measure(
     import pandas as pd
 
     from armscope.cli.paper_settings import MeasureSettings, tracker_of
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.virtual import identification_poses, measure_virtual, paper_paths_mm, trajectory_poses
     from armscope.robot import load_arm
     from armscope.world.tolerances import geometric_errors
@@ -102,7 +102,7 @@ def measure_real(
 ) -> None:
     """Take identification and held-out rows from real recordings, in the form of the paper's measurements."""
     from armscope.cli.paper_settings import RealSettings
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.real import real_measurements, select_rows
     from armscope.recordings import read_recordings
     from armscope.robot import load_arm
@@ -138,7 +138,7 @@ def fit(poses: Poses, errors: Errors, settings: Settings, output: Output) -> Non
 @app.command()
 def residuals(poses: Poses, errors: Errors, fits: Fits, output: Output) -> None:
     """What every fit leaves of the errors, for every robot of a table."""
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.residuals import residual_table
 
     write_table(output, residual_table(read_measurements(poses, errors), read_fits(fits)))
@@ -151,7 +151,7 @@ def table2_(
     beside_printed: Annotated[bool, typer.Option(help="beside what the paper prints of its own arm")] = True,
 ) -> None:
     """Table 2: the first robot's errors that are left over, beside the printed ones and those of its ensemble."""
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.table2 import table2
 
     table = table2(_residuals(residuals))
@@ -163,7 +163,7 @@ def table2_(
 @app.command()
 def coefficients(fits: Fits, output: Output) -> None:
     """The fitted coefficients of one robot, beside Eqs. (9)-(20)."""
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.coefficients import coefficient_table
 
     write_table(output, coefficient_table(read_fits(fits)), digits=6)
@@ -172,7 +172,7 @@ def coefficients(fits: Fits, output: Output) -> None:
 @app.command("cross-check")
 def cross_check_(residuals: Residuals, fits: ManyFits, output: Output) -> None:
     """Hold the robots against printed numbers that anchoring did not use."""
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.cross_check import cross_check
 
     write_table(output, cross_check(_residuals(residuals), read_fits(*fits)), digits=5)
@@ -181,7 +181,7 @@ def cross_check_(residuals: Residuals, fits: ManyFits, output: Output) -> None:
 @app.command("sub-volumes")
 def sub_volumes_(poses: Poses, errors: ManyErrors, output: Output) -> None:
     """What one model for each of several regions of the workspace leaves of the errors."""
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.sub_volumes import sub_volumes
 
     write_table(output, sub_volumes(read_measurements(poses, *errors)), digits=6)
@@ -195,7 +195,7 @@ def outlook_(
     seed: Annotated[int, typer.Option(help="of the folds")] = 0,
 ) -> None:
     """What blended sub-volumes and products between inputs leave of the errors, chosen by cross-validation."""
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.outlook import outlook
 
     write_table(output, outlook(read_measurements(poses, *errors), seed=seed), digits=6)
@@ -211,7 +211,7 @@ def claims_(
     output: Output,
 ) -> None:
     """Whether each claim of the paper holds: for the anchored robot and for which share of the ensemble."""
-    from armscope.files import read_table, write_table
+    from armscope.core.files import read_table, write_table
     from armscope.paper.claims import claims
 
     regions, products = read_table(sub_volumes), read_table(outlook)
@@ -226,7 +226,7 @@ def audit_(
 ) -> None:
     """Whether the printed table, equations and trajectories can all be true."""
     from armscope.cli.paper_settings import AuditSettings, audit_scope_of
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.audit import audit
 
     write_table(output, audit(audit_scope_of(parsed(AuditSettings, settings))), digits=4)
@@ -235,7 +235,7 @@ def audit_(
 @app.command("reading")
 def reading_(poses: Poses, output: Output) -> None:
     """Read the printed Eqs. (15)-(17) as a rigid motion, a scale and a rest."""
-    from armscope.files import read_table, write_table
+    from armscope.core.files import read_table, write_table
     from armscope.paper.reading import reading
 
     table = read_table(poses, ["trajectory", "x_mm", "y_mm", "z_mm"], "the table poses.csv of a study")
@@ -247,7 +247,7 @@ def reading_(poses: Poses, output: Output) -> None:
 def convergence(poses: Poses, errors: Errors, settings: Settings, output: Output) -> None:
     """Compare the velocity updates: which reaches the least-squares optimum, and when."""
     from armscope.cli.paper_settings import SwarmStudySettings, specs_of, swarm_settings_of
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.convergence import convergence as histories
 
     chosen = parsed(SwarmStudySettings, settings)
@@ -266,8 +266,8 @@ def figure(
     output: Annotated[Path, typer.Option("--output", "-o", help="a path; PNG, SVG and PDF are written there")],
 ) -> None:
     """Draw one figure of the paper from what was measured and fitted."""
-    from armscope.inputs import nearest
-    from armscope.report.paper_figures import FIGURES, draw
+    from armscope.core.inputs import nearest
+    from armscope.report.figures.paper import FIGURES, draw
     from armscope.report.style import save_figure
 
     if name not in FIGURES:
@@ -281,8 +281,8 @@ def convergence_figure(
     output: Annotated[Path, typer.Option("--output", "-o", help="a path; PNG, SVG and PDF are written there")],
 ) -> None:
     """Draw how the swarms converge."""
-    from armscope.files import read_table
-    from armscope.report.paper_figures import convergence
+    from armscope.core.files import read_table
+    from armscope.report.figures.paper import convergence
     from armscope.report.style import save_figure
 
     save_figure(convergence(read_table(history, ["model", "rule"], "the table convergence.csv of a study")), output)
@@ -299,8 +299,8 @@ def report(
 ) -> None:
     """One page that shows what the paper claimed, what holds, and what is assumed."""
     from armscope.cli.paper_settings import ReportSettings
-    from armscope.files import read_table
-    from armscope.report.paper_page import Outlook, RealArm, error_field, write_paper_page, write_table2
+    from armscope.core.files import read_table
+    from armscope.report.pages.paper import Outlook, RealArm, error_field, write_paper_page, write_table2
     from armscope.robot import load_arm
 
     chosen = parsed(ReportSettings, settings)
@@ -318,7 +318,7 @@ def readme_(
     proof: Annotated[Path, typer.Argument(help="folder with the tables of the full proof")],
 ) -> None:
     """Fill the README's numbers from results."""
-    from armscope.report.readme import fill_readme
+    from armscope.report.pages.readme import fill_readme
 
     fill_readme(readme, results, proof)
 

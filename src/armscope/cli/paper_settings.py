@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from armscope.config import Audit, Count, Identification, Model, Paper, Swarm, Tolerances, Tracker, Trajectories
+from armscope.core.config import Audit, Count, Identification, Model, Paper, Swarm, Tolerances, Tracker, Trajectories
+from armscope.core.inputs import Strict
+from armscope.core.variants import Variant
 from armscope.errormodels import ModelSpec
-from armscope.inputs import Strict
 from armscope.paper.audit import AuditScope
 from armscope.swarm import SwarmSettings
-from armscope.variants import Variant
 from armscope.world.tracker import Tracker as VirtualTracker
 
 

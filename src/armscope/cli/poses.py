@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from armscope.cli.commands import Commands
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 
 if TYPE_CHECKING:
     from armscope.poses.choose import Choice
@@ -48,14 +48,14 @@ def poses(
     seed: Annotated[int, typer.Option(min=0, help="of candidates, starts and comparison")] = 0,
 ) -> None:
     """Choose the poses that show a set of effects best, and say what they are worth beside random ones and a grid."""
+    from armscope.core.files import write_table
+    from armscope.core.inputs import nearest
+    from armscope.core.outputs import is_stream
     from armscope.design.indices import SOURCES
-    from armscope.files import write_table
-    from armscope.inputs import nearest
-    from armscope.outputs import is_stream
     from armscope.poses.choose import by_other_criteria, choose
     from armscope.poses.compare import compare
     from armscope.poses.output import write_choice
-    from armscope.report.choice_figure import choice_figure
+    from armscope.report.figures.pose_choice import choice_figure
     from armscope.report.style import save_figure
     from armscope.robot import load_arm
 

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 import typer
 
 from armscope.cli.commands import Commands
-from armscope.inputs import InputError, folder_of, nearest
+from armscope.core.inputs import InputError, folder_of, nearest
 
 app = Commands("proof", no_args_is_help=True)
 
@@ -23,7 +23,7 @@ def seed(
     """Draw the seed of the worlds that nobody can know beforehand, and record it."""
     import secrets
 
-    from armscope.files import write_json
+    from armscope.core.files import write_json
 
     drawn = fixed is None
     write_json(output, {"proof_seed": secrets.randbelow(2**31) if fixed is None else fixed, "drawn": drawn})
@@ -74,7 +74,7 @@ def score(
     output: Output,
 ) -> None:
     """Unseal the truth, compare it with the verdicts, and write tables of cases and of rates."""
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.proof.rates import tables
     from armscope.proof.reading import read_worlds
     from armscope.proof.scoring import score as score_worlds
@@ -91,7 +91,7 @@ def figures(
     output: Output,
 ) -> None:
     """Draw the proof: aims, power curves, confusions, scores per effect, outcomes, held-out rows."""
-    from armscope.report.proof_figures import draw_all
+    from armscope.report.figures.proof import draw_all
     from armscope.report.style import save_figure
 
     for name, figure in draw_all(_scored(tables)).items():
@@ -107,20 +107,20 @@ def report(
     size: Annotated[str, typer.Option(help="small or full")] = "small",
 ) -> None:
     """One page: what the diagnosis finds, what it misses, and what it gets wrong."""
-    from armscope.report.proof_page import write_proof_page
+    from armscope.report.pages.proof import write_proof_page
 
     write_proof_page(output, _scored(tables), folder_of(drawn, "the proof's figures"), _seed(seed_file), _size(size))
 
 
 def _scored(tables: Path) -> Path:
-    from armscope.files import read_table
+    from armscope.core.files import read_table
 
     read_table(folder_of(tables, "the proof's tables") / "aims.csv", what="a table of `armscope proof score`")
     return tables
 
 
 def _seed(path: Path) -> dict[str, Any]:
-    from armscope.files import read_json
+    from armscope.core.files import read_json
 
     content = read_json(path, "the file of `armscope proof seed`")
     if not isinstance(content, dict) or not {"proof_seed", "drawn"} <= set(content):

@@ -10,7 +10,7 @@ import typer
 
 from armscope.cli.commands import Commands
 from armscope.cli.studies import Settings, parsed
-from armscope.inputs import InputError, folder_of
+from armscope.core.inputs import InputError, folder_of
 
 app = Commands("real", no_args_is_help=True)
 
@@ -29,13 +29,13 @@ def protocol(
     """Held-out figures in the reference protocol: plain calibrations, the paper's models, armscope; and transfers."""
     import pandas as pd
 
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.real.curves import curve_table
     from armscope.real.protocol import measure_run, protocol_table
     from armscope.real.reference import load_reference
     from armscope.real.transfer import learn, measure_transfers, transfer_table
     from armscope.recordings import read_recordings
-    from armscope.report.protocol_figure import draw_protocol
+    from armscope.report.figures.protocol import draw_protocol
     from armscope.report.style import save_figure
     from armscope.robot import load_arm
 
@@ -68,7 +68,7 @@ def compliances(
     seed: Annotated[int, typer.Option(help="of the simulated arms")] = 0,
 ) -> None:
     """Do the drives' compliances agree between runs? Values, agreement, and the same on simulated arms."""
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.real.compliance_tables import compare_runs
     from armscope.real.reference import load_reference
     from armscope.real.rehearsal import rehearse_runs
@@ -99,7 +99,7 @@ def plant(
     seed_file: Annotated[Path | None, typer.Option(help="as `armscope proof seed` writes it; for fresh places")] = None,
 ) -> None:
     """Conceal known effects in real recordings: what may be seen, and the truth in an archive of its own."""
-    from armscope.files import read_json
+    from armscope.core.files import read_json
     from armscope.real.making import Places, make_altered, make_original, make_withheld
     from armscope.real.settings import PlantSettings
     from armscope.real.staging import of_run, stage, with_payload
@@ -130,7 +130,7 @@ def score(
     output: Output,
 ) -> None:
     """Unseal what was concealed in real recordings, compare it with the verdicts, and write tables."""
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.real.rates import tables
     from armscope.real.scoring import read_sealed
     from armscope.real.scoring import score as score_worlds
@@ -153,9 +153,9 @@ def report(
 
     import pandas as pd
 
-    from armscope.files import read_json
-    from armscope.report.real_proof_figures import draw_all
-    from armscope.report.real_proof_page import write_real_proof_page
+    from armscope.core.files import read_json
+    from armscope.report.figures.real_proof import draw_all
+    from armscope.report.pages.real_proof import write_real_proof_page
     from armscope.report.style import save_figure
 
     named = json.loads(titles)
@@ -175,13 +175,13 @@ def page(
     """Write what is wrong with each real arm, from results, with one figure each."""
     import pandas as pd
 
-    from armscope.files import copy_file
+    from armscope.core.files import copy_file
     from armscope.real.curves import shared
     from armscope.real.settings import PageSettings
-    from armscope.report.compliance_figure import draw_compliances
-    from armscope.report.curves_figure import draw_shared_curves
-    from armscope.report.protocol_figure import draw_protocol
-    from armscope.report.real_arms import RealArm, write_real_arms
+    from armscope.report.figures.compliances import draw_compliances
+    from armscope.report.figures.learned_curves import draw_shared_curves
+    from armscope.report.figures.protocol import draw_protocol
+    from armscope.report.pages.real_arms import RealArm, write_real_arms
     from armscope.report.style import save_figure
 
     chosen = parsed(PageSettings, settings)

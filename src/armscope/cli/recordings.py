@@ -20,7 +20,7 @@ def import_(
     output: Annotated[Path, typer.Option("--output", "-o", help="the recordings table to write (.gz compresses)")],
 ) -> None:
     """Convert raw files to a recordings table by a declarative mapping."""
-    from armscope.recordings.importing import import_recordings
+    from armscope.recordings.importing.tables import import_recordings
 
     print(import_recordings(files, mapping, output).text())
 
@@ -32,6 +32,6 @@ def fetch(
     recordings_dir: Annotated[Path | None, typer.Option(help="a local copy that stands in for the network")] = None,
 ) -> None:
     """Fetch the raw files of a public data set and check their checksums."""
-    from armscope.recordings.fetching import fetch_recordings
+    from armscope.recordings.importing.fetching import fetch_recordings
 
     print(fetch_recordings(source, output, recordings_dir).text())

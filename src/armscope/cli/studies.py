@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from armscope.inputs import InputError, Model, validate
+from armscope.core.inputs import InputError, Model, validate
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -43,7 +43,7 @@ def parsed(model: type[Model], settings: str) -> Model:
 
 def read_measurements(poses: Path, *errors: Path) -> Measurements:
     """The measurements of a study; several tables of errors follow each other."""
-    from armscope.files import read_table
+    from armscope.core.files import read_table
     from armscope.paper.measurements import ERROR_COLUMNS, POSITION_COLUMNS, Measurements
 
     at = read_table(poses, ["trajectory", "point", "q1_rad", *POSITION_COLUMNS], "the table poses.csv of a study")
@@ -61,14 +61,14 @@ def read_tables(
     """Tables of the same columns, one after the other."""
     import pandas as pd
 
-    from armscope.files import read_table
+    from armscope.core.files import read_table
 
     return pd.concat([read_table(path, columns, what) for path in paths], ignore_index=True)
 
 
 def write_fits(path: Path, fits: Sequence[FittedModel]) -> None:
     """Fitted models as compressed JSON, the same bytes for the same fits."""
-    from armscope.files import replacing
+    from armscope.core.files import replacing
 
     with replacing(path) as beside:
         beside.write_bytes(gzip.compress(json.dumps([fit.to_dict(history=True) for fit in fits]).encode(), mtime=0))
@@ -76,8 +76,8 @@ def write_fits(path: Path, fits: Sequence[FittedModel]) -> None:
 
 def read_fits(*paths: Path) -> list[FittedModel]:
     """Fitted models that `write_fits` wrote, file by file."""
+    from armscope.core.files import read_json
     from armscope.errormodels import FittedModel
-    from armscope.files import read_json
 
     fits = []
     for path in paths:
@@ -90,8 +90,8 @@ def read_fits(*paths: Path) -> list[FittedModel]:
 
 def model_named(name: str) -> ModelSpec:
     """A model by its name."""
+    from armscope.core.inputs import nearest
     from armscope.errormodels import ModelSpec
-    from armscope.inputs import nearest
 
     specs = [
         ModelSpec(f, n, s) for f in ("polynomial", "fourier") for n in range(1, 7) for s in ("cartesian", "angular")

@@ -17,7 +17,7 @@ app = Commands("sweep", no_args_is_help=True)
 def run(poses: Poses, errors: Errors, settings: Settings, output: Output) -> None:
     """Fit and judge one variant of a sweep with all its seeds."""
     from armscope.cli.paper_settings import SweepSettings
-    from armscope.files import write_table
+    from armscope.core.files import write_table
     from armscope.paper.sweep import run_variant
 
     chosen = parsed(SweepSettings, settings)
@@ -31,9 +31,9 @@ def draw(
     output: Annotated[Path, typer.Option("--output", "-o", help="sweep.csv; figures are written beside it")],
 ) -> None:
     """Join the variants' tables and draw them as curves with spread."""
-    from armscope.files import write_table
+    from armscope.core.files import write_table
+    from armscope.report.figures.sweep import sweeps
     from armscope.report.style import save_figure
-    from armscope.report.sweep_figure import sweeps
 
     table = read_tables(tables, ["sweep", "model"], "the table of a sweep's variant")
     write_table(output, table, digits=6)

@@ -5,18 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.compensation.domain import Domain
+from armscope.core.types import Array
 from armscope.errormodels import FeatureSet, ModelSpec
 from armscope.errormodels import FittedModel as Fit
 from armscope.errormodels.products import ProductFeatures
 from armscope.errormodels.regions import Cut, weights
 from armscope.physics.model import Base
 from armscope.robot import Arm, chain
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,10 +14,9 @@ from scipy.stats import qmc
 
 from armscope.compensation.forward import NominalArm
 from armscope.compensation.newton import POLE, Wanted, solve
+from armscope.core.types import Array
 from armscope.robot import Arm
 from armscope.robot.inverse import BEYOND_REACH, LARGEST_STEP_RAD, PathSolution, follow_path
-
-Array = NDArray[np.float64]
 
 KNOTS = {False: 400, True: 100}
 """How many points are solved one after the other, for positions and for full poses."""

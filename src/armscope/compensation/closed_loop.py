@@ -7,18 +7,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from armscope.compensation.black_box import ErrorModel
 from armscope.compensation.compensate import Options, compensate_black_box, compensate_physical
 from armscope.compensation.path import WantedPath, as_path
 from armscope.compensation.physical import Identified
 from armscope.compensation.result import Compensated
+from armscope.core.types import Array
 from armscope.physics.model import FittedModel, predict
 from armscope.recordings.table import as_recordings
 from armscope.robot import Arm, chain
-
-Array = NDArray[np.float64]
 
 STAGES = ("fit", "prediction", "closed loop")
 ERROR_COLUMNS = ["dx_mm", "dy_mm", "dz_mm"]

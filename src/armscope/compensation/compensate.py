@@ -17,13 +17,12 @@ from armscope.compensation.newton import POLE, Solution, Wanted, lever, solve, w
 from armscope.compensation.path import Frame, WantedPath, unit_doubt
 from armscope.compensation.physical import Identified, beyond_time, missing_context, with_empty_context, with_torques
 from armscope.compensation.result import Compensated
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
+from armscope.core.types import Array
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.robot.inverse import LARGEST_STEP_RAD
-
-Array = NDArray[np.float64]
 
 LARGEST_CORRECTION_RAD = np.radians(3)
 """Errors of millimetres never ask for more, unless the arm is close to a pole."""

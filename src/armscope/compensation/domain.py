@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import cKDTree
 
-Array = NDArray[np.float64]
+from armscope.core.types import Array
 
 ALLOWED = 0.2
 """A point may lie this many standard deviations outside: 6 % of an evenly filled range."""

@@ -6,20 +6,19 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from armscope.compensation.black_box import ErrorModel, Turning
 from armscope.compensation.domain import Domain
+from armscope.core.files import read_json, write_json
+from armscope.core.inputs import InputError, validate
+from armscope.core.types import Array
 from armscope.errormodels import FeatureSet
 from armscope.errormodels.products import ProductFeatures
 from armscope.errormodels.regions import Cut, weights
-from armscope.files import read_json, write_json
-from armscope.inputs import InputError, validate
 from armscope.physics.model import Base
 from armscope.robot.arm import build_arm
 from armscope.robot.description import RobotDescription
 
-Array = NDArray[np.float64]
 FORMAT = "armscope error model 1"
 
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.compensation.black_box import ErrorModel, Turning, domain_of
+from armscope.core.inputs import InputError
+from armscope.core.types import Array
 from armscope.errormodels import FeatureSet, FitProblem, ModelSpec, fit_least_squares, fit_swarms
 from armscope.errormodels.products import ProductFeatures, fit_products
 from armscope.errormodels.regions import (
@@ -20,13 +21,10 @@ from armscope.errormodels.regions import (
     fit_regions,
     halvings_of,
 )
-from armscope.inputs import InputError
 from armscope.physics.model import Base
 from armscope.recordings import Recordings
 from armscope.robot import Arm, chain
 from armscope.robot.arm import build_arm
-
-Array = NDArray[np.float64]
 
 LARGEST_PLAIN_ERROR_MM = 50.0
 """Errors beyond this are no positioning errors: the measurements stand in another frame than the arm's base."""

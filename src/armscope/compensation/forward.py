@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.compensation.black_box import ErrorModel
+from armscope.core.types import Array
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain
 from armscope.robot.kinematics import joint_jacobian
 
-Array = NDArray[np.float64]
 Rows = NDArray[np.intp]
 
 

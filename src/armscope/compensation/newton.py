@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.compensation.forward import Forward, Rows, Stand
-
-Array = NDArray[np.float64]
+from armscope.core.types import Array
 
 TOLERANCE_M = 1e-9
 ITERATIONS = 30

@@ -8,14 +8,13 @@ from typing import Literal
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
+from armscope.core.types import Array
 from armscope.recordings import Recordings
 from armscope.recordings.table import as_recordings, read_text_table
 from armscope.robot import Arm
 
-Array = NDArray[np.float64]
 Frame = Literal["base", "measurement"]
 
 

@@ -11,15 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.compensation.domain import Domain
-from armscope.files import write_json
-from armscope.inputs import InputError
+from armscope.core.files import write_json
+from armscope.core.inputs import InputError
+from armscope.core.types import Array
 from armscope.physics.effect import Driver
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain
 from armscope.robot.gravity import gravity_torques, mass_moment_regressor
 
-Array = NDArray[np.float64]
 FORMAT = "armscope domain 1"
 FILE = "domain.json"
 

@@ -11,12 +11,10 @@ import re
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
-from armscope.files import write_text
-from armscope.inputs import InputError
-
-Array = NDArray[np.float64]
+from armscope.core.files import write_text
+from armscope.core.inputs import InputError
+from armscope.core.types import Array
 
 NOT_THERE = "9E9"
 AXES = 6

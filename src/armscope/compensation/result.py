@@ -10,10 +10,9 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.compensation.path import Frame
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
+from armscope.core.types import Array
 from armscope.robot import Arm
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

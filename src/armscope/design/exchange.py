@@ -18,9 +18,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.design.indices import observability, observability_slopes
 
-Array = NDArray[np.float64]
 Rows = NDArray[np.intp]
 
 WORTHWHILE = 1e-6

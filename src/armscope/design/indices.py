@@ -21,9 +21,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from armscope.core.types import Array
 
 SOURCES: Mapping[str, str] = MappingProxyType(
     {

@@ -8,21 +8,22 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from armscope.diagnosis.case import Evidence
-from armscope.diagnosis.checks import FEWEST_ROWS, check_table, too_far, with_orientations
-from armscope.diagnosis.frames import fit_frames, other_tools
-from armscope.diagnosis.gravity import lean
-from armscope.diagnosis.judge import judge, undecided
-from armscope.diagnosis.noise import Noise, known_noise
-from armscope.diagnosis.problem import missed
-from armscope.diagnosis.rounds import Progress, select
-from armscope.diagnosis.validation import split
-from armscope.diagnosis.verdict import Notice, Verdict
+from armscope.core.types import Progress
+from armscope.diagnosis.gravity_direction import lean
+from armscope.diagnosis.held_out import split
+from armscope.diagnosis.judgement import judge, undecided
+from armscope.diagnosis.preconditions import FEWEST_ROWS, check_table, too_far, with_orientations
+from armscope.diagnosis.selection_loop import select
+from armscope.diagnosis.state import Evidence
+from armscope.fitting.linearisation import missed
+from armscope.fitting.registration import fit_frames, other_tools
+from armscope.measurement.noise import Noise, known_noise
 from armscope.physics.effect import Placed
 from armscope.physics.frames import free_frames
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 from armscope.robot import Arm
+from armscope.verdict.schema import Notice, Verdict
 
 
 @dataclass(frozen=True)

@@ -18,9 +18,8 @@ from enum import StrEnum
 
 import numpy as np
 import scipy.linalg
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from armscope.core.types import Array
 
 COLLINEAR = 1e-9  # a column is dropped if less than this share of it lies outside the span of those before it
 

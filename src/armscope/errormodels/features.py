@@ -16,9 +16,9 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from armscope.core.types import Array
 
 FAMILIES = ("polynomial", "fourier")
 SPACES = ("cartesian", "angular")

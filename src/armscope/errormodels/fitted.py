@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from armscope.core.types import Array
 from armscope.errormodels.basis import BasisKind
 from armscope.errormodels.features import FeatureSet
 from armscope.swarm import StopReason
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

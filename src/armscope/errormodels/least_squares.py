@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.errormodels.basis import BasisKind, make_basis
 from armscope.errormodels.features import FeatureSet
-
-Array = NDArray[np.float64]
 
 
 def fit_least_squares(features: FeatureSet, inputs: Array, errors_mm: Array) -> tuple[Array, Array]:

@@ -17,11 +17,11 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from numpy.polynomial import chebyshev
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from armscope.core.types import Array
 from armscope.errormodels.features import STILL, ModelSpec, checked_inputs, input_names
 
-Array = NDArray[np.float64]
 Factor = tuple[int, str, int]
 """(input, "T" or "cos" or "sin", order)."""
 Term = tuple[Factor, ...]

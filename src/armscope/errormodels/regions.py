@@ -16,9 +16,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike, NDArray
 
+from armscope.core.types import Array
 from armscope.errormodels.features import FeatureSet, ModelSpec, checked_inputs
-
-Array = NDArray[np.float64]
 
 OVERLAP = 0.5
 """Half the width of the blended band, in standard deviations of the rows that a cut divides."""

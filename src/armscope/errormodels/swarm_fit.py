@@ -11,16 +11,15 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from armscope.core.types import Array
 from armscope.errormodels.basis import Basis, BasisKind, make_basis
 from armscope.errormodels.features import FeatureSet, ModelSpec, checked_inputs
 from armscope.errormodels.fitted import FittedModel
 from armscope.errormodels.least_squares import fit_least_squares
 from armscope.swarm import LeastSquares, SwarmResult, SwarmSettings, minimise_least_squares
 from armscope.swarm.random_search import random_search
-
-Array = NDArray[np.float64]
 
 Search = Callable[[LeastSquares, Array, Array, list[np.random.Generator]], SwarmResult]
 

@@ -16,13 +16,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.paper.printed import printed_matrix
 from armscope.robot import chain
 from armscope.world.tolerances import GeometricErrors
-
-Array = NDArray[np.float64]
 
 ANCHORED = "anchored"
 AGREEMENT_MM = 1e-6

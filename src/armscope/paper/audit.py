@@ -19,10 +19,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.optimize import Bounds, differential_evolution
 from scipy.stats import qmc
 
+from armscope.core.types import Array
 from armscope.paper.printed import (
     AXES,
     HALF_DIGIT_MM,
@@ -36,8 +36,6 @@ from armscope.paper.printed import (
     printed_table2,
 )
 from armscope.world.trajectories import archimedes_spiral
-
-Array = NDArray[np.float64]
 
 MODELS = ("FDP(CI)", "SDP(CI)")
 CHECKS = (*MODELS, " and ".join(MODELS))

@@ -14,6 +14,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.errormodels import FOURIER_2_AI, POLYNOMIAL_4_AI, SDP_CI, FittedModel
 from armscope.paper.outlook import PLAIN, PRODUCTS, SUB_VOLUMES
 from armscope.paper.printed import (
@@ -26,8 +27,6 @@ from armscope.paper.printed import (
     printed_table2,
 )
 from armscope.paper.residuals import SPATIAL, typical
-
-Array = NDArray[np.float64]
 
 HOLDS_FROM, FAILS_TO = 0.95, 0.05
 CLOSE_PER_CENT = 1.0

@@ -11,13 +11,11 @@ from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.errormodels import FittedModel
 from armscope.paper.printed import AXES, EQUATIONS, printed_features, printed_matrix, printed_table2
 from armscope.paper.residuals import typical
-
-Array = NDArray[np.float64]
 
 RANGE = (5, 95)
 UNTOLD_MODELS = ("FDP(AI)", "SDP(CI)", "SDP(AI)")

@@ -10,12 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.errormodels import FitProblem, ModelSpec
 from armscope.paper.printed import IDENTIFICATION
-
-Array = NDArray[np.float64]
 
 ERROR_COLUMNS = ["dx_mm", "dy_mm", "dz_mm"]
 POSITION_COLUMNS = ["x_mm", "y_mm", "z_mm"]

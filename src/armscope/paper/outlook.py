@@ -6,14 +6,12 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.errormodels import FDP_CI, FOURIER_2_AI, POLYNOMIAL_4_AI, SDP_AI, SDP_CI, ModelSpec
 from armscope.errormodels.products import candidate_terms, fit_products
 from armscope.errormodels.regions import blended, chosen_regions, compare_regions, divide, fit_regions, halvings_of
 from armscope.paper.measurements import Measurements, PoseSet
-
-Array = NDArray[np.float64]
 
 
 def paper_regions(

@@ -9,11 +9,10 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import yaml
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from armscope.core.types import Array
 from armscope.errormodels import FDP_AI, FDP_CI, SDP_AI, SDP_CI, FeatureSet, ModelSpec
-
-Array = NDArray[np.float64]
 
 AXES = ("x", "y", "z")
 UNCOMPENSATED = "Uncompensated"

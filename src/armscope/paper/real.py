@@ -13,15 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from armscope.inputs import InputError, nearest
+from armscope.core.inputs import InputError, nearest
+from armscope.core.types import Array
 from armscope.paper.measurements import Measurements, PoseSet
 from armscope.paper.printed import IDENTIFICATION
 from armscope.recordings import Recordings
 from armscope.robot import Arm, chain
 from armscope.world.poses import Choice, choose_poses
 from armscope.world.tolerances import geometric_errors
-
-Array = NDArray[np.float64]
 
 HELD_OUT = "held out"
 MOST_CANDIDATES = 3000

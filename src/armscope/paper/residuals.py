@@ -8,11 +8,10 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.errormodels import FittedModel
 from armscope.paper.measurements import Measurements
 from armscope.paper.printed import AXES, UNCOMPENSATED
-
-Array = NDArray[np.float64]
 
 SPATIAL = "3D"
 """The fourth "axis": the length of the error vector."""

@@ -11,10 +11,9 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.errormodels import FDP_CI, SDP_CI, ModelSpec
 from armscope.paper.measurements import Measurements
-
-Array = NDArray[np.float64]
 
 SPLIT_ORDER = (1, 2)
 """Halved along y first, then along z (columns of the nominal position)."""

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pandas as pd
 
+from armscope.core.variants import Variant
 from armscope.errormodels import FitProblem, ModelSpec, fit_swarms
 from armscope.paper.measurements import Measurements
 from armscope.paper.residuals import SPATIAL, residual_table
 from armscope.swarm import SwarmSettings
-from armscope.variants import Variant
 
 
 def run_variant(measurements: Measurements, variant: Variant, first_seed: int, basis: str, engine: str) -> pd.DataFrame:

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from armscope.core.types import Array
 from armscope.paper.anchoring import AnchoredRobots, anchor
 from armscope.paper.measurements import Measurements, PoseSet, pose_arrays, pose_table
 from armscope.paper.printed import IDENTIFICATION, TEST_TRAJECTORIES
@@ -18,8 +19,6 @@ from armscope.world.poses import Choice, candidate_poses, choose_poses, joint_ra
 from armscope.world.tolerances import GeometricErrors
 from armscope.world.tracker import Tracker
 from armscope.world.trajectories import archimedes_spiral, rectangle
-
-Array = NDArray[np.float64]
 
 HELD = {4: 0.0, 5: 0.0}
 """theta4 = theta5 = 0 throughout (below Eq. 14)."""

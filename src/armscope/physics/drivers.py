@@ -9,16 +9,15 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
+from armscope.core.types import Array
 from armscope.physics.effect import Driver
 from armscope.robot.gravity import gravity_torques, mass_moment_regressor
 
 if TYPE_CHECKING:
     from armscope.physics.scene import Scene
 
-Array = NDArray[np.float64]
 
 REFERENCE_TEMPERATURE_C = 20.0
 """Lengths hold at this temperature."""

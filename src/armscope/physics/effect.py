@@ -12,14 +12,10 @@ from dataclasses import dataclass, field
 from numbers import Real
 from typing import TYPE_CHECKING, Literal
 
-import numpy as np
-from numpy.typing import NDArray
-
 if TYPE_CHECKING:
     from armscope.recordings import Recordings
     from armscope.robot import Arm
 
-Array = NDArray[np.float64]
 Family = Literal["frame", "geometric", "transmission", "elastic", "thermal", "drift", "instrument", "unknown"]
 
 AXES = ("tx", "ty", "tz", "rx", "ry", "rz")

@@ -5,16 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.placing import varies
 from armscope.physics.scene import Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.robot.gravity import mass_moment_regressor
-
-Array = NDArray[np.float64]
 
 UNKNOWN_MASSES = "unknown masses"
 """The variant of a joint's compliance that trusts no stated mass."""

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.elastic import has_load, loaded_joints
@@ -17,8 +17,6 @@ from armscope.physics.scene import Scene
 from armscope.physics.transmission import BACKLASH, GEAR_RATIO, wave_terms
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-
-Array = NDArray[np.float64]
 
 SMOOTH_WAVES, SMOOTH_FINE_WAVES = 6.0, 24.0
 """Waves up to which a free curve's waves are equally likely; beyond, their size falls with the square."""

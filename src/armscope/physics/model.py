@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from armscope.files import write_yaml
-from armscope.inputs import InputError, read_yaml, validate
+from armscope.core.files import write_yaml
+from armscope.core.inputs import InputError, read_yaml, validate
+from armscope.core.types import Array
 from armscope.physics.effect import Direction, Driver, Effect, Placed, Product, Term
 from armscope.physics.frames import BASE_FRAME, TOOL_FRAME, ToolKey
 from armscope.physics.geometric import BACKGROUND
@@ -23,7 +24,6 @@ from armscope.robot import Arm
 from armscope.robot.arm import build_arm
 from armscope.robot.description import RobotDescription
 
-Array = NDArray[np.float64]
 FORMAT = "armscope model 1"
 
 

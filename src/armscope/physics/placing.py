@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.recordings import Recordings
-
-Array = NDArray[np.float64]
 
 STANDS_STILL_RAD = 1e-2
 """A joint whose commanded angles span less than this tells nothing about what follows its angle."""

@@ -14,8 +14,8 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.physics import drivers
 from armscope.physics.effect import AXES, Direction, Driver, Placed, Term
 from armscope.physics.lens import Lens
@@ -24,8 +24,6 @@ from armscope.robot import Arm, Chain, chain, twist_jacobian
 from armscope.robot.gravity import gravity_wrenches
 from armscope.robot.kinematics import joint_axes, joint_jacobian, turn_jacobian
 from armscope.robot.parallelogram import Linkage, forearm_deviation
-
-Array = NDArray[np.float64]
 
 LINKAGE_JOINT = 3
 """The chain joint that a parallelogram drives."""

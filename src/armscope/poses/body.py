@@ -13,14 +13,12 @@ from pathlib import Path
 
 import numpy as np
 import pinocchio as pin
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.robot import Arm, Chain, chain
 from armscope.robot.centre_line import centre_lines
 from armscope.robot.description import RobotDescription
 from armscope.robot.urdf import cut, read_urdf
-
-Array = NDArray[np.float64]
 
 SHORTEST_SHARE = 0.5
 """Pieces of the centre line shorter than this share of the radius count as part of their neighbours."""

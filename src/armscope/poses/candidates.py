@@ -9,12 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
+from armscope.core.types import Array
 from armscope.poses.obstacles import REASONS, Surroundings, ranges, refusals
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-
-Array = NDArray[np.float64]
 
 MOST_DRAWN = 40
 """At most this many poses are drawn per candidate wanted."""

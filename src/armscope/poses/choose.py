@@ -8,16 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.inputs import InputError
+from armscope.core.types import Array
 from armscope.design.exchange import optimal
 from armscope.design.indices import SOURCES, all_indices
-from armscope.inputs import InputError
 from armscope.poses.candidates import Candidates, candidates, grid, subset
 from armscope.poses.obstacles import Surroundings
 from armscope.poses.shown import GEOMETRY, Shown, shown
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,15 +6,13 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.design.indices import all_indices
 from armscope.poses.candidates import candidates
 from armscope.poses.choose import Choice, grid_choice, random_choice
 from armscope.poses.shown import Shown
 from armscope.recordings import Recordings
-
-Array = NDArray[np.float64]
 
 HELD_OUT = 300
 """Possible poses, of another sequence, at which the fitted arm is asked."""

@@ -14,10 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
+from armscope.core.types import Array
 from armscope.poses.body import Piece, Shape, collision_shapes, pieces
 from armscope.robot import Arm, chain
-
-Array = NDArray[np.float64]
 
 RADIUS_SHARE = 0.04
 """Radius of a link as a share of the arm's reach: 100 mm for a reach of 2.5 m."""

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from armscope.core.files import write_json, write_table
+from armscope.core.outputs import is_stream
 from armscope.design.indices import SOURCES
-from armscope.files import write_json, write_table
-from armscope.outputs import is_stream
 from armscope.physics.effect import Driver
 from armscope.poses.choose import Choice
 from armscope.poses.compare import RIVALS, predicted_errors, share_won, summary

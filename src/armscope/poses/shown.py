@@ -10,7 +10,8 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
-from armscope.inputs import InputError, nearest
+from armscope.core.inputs import InputError, nearest
+from armscope.core.types import Array
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import AXES, ONE, Placed, Term
 from armscope.physics.frames import BASE_FRAME, TOOL_FRAME
@@ -19,8 +20,6 @@ from armscope.physics.registry import EFFECTS, library
 from armscope.physics.scene import Part, Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-
-Array = NDArray[np.float64]
 
 GEOMETRY = "geometry"
 """The default set of effects: constant errors of all D-H rows and all motors' zeros."""

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import pandas as pd
 
+from armscope.core.files import new_folder, write_table, write_text
 from armscope.diagnosis import Settings, diagnose, write_verdict
-from armscope.files import new_folder, write_table, write_text
 from armscope.physics.model import predict
 from armscope.proof.answers import FAILURE, PREDICTED, TIMES
 from armscope.proof.definitions import AXES_MM

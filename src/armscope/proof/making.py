@@ -8,7 +8,7 @@ from typing import Literal
 
 import pandas as pd
 
-from armscope.files import copy_file, new_folder, write_table
+from armscope.core.files import copy_file, new_folder, write_table
 from armscope.proof.definitions import AXES_MM
 from armscope.proof.truth import seal
 from armscope.world.catalogue import WorldSpec, catalogue

@@ -10,9 +10,8 @@ from scipy.optimize import brentq, isotonic_regression
 from scipy.special import ncfdtr
 from scipy.stats import f
 
+from armscope.core.types import Array
 from armscope.proof.definitions import FALSE_ALARMS_OF_ORACLE, RELIABLE
-
-Array = NDArray[np.float64]
 
 REPEATS = 400
 

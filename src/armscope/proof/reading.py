@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.proof.answers import TIMES, read_answer
 from armscope.proof.scoring import World
 from armscope.proof.truth import unseal

@@ -12,8 +12,8 @@ from typing import Any
 import pandas as pd
 import yaml
 
-from armscope.files import replacing
-from armscope.inputs import InputError
+from armscope.core.files import replacing
+from armscope.core.inputs import InputError
 from armscope.proof.definitions import Name
 
 

@@ -8,15 +8,13 @@ from itertools import combinations
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.stats import t as t_distribution
 
+from armscope.core.types import Array
 from armscope.real.compliances import BLOCKS, Agreement, Give, compare, fit_give
 from armscope.real.reference import ReferenceCompliances, rows_of_run
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-
-Array = NDArray[np.float64]
 
 SURE = 0.95
 TOLD = 0.15

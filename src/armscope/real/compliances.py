@@ -20,16 +20,18 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats import f as f_distribution
 
-from armscope.diagnosis import robust
-from armscope.diagnosis.checks import check_table, with_orientations
-from armscope.diagnosis.evidence import TOLERANCE
-from armscope.diagnosis.frames import fit_frames
-from armscope.diagnosis.problem import Gram, Pool, accumulate, missed, pool, total
-from armscope.diagnosis.refit import moved_frames
-from armscope.diagnosis.weights import RowNoise
+from armscope.core.types import Array
+from armscope.diagnosis.preconditions import check_table, with_orientations
+from armscope.fitting.gauss_newton import moved_frames
+from armscope.fitting.linearisation import accumulate, missed
+from armscope.fitting.model_space import Pool, pool
+from armscope.fitting.registration import fit_frames
+from armscope.inference.evidence import TOLERANCE
+from armscope.inference.normal_equations import Gram, total
+from armscope.measurement import robust
+from armscope.measurement.row_weights import RowNoise
 from armscope.physics import elastic, geometric
 from armscope.physics.effect import Placed
 from armscope.physics.frames import free_frames
@@ -41,8 +43,6 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm, chain
 from armscope.robot.arm import build_arm
 from armscope.robot.gravity import gravity_torques, mass_moment_regressor
-
-Array = NDArray[np.float64]
 
 PRIOR = 1e-4
 """rad/(N m), standard deviation of every drive's and bearing's compliance: 10 N m turn it by a milliradian. Drives of

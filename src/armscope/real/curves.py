@@ -10,13 +10,12 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.diagnosis import Verdict
 from armscope.physics.model import FittedModel
 from armscope.physics.placing import moving_joints
 from armscope.physics.scene import Part, Scene
 from armscope.recordings import Recordings
-
-Array = NDArray[np.float64]
 
 STEP = np.radians(0.5)
 NO_TURN = 1e-12

@@ -19,7 +19,7 @@ import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation
 
-from armscope.files import copy_file, new_folder, write_table, write_yaml
+from armscope.core.files import copy_file, new_folder, write_table, write_yaml
 from armscope.proof.making import TEST_POSES
 from armscope.proof.truth import seal
 from armscope.real.planting import CannotPlantError, Planted, Theatre, plant, truth_of

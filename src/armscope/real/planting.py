@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.real.staging import Stage
 from armscope.world.catalogue import KINDS
 from armscope.world.choice import LARGEST_FACTOR, LEAST_TORQUE
@@ -23,8 +24,6 @@ from armscope.world.kinds import LOAD, Concealed, Kind, number, second_number
 from armscope.world.rivals import Judge, Visibility
 from armscope.world.statics import Hidden, Session, balance
 from armscope.world.strength import LARGEST_RAW_M, SEEN_SHARE, Sized, frame_columns, make_scene, rms
-
-Array = NDArray[np.float64]
 
 MOVES_RAD = 0.05
 """A joint that moves less than this cannot show what follows its angle."""

@@ -14,10 +14,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from armscope.calibration import held_out
 from armscope.calibration.splits import split
+from armscope.core.types import Array
 from armscope.diagnosis import Settings, Verdict, diagnose
 from armscope.errormodels import PAPER_MODELS, fit_least_squares
 from armscope.paper.printed import IDENTIFICATION
@@ -27,7 +27,6 @@ from armscope.real.reference import ReferenceRun, rows_of_run
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
-Array = NDArray[np.float64]
 ARMSCOPE, ORIENTED, UNCORRECTED = "armscope", "armscope, orientations too", "frames only"
 PAPER_ROWS = 85
 

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from armscope.inputs import InputError, Strict, load, nearest
+from armscope.core.inputs import InputError, Strict, load, nearest
 from armscope.recordings import Recordings
 
 Millimetres = Annotated[float, Field(gt=0)]

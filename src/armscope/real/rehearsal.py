@@ -13,9 +13,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from armscope.core.types import Array
 from armscope.physics import elastic, geometric, transmission
 from armscope.physics.model import Base, FittedModel, predict, predict_orientation
 from armscope.physics.scene import Part
@@ -24,8 +24,6 @@ from armscope.real.compliances import as_heavy_as_recorded, compare, fit_give, g
 from armscope.real.reference import ReferenceCompliances, rows_of_run
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-
-Array = NDArray[np.float64]
 
 KINDS = {"the same arm": 1.0, "an arm 15 % softer": 1.15}
 """What the other run is recorded on: by how much its compliances are larger."""

@@ -33,9 +33,9 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
+from armscope.core.types import Array
 from armscope.proof.answers import Answer, Claim, read_answer
 from armscope.proof.definitions import AXES_MM, Name, place
 from armscope.proof.intervals import Compared, compare
@@ -44,7 +44,6 @@ from armscope.proof.reading import check_seal
 from armscope.proof.truth import Concealed, unsealed
 from armscope.real.making import LEFT_MM
 
-Array = NDArray[np.float64]
 JUMP, ROW = "jump_between_ids", "row"
 CHANGED_SHARE = 0.5
 LOAD_WORDS = ("load", "gravity", "moment", "torque")

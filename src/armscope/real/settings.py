@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from armscope.inputs import Strict
+from armscope.core.inputs import Strict
 
 
 class PlantSettings(Strict):

@@ -17,11 +17,10 @@ from numpy.typing import NDArray
 
 from armscope.calibration import calibrate
 from armscope.calibration.splits import split
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
+from armscope.core.types import Array
 from armscope.recordings import Recordings, as_recordings
 from armscope.robot import Arm
-
-Array = NDArray[np.float64]
 
 SWING_K = 8.0
 """Span of the made-up temperature."""

@@ -13,7 +13,7 @@ from armscope.calibration.held_out import held_out
 from armscope.calibration.model import LEVELS, Level, SetUp, State, set_up
 from armscope.calibration.solve import Priors, solve
 from armscope.diagnosis import Settings, Verdict, diagnose
-from armscope.diagnosis import transfer as carry_over
+from armscope.fitting.transfer import transfer as carry_over
 from armscope.real.curves import turned_by_curves
 from armscope.real.protocol import ARMSCOPE
 from armscope.real.reference import ReferenceTransfer, rows_of_run

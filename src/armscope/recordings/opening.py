@@ -8,7 +8,7 @@ import zlib
 from pathlib import Path
 from typing import IO, cast
 
-from armscope.inputs import InputError, reading
+from armscope.core.inputs import InputError, reading
 
 GZIP = b"\x1f\x8b"
 OTHER_THAN_TEXT: tuple[tuple[bytes, str, str], ...] = (

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-Array = NDArray[np.float64]
+from armscope.core.types import Array
 
 UNIT_TOLERANCE = 1e-2
 """How far a quaternion or a matrix column may be from unit length: what few printed digits do, not errors."""

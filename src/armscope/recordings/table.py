@@ -11,10 +11,9 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from armscope.inputs import InputError, nearest
+from armscope.core.inputs import InputError, nearest
+from armscope.core.types import Array
 from armscope.recordings.textfile import WORDS, read_text_table
-
-Array = NDArray[np.float64]
 
 LARGEST_ANGLE_RAD = 4 * np.pi
 """Beyond two turns either way no arm's joint stands, so a larger number is not in radians."""

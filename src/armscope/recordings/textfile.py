@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
 from armscope.recordings.opening import open_text, refuse_other_than_text, start_of, undecodable
 
 WORDS = ("id", "run", "target")

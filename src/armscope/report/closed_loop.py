@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from armscope.compensation.black_box import ErrorModel, domain_of, error_model
 from armscope.compensation.closed_loop import (
@@ -20,6 +19,7 @@ from armscope.compensation.closed_loop import (
     vectors,
 )
 from armscope.compensation.physical import identified_on
+from armscope.core.types import Array
 from armscope.diagnosis import Settings, diagnose
 from armscope.errormodels import FeatureSet, FittedModel, ModelSpec
 from armscope.errormodels.products import ProductFeatures, fit_products
@@ -29,8 +29,6 @@ from armscope.physics.model import Base
 from armscope.recordings.table import as_recordings
 from armscope.robot import Arm
 from armscope.world.tolerances import geometric_errors
-
-Array = NDArray[np.float64]
 
 DIAGNOSED = "Diagnosed physics"
 

@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.compensation import (
@@ -26,6 +25,7 @@ from armscope.compensation.closed_loop import NO_MODEL
 from armscope.compensation.path import WantedPath
 from armscope.compensation.physical import identified_on
 from armscope.compensation.result import Compensated
+from armscope.core.types import Array
 from armscope.diagnosis import Settings, diagnose
 from armscope.errormodels import ModelSpec
 from armscope.paper.measurements import Measurements
@@ -37,8 +37,6 @@ from armscope.robot import Arm, Chain, chain
 from armscope.robot.inverse import follow_path
 from armscope.world.poses import candidate_poses, choose_poses, joint_ranges
 from armscope.world.tolerances import GeometricErrors, geometric_errors
-
-Array = NDArray[np.float64]
 
 BENT_WRIST = {4: 0.3, 5: 0.7}
 """Angles of the wrist's motors along the trajectories, rad (assumed)."""

@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.errormodels import PAPER_MODELS, ModelSpec, fit_least_squares
 from armscope.recordings import Recordings
 from armscope.robot import Arm, forward_kinematics
-
-Array = NDArray[np.float64]
 
 FOLDS = 5
 MOST_ROWS = 4000

@@ -14,7 +14,7 @@ mpl.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
-from armscope.files import replacing
+from armscope.core.files import replacing
 
 # Okabe & Ito (2008): eight colours that people with colour-vision deficiencies can tell apart
 BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE = (

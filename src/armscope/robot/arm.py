@@ -8,13 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pinocchio as pin
-from numpy.typing import NDArray
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
+from armscope.core.types import Array
 from armscope.robot.description import RobotDescription, load_description
 from armscope.robot.model import TIP, dh_halves, pinocchio_model
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.robot.arm import Arm
 from armscope.robot.kinematics import Chain
-
-Array = NDArray[np.float64]
 
 
 def centre_lines(arm: Arm, frames: Chain) -> list[tuple[str, Array]]:

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.robot.arm import Arm
 from armscope.robot.description import DH, DHRow, LinkMass, RobotDescription
-
-Array = NDArray[np.float64]
 
 PARALLEL = 1e-6
 """Sine of the angle between two axes below which they count as parallel: the rows of nearly parallel axes run away."""

@@ -9,7 +9,7 @@ from typing import Annotated, Literal, Self
 import pydantic
 from pydantic import Field
 
-from armscope.inputs import InputError, Strict, load
+from armscope.core.inputs import InputError, Strict, load
 
 Vector = Annotated[tuple[float, float, float], Field(description="x, y, z")]
 Degrees = Annotated[float, Field(ge=-720, le=720)]

@@ -7,12 +7,10 @@ pinocchio's recursive Newton-Euler algorithm and its torque regressor are its or
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.robot.arm import Arm
 from armscope.robot.kinematics import Chain
-
-Array = NDArray[np.float64]
 
 
 def gravity_wrenches(arm: Arm, frames: Chain, payload: Array | None = None) -> tuple[Array, Array]:

@@ -17,12 +17,11 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import cKDTree
 from scipy.stats import qmc
 
-from armscope.inputs import InputError
+from armscope.core.inputs import InputError
+from armscope.core.types import Array
 from armscope.robot.arm import Arm
 from armscope.robot.kinematics import chain, position_jacobian
 from armscope.robot.model import TIP
-
-Array = NDArray[np.float64]
 
 TOLERANCE_M = 1e-9
 ITERATIONS = 25

@@ -10,12 +10,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from armscope.core.types import Array
 from armscope.robot.arm import Arm
 
-Array = NDArray[np.float64]
 Twists = Mapping[str, Array]
 
 

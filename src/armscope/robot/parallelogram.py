@@ -12,11 +12,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.robot.description import Parallelogram
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

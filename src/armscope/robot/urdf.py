@@ -9,12 +9,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pinocchio as pin
-from numpy.typing import NDArray
 
-from armscope.inputs import InputError, nearest, reading
+from armscope.core.inputs import InputError, nearest, reading
+from armscope.core.types import Array
 from armscope.robot.description import RobotDescription
-
-Array = NDArray[np.float64]
 
 JOINT_TYPES = ("revolute", "continuous", "prismatic", "fixed", "planar", "floating")
 SLIDING = "a sliding joint"

@@ -8,13 +8,12 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from armscope.core.types import Array
 from armscope.swarm.neighbourhoods import NEIGHBOURHOODS
 from armscope.swarm.result import StopReason, SwarmResult, final_reason
 from armscope.swarm.settings import SwarmSettings
 from armscope.swarm.streams import WEIGHT_UNIT, WeightStream
 from armscope.swarm.update import Coefficients, velocity_update
-
-Array = NDArray[np.float64]
 
 CACHED_VALUES = 20000  # coordinates of a chunk's particles: its ten arrays then fit a megabyte or so
 

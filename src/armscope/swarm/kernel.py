@@ -15,13 +15,13 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.swarm.kernel_data import LANES, Outcome, Pack, Problems
 from armscope.swarm.least_squares import LeastSquares
 from armscope.swarm.result import StopReason, SwarmResult, final_reason
 from armscope.swarm.settings import SwarmSettings
 from armscope.swarm.streams import WEIGHT_UNIT, set_sfc64_states, sfc64_states
 
-Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Words = NDArray[np.uint64]
 

@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from armscope.core.types import Array
+
 Integers = NDArray[np.int64]
 Words = NDArray[np.uint64]
 

@@ -18,12 +18,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from armscope.core.types import Array
 from armscope.swarm.engine import checked_box, minimise
 from armscope.swarm.result import SwarmResult
 from armscope.swarm.settings import SwarmSettings
 from armscope.swarm.streams import are_sfc64
-
-Array = NDArray[np.float64]
 
 ENGINES = ("auto", "numba", "numpy")
 

@@ -12,7 +12,7 @@ from typing import Literal
 
 import numpy as np
 
-from armscope.inputs import Strict
+from armscope.core.inputs import Strict
 from armscope.world.effects import LIBRARY
 from armscope.world.kinds import Kind
 from armscope.world.outside import OUTSIDE

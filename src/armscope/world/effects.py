@@ -39,8 +39,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.robot.description import RobotDescription
 from armscope.world.kinds import (
     ANGLE,
@@ -65,7 +65,6 @@ from armscope.world.kinds import (
 from armscope.world.mechanism import BASE_FREEDOMS
 from armscope.world.statics import Hidden
 
-Array = NDArray[np.float64]
 HOUR_S = 3600.0
 REFERENCE_C = 20.0
 SOFT_SIDE = 0.001

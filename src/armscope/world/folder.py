@@ -19,7 +19,7 @@ import numpy as np
 import pandas as pd
 import yaml
 
-from armscope.files import write_table, write_yaml
+from armscope.core.files import write_table, write_yaml
 from armscope.world.catalogue import WorldSpec
 from armscope.world.effects import linear_numbers
 from armscope.world.kinds import LOAD

@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.robot.description import RobotDescription
 from armscope.world.mechanism import Geometry
 from armscope.world.statics import Hidden, Session
 
-Array = NDArray[np.float64]
 Values = Mapping[str, float]
 
 ANGLE, LOAD, APPROACH = "joint angle", "gravity load", "side of approach"

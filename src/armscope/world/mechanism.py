@@ -17,11 +17,9 @@ from dataclasses import dataclass, field
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.robot.description import LinkMass, RobotDescription
-
-Array = NDArray[np.float64]
 
 SEGMENTS = 8
 """Segments of a bending link: the tip's deflection under an end load is 1 / (4 SEGMENTS^2) = 0.4 % below the beam's."""

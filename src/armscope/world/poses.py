@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.stats import qmc
 
-Array = NDArray[np.float64]
+from armscope.core.types import Array
 
 IDENTIFIABLE = 1e-6
 """A combination of parameters counts as identifiable above this share of the largest singular value."""

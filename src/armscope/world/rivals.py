@@ -14,12 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import orth
 
+from armscope.core.types import Array
 from armscope.world.effects import REFERENCE_C, close_loop
 from armscope.world.kinds import Scene, joints, links_longer_than
 from armscope.world.mechanism import BASE_FREEDOMS, SEGMENTS, Layout, Mechanism, all_freedoms, segment_hinges
 from armscope.world.strength import Sized, free_frames
-
-Array = NDArray[np.float64]
 
 ALTERNATIVE_NATS = 5.0
 """A rival whose evidence falls short by less than this is an acceptable answer."""

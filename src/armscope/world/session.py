@@ -11,11 +11,10 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.robot.description import RobotDescription
 from armscope.world.mechanism import Geometry, Layout, Mechanism
 from armscope.world.statics import Session
-
-Array = NDArray[np.float64]
 
 PoseRule = Literal["free", "lockstep", "narrow", "no_payload", "constant_speed", "warming_in_step"]
 POSE_RULES: dict[str, str] = {

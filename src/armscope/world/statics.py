@@ -14,9 +14,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.world.mechanism import Geometry, Layout, Mechanism, segment_hinges
 
-Array = NDArray[np.float64]
 LoadCurve = Callable[[float], float]
 
 STEP_RAD = 1e-12

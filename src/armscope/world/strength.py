@@ -9,12 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from armscope.core.types import Array
 from armscope.robot.description import RobotDescription
 from armscope.world.kinds import Concealed, Scene
 from armscope.world.mechanism import Geometry, Layout, Mechanism
 from armscope.world.statics import Balance, Hidden, Session, balance
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

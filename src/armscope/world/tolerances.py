@@ -11,9 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from armscope.core.types import Array
 from armscope.robot import Arm, Chain, chain, forward_kinematics, twist_jacobian
-
-Array = NDArray[np.float64]
 
 PARALLEL = np.sin(np.radians(5))
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from armscope.core.types import Array
 
 PLANES = {"xy": (0, 1, 2), "yz": (1, 2, 0)}
 """The two axes of a spiral's plane and the third, which changes linearly."""

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.robot.description import load_description
 from armscope.world.catalogue import LARGEST_PAYLOAD_KG, WorldSpec
 from armscope.world.choice import choose, visibilities, visibilities_in_runs
@@ -17,8 +18,6 @@ from armscope.world.rivals import Judge, Visibility
 from armscope.world.session import random_session
 from armscope.world.statics import Hidden, Session, balance
 from armscope.world.strength import Frames, Sized, make_scene
-
-Array = NDArray[np.float64]
 
 TEST_ROWS = 100
 BAD_SHARE = 0.02

@@ -1,0 +1,241 @@
+"""Writing files so that nobody ever sees half of one: write beside, then rename."""
+
+from __future__ import annotations
+
+import contextlib
+import glob
+import gzip
+import io
+import json
+import os
+import shutil
+import socket
+import tempfile
+import zlib
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import yaml
+
+from armscope.core import outputs
+from armscope.core.inputs import InputError, nearest, reading
+from armscope.core.locks import alive
+
+LARGEST_UNPACKED_SHARE = 200
+"""Bytes for each packed one: recordings unpack to ten times their size, a bomb to a thousand times."""
+LONGEST_WHOLE = 18
+"""Digits of a whole number."""
+
+
+def writable(folder: Path | str, *names: str) -> Path:
+    """A folder for output; long work asks first, so that it does not end in vain.
+
+    Args:
+        folder: made if need be; what a command writes is made ready elsewhere, so there it may stay away till the end.
+        names: of the files that will be written there.
+
+    Raises:
+        InputError: nothing can be written there, or not under one of the names.
+    """
+    folder = Path(folder)
+    if (delivery := outputs.current()) is not None and delivery.expect(folder, names):
+        return folder
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return folder
+    except OSError as error:
+        rule = f"output goes into this folder ({error.strerror})"
+        raise InputError(folder, "", "no folder that can be written to", rule) from error
+
+
+def read_table(path: Path | str, columns: Iterable[str] = (), what: str = "a table (CSV)") -> pd.DataFrame:
+    """A CSV table that armscope wrote, gzipped or not.
+
+    Args:
+        path: the file.
+        columns: what it must have.
+        what: what it is, for the error.
+
+    Raises:
+        InputError: no such file, no table, a column is missing.
+    """
+    reading(path)
+    try:
+        table = pd.read_csv(path)
+    except OSError as error:
+        raise _unreadable(path, what, error) from error
+    except (ValueError, EOFError, zlib.error, OverflowError) as error:
+        raise InputError(path, "", "no table", f"{what} is needed here", f"{error}") from error
+    for column in columns:
+        if column not in table:
+            raise InputError(
+                path,
+                "line 1",
+                f"no column {column}",
+                f"{what} is needed here",
+                nearest(column, map(str, table.columns)),
+            )
+    return table
+
+
+def read_json(path: Path | str, what: str) -> Any:
+    """The content of a JSON file, gzipped or not; ``what`` it is, for the error.
+
+    Raises:
+        InputError: no such file, no JSON.
+    """
+    path = Path(path)
+    reading(path)
+    try:
+        content = path.read_bytes()
+        text = _unpacked(path, content, what) if content.startswith(b"\x1f\x8b") else content
+        return json.loads(text, parse_constant=_no_number, parse_float=_finite, parse_int=_whole)
+    except OSError as error:
+        raise _unreadable(path, what, error) from error
+    except RecursionError as error:
+        raise InputError(path, "", "no readable JSON", f"{what} is needed here", "It is nested too deeply.") from error
+    except (ValueError, EOFError, zlib.error) as error:
+        raise InputError(path, "", "no readable JSON", f"{what} is needed here", str(error)) from error
+
+
+def _unpacked(path: Path, content: bytes, what: str) -> bytes:
+    """What a gzipped file holds; not what swells a few bytes into all memory."""
+    most = LARGEST_UNPACKED_SHARE * len(content) + LARGEST_UNPACKED_SHARE
+    with gzip.open(io.BytesIO(content)) as packed:
+        text = packed.read(most + 1)
+    if len(text) > most:
+        found = f"more than {LARGEST_UNPACKED_SHARE} bytes for each packed one"
+        raise InputError(path, "", found, f"{what} is needed here", "No table or model packs so well.")
+    return text
+
+
+def _no_number(name: str) -> float:
+    raise ValueError(f"{name} is no number of JSON")
+
+
+def _finite(text: str) -> float:
+    number = float(text)
+    if not np.isfinite(number):
+        raise ValueError(f"{text[:40]} is too large a number")
+    return number
+
+
+def _whole(text: str) -> int:
+    if len(text) > LONGEST_WHOLE:
+        raise ValueError(f"a whole number of {len(text)} digits")
+    return int(text)
+
+
+def _unreadable(path: Path | str, what: str, error: OSError) -> InputError:
+    return InputError(path, "", "no readable file", f"{what} is needed here", error.strerror or str(error))
+
+
+@contextlib.contextmanager
+def replacing(path: Path | str, at_once: bool = False) -> Iterator[Path]:
+    """A temporary path whose content takes the place of ``path`` when the block ends well, and else vanishes.
+
+    Within a command the content waits until the command has ended well, see `armscope.core.outputs`. A device or a
+    pipe is written through, "-" is standard output, a link stays one: its target is written. Where the process is
+    killed, a hidden ``.part`` stays behind, which nobody takes for a finished file and the next writer removes.
+
+    Args:
+        path: what to write.
+        at_once: don't wait for the end of the command.
+
+    Raises:
+        InputError: the command may not write there.
+    """
+    delivery = outputs.current()
+    if outputs.is_stream(path):
+        with tempfile.TemporaryDirectory() as folder:
+            made = Path(folder) / "content"
+            yield made
+            outputs.copy_into(made, path)
+        return
+    if delivery is not None and not at_once and (staged := delivery.stage(path)) is not None:
+        yield staged
+        delivery.keep(path)
+        return
+    path = Path(os.path.realpath(path))
+    writable(path.parent)
+    with _beside(path) as beside:
+        yield beside
+        umask = os.umask(0)
+        os.umask(umask)
+        beside.chmod(0o666 & ~umask)
+        beside.replace(path)
+
+
+@contextlib.contextmanager
+def _beside(path: Path) -> Iterator[Path]:
+    """A new file beside a path, named after its process; those of dead processes are removed."""
+    start = f".{path.name}-{socket.gethostname()}-"
+    for left in path.parent.glob(f"{glob.escape(start)}*.part"):
+        pid = left.name.removeprefix(start).partition("-")[0]
+        if pid.isdecimal() and not alive(int(pid)):
+            left.unlink(missing_ok=True)
+    handle, name = tempfile.mkstemp(prefix=f"{start}{os.getpid()}-", suffix=".part", dir=path.parent)
+    os.close(handle)
+    try:
+        yield Path(name)
+    finally:
+        Path(name).unlink(missing_ok=True)
+
+
+def new_folder(folder: Path | str) -> None:
+    """Make sure that a folder to be written holds nothing yet, unless a command looks after what is in it.
+
+    Raises:
+        InputError: there is something in it.
+    """
+    if outputs.current() is None and Path(folder).is_dir() and any(Path(folder).iterdir()):
+        raise InputError(folder, "", "a folder with files in it", "a new or empty folder is needed")
+
+
+def copy_file(source: Path | str, path: Path | str) -> None:
+    """Copy a file, whole or not at all."""
+    reading(source)
+    with replacing(path) as beside:
+        shutil.copyfile(outputs.readable(source), beside)
+
+
+def write_text(path: Path | str, text: str) -> None:
+    """Write text, whole or not at all."""
+    with replacing(path) as beside:
+        beside.write_text(text, encoding="utf-8")
+
+
+def write_table(path: Path | str, table: pd.DataFrame, digits: int = 10) -> None:
+    """Write a table as CSV without its index, numbers with ``digits`` significant digits (``.gz`` compresses)."""
+    text = table.to_csv(index=False, float_format=f"%.{digits}g", lineterminator="\n")
+    with replacing(path) as beside:
+        # no name and no time in the header, so that the same table has the same bytes
+        beside.write_bytes(gzip.compress(text.encode(), mtime=0) if str(path).endswith(".gz") else text.encode())
+
+
+def write_json(path: Path | str, content: Any) -> None:
+    """Write JSON, indented, with numpy scalars and arrays as plain numbers; NaN becomes null."""
+    write_text(path, json.dumps(_plain(content), indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+
+
+def write_yaml(path: Path | str, content: Any) -> None:
+    """Write YAML in the order of ``content``."""
+    write_text(path, yaml.safe_dump(_plain(content), sort_keys=False, allow_unicode=True, width=120))
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if isinstance(value, np.ndarray):
+        return _plain(value.tolist())
+    if isinstance(value, np.generic):
+        return _plain(value.item())
+    if isinstance(value, float) and not np.isfinite(value):
+        return None
+    return value

@@ -1,0 +1,146 @@
+"""Which way is down: gravity's direction in the base frame, estimated from how everything that gives way does so.
+
+An arm on a wedge whose description says it stands upright gives way in wrong directions. Where asked, gravity's
+direction is free: the evidence for an arm that is elastic everywhere, as a function of it, has a maximum and a width.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.optimize import minimize
+from scipy.spatial.transform import Rotation
+from scipy.special import log_ndtr
+
+from armscope.core.types import Array
+from armscope.fitting.linearisation import accumulate, residuals
+from armscope.fitting.model_space import pool
+from armscope.inference.evidence import BACKGROUND_SIZES, FAMILY_SIZES, SURE_NATS, Hypothesis, Problem, problem, weigh
+from armscope.inference.normal_equations import total
+from armscope.measurement import robust
+from armscope.measurement.noise import Noise
+from armscope.measurement.row_weights import RowWeights
+from armscope.physics.backgrounds import FAMILIES, backgrounds
+from armscope.physics.frames import free_frames
+from armscope.physics.model import FittedModel
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+from armscope.robot.arm import build_arm
+
+LEANS_TRIED = (0.2, 0.5, 0.9, 1.6, 2.4, 3.1)
+AZIMUTHS = 8
+"""Where the search starts: the stated direction and these leans (rad) towards so many sides."""
+CLOSE_RAD, FIRST_STEP_RAD = 1e-3, 0.1
+STEP_RAD = 0.02
+HEMISPHERE = 2 * np.pi
+"""Solid angle of the directions that compete."""
+ROWS = 400
+"""Rows that are looked at, at most."""
+
+
+@dataclass(frozen=True, eq=False)
+class Lean:
+    """Gravity's direction where it is other than stated.
+
+    Attributes:
+        arm: with gravity as estimated.
+        angle, stderr: between stated and estimated direction, rad.
+        evidence: log odds for another direction than the stated one, nats.
+    """
+
+    arm: Arm
+    angle: float
+    stderr: float
+    evidence: float
+
+
+def lean(start: FittedModel, recordings: Recordings, noise: Noise, tool_per_run: bool) -> Lean | None:
+    """Gravity's direction, if the evidence is for another one than stated (odds of 20 to 1) and loads are known.
+
+    Args:
+        start: the arm with its frames fitted.
+        recordings: the rows.
+        noise: what is known of it.
+        tool_per_run: whether the tool is free in every run.
+    """
+    if not start.arm.has_masses:
+        return None
+    rows = np.unique(np.linspace(0, len(recordings) - 1, min(len(recordings), ROWS)).astype(np.intp))
+    valley = _Valley(start, recordings.rows(rows), noise, tool_per_run)
+    tried: list[Array] = [np.zeros(2)]
+    for size in LEANS_TRIED:
+        sides = 2 * np.pi * np.arange(AZIMUTHS) / AZIMUTHS
+        tried += list(size * np.column_stack([np.cos(sides), np.sin(sides)]))
+    first = tried[int(np.argmin([valley.depth(tilt) for tilt in tried]))]
+    simplex = first + FIRST_STEP_RAD * np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    options: Any = {"xatol": CLOSE_RAD, "fatol": 0.05, "initial_simplex": simplex}
+    best = np.asarray(minimize(valley.depth, first, method="Nelder-Mead", options=options).x, dtype=np.float64)
+    covariance = np.linalg.pinv(_curvature(valley, best), hermitian=True)
+    width = 2 * float(np.pi * np.sqrt(max(float(np.linalg.det(covariance)), 1e-12)))
+    gained = valley.depth(np.zeros(2)) - valley.depth(best) + min(float(np.log(width / HEMISPHERE)), 0.0)
+    angle = float(np.linalg.norm(best))
+    if gained < SURE_NATS or angle == 0:
+        return None
+    along = best / angle
+    return Lean(turned(start.arm, best), angle, float(np.sqrt(max(float(along @ covariance @ along), 0.0))), gained)
+
+
+def turned(arm: Arm, tilt: Array) -> Arm:
+    """The arm with gravity turned by ``tilt`` (2,) rad about two axes across its stated direction."""
+    across = np.linalg.svd(arm.gravity[None, :])[2][1:]
+    gravity = Rotation.from_rotvec(tilt @ across).apply(arm.gravity)
+    return build_arm(arm.description.model_copy(update={"gravity_m_s2": tuple(float(g) for g in gravity)}))
+
+
+class _Valley:
+    """Minus the evidence for an arm that is elastic everywhere, by gravity's direction."""
+
+    def __init__(self, start: FittedModel, recordings: Recordings, noise: Noise, tool_per_run: bool) -> None:
+        self.start, self.recordings, self.noise = start, recordings, noise
+        self.frames = free_frames(recordings, tool_per_run)
+        left = residuals(start, recordings)
+        self.weights = RowWeights(robust.first_weights(left, np.ones(len(left)), noise.least_mm))
+        self.known: dict[tuple[float, ...], float] = {}
+
+    def depth(self, tilt: Array) -> float:
+        """Minus the evidence, nats, at the best sizes of the geometric and the elastic background."""
+        key = tuple(float(t) for t in tilt)
+        if key not in self.known:
+            self.known[key] = self._depth(tilt)
+        return self.known[key]
+
+    def _depth(self, tilt: Array) -> float:
+        arm = turned(self.start.arm, tilt)
+        parts = pool(self.frames, list(backgrounds(arm, self.recordings).values()), [])
+        model = FittedModel(arm, self.start.bases, self.start.tools)
+        blocks = np.zeros(len(self.recordings), dtype=np.intp)
+        made = problem(parts, total(accumulate(parts, model, self.recordings, self.weights, blocks)), 0.0)
+        start = max(made.mismatch, 1e-4)
+        geometric = (0, len(BACKGROUND_SIZES) - 1)
+        sizes = [(g, e, 0) for g in geometric for e in range(1, FAMILY_SIZES)]
+        weighed = (weigh(made, (), size, start) for size in sizes)
+        return -max(each.value + _gives_along(made, each) for each in weighed)
+
+
+def _gives_along(made: Problem, hypothesis: Hypothesis) -> float:
+    """Nats for what gives way along its load, not against it: gravity turned round turns all of it round."""
+    at = np.searchsorted(hypothesis.columns, made.pool.background[FAMILIES.index("elastic")])
+    stderr = hypothesis.noise * np.sqrt(np.sum(hypothesis.inverse[:, at] ** 2, axis=0))
+    return float(np.sum(np.log(2) + log_ndtr(hypothesis.mean[at] / stderr)))
+
+
+def _curvature(valley: _Valley, at: Array) -> Array:
+    """(2, 2) second derivatives of the valley, nats per rad^2, by differences."""
+    steps = STEP_RAD * np.eye(2)
+    here = valley.depth(at)
+    H = np.empty((2, 2))
+    for i in range(2):
+        for j in range(2):
+            if i == j:
+                H[i, i] = (valley.depth(at + steps[i]) - 2 * here + valley.depth(at - steps[i])) / STEP_RAD**2
+            else:
+                mixed = sum(a * b * valley.depth(at + a * steps[0] + b * steps[1]) for a in (1, -1) for b in (1, -1))
+                H[i, j] = mixed / (4 * STEP_RAD**2)
+    return H

@@ -1,0 +1,246 @@
+"""Better? Cross-validation that repeats the whole selection in every fold, on sums of blocks of rows."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.core.types import Array, Indices
+from armscope.fitting.design_matrix import columns, stacked
+from armscope.fitting.linearisation import chunks, pool_values, response
+from armscope.fitting.model_space import Pool
+from armscope.inference.evidence import PERFECT, Chosen, Hypothesis, Problem, weigh
+from armscope.inference.normal_equations import Gram, total
+from armscope.inference.search import LARGE, STARTS, Search
+from armscope.measurement.row_weights import COUNTS, RowWeights
+from armscope.physics.effect import Term
+from armscope.physics.lens import Lens
+from armscope.physics.model import FittedModel
+from armscope.physics.scene import Posture
+from armscope.recordings import Recordings
+from armscope.verdict.schema import HeldOut, WaterfallStep
+
+FOLDS = 5
+BLOCKS = 20
+FEWEST_ROWS_PER_RUN = 30
+FEWEST_RUNS = 3
+
+
+@dataclass(frozen=True, eq=False)
+class Blocks:
+    """Which block each row is in, which fold each block is in, and what holds rows together."""
+
+    of_row: Indices
+    fold: Indices
+    grouped_by: str
+
+
+def split(recordings: Recordings, rng: np.random.Generator) -> Blocks:
+    """Blocks of whole configurations (targets and repeats of one pose stay together), folds of whole runs if several.
+
+    Runs are held out whole where there are at least three with at least thirty rows each.
+    """
+    runs, which_run, per_run = np.unique(recordings.run, return_inverse=True, return_counts=True)
+    by_run = len(runs) >= FEWEST_RUNS and per_run.min() >= FEWEST_ROWS_PER_RUN and len(runs) <= BLOCKS
+    _, pose = np.unique(np.round(recordings.motor_angles, 4), axis=0, return_inverse=True)
+    pose = pose.reshape(-1)
+    count = int(pose.max()) + 1
+    order = rng.permutation(count)
+    if not by_run:
+        blocks = min(BLOCKS, count)
+        return Blocks((order % blocks)[pose], np.arange(blocks) % FOLDS, "configuration")
+    pieces = max(1, BLOCKS // len(runs))
+    of_row = which_run * pieces + (order % pieces)[pose]
+    return Blocks(of_row, np.repeat(np.arange(len(runs)), pieces), "run")
+
+
+def cross_validate(
+    problem: Problem,
+    blocks: Sequence[Gram],
+    split: Blocks,
+    best: Hypothesis,
+    order: Sequence[int],
+    rows: Rows,
+) -> tuple[HeldOut, tuple[WaterfallStep, ...]]:
+    """Held-out RMS before and after, selection repeated per fold; and the waterfall of the chosen effects.
+
+    Every fold's search starts from nothing and sees only its own rows' sums. What comes from all rows: the point of
+    linearisation, the weights of rows, the scanned numbers that compete (periods, times of jumps) and, for a hypothesis
+    of many columns, the backgrounds' sizes from which the search starts. A whole held-out run's own base is fitted on
+    its rows, as it always is.
+
+    Args:
+        blocks: sums over the rows as they were fitted.
+        order: candidates of ``best`` in the order in which the waterfall adds them.
+        rows: the rows at the point of linearisation of ``blocks``.
+    """
+    folds = [int(k) for k in np.unique(split.fold) if 0 < np.count_nonzero(split.fold == k) < len(blocks)]
+    if not folds:
+        return HeldOut(float("nan"), float("nan")), ()
+    whole, noise = total(blocks), Search.on(problem).empty().noise
+    sets = _steps(best, order)
+    fitted = _readings(problem, sets, best, noise)
+    values = {}
+    for fold in folds:
+        trained = problem.with_gram(whole - total([blocks[int(k)] for k in np.flatnonzero(split.fold == fold)]))
+        chosen = _chosen_again(trained, best)
+        readings = [*_readings(trained, sets, best, noise), chosen]
+        values[fold] = np.array([h.coefficients(len(problem.scale)) / problem.scale for h in readings])
+    errors = _held_out_errors(problem, blocks, split, rows, values)
+    own = left_over(rows, problem.pool, np.array([h.coefficients(len(problem.scale)) / problem.scale for h in fitted]))
+    fold_of = split.fold[split.of_row]
+    told = np.isin(fold_of, folds) & rows.trusted
+    per_fold = np.array(
+        [_rms(errors[:, told & (fold_of == fold)]) for fold in folds if (told & (fold_of == fold)).any()]
+    )
+    held, held_all = _rms(errors[:, told]), _rms(errors[:, np.isin(fold_of, folds)])
+    turns = _rms(errors[:, told], TURNS)
+    spread = per_fold.std(axis=0, ddof=1) if len(per_fold) > 1 else np.full(len(held), np.nan)
+    labels = ["free frames", *[str(problem.pool.candidates[c]) for c in order], "tolerances everywhere"]
+    waterfall = tuple(
+        WaterfallStep(label, float(f), float(h), float(s))
+        for label, f, h, s in zip(labels, _rms(own[:, rows.trusted]), held[:-1], spread[:-1], strict=True)
+    )
+    return (
+        HeldOut(
+            before=float(held[0]),
+            after=float(held[-1]),
+            folds=len(folds),
+            grouped_by=split.grouped_by,
+            before_all_rows=float(held_all[0]),
+            after_all_rows=float(held_all[-1]),
+            spread=float(spread[-1]),
+            turn_before=float(turns[0]),
+            turn_after=float(turns[-1]),
+        ),
+        waterfall,
+    )
+
+
+def _chosen_again(trained: Problem, best: Hypothesis) -> Hypothesis:
+    """The selection repeated on a fold's own rows, from as many starts as on all rows; from one where it is large."""
+    if len(best.columns) > LARGE:
+        search, starts = Search.on(trained, beam=1, branches=2), {best.background}
+    else:
+        search, starts = Search.on(trained), {best.background, *STARTS}
+    return search.refined(search.best(starts=tuple(sorted(starts))))
+
+
+def _readings(
+    problem: Problem, sets: Sequence[tuple[Chosen, ...]], best: Hypothesis, first_noise: float
+) -> list[Hypothesis]:
+    """The waterfall's hypotheses: nothing, growing sets of effects, all of them with the background."""
+    noises = [first_noise, *[best.noise] * (len(sets) - 1)]
+    backgrounds = [*[PERFECT] * (len(sets) - 1), best.background]
+    return [weigh(problem, *each) for each in zip(sets, backgrounds, noises, strict=True)]
+
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """Rows at a point of linearisation.
+
+    Attributes:
+        point: the model at which columns were taken.
+        recordings: the rows.
+        weights: of the fit.
+    """
+
+    point: FittedModel
+    recordings: Recordings
+    weights: RowWeights
+
+    @property
+    def trusted(self) -> NDArray[np.bool_]:
+        """(N,) rows that do not look like bad shots."""
+        return np.asarray(self.weights.trust > COUNTS)
+
+
+def left_over(rows: Rows, pool: Pool, values: Array, number: Indices | None = None) -> Array:
+    """(K, N, 3) what K readings leave of every row, base axes, mm; (K, N, 6) with turns, mrad, where measured.
+
+    Args:
+        values: (K, p) values of the pool's terms, SI units; or (F, K, p): each row takes those of its ``number``.
+        number: (N,) 0 ... F - 1.
+    """
+    values = values if number is not None else values[None]
+    number = np.zeros(len(rows.recordings), dtype=np.intp) if number is None else number
+    arrangement, current = pool.arrangement, pool_values(pool, rows.point)
+    added = (values - current)[:, :, arrangement.order]
+    left = np.empty((values.shape[1], len(rows.recordings), 3 if rows.recordings.orientation is None else 6))
+    for part, posture in chunks(rows.point, rows.recordings):
+        lens = _plain(posture)
+        seen, y = stacked(posture.through(lens), arrangement), response(rows.point, posture, lens)
+        for f in np.unique(number[part]):
+            inside = np.flatnonzero(number[part] == f)
+            modelled = seen.at(inside).combined(added[f])
+            left[:, part[inside]] = y[inside] - np.swapaxes(modelled, 1, 2)
+    if rows.recordings.orientation is not None:
+        left[:, ~np.isfinite(rows.recordings.orientation).all(axis=1), 3:] = np.nan
+    return left
+
+
+def _plain(posture: Posture) -> Lens:
+    """Every row as it is: mm, and mrad where orientations were measured."""
+    count = len(posture.scene)
+    turns = None if posture.scene.recordings.orientation is None else np.ones(count)
+    return Lens(np.broadcast_to(np.eye(3), (count, 3, 3)), turns)
+
+
+def _held_out_errors(
+    problem: Problem, blocks: Sequence[Gram], split: Blocks, rows: Rows, values: Mapping[int, Array]
+) -> Array:
+    """(K, N, 3 or 6) errors, mm and mrad, of every row under the readings of the fold that it took no part in.
+
+    Where whole runs are held out, the frames that only they have are refitted on them.
+    """
+    folds = sorted(values)
+    fold_of = split.fold[split.of_row]
+    number = np.searchsorted(folds, np.where(np.isin(fold_of, folds), fold_of, folds[0]))
+    errors = left_over(rows, problem.pool, np.array([values[f] for f in folds]), number)
+    if split.grouped_by != "run":
+        return errors
+    whole = total(blocks)
+    for fold in folds:
+        held = total([blocks[int(k)] for k in np.flatnonzero(split.fold == fold)])
+        frames = problem.pool.frames
+        seen = np.diag(whole.G)[frames]
+        own = frames[seen - np.diag(held.G)[frames] < 1e-9 * np.maximum(seen, 1e-12)]
+        if len(own):
+            at = np.flatnonzero(fold_of == fold)
+            errors[:, at] = _refitted(rows, [problem.pool.terms[k] for k in own], at, errors[:, at])
+    return errors
+
+
+def _refitted(rows: Rows, terms: Sequence[Term], at: Indices, errors: Array) -> Array:
+    """Errors (K, n, 3 or 6) of rows ``at`` once their own frames are fitted to them."""
+    table = rows.recordings.rows(at)
+    X = np.concatenate([columns(posture.through(_plain(posture)), terms) for _, posture in chunks(rows.point, table)])
+    y = np.moveaxis(errors, 0, 2).reshape(len(X), -1)
+    weights = [np.sqrt(rows.weights.row[at])] * 3
+    if rows.weights.turns is not None:
+        weights += [rows.weights.lever * np.sqrt(rows.weights.turns.row[at])] * 3
+    root = np.stack(weights, axis=1).reshape(-1, 1)
+    values = np.linalg.lstsq(root * X, root * np.nan_to_num(y), rcond=1e-12)[0]
+    return np.asarray(np.moveaxis((y - X @ values).reshape(len(at), -1, y.shape[1]), 2, 0))
+
+
+POINTS, TURNS = slice(0, 3), slice(3, 6)
+
+
+def _rms(errors: Array, which: slice = POINTS) -> Array:
+    """(K,) RMS per axis of the points, or of the turns, of errors (K, n, 3 or 6); NaN where none was measured."""
+    squares = errors[:, :, which] ** 2
+    known = np.isfinite(squares)
+    sums = np.sum(np.where(known, squares, 0.0), axis=(1, 2))
+    counts = np.count_nonzero(known, axis=(1, 2))
+    return np.sqrt(np.divide(sums, counts, out=np.full(len(errors), np.nan), where=counts > 0))
+
+
+def _steps(best: Hypothesis, order: Sequence[int]) -> list[tuple[Chosen, ...]]:
+    """Growing sets of effects, and the whole set once more for the background."""
+    chosen = {c.candidate: c for c in best.chosen}
+    sets = [tuple(chosen[c] for c in order[:n]) for n in range(len(order) + 1)]
+    return [*sets, sets[-1]]

@@ -1,0 +1,260 @@
+"""The verdict: what the selected hypothesis means, in words and numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.core.types import Array, Progress
+from armscope.diagnosis.held_out import Rows, cross_validate
+from armscope.diagnosis.state import Evidence
+from armscope.diagnosis.summary import alternatives as certainty
+from armscope.diagnosis.summary.attribution_map import atlas
+from armscope.diagnosis.summary.effects import found_effect, rest_of_a_curve, scattered_effects, with_weight
+from armscope.diagnosis.summary.homogeneity import carry_over
+from armscope.diagnosis.summary.next_poses import next_poses
+from armscope.diagnosis.summary.unexplained import rows_apart, together, told_backgrounds, too_faint, unexplained_part
+from armscope.fitting.discrepancy import model_error
+from armscope.fitting.gauss_newton import Refit
+from armscope.fitting.linearisation import accumulate
+from armscope.inference.detection import presence
+from armscope.inference.normal_equations import Gram
+from armscope.inference.search import Search
+from armscope.inference.shapley import shares
+from armscope.measurement.noise import Noise
+from armscope.physics.freeform import held
+from armscope.physics.model import FittedModel
+from armscope.recordings import Recordings
+from armscope.verdict.headline import headline
+from armscope.verdict.schema import (
+    Answer,
+    Background,
+    FoundEffect,
+    HeldOut,
+    Notice,
+    Orientations,
+    Residuals,
+    SuspectRow,
+    Unexplained,
+    Verdict,
+    WaterfallStep,
+)
+
+SUSPECT_WEIGHT = 0.5
+LISTED_SUSPECTS = 200
+
+
+def judge(
+    evidence: Evidence, resamples: int, cross_validation: bool, rng: np.random.Generator, tell: Progress
+) -> Verdict:
+    """Certainty, validation, atlas and words."""
+    fit, best, problem = evidence.fit, evidence.best, evidence.problem
+    search = Search.on(problem)
+    tell("weighing alternatives", 0.55)
+    rivals = {c.candidate: certainty.alternatives(search, best, c.candidate) for c in best.chosen}
+    often = certainty.inclusion(problem, evidence.blocks, best, evidence.found, resamples, rng) if resamples else {}
+    scene = fit.model.scene(evidence.recordings)
+    gram = _plain_gram(evidence)
+    variance = _variance_after_frames(gram, fit.pool.frames)
+    shared, of_families = _shares(fit, gram)
+    wrong = model_error(fit, evidence.recordings, evidence.noise.least_mm)
+    found = {
+        c.candidate: found_effect(evidence, search, c, part, rivals[c.candidate], often, scene, gram, share, wrong)
+        for c, part, share in zip(best.chosen, fit.model.parts, shared, strict=True)
+    }
+    order = sorted(found, key=lambda c: -found[c].rms_at_tool_mm)
+    held_out = HeldOut(float("nan"), float("nan"))
+    waterfall: tuple[WaterfallStep, ...] = ()
+    if cross_validation:
+        tell("validating on held-out rows", 0.75)
+        rows = Rows(evidence.point, evidence.recordings, fit.weights)
+        held_out, waterfall = cross_validate(problem, evidence.blocks, evidence.layout, best, order, rows)
+    tell("drawing the atlas", 0.9)
+    background = told_backgrounds(evidence, search, gram, of_families)
+    named = [with_weight(found[c], background) for c in order]
+    waterfall = _with_weights(waterfall, named)
+    scattered = [s for s in scattered_effects(evidence, variance) if not rest_of_a_curve(s, named)]
+    over = carry_over(problem, evidence.blocks, evidence.layout, best, evidence.point, evidence.recordings, fit.weights)
+    named = [replace(e, carries_over=over.get(c, "")) for c, e in zip(order, named, strict=True)]
+    effects = tuple(sorted([*named, *scattered], key=lambda effect: -effect.rms_at_tool_mm))
+    named_or_spread = bool(effects) or any(family.present for family in background)
+    unexplained = unexplained_part(effects, evidence)
+    if not unexplained.present:
+        unexplained = rows_apart(evidence)
+    if not named_or_spread and not unexplained.present:
+        unexplained = too_faint(presence(search))
+    answer, mismatch = _answer(effects, background, unexplained)
+    separating = next_poses(search, best, rivals, fit, evidence.recordings, rng)
+    draft = Verdict(
+        arm=fit.model.arm.name,
+        source=evidence.recordings.source,
+        rows=len(evidence.recordings),
+        runs=tuple(str(run) for run in np.unique(evidence.recordings.run)),
+        answer=answer,
+        headline="",
+        mismatch=mismatch,
+        noise_mm=fit.noise,
+        noise_source=evidence.noise.source + ("; it grows with the distance" if evidence.growth else ""),
+        residual_before_mm=float(np.sqrt(variance)),
+        residual_after_mm=_weighted_rms(fit),
+        effects=effects,
+        background=together(background),
+        background_families=background,
+        unexplained=unexplained,
+        held_out=held_out,
+        waterfall=waterfall,
+        atlas=atlas(fit.pool, fit.model, evidence.recordings, replace(fit.weights, turns=None)),
+        residuals=_residuals(evidence),
+        suspects=_suspects(evidence),
+        next_poses=separating,
+        notices=(*evidence.notices, *_carefully(evidence), *(wrong.told() if found else ())),
+        model=_held(fit.model, evidence.recordings),
+        orientations=_orientations(evidence),
+    )
+    return replace(draft, headline=headline(draft))
+
+
+def _with_weights(waterfall: Sequence[WaterfallStep], named: Sequence[FoundEffect]) -> tuple[WaterfallStep, ...]:
+    """The steps, which start with no effect and add one each, with those of minor effects told."""
+    minor = [False, *(effect.minor for effect in named)]
+    return tuple(replace(step, minor=n < len(minor) and minor[n]) for n, step in enumerate(waterfall))
+
+
+def _held(model: FittedModel, recordings: Recordings) -> FittedModel:
+    """The model to predict with: its free curves go no farther than they were learned."""
+    return replace(model, parts=tuple(replace(p, placed=held(p.placed, recordings)) for p in model.parts))
+
+
+def _plain_gram(evidence: Evidence) -> Gram:
+    """The fit's sums over the points as they were measured: without whitening and orientations."""
+    fit = evidence.fit
+    if fit.weights.whitening is None and fit.weights.turns is None:
+        return fit.gram
+    one_block = np.zeros(len(evidence.recordings), dtype=np.intp)
+    return accumulate(fit.pool, fit.model, evidence.recordings, fit.weights.of_points, one_block)[0]
+
+
+def _variance_after_frames(gram: Gram, frames: NDArray[np.intp]) -> float:
+    """Residual variance per axis after the free frames only, mm^2."""
+    G = gram.G[np.ix_(frames, frames)]
+    explained = gram.b[frames] @ np.linalg.lstsq(G, gram.b[frames], rcond=1e-12)[0]
+    left = float(gram.yy - explained)
+    return max(left, 0.0) / max(gram.n, 1.0)
+
+
+def _weighted_rms(fit: Refit) -> float:
+    trusted = fit.weights.trust > SUSPECT_WEIGHT
+    return float(np.sqrt(np.mean(fit.residuals[trusted] ** 2)))
+
+
+def _shares(fit: Refit, gram: Gram) -> tuple[list[float], list[float]]:
+    """Share of the variance after the frames of every effect, and of every family's background."""
+    members = [fit.pool.of(part.placed) for part in fit.model.parts]
+    families = [columns for columns in fit.pool.background if len(columns)]
+    told = iter(shares(gram, fit.noise**2 * fit.precision, fit.pool.frames, [*members, *families]).tolist())
+    return [next(told) for _ in members], [next(told) if len(columns) else 0.0 for columns in fit.pool.background]
+
+
+def _answer(
+    effects: Sequence[FoundEffect], background: Sequence[Background], unexplained: Unexplained
+) -> tuple[Answer, bool | None]:
+    if effects or any(family.present for family in background):
+        return ("partly explained" if unexplained.present else "explained"), True
+    if unexplained.present:
+        return "cannot tell", True
+    return "nothing missing", False
+
+
+def _residuals(evidence: Evidence) -> Residuals:
+    table, fit = evidence.recordings, evidence.fit
+    return Residuals(
+        points=fit.model.to_base(table.positions, table.run) * 1e3,
+        before=evidence.first.shift,
+        after=fit.residuals,
+        weight=fit.weights.trust,
+        id=table.id,
+        run=table.run,
+    )
+
+
+def _orientations(evidence: Evidence) -> Orientations | None:
+    fit, before = evidence.fit, evidence.first.turn
+    if fit.missed.turn is None or fit.weights.turns is None or before is None:
+        return None
+    trusted = fit.weights.turns.row > SUSPECT_WEIGHT * np.asarray(fit.weights.turns.clean)
+    return Orientations(
+        rows=int(np.isfinite(fit.missed.turn).all(axis=1).sum()),
+        noise_mrad=1e3 * float(np.sqrt(np.mean(fit.missed.turn[trusted] ** 2))),
+        lever_mm=1e3 * fit.weights.lever,
+        before_mrad=1e3 * float(np.sqrt(np.mean(before[trusted] ** 2))),
+    )
+
+
+def _suspects(evidence: Evidence) -> tuple[SuspectRow, ...]:
+    fit, table = evidence.fit, evidence.recordings
+    relative = fit.weights.trust
+    rows = np.flatnonzero(relative < SUSPECT_WEIGHT)
+    size = np.linalg.norm(fit.residuals, axis=1)
+    worst = rows[np.argsort(-size[rows])][:LISTED_SUSPECTS]
+    return tuple(SuspectRow(str(table.id[r]), str(table.run[r]), float(size[r]), float(relative[r])) for r in worst)
+
+
+def _carefully(evidence: Evidence) -> list[Notice]:
+    """What the fit itself says against too much trust."""
+    notices = []
+    if evidence.growth is not None:
+        away = np.linalg.norm(evidence.recordings.positions, axis=1)
+        near, far = (f"{float(evidence.growth.at(d)):.2g} mm at {d:.1f} m" for d in (away.min(), away.max()))
+        text = (
+            f"The noise per axis grows with the distance from the instrument, from {near} to {far} "
+            f"({evidence.growth.slope_mm_per_m:.2g} mm per metre): farther rows count less."
+        )
+        notices.append(Notice("noise by distance", text))
+    stated, fitted = evidence.noise.stated_mm, evidence.fit.noise
+    if stated and fitted < 0.75 * stated:
+        text = f"The residual ({fitted:.3g} mm) is well below the stated noise ({stated:.3g} mm): is that number right?"
+        notices.append(Notice("stated noise", text))
+    return notices
+
+
+def undecided(
+    start: FittedModel,
+    recordings: Recordings,
+    residuals: Array,
+    noise: Noise,
+    notices: tuple[Notice, ...],
+    seconds: float,
+) -> Verdict:
+    """The verdict where no effect can honestly be named."""
+    rms = float(np.sqrt(np.mean(residuals**2)))
+    points = start.to_base(recordings.positions, recordings.run) * 1e3
+    count = len(recordings)
+    return Verdict(
+        arm=start.arm.name,
+        source=recordings.source,
+        rows=count,
+        runs=tuple(str(run) for run in np.unique(recordings.run)),
+        answer="cannot tell",
+        headline="It cannot be told: " + notices[-1].text,
+        mismatch=None,
+        noise_mm=noise.stated_mm or float("nan"),
+        noise_source=noise.source,
+        residual_before_mm=rms,
+        residual_after_mm=rms,
+        effects=(),
+        background=together(()),
+        background_families=(),
+        unexplained=Unexplained(False),
+        held_out=HeldOut(float("nan"), float("nan")),
+        waterfall=(),
+        atlas=None,
+        residuals=Residuals(points, residuals, residuals, np.ones(count), recordings.id, recordings.run),
+        suspects=(),
+        next_poses=None,
+        notices=notices,
+        model=start,
+        seconds=seconds,
+    )

@@ -1,0 +1,1 @@
+"""Numbers found by scanning: periods per turn, times of jumps."""

@@ -1,0 +1,25 @@
+"""Everything that the judgement rests on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from armscope.diagnosis.held_out import Blocks
+from armscope.diagnosis.selection_loop import Selected
+from armscope.measurement.noise import Noise
+from armscope.measurement.row_weights import Missed
+from armscope.physics.model import FittedModel
+from armscope.recordings import Recordings
+from armscope.verdict.schema import Notice
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence(Selected):
+    """Where the rounds of selection ended, and what they started from; ``first``: what the free frames leave."""
+
+    start: FittedModel
+    recordings: Recordings
+    first: Missed
+    noise: Noise
+    notices: tuple[Notice, ...]
+    layout: Blocks

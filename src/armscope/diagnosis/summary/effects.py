@@ -1,0 +1,152 @@
+"""One named effect with everything that is known about it; and scatter that has a place but no driver."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.diagnosis.promotion import worth
+from armscope.diagnosis.scans.scanning import when_stderr
+from armscope.diagnosis.state import Evidence
+from armscope.diagnosis.summary import alternatives as certainty
+from armscope.diagnosis.summary.effect_curve import curve_of
+from armscope.diagnosis.summary.parameters import parameters
+from armscope.fitting.discrepancy import ModelError
+from armscope.fitting.joint_scatter import levers
+from armscope.inference.evidence import Chosen, Hypothesis
+from armscope.inference.normal_equations import Gram, contribution
+from armscope.inference.search import Search
+from armscope.physics.effect import Placed
+from armscope.physics.scene import Part, Scene
+from armscope.verdict.schema import Background, FoundEffect, Parameter
+
+MINOR_SHARE, MINOR_SHARE_OF_PERFECT_ARM = 0.025, 0.001
+"""Effects worth less of the residual variance are apart from the story: in an arm with small errors everywhere, and in
+one that is perfect but for what is named."""
+REST_OF_A_CURVE = 2.0
+NOTHING = "nothing in the table"
+"""What scatter follows."""
+
+
+def found_effect(
+    evidence: Evidence,
+    search: Search,
+    chosen: Chosen,
+    part: Part,
+    rivals: Sequence[tuple[float, Placed, Hypothesis]],
+    often: dict[int, float],
+    scene: Scene,
+    gram: Gram,
+    share: float,
+    wrong: ModelError,
+) -> FoundEffect:
+    """One effect with everything that is known about it."""
+    fit, placed = evidence.fit, part.placed
+    at = fit.pool.of(placed)
+    coefficients = np.zeros(len(fit.pool.terms))
+    coefficients[at] = _sized(evidence, chosen, part.values, fit.covariance_of(placed))
+    covariance = wrong.covariance[np.ix_(at, at)]
+    rms = contribution(gram, fit.pool.frames, coefficients)
+    apart = [certainty.apart(evidence.best, other, placed, rival) for _, rival, other in rivals]
+    close = [rival for nats, (_, rival, _) in zip(apart, rivals, strict=True) if nats < certainty.TELLS_APART_NATS]
+    named_as, title = certainty.name(placed, close)
+    return FoundEffect(
+        effect=placed.name,
+        location=placed.location,
+        family=placed.family,
+        driver=placed.driver,
+        named_as=named_as,
+        title=title,
+        minor=False,
+        parameters=_with_moment(evidence, search, chosen, placed, parameters(placed, part.values, covariance)),
+        rms_at_tool_mm=rms,
+        share=share,
+        evidence_nats=float(_worth(evidence, search, chosen)),
+        alternatives=certainty.listed(rivals),
+        inclusion=often.get(chosen.candidate),
+        curve=curve_of(placed, part.values, covariance, scene),
+        physics=placed.effect.physics,
+        confirm=placed.effect.confirm,
+        cure=placed.effect.cure,
+    )
+
+
+def _sized(evidence: Evidence, chosen: Chosen, values: Array, covariance: Array) -> Array:
+    """An effect's values for its size at the tool: what its rows leave open counts as its prior has it.
+
+    The refit holds named values by a prior so wide that it does not pull; two of them that only show together (offsets
+    along parallel axes) are then told with their wide intervals, but could stand for any size at the tool.
+    """
+    problem = evidence.problem
+    placed = problem.pool.candidates[chosen.candidate]
+    if placed.reading == "curve":
+        return values  # its prior is that already
+    scale = problem.sizes[chosen.size] * np.array(placed.shape) / problem.scale[problem.pool.columns[chosen.candidate]]
+    # the posterior with this prior in place of a flat one
+    scaled = covariance / np.outer(scale, scale)
+    return np.asarray(scale * (np.linalg.solve(np.eye(len(scale)) + scaled, values / scale)))
+
+
+def _with_moment(
+    evidence: Evidence, search: Search, chosen: Chosen, placed: Placed, told: tuple[Parameter, ...]
+) -> tuple[Parameter, ...]:
+    """Parameters with the standard error of a jump's moment."""
+    if placed.family != "drift" or not placed.scanned:
+        return told
+    without = search.without(evidence.best, [chosen.candidate])
+    stderr = when_stderr(placed, evidence.problem, without, evidence.point, evidence.recordings, evidence.fit.weights)
+    return (*told[:-1], replace(told[-1], stderr=stderr))
+
+
+def _worth(evidence: Evidence, search: Search, chosen: Chosen) -> float:
+    """Evidence for a name, nats."""
+    if chosen.within:
+        return worth(evidence.problem, evidence.best, chosen)
+    return search.worth(evidence.best, chosen.candidate)
+
+
+def with_weight(found: FoundEffect, background: Sequence[Background]) -> FoundEffect:
+    """Minor or not: in an arm with small errors everywhere, a small effect is one of them."""
+    ordinary = any(family.present for family in background)
+    small = found.share < (MINOR_SHARE if ordinary else MINOR_SHARE_OF_PERFECT_ARM)
+    return replace(found, minor=small)
+
+
+def scattered_effects(evidence: Evidence, variance: float) -> Iterator[FoundEffect]:
+    """Scatter that has a place but follows nothing in the table."""
+    moved = levers(evidence.fit.model, evidence.recordings)
+    for scattered in evidence.scatter:
+        rms = scattered.size * float(np.sqrt(np.mean(moved[scattered.motor - 1] ** 2)))
+        location = f"joint {scattered.motor}"
+        yield FoundEffect(
+            effect="unknown",
+            location=location,
+            family="unknown",
+            driver=NOTHING,
+            named_as="effect",
+            title=f"scatter at {location} that follows nothing in the table",
+            minor=False,
+            parameters=(Parameter("scatter", "rad", scattered.size, scattered.size / np.sqrt(2 * len(moved[0]))),),
+            rms_at_tool_mm=rms,
+            share=min(rms**2 / variance, 1.0) if variance > 0 else 0.0,
+            evidence_nats=scattered.evidence,
+            alternatives=(),
+            inclusion=None,
+            curve=None,
+            physics="The joint stands a little elsewhere each time, for a reason that the table does not record.",
+            confirm="Record the side of approach, speed, load and temperature, and repeat one pose many times.",
+            cure="Find what the scatter follows (play, a loose coupling or encoder) before compensating anything.",
+        )
+
+
+def rest_of_a_curve(scatter: FoundEffect, named: Sequence[FoundEffect]) -> bool:
+    """Whether scatter is what a free curve at the same joint could not follow."""
+    return any(
+        effect.effect == "unknown"
+        and effect.location == scatter.location
+        and effect.rms_at_tool_mm > REST_OF_A_CURVE * scatter.rms_at_tool_mm
+        for effect in named
+    )

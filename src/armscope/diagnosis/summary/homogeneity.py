@@ -1,0 +1,113 @@
+"""Does it carry over? What is a cause has the same size in every run, under every payload, near and far."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from scipy.stats import chi2
+
+from armscope.core.types import Indices
+from armscope.diagnosis.held_out import FEWEST_ROWS_PER_RUN, Blocks
+from armscope.fitting.linearisation import accumulate
+from armscope.inference.evidence import Hypothesis, Problem, weigh
+from armscope.inference.normal_equations import Gram, total
+from armscope.measurement.row_weights import RowWeights
+from armscope.physics.freeform import REST_OF_LOAD
+from armscope.physics.model import FittedModel
+from armscope.recordings import Recordings
+
+CHANCE = 0.99
+MOST_PAYLOADS = 6
+MOST_ROWS = 3000
+"""Rows on which payloads and halves of the workspace are compared, spread evenly over a longer table."""
+
+
+def carry_over(
+    problem: Problem,
+    blocks: Sequence[Gram],
+    split: Blocks,
+    best: Hypothesis,
+    point: FittedModel,
+    recordings: Recordings,
+    weights: RowWeights,
+) -> dict[int, str]:
+    """For effects with plain parameters: whether every run, payload and half of the workspace alone gives the same.
+
+    Args:
+        blocks: sums over the rows, folds of which are whole runs where runs are compared.
+        point: where they were linearised.
+        weights: of the rows.
+    """
+    said: dict[int, list[str]] = {}
+    for parts, kind in _divisions(problem, blocks, split, point, recordings, weights):
+        for candidate, agrees in _agreements(problem, best, parts).items():
+            said.setdefault(candidate, []).append(_sentence(len(parts), kind, agrees))
+    return {candidate: " ".join(sentences) for candidate, sentences in said.items()}
+
+
+def _divisions(
+    problem: Problem,
+    blocks: Sequence[Gram],
+    split: Blocks,
+    point: FittedModel,
+    recordings: Recordings,
+    weights: RowWeights,
+) -> Iterator[tuple[list[Gram], str]]:
+    """Sums over the rows of each run; of each payload; of the near and of the far half of the workspace."""
+    if split.grouped_by == "run":
+        runs = [np.flatnonzero(split.fold == run) for run in np.unique(split.fold)]
+        yield [total([blocks[int(k)] for k in inside]) for inside in runs], "runs"
+    rows = np.unique(np.linspace(0, len(recordings) - 1, min(len(recordings), MOST_ROWS)).astype(np.intp))
+    table, some = recordings.rows(rows), weights.take(rows)
+    for of_row, kind in ((_payloads(table), "payloads"), (_halves(table, point), "halves of the workspace")):
+        counts = np.bincount(of_row[of_row >= 0])
+        if len(counts) > 1 and counts.min() >= FEWEST_ROWS_PER_RUN:
+            known = np.flatnonzero(of_row >= 0)
+            yield accumulate(problem.pool, point, table.rows(known), some.take(known), of_row[known]), kind
+
+
+def _payloads(recordings: Recordings) -> Indices:
+    """(N,) number of each row's payload; -1 where it is not recorded, everywhere where there are too many."""
+    none = np.full(len(recordings), -1, dtype=np.intp)
+    if recordings.payload is None:
+        return none
+    known = ~np.isnan(recordings.payload)
+    values, which = np.unique(recordings.payload[known].round(3), return_inverse=True)
+    if len(values) > MOST_PAYLOADS:
+        return none
+    none[known] = which
+    return none
+
+
+def _halves(recordings: Recordings, point: FittedModel) -> Indices:
+    """(N,) 0 for the half of the rows whose tool points lie near the base's axis, 1 for the far half."""
+    reach = np.linalg.norm(point.to_base(recordings.positions, recordings.run)[:, :2], axis=1)
+    return (reach > np.median(reach)).astype(np.intp)
+
+
+def _agreements(problem: Problem, best: Hypothesis, parts: Sequence[Gram]) -> dict[int, bool]:
+    """Whether the parts' own posteriors under the chosen hypothesis scatter within chance (one in a hundred)."""
+    # a line alone, without what is left of its curve: that could be another's line in each part
+    lines = tuple(c for c in best.chosen if problem.pool.candidates[c.candidate].variant != REST_OF_LOAD)
+    alone = [weigh(problem.with_gram(gram), lines, best.background, best.noise) for gram in parts]
+    agree = {}
+    for c in lines:
+        placed = problem.pool.candidates[c.candidate]
+        if placed.reading != "plain" or placed.family == "drift":
+            continue
+        at = [np.searchsorted(h.columns, problem.pool.columns[c.candidate]) for h in alone]
+        values = np.array([h.mean[a] for h, a in zip(alone, at, strict=True)])
+        variances = np.array(
+            [h.noise**2 * np.sum(h.inverse[:, a] ** 2, axis=0) for h, a in zip(alone, at, strict=True)]
+        )
+        mean = np.sum(values / variances, axis=0) / np.sum(1 / variances, axis=0)
+        misfit = float(np.sum((values - mean) ** 2 / variances))
+        agree[c.candidate] = misfit < chi2.ppf(CHANCE, values.size - values.shape[1])
+    return agree
+
+
+def _sentence(count: int, kind: str, agrees: bool) -> str:
+    if agrees:
+        return f"Each of the {count} {kind} alone gives the same value within its interval."
+    return f"The {count} {kind} alone give different values: what is meant here may not be the cause."

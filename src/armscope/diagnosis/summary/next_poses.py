@@ -1,0 +1,118 @@
+"""Which poses to measure next: those where two readings that fit equally well predict the tool farthest apart."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from armscope.design.separation import nats_apart, separating
+from armscope.diagnosis.summary.alternatives import TELLS_APART_NATS, apart
+from armscope.fitting.design_matrix import columns
+from armscope.fitting.gauss_newton import Refit
+from armscope.inference.evidence import FRAME_PRIOR_MM, Hypothesis
+from armscope.inference.search import Search
+from armscope.physics.drift import six_terms
+from armscope.physics.effect import ONE, Placed
+from armscope.physics.scene import Scene
+from armscope.poses.obstacles import Surroundings, refusals
+from armscope.recordings import Recordings
+from armscope.verdict.schema import NextPoses
+
+Rivals = Mapping[int, Sequence[tuple[float, Placed, Hypothesis]]]
+
+TRIED = 400
+ASKED = 12
+DECISIVE_NATS = 10.5
+"""What the asked measurements should tell two readings apart by on average. An expected D nats scatter by sqrt(2 D), so
+this much exceeds the 3 nats of 20 to 1 in 95 of 100 cases."""
+MOST_REPEATS = 200
+"""Nobody measures a pose more often than this."""
+PAYLOAD_KG = 10.0
+"""Tried on top of no payload where the recordings never carried one, kg."""
+
+
+def next_poses(
+    search: Search,
+    best: Hypothesis,
+    rivals: Rivals,
+    fit: Refit,
+    recordings: Recordings,
+    rng: np.random.Generator,
+) -> NextPoses | None:
+    """Poses that separate the closest pair of readings; None where no two are close.
+
+    Greedy: each next pose is the one where the two predictions differ most, measured against what the rival could still
+    adapt to (its posterior covariance, updated after each choice) and the noise.
+    """
+    pairs = [
+        (apart(best, other, search.placed(c), placed), c, placed, other)
+        for c, found in rivals.items()
+        for _, placed, other in found
+    ]
+    if not pairs:
+        return None
+    nats, candidate, placed, other = min(pairs, key=lambda pair: pair[0])
+    if nats > TELLS_APART_NATS:
+        return None
+    table = _reachable(fit, recordings, rng)
+    scene = Scene(fit.model.arm, table)
+    posture = scene.posture()
+    X = columns(posture, search.problem.pool.terms).reshape(len(table), 3, -1) / search.problem.scale
+    # the poses will be a run of their own, with a base that is fitted anew
+    new_base = columns(posture, six_terms("base", ONE)).reshape(len(table), 3, 6)
+    p = X.shape[2]
+    between = X @ (best.coefficients(p) - other.coefficients(p))
+    covariance = other.noise**2 * other.inverse.T @ other.inverse
+    k = len(covariance)
+    with_base = np.zeros((k + 6, k + 6))
+    with_base[:k, :k] = covariance
+    with_base[k:, k:] = np.eye(6) * (FRAME_PRIOR_MM * 1e-3) ** 2
+    adapting = np.concatenate([X[:, :, other.columns], new_base], axis=2)
+    chosen, separation = separating(adapting, between, with_base, other.noise, ASKED)
+    repeats = next(
+        (
+            float(k)
+            for k in range(1, MOST_REPEATS + 1)
+            if nats_apart(adapting[chosen], between[chosen], with_base, other.noise / np.sqrt(k)) >= DECISIVE_NATS
+        ),
+        float("inf"),
+    )
+    payload = np.zeros(len(chosen)) if table.payload is None else table.payload[chosen]
+    first = str(search.placed(candidate))
+    return NextPoses(table.motor_angles[chosen], payload, separation, first, str(placed), repeats)
+
+
+def _reachable(fit: Refit, recordings: Recordings, rng: np.random.Generator) -> Recordings:
+    """Random poses within the joint limits (where none are stated: the recorded range), with and without payload.
+
+    Poses in which the arm would hit itself are left out, as far as its body is known (`armscope.poses.obstacles`).
+    """
+    arm = fit.model.arm
+    low, high = recordings.motor_angles.min(axis=0), recordings.motor_angles.max(axis=0)
+    stated = np.isfinite(arm.limits).all(axis=1)
+    low, high = np.where(stated, arm.limits[:, 0], low), np.where(stated, arm.limits[:, 1], high)
+    angles = rng.uniform(low, high, (TRIED, arm.n_motors))
+    heaviest = np.nanmax(recordings.payload) if recordings.payload is not None else 0.0
+    run = np.full(TRIED, "next")
+    shape = (TRIED, arm.n_motors)
+    table = replace(
+        recordings,
+        motor_angles=angles,
+        positions=np.full((TRIED, 3), np.nan),
+        run=run,
+        target=np.full(TRIED, recordings.target[-1]),
+        id=np.arange(1, TRIED + 1).astype(str),
+        orientation=None,
+        sigma=None,
+        extra=None,
+        torque=None,
+        payload=rng.choice([0.0, heaviest or PAYLOAD_KG], TRIED),
+        approach=None if recordings.approach is None else rng.choice([-1.0, 1.0], shape),
+        speed=None if recordings.speed is None else np.zeros(shape),
+        time=None if recordings.time is None else np.full(TRIED, np.nanmax(recordings.time)),
+        temperature=None if recordings.temperature is None else np.full(TRIED, np.nanmedian(recordings.temperature)),
+    )
+    possible = refusals(arm, angles, Surroundings()) == ""
+    return table.rows(possible) if np.sum(possible) >= ASKED else table

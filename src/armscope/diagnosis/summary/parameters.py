@@ -1,0 +1,75 @@
+"""Fitted values as parameters in the field's units, with standard errors carried through."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.physics.effect import Placed
+from armscope.verdict.schema import Parameter
+
+Reading = Callable[[Array], Array]
+
+
+def parameters(placed: Placed, values: Array, covariance: Array) -> tuple[Parameter, ...]:
+    """The parameters of an effect from its terms' values and covariance, SI units."""
+    names, units, reading = _reading(placed)
+    read = reading(values)
+    if not names:
+        return ()
+    circles = np.array([2 * np.pi if name in ("phase", "direction") else np.inf for name in names])
+    stderr = _spread(reading, values, covariance, circles)
+    told = [
+        Parameter(name, unit, float(value), float(error))
+        for name, unit, value, error in zip(names, units, read, stderr, strict=True)
+    ]
+    told += [Parameter(name, unit, float(value), 0.0) for name, unit, value in placed.scanned]
+    return tuple(told)
+
+
+def _reading(placed: Placed) -> tuple[list[str], list[str], Reading]:
+    if placed.reading == "sine" and len(placed.terms) == 2:
+        return ["amplitude", "phase"], ["rad", "rad"], _wave
+    if placed.reading == "sine":
+        return ["amplitude", "phase", "direction"], ["rad"] * 3, _turning_wave
+    if placed.reading == "curve":
+        return [], [], lambda v: np.empty(0)  # a curve is told as a curve
+    si = np.array([term.si for term in placed.terms])
+    return [t.name for t in placed.terms], [t.unit for t in placed.terms], lambda v: v / si
+
+
+def _wave(values: Array) -> Array:
+    """(cosine, sine) as amplitude cos(k q - phase)."""
+    cosine, sine = values
+    return np.array([np.hypot(cosine, sine), np.arctan2(sine, cosine)])
+
+
+def _turning_wave(values: Array) -> Array:
+    """(cosine, sine) about x and about y as amplitude cos(k q - phase) about the best direction (cos, sin)."""
+    u, size, vt = np.linalg.svd(values.reshape(2, 2))
+    direction = float(np.arctan2(u[1, 0], u[0, 0]))
+    phase = float(np.arctan2(vt[0, 1], vt[0, 0]))
+    if not -np.pi / 2 < direction <= np.pi / 2:
+        # the opposite direction half a period later is the same wobble
+        direction = direction - np.sign(direction) * np.pi
+        phase = phase - np.sign(phase) * np.pi
+    return np.array([size[0], phase, direction])
+
+
+def _spread(reading: Reading, values: Array, covariance: Array, circles: Array) -> Array:
+    """Standard errors of a reading: root mean square change over the sigma points of the values' distribution.
+
+    The 2 n points lie root n standard errors along the principal axes of the covariance (Julier & Uhlmann 1997): exact
+    for linear readings, and right in size where a reading bends, as an amplitude does about zero, where a slope says
+    nothing. Changes of a reading that goes in ``circles`` are taken the short way round.
+    """
+    unit = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
+    size, axes = np.linalg.eigh(covariance / np.outer(unit, unit))
+    steps = unit[:, None] * axes * np.sqrt(len(values) * np.maximum(size, 0.0))
+    middle = reading(values)
+    changes = np.array([reading(values + sign * step) - middle for step in steps.T for sign in (1, -1)])
+    turns = np.isfinite(circles)
+    changes[:, turns] -= circles[turns] * np.round(changes[:, turns] / circles[turns])
+    return np.asarray(np.sqrt(np.mean(changes**2, axis=0)))

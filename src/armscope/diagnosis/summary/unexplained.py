@@ -1,0 +1,88 @@
+"""What is there without a name: small errors everywhere, and what nothing in the library explains."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from armscope.diagnosis.state import Evidence
+from armscope.inference.detection import Presence
+from armscope.inference.evidence import background_sizes
+from armscope.inference.normal_equations import Gram, contribution
+from armscope.inference.search import Search
+from armscope.measurement.row_weights import COUNTS
+from armscope.physics.backgrounds import FAMILIES
+from armscope.verdict.schema import Background, FoundEffect, Unexplained
+
+NOISE_EXCESS = 1.15
+"""A residual this many times the stated noise is more than the noise."""
+BACKGROUND_SEEN_NATS = 5.0
+MOST_BAD_SHOTS = 0.1
+"""A larger share of rows that fit nothing is no matter of bad shots."""
+
+
+def told_backgrounds(
+    evidence: Evidence, search: Search, gram: Gram, of_families: Sequence[float]
+) -> tuple[Background, ...]:
+    """What each family's background amounts to, and whether the evidence asks for it."""
+    fit, best = evidence.fit, evidence.best
+    sizes = background_sizes(evidence.problem, best)
+    values = {t: v for part in fit.model.background for t, v in zip(part.placed.terms, part.values, strict=True)}
+    told = []
+    for number, (family, columns) in enumerate(zip(FAMILIES, fit.pool.background, strict=True)):
+        coefficients = np.zeros(len(fit.pool.terms))
+        coefficients[columns] = [values[fit.pool.terms[column]] for column in columns]
+        rms = contribution(gram, fit.pool.frames, coefficients)
+        without = search.resized(best, (*best.background[:number], 0, *best.background[number + 1 :]))
+        present = best.background[number] > 0 and best.value - without.value > BACKGROUND_SEEN_NATS
+        told.append(Background(family, present, sizes[number], rms, of_families[number]))
+    return tuple(told)
+
+
+def together(families: Sequence[Background]) -> Background:
+    """All families' backgrounds as one."""
+    present = [family for family in families if family.present]
+    rms = float(np.sqrt(sum(family.rms_at_tool_mm**2 for family in present)))
+    return Background("all", bool(present), float("nan"), rms, sum(family.share for family in present))
+
+
+def unexplained_part(effects: Sequence[FoundEffect], evidence: Evidence) -> Unexplained:
+    """The largest free curve; or noise far above what was stated."""
+    curves = [effect for effect in effects if effect.effect == "unknown"]
+    if curves:
+        largest = curves[0]
+        words = largest.curve.description if largest.curve else largest.title
+        return Unexplained(True, largest.location, largest.driver, largest.rms_at_tool_mm, words)
+    stated = evidence.noise.stated_mm
+    if stated and evidence.fit.noise > NOISE_EXCESS * stated and _significant(evidence):
+        extra = float(np.sqrt(evidence.fit.noise**2 - stated**2))
+        return Unexplained(True, None, None, extra, "residual above the stated noise that follows nothing in the table")
+    return Unexplained(False)
+
+
+def rows_apart(evidence: Evidence) -> Unexplained:
+    """Rows that fit nothing, where they are too many to be bad shots: another unit, another frame, another arm."""
+    apart = evidence.fit.weights.trust < COUNTS
+    if np.mean(apart) < MOST_BAD_SHOTS:
+        return Unexplained(False)
+    size = float(np.sqrt(np.mean(evidence.fit.residuals[apart] ** 2)))
+    runs = np.unique(evidence.recordings.run[apart])
+    whole = [str(run) for run in runs if run and np.mean(apart[evidence.recordings.run == run]) > COUNTS]
+    words = f"{np.count_nonzero(apart)} of {len(apart)} rows fit neither the nominal arm nor any effect"
+    return Unexplained(True, None, None, size, words + (f": most of run {', '.join(whole)}" if whole else ""))
+
+
+def too_faint(found: Presence) -> Unexplained:
+    """Something that is there although no single name is sure."""
+    if not found.something:
+        return Unexplained(False)
+    names = ", ".join(f"{placed.name.replace('_', ' ')} at {placed.location}" for placed in found.likeliest)
+    words = f"something is missing, but it is too faint for a name; likeliest: {names}"
+    return Unexplained(True, found.location, None, found.size_mm, words)
+
+
+def _significant(evidence: Evidence) -> bool:
+    """Whether the residual's excess over the stated noise is beyond chance (five standard errors of an RMS)."""
+    freedom = max(evidence.fit.gram.n - evidence.fit.spent, 1.0)
+    return evidence.fit.noise > evidence.noise.stated_mm * (1 + 5 / np.sqrt(2 * freedom))

@@ -1,0 +1,201 @@
+"""Does it carry over? What was learned on one run, applied unchanged to another: only frames are placed anew."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from armscope.core.inputs import InputError
+from armscope.core.types import Array
+from armscope.fitting.design_matrix import columns
+from armscope.fitting.gauss_newton import moved_frames
+from armscope.fitting.linearisation import chunks, residuals
+from armscope.fitting.registration import fit_frames
+from armscope.measurement import robust
+from armscope.physics.effect import Placed, Term
+from armscope.physics.frames import free_frames
+from armscope.physics.model import FittedModel
+from armscope.physics.scene import Part
+from armscope.recordings import Recordings
+
+Frame = Literal["base", "tool"]
+
+BACKGROUND = "background"
+"""Stands for the small errors that were allowed for everywhere and are not named."""
+OF_ITS_RUN = {"time", "temperature", "order of rows"}
+"""Drivers of curves that describe the run on which they were learned, not the arm."""
+STEPS = 8
+CONVERGED = 1e-9
+"""m and rad."""
+
+
+@dataclass(frozen=True, eq=False)
+class Transferred:
+    """How well a model holds on rows that took no part in its fit; RMS of the 3D distance over all rows, mm.
+
+    Attributes:
+        rows: how many.
+        applied: the effects that were applied, in words, and "... background" for small errors of a family.
+        left_out: the model's other effects.
+        refitted: the frames that were placed anew on these rows.
+        without_mm, with_mm: without and with the effects, the same frames placed anew.
+        per_run: (without, with) of every run by itself.
+        model: the model with the frames that it has here.
+        residuals: (N, 3) measured minus modelled, base axes, mm.
+    """
+
+    rows: int
+    applied: tuple[str, ...]
+    left_out: tuple[str, ...]
+    refitted: tuple[Frame, ...]
+    without_mm: float
+    with_mm: float
+    per_run: Mapping[str, tuple[float, float]]
+    model: FittedModel
+    residuals: Array
+
+
+def transfer(
+    model: FittedModel,
+    recordings: Recordings,
+    effects: Collection[str] | None = None,
+    refitted: Iterable[Frame] = ("base", "tool"),
+    *,
+    tool_per_run: bool = False,
+    without: FittedModel | None = None,
+) -> Transferred:
+    """Apply a fitted model's effects unchanged to other recordings of the arm.
+
+    Args:
+        model: learned on other rows.
+        recordings: the rows to test on; a compliance learned with recorded torques needs them here, too.
+        effects: which to apply: families ("elastic": its named effects and its background), effects
+            ("joint_compliance"), effects at a place ("unknown at joint 2"), "background" (of all families) or
+            "elastic background"; None applies all that belong to the arm: not drifts, shifts and what follows time or
+            temperature, which belong to their run.
+        refitted: frames placed anew on these rows (base per run, tool per target); others stay as the model has them,
+            and a run that it does not know stands on its last base.
+        tool_per_run: whether each run gets a tool of its own, where tools are refitted.
+        without: what to compare with; the model without any effect where not given. (Where frames are kept, the bare
+            arm's own fit to the rows of learning is the fair one: `fit_frames`.)
+
+    Raises:
+        InputError: ``effects`` names nothing that the model has, or a kept tool is not known for a target.
+    """
+    frames = tuple(frame for frame in ("base", "tool") if frame in set(refitted))
+    parts, background = _applied(model, effects)
+    own = replace(model, parts=parts, background=background)
+    bare = without or replace(model, parts=(), background=())
+    if "tool" not in frames:
+        _check_targets(model, recordings)
+    own, bare = (_placed_anew(each, recordings, frames, tool_per_run) for each in (own, bare))
+    left, before = residuals(own, recordings), residuals(bare, recordings)
+    return Transferred(
+        rows=len(recordings),
+        applied=_words(parts, background),
+        left_out=_words(
+            [part for part in model.parts if not any(part is p for p in parts)],
+            [part for part in model.background if not any(part is p for p in background)],
+        ),
+        refitted=frames,
+        without_mm=_distance(before),
+        with_mm=_distance(left),
+        per_run={
+            str(run): (_distance(before[recordings.run == run]), _distance(left[recordings.run == run]))
+            for run in np.unique(recordings.run)
+        },
+        model=own,
+        residuals=left,
+    )
+
+
+def belongs_to_the_arm(placed: Placed) -> bool:
+    """Whether an effect may be expected on another run, too."""
+    curve_of_a_run = placed.reading == "curve" and placed.driver in OF_ITS_RUN
+    return placed.family not in ("drift", "frame") and not curve_of_a_run
+
+
+def _applied(model: FittedModel, wanted: Collection[str] | None) -> tuple[tuple[Part, ...], tuple[Part, ...]]:
+    """The effects and the parts of the background that are applied."""
+    if wanted is None:
+        return tuple(part for part in model.parts if belongs_to_the_arm(part.placed)), model.background
+    known = {name for part in model.parts for name in _names(part.placed)} | {BACKGROUND}
+    known |= {name for part in model.background for name in _names_of_background(part.placed)}
+    for name in wanted:
+        if name not in known:
+            allowed = f"one of {', '.join(sorted(known))}"
+            raise InputError("effects", "", name, allowed, "The model holds nothing of that name.")
+    return (
+        tuple(part for part in model.parts if _names(part.placed) & set(wanted)),
+        tuple(part for part in model.background if _names_of_background(part.placed) & set(wanted)),
+    )
+
+
+def _names(placed: Placed) -> set[str]:
+    return {placed.family, placed.name, f"{placed.name} at {placed.location}", str(placed)}
+
+
+def _names_of_background(placed: Placed) -> set[str]:
+    return {placed.family, BACKGROUND, f"{placed.family} {BACKGROUND}"}
+
+
+def _words(parts: Iterable[Part], background: Iterable[Part]) -> tuple[str, ...]:
+    families = sorted({f"{part.placed.family} {BACKGROUND}" for part in background})
+    return (*(str(part.placed) for part in parts), *families)
+
+
+def _check_targets(model: FittedModel, recordings: Recordings) -> None:
+    known = {str(part.placed.terms[0].products[0].driver.arguments[0]) for part in model.tools}
+    for target in np.unique(recordings.target):
+        if str(target) not in known:
+            raise InputError(
+                recordings.source,
+                "target",
+                str(target),
+                f"the model knows {', '.join(sorted(known))}",
+                "Refit the tool, or give the target the name of the one that it is.",
+            )
+
+
+def _placed_anew(
+    model: FittedModel, recordings: Recordings, frames: Collection[Frame], tool_per_run: bool
+) -> FittedModel:
+    """The model with some frames fitted to the rows, its effects unchanged (Gauss-Newton, Huber weights)."""
+    if not frames:
+        return model
+    start = fit_frames(model.arm, recordings, tool_per_run)
+    tools = start.tools if "tool" in frames else model.tools
+    bases = start.bases if "base" in frames else {str(r): model.base_of(str(r)) for r in np.unique(recordings.run)}
+    model = replace(model, bases=dict(bases), tools=tools)
+    free = [p for p in free_frames(recordings, tool_per_run) if p.location in frames]
+    for _ in range(STEPS):
+        steps = _steps(model, recordings, [term for placed in free for term in placed.terms])
+        model = moved_frames(model, steps)
+        if max(abs(step) for step in steps.values()) < CONVERGED:
+            break
+    return model
+
+
+def _steps(model: FittedModel, recordings: Recordings, terms: Sequence[Term]) -> dict[Term, float]:
+    """A step of each of the free frames' terms, SI units."""
+    left = residuals(model, recordings)
+    weight = robust.first_weights(left, np.ones(len(left)), 0.0)
+    G, b = np.zeros((len(terms), len(terms))), np.zeros(len(terms))
+    for rows, posture in chunks(model, recordings):
+        X = columns(posture, terms)
+        weighted = X * np.repeat(weight[rows], 3)[:, None]
+        G += weighted.T @ X
+        b += weighted.T @ left[rows].reshape(-1)
+    # a held wrist leaves the tool's offset to the base: the tiny ridge keeps such a fit at its start
+    scale = 1 / np.sqrt(np.maximum(np.diag(G), 1e-300))
+    ridge = 1e-9 * np.eye(len(terms))
+    step = scale * np.linalg.solve(G * np.outer(scale, scale) + ridge, scale * b)
+    return {term: float(value) for term, value in zip(terms, step, strict=True)}
+
+
+def _distance(errors: Array) -> float:
+    """RMS of the 3D distance."""
+    return float(np.sqrt(np.mean(np.sum(errors**2, axis=1))))

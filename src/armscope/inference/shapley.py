@@ -1,0 +1,67 @@
+"""How much of the mismatch each effect is worth, when several overlap or cancel.
+
+An effect's share is the part of the residual variance after the free frames that it explains, averaged over the orders
+in which effects and backgrounds can be let in (Shapley 1953; for regression Lindeman, Merenda & Gold 1980). Shares are
+never negative, and together they are what the whole model explains. (The variance of an effect by itself has neither
+property: of two that nearly cancel, each would be worth many times the mismatch.)
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from armscope.core.types import Array, Indices
+from armscope.inference.evidence import forward, lower_factor
+from armscope.inference.normal_equations import Gram
+
+MOST_ORDERS = 120
+"""All orders up to five members; as many drawn at random, and their reverses, where there are more."""
+
+
+def shares(gram: Gram, ridge: Array, frames: Indices, members: Sequence[Indices]) -> Array:
+    """(members,) share of the variance after the frames that each member explains, 0 ... 1.
+
+    Args:
+        gram: sums over the rows.
+        ridge: (p,) noise variance over prior variance of each column: what a value that is held near zero costs.
+        frames: columns of the free frames; they come first in every order.
+        members: columns of each effect or background.
+    """
+    count = len(members)
+    scale = np.sqrt(np.maximum(np.diag(gram.G) + ridge, 1e-300))
+    G, b = gram.G / np.outer(scale, scale), gram.b / scale
+    held = ridge / scale**2
+    left = float(gram.yy - _explained(G, b, held, frames).sum())
+    if count == 0 or left <= 0:
+        return np.zeros(count)
+    totals, orders = np.zeros(count), 0
+    for order in _orders(count):
+        columns = np.concatenate([frames, *(members[m] for m in order)])
+        explained = _explained(G, b, held, columns)[len(frames) :]
+        ends = np.cumsum([len(members[m]) for m in order])
+        for m, start, end in zip(order, [0, *ends[:-1]], ends, strict=True):
+            totals[m] += explained[start:end].sum()
+        orders += 1
+    return np.asarray(totals / (orders * left))
+
+
+def _explained(G: Array, b: Array, held: Array, columns: Indices) -> Array:
+    """What each column explains beyond those before it, mm^2."""
+    factor = lower_factor(G[np.ix_(columns, columns)], held[columns])
+    explained: Array = forward(factor, b[columns]) ** 2
+    return explained
+
+
+def _orders(count: int) -> Iterator[tuple[int, ...]]:
+    everything = itertools.permutations(range(count))
+    if count <= 5:
+        yield from everything
+        return
+    rng = np.random.default_rng(count)
+    for _ in range(MOST_ORDERS // 2):
+        order = tuple(int(m) for m in rng.permutation(count))
+        yield order
+        yield order[::-1]

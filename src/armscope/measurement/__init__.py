@@ -1,0 +1,1 @@
+"""What was measured: how a model predicts it, how noisy it is, how much a row counts."""

@@ -1,0 +1,1 @@
+"""Foreign tables of recordings: fetched, read by a mapping, converted to recordings.csv."""

@@ -1,0 +1,229 @@
+"""The columns of the recordings table from those of a raw file: units, orientations, time stamps, labels."""
+
+from __future__ import annotations
+
+from typing import cast
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from armscope.core.types import Array
+from armscope.recordings.importing.mapping import Column, Columns, Label, Orientation, Scalar, Time
+from armscope.recordings.importing.pieces import Piece
+from armscope.recordings.orientations import NotARotation, from_euler, from_matrices, from_quaternions
+from armscope.recordings.table import ABSOLUTE_ZERO_C, LARGEST_ANGLE_RAD, LARGEST_POSITION_M, UNITS
+
+TIME_UNITS = {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0}
+
+
+class Converter:
+    """The columns of the recordings table from those of a run; remembers its first time stamp and its ids."""
+
+    def __init__(self, columns: Columns, run: str) -> None:
+        self.columns, self.run = columns, run
+        self.start: pd.Timestamp | None = None
+        self.ids: set[tuple[str, str]] = set()
+
+    def table(self, piece: Piece) -> pd.DataFrame:
+        """A piece in the columns of the recordings table that the run has."""
+        columns = self.columns
+        assert columns.angles is not None
+        table: dict[str, object] = {"id": self._ids(piece), "run": [self.run] * len(piece)}
+        if columns.target is not None:
+            table["target"] = _label(piece, columns.target)
+        if columns.id is not None and columns.id.column is not None:
+            self._check_ids(
+                piece, cast(list[str], table["id"]), cast(list[str], table.get("target", [""] * len(piece)))
+            )
+        table |= _named([f"q{j + 1}_rad" for j in range(len(columns.angles.columns))], self._angles(piece))
+        table |= self._measured(piece)
+        table |= self._context(piece)
+        return pd.DataFrame(table)
+
+    def _ids(self, piece: Piece) -> list[str]:
+        numbers = piece.rows.numbers_of_rows
+        identity = self.columns.id
+        if identity is not None and identity.row_of is not None:
+            numbers = piece.beside[identity.row_of].row_numbers(numbers)
+        elif identity is not None and identity.column is not None:
+            return piece.words(identity.column)
+        return numbers.astype(str).tolist()
+
+    def _check_ids(self, piece: Piece, ids: list[str], targets: list[str]) -> None:
+        assert self.columns.id is not None
+        assert self.columns.id.column is not None
+        for row, key in enumerate(zip(ids, targets, strict=True)):
+            if key in self.ids:
+                cure = "Keep one with `rows: [{first_of: [...]}]`, or leave `id` out to number the source's rows."
+                rule = "an id stands once per run and target"
+                raise piece.error(row, (self.columns.id.column,), key[0], rule, cure)
+            self.ids.add(key)
+
+    def _angles(self, piece: Piece) -> Array:
+        group = self.columns.angles
+        assert group is not None
+        angles = self._required(piece, group.columns) * UNITS[group.unit]
+        beyond = np.argwhere(np.abs(angles) > LARGEST_ANGLE_RAD)
+        if len(beyond):
+            row, motor = beyond[0]
+            cure = "Are these degrees? Then say unit: deg." if group.unit == "rad" else ""
+            found = f"{angles[row, motor] / UNITS[group.unit]:g} {group.unit}"
+            raise piece.error(int(row), (group.columns[motor],), found, "a joint angle lies within two turns", cure)
+        return angles
+
+    def _required(self, piece: Piece, columns: tuple[Column, ...]) -> Array:
+        values = piece.stack(columns)
+        missing = np.argwhere(np.isnan(values))
+        if len(missing):
+            row, column = missing[0]
+            cure = f"Leave such rows out with `rows: [{{drop_missing: [{columns[column]}]}}]`."
+            raise piece.error(int(row), (columns[column],), "nothing", "this value is required in every row", cure)
+        return values
+
+    def _measured(self, piece: Piece) -> dict[str, Array]:
+        columns = self.columns
+        if columns.pose is not None:
+            matrix = self._required(piece, columns.pose.matrix).reshape(len(piece), -1, 4)
+            self._check_last_row(piece, matrix)
+            position = matrix[:, :3, 3] * UNITS[columns.pose.unit]
+            orientation: Array | None = self._rotation(
+                piece, columns.pose.matrix, lambda: from_matrices(matrix[:, :3, :3])
+            )
+            self._check_lengths(piece, tuple(columns.pose.matrix[k] for k in (3, 7, 11)), position, columns.pose.unit)
+        else:
+            assert columns.position is not None
+            position = self._required(piece, columns.position.columns) * UNITS[columns.position.unit]
+            self._check_lengths(piece, columns.position.columns, position, columns.position.unit)
+            orientation = None if columns.orientation is None else self._orientation(piece, columns.orientation)
+        measured = _named(["x_mm", "y_mm", "z_mm"], position * 1e3)
+        return measured if orientation is None else measured | _named(["qw", "qx", "qy", "qz"], orientation)
+
+    def _check_lengths(self, piece: Piece, columns: tuple[Column, ...], lengths: Array, unit: str) -> None:
+        rule = f"a measured point lies within {LARGEST_POSITION_M / 1e3:g} km of its frame's origin"
+        cure = f"Is its unit really {unit}?"
+        _refuse(piece, columns, lengths / UNITS[unit], np.abs(lengths) > LARGEST_POSITION_M, rule, cure)
+
+    def _check_last_row(self, piece: Piece, matrix: Array) -> None:
+        assert self.columns.pose is not None
+        if matrix.shape[1] == 4:
+            wrong = np.flatnonzero(np.abs(matrix[:, 3] - [0, 0, 0, 1]).max(axis=1) > 1e-9)
+            if len(wrong):
+                cure = "Is the matrix written column by column? Then name its columns in the order of the rows."
+                found = matrix[wrong[0], 3].tolist()
+                rule = "the last row of a homogeneous matrix is 0 0 0 1"
+                raise piece.error(int(wrong[0]), self.columns.pose.matrix[12:], found, rule, cure)
+
+    def _orientation(self, piece: Piece, group: Orientation) -> Array:
+        if group.quaternion is not None:
+            assert group.order is not None
+            order = group.order
+            values = _whole(piece, group.quaternion)
+            return self._rotation(piece, group.quaternion, lambda: from_quaternions(values, order))
+        if group.euler is not None:
+            assert group.unit is not None
+            assert group.sequence is not None
+            angles = _whole(piece, group.euler)
+            cure = "Are these degrees? Then say unit: deg." if group.unit == "rad" else ""
+            far = np.abs(angles * UNITS[group.unit]) > LARGEST_ANGLE_RAD
+            _refuse(piece, group.euler, angles, far, f"an Euler angle in {group.unit} lies within two turns", cure)
+            return from_euler(angles * UNITS[group.unit], group.sequence)
+        assert group.matrix is not None
+        matrices = _whole(piece, group.matrix).reshape(-1, 3, 3)
+        return self._rotation(piece, group.matrix, lambda: from_matrices(matrices))
+
+    def _rotation(self, piece: Piece, columns: tuple[Column, ...], convert: object) -> Array:
+        assert callable(convert)
+        try:
+            return cast(Array, convert())
+        except NotARotation as error:
+            raise piece.error(error.row, columns, error.found, error.rule, error.cure) from error
+
+    def _context(self, piece: Piece) -> dict[str, Array]:
+        columns = self.columns
+        context: dict[str, Array] = {}
+        if columns.torque is not None:
+            context |= _named(
+                [f"tau{j + 1}_nm" for j in range(len(columns.torque.columns))], piece.stack(columns.torque.columns)
+            )
+        if columns.speed is not None:
+            speeds = piece.stack(columns.speed.columns) * UNITS[columns.speed.unit.removesuffix("/s")]
+            context |= _named([f"dq{j + 1}_rad_s" for j in range(speeds.shape[1])], speeds)
+        if columns.approach is not None:
+            sides = piece.stack(columns.approach.columns)
+            wrong = ~np.isin(sides, [-1, 0, 1]) & ~np.isnan(sides)
+            _refuse(piece, columns.approach.columns, sides, wrong, "the side of approach is -1 or +1")
+            context |= _named([f"approach{j + 1}" for j in range(sides.shape[1])], sides)
+        if columns.payload is not None:
+            context["payload_kg"] = _scalar(piece, columns.payload, 0.0, "a payload is not negative")
+        if columns.time is not None:
+            context["time_s"] = self._time(piece, columns.time)
+        if columns.temperature is not None:
+            rule = "no temperature is below absolute zero"
+            context["temperature_c"] = _scalar(piece, columns.temperature, ABSOLUTE_ZERO_C, rule)
+        if columns.sigma is not None:
+            sigma = piece.stack(columns.sigma.columns) * UNITS[columns.sigma.unit] * 1e3
+            rule = "an uncertainty is not negative"
+            _refuse(piece, columns.sigma.columns, sigma, (sigma < 0) | (sigma > LARGEST_POSITION_M * 1e3), rule)
+            context |= _named([f"sigma_{axis}_mm" for axis in "xyz"], sigma)
+        return context
+
+    def _time(self, piece: Piece, group: Time) -> Array:
+        if group.unit is not None:
+            return piece.numbers(group.column) * TIME_UNITS[group.unit]
+        words = pd.Series(piece.words(group.column), dtype=object)
+        stamps = self._stamps(piece, group, words)
+        if self.start is None:
+            if not stamps.notna().any():
+                return np.full(len(piece), np.nan)
+            self.start = stamps[stamps.first_valid_index()]
+        return np.asarray((stamps - self.start).dt.total_seconds(), dtype=float)
+
+    @staticmethod
+    def _stamps(piece: Piece, group: Time, words: pd.Series) -> pd.Series:
+        """Time stamps, one zone for all; NaT where there is none."""
+        stamps = pd.to_datetime(words, format=group.format, errors="coerce", utc=True)
+        wrong = np.flatnonzero(stamps.isna() & (words != ""))
+        if len(wrong):
+            rule, cure = f"a time stamp is written as {group.format}", "Correct `format`, or leave `time` out."
+            raise piece.error(int(wrong[0]), (group.column,), words[wrong[0]], rule, cure)
+        return stamps
+
+
+def _named(names: list[str], values: Array) -> dict[str, Array]:
+    return {name: values[:, column] for column, name in enumerate(names)}
+
+
+def _refuse(
+    piece: Piece, columns: tuple[Column, ...], values: Array, wrong: NDArray[np.bool_], rule: str, cure: str = ""
+) -> None:
+    """Name the first of ``values`` (N, columns) that is ``wrong``."""
+    if wrong.any():
+        row, column = np.argwhere(wrong)[0]
+        raise piece.error(int(row), (columns[column],), f"{values[row, column]:g}", rule, cure)
+
+
+def _whole(piece: Piece, columns: tuple[Column, ...]) -> Array:
+    """(N, columns) the parts of an orientation: all there, or none."""
+    values = piece.stack(columns)
+    missing = np.isnan(values)
+    partly = np.flatnonzero(missing.any(axis=1) & ~missing.all(axis=1))
+    if len(partly):
+        which = tuple(columns[k] for k in np.flatnonzero(missing[partly[0]]))
+        raise piece.error(int(partly[0]), which, "nothing", "an orientation is there as a whole or not at all")
+    return values
+
+
+def _scalar(piece: Piece, group: Scalar, low: float, rule: str) -> Array:
+    constant = group.constant
+    values = np.full(len(piece), constant, dtype=float) if group.column is None else piece.numbers(group.column)
+    _refuse(piece, (group.column or "constant",), values[:, None], values[:, None] < low, rule)
+    return values
+
+
+def _label(piece: Piece, group: Label) -> list[str]:
+    if group.column is not None:
+        return piece.words(group.column)
+    if group.cycle is not None:
+        return [group.cycle[(row - 1) % len(group.cycle)] for row in piece.rows.numbers_of_rows]
+    return [cast(str, group.constant)] * len(piece)

@@ -1,0 +1,76 @@
+"""The atlas: how much of the mismatch each place could explain with each driver, as a map."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+from armscope.report.figures.arm_picture import share_colours
+from armscope.report.style import BLACK, styled
+
+WORTH_A_NUMBER = 0.03
+"""Cells below this share are coloured but carry no number."""
+IMPOSSIBLE = "#F0F1F3"
+
+
+def draw_atlas(
+    shares: pd.DataFrame, marked: Collection[tuple[str, str]] = (), left: pd.DataFrame | None = None
+) -> Figure:
+    """Location x driver maps of the share explained.
+
+    Args:
+        shares: index location, columns driver (in words), values 0 to 1; NaN where there is no such effect.
+        marked: (location, driver) cells of the effects that were named: they get a frame.
+        left: the same on top of the named effects, as a share of the original mismatch; None leaves it out.
+    """
+    maps = [("before any effect", shares)]
+    if left is not None:
+        maps.append(("after the fitted model", left.reindex(index=shares.index, columns=shares.columns)))
+    top = max(0.05, float(np.nanmax(shares.to_numpy(), initial=0.0)))
+    n_rows, n_columns = shares.shape
+    height = 0.27 * n_rows + 1.9
+    width = max(0.52 * n_columns, 2.2) * len(maps) + 2.6
+    with styled(), plt.rc_context({"axes.grid": False}):
+        figure, panels = plt.subplots(1, len(maps), figsize=(width, height), sharey=True, squeeze=False)
+        for panel, (title, table) in zip(panels[0], maps, strict=True):
+            image = panel.imshow(
+                np.ma.masked_invalid(table.to_numpy(dtype=float)), cmap=share_colours(), vmin=0, vmax=top, aspect="auto"
+            )
+            panel.set_facecolor(IMPOSSIBLE)
+            panel.set_title(title, loc="left")
+            panel.set_xticks(range(n_columns), table.columns, rotation=40, ha="right", rotation_mode="anchor")
+            panel.set_yticks(range(n_rows), table.index)
+            panel.tick_params(length=0)
+            panel.spines[:].set_visible(False)
+            panel.set_xticks(np.arange(n_columns + 1) - 0.5, minor=True)
+            panel.set_yticks(np.arange(n_rows + 1) - 0.5, minor=True)
+            panel.grid(which="minor", color="white", linewidth=1.4, alpha=1.0)
+            panel.tick_params(which="minor", length=0)
+            _write_numbers(panel, table, top)
+        for location, driver in marked:
+            if location in shares.index and driver in shares.columns:
+                _frame(panels[0][0], list(shares.columns).index(driver), list(shares.index).index(location))
+        bar = figure.colorbar(image, ax=panels[0].tolist(), shrink=min(1.0, 2.6 / height), pad=0.015, aspect=22)
+        bar.set_label("share explained (%)")
+        bar.ax.yaxis.set_major_formatter(lambda value, _: f"{100 * value:.0f}")
+        bar.outline.set_linewidth(0)
+    return figure
+
+
+def _write_numbers(panel: plt.Axes, table: pd.DataFrame, top: float) -> None:
+    for row, values in enumerate(table.to_numpy(dtype=float)):
+        for column, share in enumerate(values):
+            if np.isfinite(share) and share >= WORTH_A_NUMBER:
+                colour = "white" if share > 0.45 * top else BLACK
+                panel.text(column, row, f"{100 * share:.0f}", ha="center", va="center", fontsize=7.5, color=colour)
+
+
+def _frame(panel: plt.Axes, column: int, row: int) -> None:
+    panel.add_patch(
+        Rectangle((column - 0.5, row - 0.5), 1, 1, fill=False, edgecolor=BLACK, linewidth=1.8, zorder=5, clip_on=False)
+    )

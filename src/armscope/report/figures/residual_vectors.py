@@ -1,0 +1,168 @@
+"""What was measured minus what the model says, as arrows in the workspace and along each joint's motion."""
+
+from __future__ import annotations
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Colormap, Normalize
+from matplotlib.figure import Figure
+from matplotlib.quiver import Quiver
+from numpy.typing import NDArray
+
+from armscope.core.types import Array
+from armscope.report.figures.arm_picture import share_colours
+from armscope.report.style import BLACK, BLUE, GREY, VERMILION, legend_above, styled
+
+MOST_ARROWS = 350
+MOST_DOTS = 1500
+MOST_INCHES = 7.0
+WINDOWS = 12
+"""The running mean along an angle has so many windows over its range."""
+
+
+def draw_vectors(points: Array, before: Array, after: Array) -> Figure:
+    """Residuals before and after as arrows, from above and in the half-plane of reach and height, to one scale.
+
+    Args:
+        points: (N, 3) measured tool points, base axes, m.
+        before, after: (N, 3) residuals without any effect and with the fitted model, base axes, mm.
+    """
+    shown = evenly(len(points), MOST_ARROWS)
+    at = 1e3 * points[shown]
+    typical = float(np.percentile(np.linalg.norm(before, axis=1), 95))
+    across = float(max(np.ptp(at, axis=0).max(), 1.0))
+    factor = nice(0.09 * across / max(typical, 1e-6))
+    both = {"before": before[shown], "after": after[shown]}
+    above, side = at[:, :2], _folded(at, at)
+    limits = [
+        _limits(above, [factor * left[:, :2] for left in both.values()]),
+        _limits(side, [factor * _folded(at, left) for left in both.values()]),
+    ]
+    heights = [float(np.ptp(low_high[:, 1]) / np.ptp(low_high[:, 0])) for low_high in limits]
+    norm, colours = Normalize(0, typical), share_colours()
+    with styled():
+        side_length = min(3.1, MOST_INCHES / sum(heights))
+        size = (2 * side_length + 2.6, side_length * sum(heights) + 1.3)
+        figure, panels = plt.subplots(2, 2, figsize=size, height_ratios=heights, sharex="row", sharey="row")
+        for column, (title, left) in enumerate(both.items()):
+            rms = float(np.sqrt(np.mean((before, after)[column] ** 2)))
+            panels[0, column].set_title(f"{title}: {rms:.3g} mm RMS per axis")
+            length = np.linalg.norm(left, axis=1)
+            for row, (where, arrows) in enumerate(((above, left[:, :2]), (side, _folded(at, left)))):
+                panel = panels[row, column]
+                drawn = _arrows(panel, where, factor * arrows, length, norm, colours)
+                panel.set(xlim=limits[row][:, 0], ylim=limits[row][:, 1], aspect="equal")
+            _mark_base(panels[0, column])
+        panels[0, 0].set(ylabel="from above: y (mm)")
+        panels[1, 0].set(ylabel="from the side: height z (mm)")
+        for panel in panels[0]:
+            panel.set_xlabel("x (mm)")
+        for panel in panels[1]:
+            panel.set_xlabel("distance from the base's axis (mm)")
+        bar = figure.colorbar(
+            ScalarMappable(norm, colours), ax=panels.ravel().tolist(), shrink=0.5, pad=0.01, aspect=28, extend="max"
+        )
+        bar.set_label("length of the residual (mm)")
+        bar.outline.set_linewidth(0)
+        _key(panels[0, 0], drawn, factor, nice(typical))
+    return figure
+
+
+def draw_along_joints(motor_angles: Array, jacobian: Array, before: Array, after: Array) -> Figure:
+    """The residual along the way that each joint moves the tool, against the joint's angle.
+
+    Args:
+        motor_angles: (N, m) rad; joints that never move are left out.
+        jacobian: (N, 3, m) displacement of the tool by unit turns of the motors, base axes.
+        before, after: (N, 3) residuals in base axes, mm.
+    """
+    joints = np.flatnonzero(np.ptp(motor_angles, axis=0) > 1e-3)
+    shown = evenly(len(motor_angles), MOST_DOTS)
+    ways = jacobian / np.maximum(np.linalg.norm(jacobian, axis=1, keepdims=True), 1e-9)
+    along = [np.einsum("nci,nc->ni", ways, residual) for residual in (before, after)]
+    limit = 1.15 * float(np.percentile(np.abs(along[0]), 99)) + 1e-9
+    columns = min(3, len(joints))
+    rows = -(-len(joints) // columns)
+    dot = float(np.clip(260 / np.sqrt(len(shown)) / 3, 2.5, 12))
+    with styled():
+        figure, panels = plt.subplots(
+            rows, columns, figsize=(2.9 * columns + 0.4, 2.0 * rows + 0.6), sharey=True, squeeze=False
+        )
+        for panel in panels.flat[len(joints) :]:
+            panel.set_visible(False)
+        for panel, joint in zip(panels.flat, joints, strict=False):
+            angle = np.degrees(motor_angles[:, joint])
+            panel.axhline(0, color=BLACK, linewidth=0.6)
+            for values, colour, name in zip(along, (VERMILION, BLUE), ("before", "after"), strict=True):
+                panel.scatter(angle[shown], values[shown, joint], s=dot, color=colour, alpha=0.35, linewidth=0,
+                              rasterized=True)  # fmt: skip
+                panel.plot(*running_mean(angle, values[:, joint]), color=colour, linewidth=1.8, label=name)
+            panel.set_ylim(-limit, limit)
+            panel.set_title(f"joint {joint + 1}")
+        figure.supxlabel("angle of the joint (deg)", fontsize=9)
+        figure.supylabel("residual along its motion (mm)", fontsize=9)
+        legend_above(figure)
+    return figure
+
+
+def running_mean(angle: Array, values: Array) -> tuple[Array, Array]:
+    """Means of angle and value in windows of equal numbers of rows."""
+    order = np.argsort(angle, kind="stable")
+    windows = np.array_split(order, max(2, min(WINDOWS, len(order) // 8)))
+    return np.array([angle[w].mean() for w in windows]), np.array([values[w].mean() for w in windows])
+
+
+def evenly(count: int, most: int) -> NDArray[np.intp]:
+    """At most ``most`` row numbers, spread evenly; the same ones each time."""
+    return np.unique(np.linspace(0, count - 1, min(count, most)).astype(int))
+
+
+def nice(value: float) -> float:
+    """The largest of 1, 2, 5, 10, 20, ... that does not exceed the value."""
+    power = 10.0 ** np.floor(np.log10(max(value, 1e-9)))
+    return float(max(step * power for step in (1, 2, 5) if step * power <= value * (1 + 1e-9)))
+
+
+def _folded(at: Array, vectors: Array) -> Array:
+    """(N, 2) components away from the base's axis and up."""
+    outwards = at[:, :2] / np.maximum(np.linalg.norm(at[:, :2], axis=1, keepdims=True), 1e-9)
+    return np.column_stack([np.sum(outwards * vectors[:, :2], axis=1), vectors[:, 2]])
+
+
+def _arrows(panel: Axes, at: Array, arrows: Array, sizes: Array, norm: Normalize, colours: Colormap) -> Quiver:
+    return panel.quiver(
+        *at.T, *arrows.T, sizes, cmap=colours, norm=norm, angles="xy", scale_units="xy", scale=1,
+        width=0.0035, headwidth=3.5, headlength=4, headaxislength=3.6, edgecolor="#3A424A", linewidth=0.25, zorder=3,
+    )  # fmt: skip
+
+
+def _limits(at: Array, arrows: list[Array]) -> Array:
+    """(2, 2) lowest and highest coordinates that hold the points and nearly all arrows."""
+    across = float(max(np.ptp(at, axis=0).max(), 1.0))
+    reach = np.vstack([at, *(at + np.clip(some, -0.2 * across, 0.2 * across) for some in arrows)])
+    margin = 0.03 * across
+    return np.vstack([reach.min(axis=0) - margin, reach.max(axis=0) + margin])
+
+
+def _key(panel: Axes, arrows: Quiver, factor: float, length: float) -> None:
+    """The arrows' scale in words, and one arrow of known length behind them."""
+    figure = panel.get_figure(root=True)
+    assert figure is not None
+    words = figure.suptitle(
+        f"Arrows are drawn {factor:g} times as long as the residual. {length:g} mm:", x=0.02, ha="left", fontsize=9
+    )
+    figure.canvas.draw()
+    box = words.get_window_extent().transformed(figure.transFigure.inverted())
+    key = panel.quiverkey(arrows, box.x1 + 0.055, (box.y0 + box.y1) / 2, factor * length, "", color=GREY,
+                                coordinates="figure")  # fmt: skip
+    key.set_in_layout(False)
+
+
+def _mark_base(panel: Axes) -> None:
+    left, right = sorted(panel.get_xlim())
+    low, high = sorted(panel.get_ylim())
+    if left < 0 < right and low < 0 < high:
+        panel.plot(0, 0, marker="s", markersize=7, color=GREY, zorder=2)
+        panel.annotate("base", (0, 0), (5, 5), textcoords="offset points", color=GREY, fontsize=8)

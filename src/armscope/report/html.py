@@ -1,0 +1,83 @@
+"""Self-contained HTML pages: everything embedded, nothing fetched."""
+
+from __future__ import annotations
+
+import base64
+import importlib.resources
+import re
+import zlib
+from pathlib import Path
+from typing import Any
+
+import jinja2
+import pandas as pd
+from markupsafe import Markup
+from pandas.io.formats.style import Styler
+
+from armscope.core.files import write_text
+from armscope.core.outputs import readable
+from armscope.report.text.wording import plain
+
+_TEMPLATES = jinja2.Environment(
+    loader=jinja2.PackageLoader("armscope.report", "templates"),
+    autoescape=True,
+    trim_blocks=True,
+    lstrip_blocks=True,
+    undefined=jinja2.StrictUndefined,
+)
+
+
+def unbroken(text: str) -> str:
+    """Numbers keep their units beside them: no line break between "55" and "%", nor before a dash."""
+    return re.sub(r"(?<=\d) (?=[%°µa-zA-Z])| (?=–)", "\u00a0", text)
+
+
+_TEMPLATES.filters["unbroken"] = unbroken
+_TEMPLATES.filters["plain"] = plain
+
+
+def render_page(template: str, **content: Any) -> str:
+    """The HTML of ``templates/<template>`` filled with ``content``."""
+    return _TEMPLATES.get_template(template).render(embed=embed, beside=beside, table=html_table, **content)
+
+
+def write_page(path: Path | str, template: str, **content: Any) -> None:
+    """Render a page and write it, whole or not at all."""
+    write_text(path, render_page(template, **content))
+
+
+def beside(name: str) -> Markup:
+    """A script or style sheet that lies beside the templates, as it is."""
+    return Markup(importlib.resources.files("armscope.report").joinpath("templates", name).read_text())
+
+
+def embed(figure: Path | str, alt: str = "") -> Markup:
+    """An <img> that carries the picture in itself."""
+    path = Path(figure)
+    kind = {".svg": "image/svg+xml", ".png": "image/png"}[path.suffix]
+    data = base64.b64encode(readable(path).read_bytes()).decode()
+    return Markup('<img src="data:{};base64,{}" alt="{}">').format(kind, data, alt)
+
+
+def html_table(rows: pd.DataFrame, digits: int = 3) -> Markup:
+    """A table as HTML: numbers right, with ``digits`` significant digits, text left, a dash for nothing."""
+    text = [name for name in rows.columns if not pd.api.types.is_numeric_dtype(rows[name])]
+
+    def shown(value: Any) -> str:
+        return significant(value, digits) if isinstance(value, float) else str(value)
+
+    left: Any = {name: [{"selector": "th, td", "props": "text-align: left; white-space: normal"}] for name in text}
+    same_for_same_rows = f"{zlib.crc32(rows.to_csv().encode()):08x}"
+    styler = Styler(rows, uuid=same_for_same_rows, cell_ids=False).hide(axis="index").format(shown, na_rep="–")
+    html = styler.set_table_styles(left, overwrite=False).to_html()
+    return Markup('<div class="scroll">{}</div>').format(Markup(html))
+
+
+def significant(value: float, digits: int = 3) -> str:
+    """A number with that many significant digits, without exponent where it is of readable size."""
+    if value == 0:
+        return "0"
+    if 1e-4 <= abs(value) < 1e5:
+        decimals = max(0, digits - 1 - int(f"{abs(value):e}".split("e")[1]))
+        return f"{value:.{decimals}f}"
+    return f"{value:.{digits - 1}e}"

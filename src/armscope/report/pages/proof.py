@@ -1,0 +1,145 @@
+"""The page of the proof: what the diagnosis finds, what it misses, what it gets wrong, beside what was aimed at."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+from markupsafe import Markup, escape
+
+from armscope.proof import definitions
+from armscope.proof.rates import NEAR_THRESHOLD
+from armscope.report.html import significant, write_page
+
+TAGS = {"met": "holds", "not met": "fails", "open": "depends", "too few cases": "depends"}
+SHOWN_WRONG = 400
+
+
+def write_proof_page(path: Path, tables: Path, figures: Path, seed: dict[str, Any], size: str) -> None:
+    """Write the report of a proof.
+
+    Args:
+        path: report.html.
+        tables: folder of the tables that `armscope proof score` writes.
+        figures: folder of the figures (SVG).
+        seed: `proof_seed`, and whether it was `drawn`.
+        size: small or full.
+    """
+    read = {file.stem: pd.read_csv(file) for file in sorted(tables.glob("*.csv")) if file.stat().st_size > 1}
+    worlds = read["worlds"]
+    write_page(
+        path,
+        "proof.html.j2",
+        figures=figures,
+        size=size,
+        seed=seed,
+        worlds=worlds,
+        fresh=int(worlds["fresh"].sum()),
+        minutes=float(worlds["seconds"].sum()) / 60,
+        median_seconds=float(worlds["seconds"].median()),
+        failed=worlds[worlds["failed"].notna()],
+        aims=_aims(read["aims"]),
+        tags=TAGS,
+        summary=_summary(read["aims"]),
+        definitions=_paragraphs(definitions.__doc__ or ""),
+        per_effect=_wide(read["per_effect"], "effect"),
+        outcomes=_wide(read["outcomes"], "category"),
+        thresholds=read["thresholds"],
+        detection=_detection(read["detection"]),
+        near=NEAR_THRESHOLD,
+        held_out=read["held_out"],
+        evidence=read["evidence"],
+        false_alarms=read["false_alarms"],
+        wrong=_wrong(read["wrong_worlds"]),
+        significant=significant,
+    )
+
+
+def _aims(table: pd.DataFrame) -> list[dict[str, Any]]:
+    """One entry per aim: what it asks for, and fixed and fresh results."""
+    entries = []
+    for text, group in table.groupby("aim", sort=False):
+        half = {str(row["seeds"]): {str(k): v for k, v in row.items()} for row in group.to_dict("records")}
+        first = next(iter(half.values()))
+        percent = first["most"] <= 1
+        entries.append(
+            {"text": text, "goal": _goal(first["least"], first["most"], percent)}
+            | {name: _result(half[name], percent) for name in ("fresh", "fixed", "all")}
+        )
+    return entries
+
+
+def _goal(least: float, most: float, percent: bool) -> str:
+    if not percent:
+        return f"≤ {most:g}"
+    if least == most:
+        return f"{least:.0%}"
+    return f"≥ {least:.0%}" if most == 1 else f"{least:.0%} – {most:.0%}"
+
+
+def _result(row: dict[str, Any], percent: bool) -> dict[str, str]:
+    if pd.isna(row["estimate"]):
+        return {"value": "–", "interval": "", "cases": f"{row['cases']:.0f}", "verdict": row["verdict"]}
+    value, interval = (
+        (f"{row['estimate']:.1%}", f"{row['low']:.0%} – {row['high']:.0%}")
+        if percent
+        else (f"{row['estimate']:.2f}", f"{row['low']:.2f} – {row['high']:.2f}")
+    )
+    return {"value": value, "interval": interval, "cases": f"{row['cases']:.0f}", "verdict": row["verdict"]}
+
+
+def _summary(table: pd.DataFrame) -> str:
+    """How many aims are met on fresh seeds, in words."""
+    verdicts = table[table["seeds"] == "fresh"]["verdict"].value_counts()
+    order = ("met", "open", "not met", "too few cases")
+    words = {"met": "met", "open": "open", "not met": "not met", "too few cases": "without enough cases to say"}
+    return ", ".join(f"{verdicts[name]} {words[name]}" for name in order if name in verdicts)
+
+
+def _wide(table: pd.DataFrame, index: str) -> pd.DataFrame:
+    """Scores as columns: share, right and cases of all seeds together and of the fresh ones."""
+    text = table.assign(
+        cell=[
+            "–" if cases == 0 else f"{100 * estimate:.0f} % ({right:.0f}/{cases:.0f})"
+            for estimate, right, cases in zip(table["estimate"], table["right"], table["cases"], strict=True)
+        ]
+    )
+    pieces = []
+    for seeds in ("fresh", "fixed"):
+        chosen = text[text["seeds"] == seeds]
+        wide = chosen.pivot_table(index=index, columns="score", values="cell", aggfunc="first", sort=False)
+        pieces.append(wide.assign(seeds=seeds).reset_index())
+    both = pd.concat(pieces).sort_values([index, "seeds"], kind="stable")
+    return both[[index, "seeds", *[column for column in both.columns if column not in (index, "seeds")]]]
+
+
+def _detection(table: pd.DataFrame) -> pd.DataFrame:
+    """One row per effect: how many were seen and how many named, with intervals."""
+    pieces = {
+        word: table[table["found"] == found].set_index("effect")
+        for word, found in (("seen", "seen"), ("named", "right"))
+    }
+    seen = pieces["seen"]
+    shown = pd.DataFrame({"cases": seen["cases"], "median size": seen["middle_size"].round(2)})
+    for word, piece in pieces.items():
+        bounds = zip(piece["low"], piece["high"], strict=True)
+        shown[word] = piece["right"]
+        shown[f"share {word}, 95 % interval"] = [f"{100 * low:.0f} – {100 * high:.0f} %" for low, high in bounds]
+    return shown.reset_index()
+
+
+def _wrong(table: pd.DataFrame) -> pd.DataFrame:
+    """Worlds with a wrong answer, readable."""
+    shown = table.drop(columns=[column for column in ("failed",) if table[column].isna().all()])
+    return shown.head(SHOWN_WRONG).rename(columns={"weakest": "weakest / noise", "held_out_ratio": "held out / true"})
+
+
+def _paragraphs(text: str) -> list[tuple[str, Markup]]:
+    """(bold head, rest as HTML) of the definitions' paragraphs."""
+    found = []
+    for paragraph in text.strip().split("\n\n")[1:]:
+        head, _, rest = " ".join(paragraph.split()).removeprefix("**").partition("**")
+        found.append((head, Markup(re.sub(r"`(.+?)`", r"<code>\1</code>", str(escape(rest))))))
+    return found

@@ -1,0 +1,102 @@
+"""The page of the concealment on real recordings."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+from markupsafe import Markup, escape
+
+from armscope.real import scoring
+from armscope.report.html import write_page
+
+SCORES = {"found": "found", "right_place": "right place", "covered": "interval holds", "quiet": "no new name"}
+
+
+def write_real_proof_page(
+    path: Path, tables: Mapping[str, pd.DataFrame], figures: Path, seed: Mapping[str, Any], titles: Mapping[str, str]
+) -> None:
+    """Write report.html.
+
+    Args:
+        path: where to.
+        tables: of `armscope real score`.
+        figures: folder of the figures.
+        seed: `proof_seed`, and whether it was `drawn`.
+        titles: what to call each set.
+    """
+    cases = tables["cases"]
+    levels = cases.groupby("set")["level_mm"].first().rename(lambda name: titles.get(name, name))
+    write_page(
+        path,
+        "real_proof.html.j2",
+        figures=figures,
+        seed=seed,
+        cases=len(cases),
+        arms=", ".join(levels.index),
+        levels=levels.rename_axis("arm").rename("leaves (mm per axis)").reset_index(),
+        by_size=_wide(tables["rates"], "all", titles).drop(columns="of"),
+        by_effect=_wide(tables["rates"], "effect", titles),
+        by_arm=_wide(tables["rates"], "arm", titles),
+        held_out=_titled(tables["held_out"], titles),
+        withheld=_withheld(tables["withheld"], titles),
+        skipped=_titled(tables["skipped"], titles),
+        wrong=_wrong(cases, titles),
+        failed=int(cases["failed"].notna().sum()),
+        definitions=_paragraphs(scoring.__doc__ or ""),
+    )  # fmt: skip
+
+
+def _titled(table: pd.DataFrame, titles: Mapping[str, str]) -> pd.DataFrame:
+    return table.assign(set=[titles.get(name, name) for name in table["set"]]).rename(columns={"set": "arm"})
+
+
+def _wide(rates: pd.DataFrame, by: str, titles: Mapping[str, str]) -> pd.DataFrame:
+    """One row per value and size: share (right/cases) of both halves together."""
+    mine = rates[(rates["by"] == by) & (rates["half"] == "both")]
+    cells = [
+        f"{100 * share:.0f} % ({right:.0f}/{cases:.0f})"
+        for share, right, cases in zip(mine["estimate"], mine["right"], mine["cases"], strict=True)
+    ]
+    mine = mine.assign(cell=cells, score=mine["score"].map(SCORES), of=[titles.get(name, name) for name in mine["of"]])
+    wide = mine.pivot_table(index=["of", "size"], columns="score", values="cell", aggfunc="first").reset_index()
+    kept = [name for name in SCORES.values() if name in wide.columns]
+    return wide.fillna("–")[["of", "size", *kept]].assign(of=wide["of"].str.replace("_", " "))
+
+
+def _withheld(table: pd.DataFrame, titles: Mapping[str, str]) -> pd.DataFrame:
+    if table.empty:
+        return table
+    yes = {True: "yes", False: "no"}
+    table = _titled(table, titles)
+    table = table.assign(
+        rows=table["rows"].map({"run": "all joints move", "payloads": "three payloads"}),
+        orientations=table["orientations"].map({True: "points and orientations", False: "points"}),
+        load_found=table["load_found"].map(yes),
+        compliance_found=table["compliance_found"].map(yes),
+    )
+    names = {
+        "orientations": "learned from",
+        "load_found": "anything that follows the load", "compliance_found": "joint compliance by name",
+        "follows_load": "what follows the load", "background_mm": "small errors everywhere (mm)",
+        "held_out_mm": "held out (mm, 3D)",
+    }  # fmt: skip
+    return table.rename(columns=names)[["arm", "rows", "withheld", *names.values()]]
+
+
+def _wrong(cases: pd.DataFrame, titles: Mapping[str, str]) -> pd.DataFrame:
+    chosen = cases[~cases["found"] | (cases["new_names"] > 0)]
+    columns = ["arm", "half", "effect", "location", "size", "outcome", "said", "new", "alternatives"]
+    return _titled(chosen, titles)[columns].sort_values(["size", "arm", "effect"], ascending=[False, True, True])
+
+
+def _paragraphs(text: str) -> list[tuple[str, Markup]]:
+    """(bold head, rest as HTML) of the definitions' paragraphs."""
+    found = []
+    for paragraph in text.strip().split("\n\n")[1:]:
+        head, _, rest = " ".join(paragraph.split()).removeprefix("**").partition("**")
+        found.append((head, Markup(re.sub(r"`(.+?)`", r"<code>\1</code>", str(escape(rest))))))
+    return found

@@ -1,0 +1,211 @@
+"""One card per effect: everything a person needs to believe it, check it and cure it."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from armscope.report.text.wording import (
+    Reading,
+    capitalised,
+    effect_in_words,
+    evidence_in_words,
+    millimetres,
+    percent,
+    plain,
+    reach,
+    read_parameter,
+)
+from armscope.verdict.schema import FoundEffect, Parameter
+
+MOST_PARAMETERS = 8
+CANCELS = 1.05
+UNKNOWN_MASSES = "compliance_times_moment"
+LEFT_OPEN = 10.0
+"""A parameter whose standard error would move the tool so many times as far as its effect does is left open."""
+RELIABLE = 0.5
+"""An effect chosen in fewer of the resampled data sets than this is not to be relied on."""
+TOO_CLOSE_NATS = 3.0
+"""Alternatives nearer than this can't be told apart (odds below 20 to 1)."""
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """What else could stand in an effect's place, in words."""
+
+    name: str
+    gap: str
+    too_close: bool
+
+
+@dataclass(frozen=True)
+class Card:
+    """The texts of a card; `anchor` is its id in the page, `figure` the name of its curve's figure or ""."""
+
+    anchor: str
+    title: str
+    what: str
+    location: str
+    share: str
+    share_width: float
+    size: str
+    readings: tuple[Reading, ...]
+    remark: str
+    shape: str
+    evidence: str
+    evidence_words: str
+    alternatives: tuple[Alternative, ...]
+    chosen: str
+    how_specific: str
+    cancels: str
+    physics: str
+    confirm: str
+    cure: str
+    carries_over: str
+    figure: str = ""
+
+
+def card(effect: FoundEffect, number: int, figure: str = "") -> Card:
+    """The card of the ``number``-th effect."""
+    readings = [reading_of(p, effect) for p in told_parameters(effect)]
+    shown = tuple(readings[:MOST_PARAMETERS])
+    return Card(
+        anchor=f"effect-{number}-{re.sub('[^a-z0-9]+', '-', f'{effect.effect} {effect.location}'.lower())}",
+        title=capitalised(title_of(effect)),
+        what=what_kind(effect),
+        location=effect.location,
+        share=percent(effect.share),
+        share_width=min(100.0, max(0.0, 100 * effect.share)),
+        size=millimetres(effect.rms_at_tool_mm),
+        readings=shown,
+        remark=remark_on(effect, len(shown)),
+        shape=effect.curve.description if effect.curve else "",
+        evidence=f"{effect.evidence_nats:.{0 if effect.evidence_nats >= 10 else 1}f} nats",
+        evidence_words=evidence_in_words(effect.evidence_nats),
+        alternatives=tuple(
+            Alternative(
+                effect_in_words(other.effect, other.location) + _followed(other.effect, other.driver),
+                f"{other.evidence_gap_nats:.1f} nats worse" if other.evidence_gap_nats >= 0
+                else f"{-other.evidence_gap_nats:.1f} nats better",
+                other.evidence_gap_nats < TOO_CLOSE_NATS,
+            )
+            for other in effect.alternatives
+        ),
+        chosen=chosen_how_often(effect.inclusion),
+        how_specific=how_specific(effect),
+        cancels=cancelling(effect),
+        physics=effect.physics,
+        confirm=effect.confirm,
+        cure=effect.cure,
+        carries_over=effect.carries_over,
+        figure=figure,
+    )  # fmt: skip
+
+
+def title_of(effect: FoundEffect) -> str:
+    """The name at the level that the evidence allows; a free curve is told by what it follows."""
+    if effect.effect == "unknown" and effect.named_as == "effect" and effect.curve is not None:
+        return f"{effect.location}: unexplained curve that follows the {effect.driver}"
+    return (plain(effect.title) or effect_in_words(effect.effect, effect.location)) + _since(effect)
+
+
+def _since(effect: FoundEffect) -> str:
+    """From when on a jump holds: several of one kind differ in nothing else."""
+    moment = next((p for p in effect.parameters if p.name in ("row", "time")), None)
+    if not effect.effect.endswith("_shift") or moment is None:
+        return ""
+    run = effect.driver.partition(", run ")[2]
+    at = f"row {moment.value:g}" if moment.name == "row" else f"{moment.value:g} s"
+    return f", from {at} of run {run}" if run else f", from {at}"
+
+
+def reading_of(parameter: Parameter, effect: FoundEffect) -> Reading:
+    """A parameter as a card shows it; one that the poses leave open is not told with digits that mean nothing.
+
+    A length or an angle whose uncertainty would move the tool many times as far as the whole effect does must be
+    cancelled by others in these poses (d of neighbouring parallel axes, for instance).
+    """
+    reading = read_parameter(parameter)
+    lever_mm = {"mm": 1.0, "rad": 1e3}.get(parameter.unit)  # an angle acts at about a metre
+    open_mm = parameter.stderr * lever_mm if lever_mm is not None and math.isfinite(parameter.stderr) else 0.0
+    if len(effect.parameters) < 2 or open_mm < LEFT_OPEN * effect.rms_at_tool_mm or effect.effect == "unknown":
+        return reading
+    return Reading(reading.label, "left open", "in these poses others take its place")
+
+
+def what_kind(effect: FoundEffect) -> str:
+    """What a title leaves open: the best single reading, and the kind of physics."""
+    family = "" if effect.family == "unknown" else f"{effect.family}"
+    if effect.effect == "unknown":
+        return family or "no known physics"
+    name = effect_in_words(effect.effect, effect.location)
+    return family if title_of(effect).replace(" at ", ", ") == name else f"{name} · {family}"
+
+
+def told_parameters(effect: FoundEffect) -> Sequence[Parameter]:
+    """The parameters that say something by themselves.
+
+    A free curve's coefficients don't, but how far it reaches does; nor do products with unknown mass moments.
+    """
+    if effect.effect != "unknown" or effect.curve is None:
+        return [p for p in effect.parameters if not p.name.startswith(UNKNOWN_MASSES)]
+    return [reach(effect.curve)]
+
+
+def remark_on(effect: FoundEffect, shown: int) -> str:
+    """What the listed numbers leave open."""
+    names = [p.name for p in effect.parameters]
+    if any(name.startswith(UNKNOWN_MASSES) for name in names):
+        if "compliance" in names:
+            return "The links' masses are not known; the payloads, which are, fix the scale of the compliance."
+        return (
+            "The links' masses are not known, so only products of the compliance with mass moments are (model.yaml has "
+            "them). Recordings with a known weight at the tool would give the compliance itself."
+        )
+    left_out = len(told_parameters(effect)) - shown
+    return f"{left_out} further numbers stand in model.yaml." if left_out > 0 else ""
+
+
+def cancelling(effect: FoundEffect) -> str:
+    """A warning about an effect that is larger than the mismatch itself; empty for others."""
+    if effect.share <= CANCELS:
+        return ""
+    return (
+        "Alone it would be larger than the whole mismatch: it and another effect nearly cancel each other in these "
+        "poses. Take the two as one finding; their single values mean little."
+    )
+
+
+def chosen_how_often(inclusion: float | None) -> str:
+    """How stable the choice is when rows are drawn anew."""
+    if inclusion is None:
+        return "not tested (resampling was switched off)"
+    often = f"chosen in {100 * inclusion:.0f} % of the resampled data sets"
+    if inclusion >= RELIABLE:
+        return often
+    return (
+        f"{often}: in the others, other effects or the small errors everywhere took its place. Take it as one way to "
+        "say what happens, not as the cause"
+    )
+
+
+def how_specific(effect: FoundEffect) -> str:
+    """Why a name is not more specific than it is; empty for one that is as specific as it can be."""
+    if effect.named_as == "effect":
+        return ""
+    if effect.named_as == "region":
+        return (
+            "These recordings show the kind of physics and the neighbourhood, not the exact part. "
+            f"The single best reading is {effect_in_words(effect.effect, effect.location)}; its rivals stand below."
+        )
+    return (
+        "These recordings show the kind of physics, not where it sits. "
+        f"The single best reading is {effect_in_words(effect.effect, effect.location)}; its rivals stand below."
+    )
+
+
+def _followed(effect: str, driver: str) -> str:
+    """A free curve says what it follows, since its name doesn't."""
+    return f" (follows {driver})" if effect == "unknown" and driver else ""

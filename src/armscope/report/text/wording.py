@@ -1,0 +1,206 @@
+"""Numbers as people in the field say them, and evidence in words."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from armscope.verdict.schema import INTERVAL, Curve, FoundEffect, Parameter
+
+UNITS: dict[str, tuple[tuple[float, float, str], ...]] = {
+    # file unit: (from this size on, shown per file unit, shown unit), largest first
+    "rad": ((5e-4, 1e3, "mrad"), (0.0, 1e6, "µrad")),
+    "rad/(N m)": ((1e-3, 1e3, "mrad per N m"), (0.0, 1e6, "µrad per N m")),
+    "rad/(m/s^2)": ((1e-3, 1e3, "mrad per m/s²"), (0.0, 1e6, "µrad per m/s²")),
+    "rad/rad": ((1e-3, 1e3, "mrad per rad"), (0.0, 1e6, "µrad per rad")),
+    "rad/h": ((1e-3, 1e3, "mrad per hour"), (0.0, 1e6, "µrad per hour")),
+    "mm/h": ((0.1, 1.0, "mm per hour"), (0.0, 1e3, "µm per hour")),
+    "m/m": ((0.0, 1e6, "millionths (ppm)"),),
+    "1/K": ((0.0, 1e6, "millionths per K"),),
+    "1/(N m^2)": ((0.0, 1e6, "per MN m²"),),
+    "mm": ((0.1, 1.0, "mm"), (0.0, 1e3, "µm")),
+    "s": ((1.0, 1.0, "s"), (0.0, 1e3, "ms")),
+    "1/turn": ((0.0, 1.0, "per turn"),),
+    "kg": ((0.0, 1.0, "kg"),),
+    "deg": ((0.0, 1.0, "°"),),
+    "m": ((1e-4, 1e3, "mm"), (0.0, 1e6, "µm")),
+}
+"""Units of the files, and what they become in a text."""
+
+LABELS = {
+    "amplitude": "swing (± about the mean)",
+    "coefficient": "expansion coefficient",
+    "delay": "runs behind by",
+    "direction": "about a direction in the joint's x-y plane at",
+    "flexibility": "flexibility 1/(E·I)",
+    "gap": "play",
+    "offset": "zero is off by",
+    "per_turn": "waves",
+    "phase": "largest at",
+    "ratio": "turns further by",
+    "reaches": "reaches",
+    "scale": "lengths too long by",
+    "scatter": "scatter (1 sigma)",
+    "a": "length a",
+    "d": "length d",
+    "alpha": "twist α",
+    "beta": "twist β",
+    "theta": "turn θ",
+    "time": "at time",
+    "row": "at row",
+}
+
+
+@dataclass(frozen=True)
+class Reading:
+    """A parameter as it stands on a card: its name, value, 95 % interval, and the same number said otherwise."""
+
+    label: str
+    value: str
+    interval: str
+    also: str = ""
+
+
+def read_parameter(parameter: Parameter) -> Reading:
+    """A parameter in the field's units, with as many digits as its uncertainty leaves meaning."""
+    label = LABELS.get(parameter.name, parameter.name.replace("_", " "))
+    if parameter.name in ("phase", "direction"):
+        parameter = Parameter(parameter.name, "deg", math.degrees(parameter.value), math.degrees(parameter.stderr))
+    factor, unit = shown_unit(parameter.unit, abs(parameter.value))
+    known = math.isfinite(parameter.stderr) and parameter.stderr > 0
+    low, high = (factor * edge for edge in parameter.interval)
+    decimals = decimals_for(factor * parameter.stderr) if known else None
+    value = f"{_number(factor * parameter.value, decimals)} {unit}".strip().replace(" °", "°")
+    interval = f"{_number(low, decimals)} … {_number(high, decimals)} {unit}" if known else "found by trying values"
+    return Reading(label, value, interval.replace(" °", "°"), _said_otherwise(parameter))
+
+
+def number_of(parameter: Parameter, sign: bool = False) -> str:
+    """A parameter's size in the field's unit with two digits, for a sentence; its sign only where asked."""
+    factor, unit = shown_unit(parameter.unit, abs(parameter.value))
+    plus = ("+" if parameter.value > 0 else "−") if sign else ""
+    return f"{plus}{rounded(factor * abs(parameter.value))} {unit}"
+
+
+def rounded(value: float) -> str:
+    """Two significant digits without an exponent; whole numbers from 10 on."""
+    if not math.isfinite(value) or value == 0:
+        return "0" if value == 0 else "–"
+    decimals = max(0, 1 - math.floor(math.log10(abs(value))))
+    return f"{value:.{min(decimals, 6)}f}"
+
+
+def spelled(count: int) -> str:
+    """Small numbers as words."""
+    words = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
+    return words[count] if count < len(words) else str(count)
+
+
+def capitalised(text: str) -> str:
+    """With a capital first letter, the rest untouched."""
+    return text[:1].upper() + text[1:]
+
+
+def shown_unit(unit: str, size: float) -> tuple[float, str]:
+    """(factor, unit) in which a number of that size, given in a file unit, is shown."""
+    for least, factor, shown in UNITS.get(unit, ()):
+        if size >= least:
+            return factor, shown
+    return 1.0, unit
+
+
+def decimals_for(uncertainty: float) -> int:
+    """Decimals that keep two digits of the uncertainty."""
+    if not (math.isfinite(uncertainty) and uncertainty > 0):
+        return 3
+    return max(0, 1 - math.floor(math.log10(uncertainty)))
+
+
+def _number(value: float, decimals: int | None) -> str:
+    if not math.isfinite(value):
+        return "–"
+    if decimals is None:
+        return f"{value:.4g}"
+    text = f"{value:.{min(decimals, 6)}f}"
+    return text.removeprefix("-") if float(text) == 0 else text.replace("-", "−")
+
+
+def _said_otherwise(parameter: Parameter) -> str:
+    """The reciprocal of a compliance is a stiffness; angles also come in degrees."""
+    other: dict[str, Callable[[Parameter], str]] = {
+        "rad/(N m)": lambda p: "stiffness " + _reciprocal(p, "N m/rad"),
+        "1/(N m^2)": lambda p: "bending stiffness E·I " + _reciprocal(p, "N m²"),
+        "rad": lambda p: f"{math.degrees(p.value):.4f}°".replace("-", "−"),
+    }
+    return other[parameter.unit](parameter) if parameter.unit in other and parameter.value != 0 else ""
+
+
+def _reciprocal(parameter: Parameter, unit: str) -> str:
+    low, high = parameter.interval
+    value = with_prefix(1 / parameter.value, unit)
+    if not math.isfinite(parameter.stderr) or low * high <= 0:
+        return value
+    ends = sorted((1 / low, 1 / high), key=abs)
+    return f"{value} (95 %: {with_prefix(ends[0], unit)} … {with_prefix(ends[1], unit)})"
+
+
+def with_prefix(value: float, unit: str) -> str:
+    """Three significant digits and k, M or G before the unit."""
+    for size, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
+        if abs(value) >= size:
+            return f"{value / size:.3g} {prefix}{unit}"
+    return f"{value:.3g} {unit}"
+
+
+def evidence_in_words(nats: float) -> str:
+    """What a difference in log evidence means, after Kass & Raftery (1995), whose scale is twice the nats."""
+    if nats < 1:
+        return "hardly worth a mention"
+    odds = f"odds of about {float(f'{math.exp(nats):.2g}'):.0f} to 1" if nats < 9 else "odds far beyond a thousand to 1"
+    strength = "some" if nats < 3 else "strong" if nats < 5 else "very strong" if nats < 15 else "overwhelming"
+    return f"{strength} evidence: {odds}"
+
+
+def percent(share: float) -> str:
+    """A share as a percentage without false digits."""
+    if not math.isfinite(share):
+        return "–"
+    value = 100 * share
+    if value > 105:
+        return "over 100 %"  # it and another nearly cancel: the number itself says nothing
+    if abs(value) < 0.05:
+        return "< 0.1 %"
+    return f"{value:.0f} %" if value >= 9.5 else f"{value:.1f} %"
+
+
+def millimetres(value: float | None) -> str:
+    """A length in mm with three significant digits; a dash where there is none."""
+    if value is None or not math.isfinite(value):
+        return "–"
+    return f"{value:.3g} mm"
+
+
+def reach(curve: Curve) -> Parameter:
+    """How far a curve goes where it is known to go farthest; elsewhere a wide band may reach higher."""
+    sure = np.abs(curve.value) - INTERVAL * curve.stderr
+    at = int(np.argmax(sure))
+    return Parameter("reaches", curve.value_unit, float(curve.value[at]), float(curve.stderr[at]))
+
+
+def plain(text: str) -> str:
+    """The files' names in a text as words: "gear_mesh (per_turn 9)" becomes "gear mesh (waves per turn 9)"."""
+    words = text.replace("per_turn", "waves per turn").replace("_", " ")
+    return words.replace("unknown at", "an unexplained curve at")
+
+
+def effect_in_words(effect: str, location: str) -> str:
+    """ "joint_compliance" at "joint 2" as "joint compliance, joint 2"."""
+    return f"{plain(effect)}, {location}"
+
+
+def main_and_minor(effects: Sequence[FoundEffect]) -> tuple[list[FoundEffect], list[FoundEffect]]:
+    """The effects of the story and those worth little."""
+    return [e for e in effects if not e.minor], [e for e in effects if e.minor]

@@ -1,0 +1,99 @@
+"""A verdict as files: verdict.json, model.yaml, predicted.csv, next_poses.csv, and the data behind the figures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from armscope.core.files import write_json, write_table
+from armscope.physics.model import save_model
+from armscope.verdict.schema import Atlas, Verdict
+
+FILES = (
+    "verdict.json", "model.yaml", "predicted.csv", "suspects.csv", "next_poses.csv", "curves.csv", "atlas.csv",
+)  # fmt: skip
+"""All that `write_verdict` may write."""
+
+
+def write_verdict(verdict: Verdict, folder: Path | str) -> None:
+    """Write everything that `armscope diagnose` leaves behind, but the report page.
+
+    verdict.json, model.yaml, predicted.csv (measured and predicted points), suspects.csv, and, where they exist,
+    next_poses.csv, curves.csv, atlas.csv.
+    """
+    folder = Path(folder)
+    write_json(folder / "verdict.json", verdict.to_json())
+    save_model(folder / "model.yaml", verdict.model)
+    write_table(folder / "predicted.csv", predicted_table(verdict))
+    suspects = pd.DataFrame([vars(row) for row in verdict.suspects], columns=["id", "run", "residual_mm", "weight"])
+    write_table(folder / "suspects.csv", suspects)
+    if verdict.next_poses is not None:
+        write_table(folder / "next_poses.csv", next_poses_table(verdict))
+    if any(effect.curve is not None for effect in verdict.effects):
+        write_table(folder / "curves.csv", curves_table(verdict))
+    if verdict.atlas is not None:
+        write_table(folder / "atlas.csv", atlas_table(verdict.atlas))
+
+
+def predicted_table(verdict: Verdict) -> pd.DataFrame:
+    """Per row: predicted tool point in the measurement frame and the residuals before and after, mm."""
+    rows = verdict.residuals
+    points = rows.points - rows.after
+    predicted = verdict.model.to_measurement(points * 1e-3, rows.run) * 1e3
+    table = pd.DataFrame({"id": rows.id, "run": rows.run})
+    for n, axis in enumerate("xyz"):
+        table[f"{axis}_mm"] = predicted[:, n]
+    for name, values in (("before", rows.before), ("after", rows.after)):
+        for n, axis in enumerate("xyz"):
+            table[f"{name}_{axis}_mm"] = values[:, n]
+    table["weight"] = rows.weight
+    return table
+
+
+def next_poses_table(verdict: Verdict) -> pd.DataFrame:
+    """Poses to measure next, ready to be commanded, the most telling first."""
+    poses = verdict.next_poses
+    assert poses is not None
+    table = pd.DataFrame({f"q{j + 1}_rad": poses.motor_angles[:, j] for j in range(poses.motor_angles.shape[1])})
+    table["payload_kg"] = poses.payload_kg
+    table["separation_mm"] = poses.separation_mm
+    return table
+
+
+def curves_table(verdict: Verdict) -> pd.DataFrame:
+    """Every effect's curve over its driver, one row per point."""
+    pieces = [
+        pd.DataFrame(
+            {
+                "effect": effect.effect,
+                "location": effect.location,
+                "driver": effect.curve.driver,
+                "at": effect.curve.at,
+                "at_unit": effect.curve.driver_unit,
+                "value": effect.curve.value,
+                "stderr": effect.curve.stderr,
+                "unit": effect.curve.value_unit,
+            }
+        )
+        for effect in verdict.effects
+        if effect.curve is not None
+    ]
+    return pd.concat(pieces, ignore_index=True)
+
+
+def atlas_table(atlas: Atlas) -> pd.DataFrame:
+    """The atlas, one row per cell that exists."""
+    shape = atlas.share.shape
+    at = np.indices(shape).reshape(3, -1)
+    table = pd.DataFrame(
+        {
+            "location": np.array(atlas.locations)[at[0]],
+            "direction": np.array(atlas.directions)[at[1]],
+            "driver": np.array(atlas.drivers)[at[2]],
+            "share": atlas.share.reshape(-1),
+            "share_left": atlas.left.reshape(-1),
+        }
+    )
+    return table.dropna(subset=["share"]).reset_index(drop=True)

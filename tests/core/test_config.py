@@ -1,0 +1,60 @@
+"""The configuration, its schema and its classes stay in step."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from armscope.core.config import Config, schema, stated_numbers
+from armscope.core.inputs import InputError, load, read_yaml, validate
+
+ROOT = Path(__file__).parents[2]
+DEFAULT = ROOT / "config" / "config.yaml"
+
+
+def test_the_default_configuration_is_valid():
+    assert load(Config, DEFAULT).paper.swarm.particles == 100
+
+
+def test_the_committed_schema_is_the_one_the_classes_generate():
+    committed = json.loads((ROOT / "workflow" / "schemas" / "config.schema.json").read_text())
+    assert committed == schema(), "regenerate it: armscope schema > workflow/schemas/config.schema.json"
+
+
+def test_the_defaults_in_the_file_are_those_of_the_classes():
+    content = read_yaml(DEFAULT)
+    for section in ("swarm", "ensemble"):
+        typed = type(getattr(load(Config, DEFAULT).paper, section))()
+        assert content["paper"][section] == json.loads(typed.model_dump_json())
+
+
+def test_every_assumed_number_has_a_source():
+    rows = stated_numbers(load(Config, DEFAULT).paper)
+    assert len(rows) > 15
+    assert all("assumed" in row["source"] or "Sec." in row["source"] for row in rows)
+
+
+@pytest.mark.parametrize(
+    ("change", "place"),
+    [
+        ({"paper": {"swarm": {"particles": 1}}}, "paper.swarm.particles"),
+        ({"paper": {"swarm": {"update": "constricton"}}}, "paper.swarm.update"),
+        ({"paper": {"swarm": {"partcles": 10}}}, "paper.swarm.partcles"),
+        ({"seed": -1}, "seed"),
+        ({"sed": 1}, "sed"),
+    ],
+)
+def test_a_wrong_key_type_or_range_is_named(change, place):
+    content = read_yaml(DEFAULT)
+    _merge(content, change)
+    with pytest.raises(InputError) as caught:
+        validate(Config, content, "config.yaml")
+    assert caught.value.place == place
+
+
+def _merge(content, change):
+    for key, value in change.items():
+        if isinstance(value, dict):
+            _merge(content[key], value)
+        else:
+            content[key] = value

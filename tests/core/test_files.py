@@ -1,0 +1,51 @@
+"""Files are written whole or not at all."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from armscope.core.files import replacing, write_json, write_table
+
+
+def test_a_failed_write_leaves_the_old_file_and_no_other(tmp_path):
+    target = tmp_path / "table.csv"
+    target.write_text("old")
+    with pytest.raises(RuntimeError):
+        _fail_halfway(target)
+    assert target.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [target]
+
+
+def _fail_halfway(target):
+    with replacing(target) as beside:
+        beside.write_text("half of the new")
+        raise RuntimeError
+
+
+def test_the_same_table_has_the_same_bytes_even_compressed(tmp_path):
+    table = pd.DataFrame({"x_mm": [1 / 3, np.nan], "run": ["a", "b"]})
+    for name in ("one.csv.gz", "two.csv.gz"):
+        write_table(tmp_path / name, table)
+    assert (tmp_path / "one.csv.gz").read_bytes() == (tmp_path / "two.csv.gz").read_bytes()
+    assert pd.read_csv(tmp_path / "one.csv.gz")["x_mm"][0] == pytest.approx(1 / 3, rel=1e-9)
+
+
+def test_json_has_plain_numbers_and_null_for_what_is_not_one(tmp_path):
+    write_json(tmp_path / "a.json", {"a": np.float64(1.5), "b": np.array([1, 2]), "c": float("nan")})
+    assert json.loads((tmp_path / "a.json").read_text()) == {"a": 1.5, "b": [1, 2], "c": None}
+
+
+def test_what_a_killed_process_leaves_is_no_table_to_anybody(tmp_path):
+    code = (
+        "import os, signal, sys\nfrom armscope.core.files import replacing\n"
+        "with replacing(sys.argv[1]) as beside:\n"
+        "    beside.write_text('half')\n    os.kill(os.getpid(), signal.SIGKILL)\n"
+    )
+    subprocess.run([sys.executable, "-c", code, tmp_path / "table.csv"], check=False)
+    left = list(tmp_path.iterdir())
+    assert [path.suffix for path in left] == [".part"]
+    assert list(tmp_path.glob("*.csv")) == []

@@ -1,0 +1,112 @@
+"""One clear error: file, place, value, rule, cure."""
+
+from typing import Annotated, Literal
+
+import pydantic
+import pytest
+import yaml
+
+from armscope.core.inputs import InputError, Strict, load, nearest, read_yaml
+
+
+class Inner(Strict):
+    a_mm: float
+
+
+class Outer(Strict):
+    name: str
+    rows: tuple[Inner, ...]
+    count: int = pydantic.Field(1, ge=1)
+
+
+def written(tmp_path, text):
+    path = tmp_path / "thing.yaml"
+    path.write_text(text)
+    return path
+
+
+def test_an_unknown_key_is_named_with_the_nearest_known_one(tmp_path):
+    path = written(tmp_path, "name: arm\nrows:\n  - {a_mm: 1}\n  - {a_mmm: 2, a_mm: 3}\n")
+    with pytest.raises(InputError) as caught:
+        load(Outer, path)
+    assert caught.value.place == "rows[1].a_mmm"
+    assert "Did you mean 'a_mm'?" in str(caught.value)
+    assert str(path) in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "place", "found"),
+    [
+        ("name: arm\nrows: [{a_mm: one}]\n", "rows[0].a_mm", "one"),
+        ("name: arm\nrows: [{a_mm: .nan}]\n", "rows[0].a_mm", "nan"),
+        ("name: arm\nrows: [{}]\n", "rows[0].a_mm", "nothing"),
+        ("name: arm\nrows: []\ncount: 0\n", "count", "0"),
+    ],
+)
+def test_a_wrong_value_is_quoted_at_its_place(tmp_path, text, place, found):
+    with pytest.raises(InputError) as caught:
+        load(Outer, written(tmp_path, text))
+    assert caught.value.place == place
+    assert f"found {found}" in str(caught.value).replace("'", "")
+
+
+def test_broken_yaml_is_an_error_with_line_and_column(tmp_path):
+    with pytest.raises(InputError, match="line 3, column 2"):
+        read_yaml(written(tmp_path, "a: 1\nb: [1, 2\nc: 3\n"))
+
+
+def test_a_key_that_stands_twice_is_not_silently_dropped(tmp_path):
+    assert yaml.safe_load("a: 1\na: 2\n") == {"a": 2}  # what plain YAML does
+    with pytest.raises(InputError, match="'a' twice"):
+        read_yaml(written(tmp_path, "a: 1\na: 2\n"))
+
+
+def test_a_key_that_can_not_be_one_is_an_error_with_its_place(tmp_path):
+    with pytest.raises(InputError, match=r"line 1, column 3.*\['a', 'b'\]"):
+        read_yaml(written(tmp_path, "? [a, b]\n: 1\n"))
+
+
+def test_a_misspelt_key_is_named_before_what_is_then_missing(tmp_path):
+    with pytest.raises(InputError, match=r"rows\[0\].a_m: .*Did you mean 'a_mm'"):
+        load(Outer, written(tmp_path, "name: arm\nrows: [{a_m: 1}]\n"))
+
+
+class Round(Strict):
+    kind: Literal["round"]
+    radius: float
+
+
+class Square(Strict):
+    kind: Literal["square"]
+    side: float
+
+
+class Shapes(Strict):
+    shapes: tuple[Annotated[Round | Square, pydantic.Field(discriminator="kind")], ...]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("shapes: [{kind: round, radius: a}]", r"shapes\[0\].radius: found 'a'"),
+        ("shapes: [{kind: round, radios: 1}]", r"shapes\[0\].radios: .*Did you mean 'radius'"),
+        ("shapes: [{kind: round}]", r"shapes\[0\].radius: found nothing"),
+        ("shapes: 1", "shapes: found 1; input should be a list"),
+    ],
+)
+def test_a_place_is_as_the_user_wrote_it_whatever_alternatives_were_tried(tmp_path, text, message):
+    with pytest.raises(InputError, match=message):
+        load(Shapes, written(tmp_path, text))
+
+
+def test_a_missing_file_is_named(tmp_path):
+    with pytest.raises(InputError, match="no_such"):
+        read_yaml(tmp_path / "no_such.yaml")
+
+
+def test_the_nearest_name_differs_in_capitals_first():
+    assert nearest("q2_rad", ["q1_rad", "Q2_Rad", "q3_rad"]) == "Did you mean 'Q2_Rad'?"
+
+
+def test_nearest_lists_what_is_known_when_nothing_is_close():
+    assert nearest("zzzz", ["beta", "alpha"]) == "Known: alpha, beta."

@@ -1,0 +1,83 @@
+"""Which way is down: found where nobody says so, left alone where it is said rightly."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from armscope.diagnosis import Settings, diagnose
+from armscope.diagnosis.gravity_direction import lean, turned
+from armscope.fitting.registration import fit_frames
+from armscope.measurement.noise import known_noise
+from armscope.recordings import read_recordings
+from armscope.robot import load_arm
+from armscope.robot.arm import build_arm
+from armscope.verdict.schema import Verdict
+
+from ..physics.scenes import arm_named
+from .planted import one_run, recorded
+
+MA1400 = Path(__file__).parents[3] / "shared" / "recordings" / "ma1400-leica"
+FREE = Settings(resamples=0, cross_validation=False, estimate_gravity=True)
+DRIVES = {("joint_compliance", "joint 2"): [4e-7], ("joint_compliance", "joint 3"): [8e-7]}
+
+
+def on_a_wedge(degrees: float) -> Verdict:
+    """An arm that gives way on a wedge, diagnosed as if it stood upright."""
+    upright = arm_named("six-axis")
+    leaning = turned(upright, np.radians([degrees * 0.8, degrees * 0.6]))
+    return diagnose(upright, recorded(leaning, one_run(leaning, 150, 3), DRIVES, 0.02, seed=4), FREE)
+
+
+def test_an_arm_on_a_wedge_tells_where_down_is() -> None:
+    verdict = on_a_wedge(30.0)
+    (told,) = (notice.text for notice in verdict.notices if notice.kind == "gravity estimated")
+    words = told.split()
+    angle, interval = float(words[2]), float(words[4])
+    assert abs(angle - 30.0) < 1.5 * interval + 0.1
+    assert interval < 3
+    found = {e.location: e.parameters[0] for e in verdict.effects if e.effect == "joint_compliance"}
+    for (_, location), (true,) in DRIVES.items():
+        assert found[location].value == pytest.approx(true, rel=0.05)
+    assert np.degrees(np.arccos(verdict.model.arm.gravity @ [0, 0, -1] / 9.81)) == pytest.approx(30, abs=2)
+
+
+def test_gravity_that_is_stated_rightly_stays_as_it_is() -> None:
+    verdict = on_a_wedge(0.0)
+    assert "gravity as stated" in {notice.kind for notice in verdict.notices}
+    np.testing.assert_array_equal(verdict.model.arm.gravity, arm_named("six-axis").gravity)
+
+
+def test_an_arm_that_does_not_give_way_tells_nothing_of_gravity() -> None:
+    arm = arm_named("six-axis")
+    table = recorded(arm, one_run(arm, 100, 3), {("joint_offset", "joint 3"): [1e-3]}, 0.02, seed=4)
+    assert "gravity as stated" in {notice.kind for notice in diagnose(arm, table, FREE).notices}
+
+
+@pytest.mark.shared
+@pytest.mark.skipif(not MA1400.is_dir(), reason=f"no {MA1400}")
+def test_a_real_arm_on_a_wedge_tells_what_its_levelled_tracker_tells() -> None:
+    """README: the base leans 14.8 degrees from the tracker's z; here it is said to stand upright."""
+    stated = load_arm(MA1400 / "robot.yaml")
+    table = read_recordings(MA1400 / "recordings.csv.gz", stated.n_motors)
+    table = table.rows((table.run == "leica_random") & (table.id.astype(int) >= 172))
+    upright = build_arm(stated.description.model_copy(update={"gravity_m_s2": (0.0, 0.0, -9.81)}))
+    noise = known_noise(stated, table)
+    found = lean(fit_frames(upright, table), table, noise, False)
+    assert found is not None
+    apart = np.arccos(found.arm.gravity @ stated.gravity / np.linalg.norm(stated.gravity) / 9.81)
+    assert np.degrees(found.angle) > 13
+    # its masses are guessed, and so is how they pull
+    assert np.degrees(apart) < 5
+
+
+def test_an_arm_that_hangs_is_not_taken_for_one_that_stands() -> None:
+    """Every moment is turned round: what gives way would have to do so against its load."""
+    upright = arm_named("six-axis")
+    hanging = build_arm(upright.description.model_copy(update={"gravity_m_s2": (0.0, 0.0, 9.81)}))
+    table = recorded(hanging, one_run(hanging, 150, 3), DRIVES, 0.02, seed=4)
+    verdict = diagnose(upright, table, FREE)
+    assert "gravity estimated" in {notice.kind for notice in verdict.notices}
+    assert np.degrees(np.arccos(verdict.model.arm.gravity[2] / 9.81)) < 3

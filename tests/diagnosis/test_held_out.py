@@ -1,0 +1,77 @@
+"""Held-out errors against brute force, and where rows scatter or whole runs are held out."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from armscope.diagnosis import Settings, diagnose
+from armscope.diagnosis.held_out import Rows, left_over, split
+from armscope.diagnosis.selection_loop import Rounds
+from armscope.fitting.linearisation import residuals
+from armscope.fitting.registration import fit_frames
+from armscope.inference.evidence import PERFECT
+from armscope.measurement.noise import Noise
+from armscope.physics.frames import free_frames
+
+from ..physics.scenes import arm_named
+from .planted import one_run, planted, recorded
+
+VALIDATED = Settings(resamples=0)
+
+
+def test_held_out_errors_are_those_of_models_fitted_without_the_rows() -> None:
+    """Without effects the folds' models are base and tool alone: fitted fold by fold, they predict as well."""
+    arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [4e-7]}, 100, 0.02, seed=3)
+    verdict = diagnose(arm, table, VALIDATED)
+    layout = split(table, np.random.default_rng(VALIDATED.seed))
+    fold = layout.fold[layout.of_row]
+    errors = [
+        residuals(fit_frames(arm, table.rows(fold != k)), table.rows(np.flatnonzero(fold == k))) for k in range(5)
+    ]
+    assert verdict.held_out.before_all_rows == pytest.approx(np.sqrt(np.mean(np.concatenate(errors) ** 2)), rel=0.02)
+    assert verdict.held_out.folds == 5
+    assert 0.018 < verdict.held_out.after < 0.0225
+    first, last = verdict.waterfall[0], verdict.waterfall[1]
+    per_fold = [np.sqrt(np.mean(e**2)) for e in errors]
+    assert first.spread_mm == pytest.approx(np.std(per_fold, ddof=1), rel=0.1)
+    assert last.held_out_mm < 0.0225
+    assert 0 < last.spread_mm < 0.006
+
+
+def test_bad_shots_stand_in_the_error_of_all_rows_only() -> None:
+    arm, table = planted("six-axis", {("joint_offset", "joint 3"): [3e-4]}, 100, 0.02, seed=8)
+    table.positions[[4, 50, 77]] += np.array([3e-3, -4e-3, 2e-3])
+    held_out = diagnose(arm, table, VALIDATED).held_out
+    assert held_out.after < 0.023
+    assert held_out.after_all_rows == pytest.approx(np.sqrt(3 * (9 + 16 + 4) / 300), rel=0.1)
+
+
+def test_readings_are_told_at_the_point_where_their_columns_were_taken() -> None:
+    """A round may move the frames; errors of its hypotheses must not count that move twice."""
+    arm, table = planted("six-axis", {("joint_offset", "joint 3"): [3e-4]}, 100, 0.02, seed=8)
+    near = fit_frames(arm, table)
+    off = replace(near, tools=tuple(replace(part, values=part.values + 5e-4) for part in near.tools))
+    blocks = np.arange(100) % 5
+    round_ = Rounds(off, table, Noise(0.0, 0.0, ""), free_frames(table, False), blocks, lambda text, share: None)
+    round_.round((PERFECT,))
+    found = round_.selected()
+    values = found.best.coefficients(len(found.problem.scale)) / found.problem.scale
+    rows = Rows(found.point, table, found.fit.weights.row)
+    left = left_over(rows, found.problem.pool, values[None])[0]
+    np.testing.assert_allclose(left, found.fit.residuals, atol=0.004)
+    assert np.abs(residuals(off, table) - residuals(found.fit.model, table)).max() > 0.2
+
+
+def test_a_run_held_out_whole_gets_a_base_of_its_own() -> None:
+    """The bases of the runs lie metres apart: only a base fitted to the held-out rows can meet them."""
+    arm = arm_named("six-axis")
+    table = replace(one_run(arm, 150, 16), run=np.repeat(["1", "2", "3"], 50))
+    table = recorded(arm, table, {("joint_compliance", "joint 2"): [5e-7]}, 0.02, seed=17)
+    table.positions[50:100] += [1.0, 2.0, -0.5]
+    verdict = diagnose(arm, table, VALIDATED)
+    assert verdict.held_out.grouped_by == "run"
+    assert verdict.held_out.after < 0.0215
+    assert verdict.held_out.before > 3 * verdict.held_out.after

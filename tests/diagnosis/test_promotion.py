@@ -1,0 +1,100 @@
+"""Names out of backgrounds and lines out of curves: as specific as the evidence, and no price paid twice."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from armscope.diagnosis import Settings, diagnose
+from armscope.physics.scene import Scene
+from armscope.recordings import Recordings, read_recordings
+from armscope.robot import Arm, chain, load_arm
+from armscope.robot.kinematics import joint_jacobian
+from armscope.verdict.schema import Verdict
+
+from .planted import planted
+
+POINTS = Settings(resamples=0, cross_validation=False, orientation=False)
+QUICK = Settings(resamples=0, cross_validation=False)
+IIWA = Path(__file__).parents[3] / "shared" / "recordings" / "iiwa7-payload"
+DRIVES = {("joint_compliance", f"joint {j}") for j in (2, 3, 4)}
+
+
+def names(verdict: Verdict) -> set[tuple[str, str]]:
+    return {(effect.effect, effect.location) for effect in verdict.effects}
+
+
+def elastic_everywhere(seed: int) -> tuple[Arm, Recordings, dict[str, float]]:
+    """An arm all of whose drives give way, the outer ones more, and all of whose bearings tilt a third as much."""
+    rng = np.random.default_rng(seed)
+    drives = {f"joint {j}": 3e-7 * (1 + j / 2) * rng.uniform(0.7, 1.5) for j in range(2, 6)}
+    tilts = {f"joint {j}": 1e-7 * (1 + j / 2) * rng.uniform(0.7, 1.5) for j in range(2, 6)}
+    wanted = {("joint_compliance", joint): [give] for joint, give in drives.items()}
+    wanted |= {("bearing_compliance", joint): [give] for joint, give in tilts.items()}
+    return *planted("six-axis", wanted, 250, 0.05, seed), drives
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_drives_are_named_in_an_arm_that_is_elastic_everywhere(seed: int) -> None:
+    arm, table, true = elastic_everywhere(seed)
+    effects = diagnose(arm, table, QUICK).effects
+    found = {e.location: e.parameters[0] for e in effects if e.effect == "joint_compliance"}
+    assert {"joint 2", "joint 3"} <= set(found)
+    for location, compliance in found.items():
+        assert abs(compliance.value - true[location]) < 3 * compliance.stderr
+
+
+def test_nothing_gives_way_against_its_load() -> None:
+    arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [-4e-7]}, 120, 0.02, seed=5)
+    verdict = diagnose(arm, table, QUICK)
+    assert verdict.mismatch
+    for effect in verdict.effects:
+        if effect.family == "elastic" and len(effect.parameters) == 1:
+            assert effect.parameters[0].value > 0
+
+
+def bent_spring(beyond: float) -> tuple[Arm, Recordings]:
+    """A drive of joint 2 that gives way in proportion to its load, and more beyond half of the largest load."""
+    arm, table = planted("six-axis", {}, 250, 0.01, seed=4)
+    scene = Scene(arm, table)
+    load = scene.torques[:, 1]
+    turn = 4e-7 * (load + beyond * np.sign(load) * np.maximum(np.abs(load) - 0.5 * np.abs(load).max(), 0.0))
+    moved = joint_jacobian(chain(arm, table.motor_angles))[:, :, 1] * turn[:, None]
+    return arm, replace(table, positions=table.positions + moved)
+
+
+def test_a_spring_that_is_nearly_straight_is_called_a_compliance_and_its_rest_unknown() -> None:
+    verdict = diagnose(*bent_spring(0.5), QUICK)
+    assert names(verdict) == {("joint_compliance", "joint 2"), ("unknown", "joint 2")}
+    line, rest = sorted(verdict.effects, key=lambda effect: effect.effect)
+    assert 4e-7 < line.parameters[0].value < 6e-7
+    assert rest.rms_at_tool_mm < line.rms_at_tool_mm / 3
+    assert rest.driver == "load of joint 2"
+
+
+def test_a_spring_that_is_far_from_straight_is_no_compliance() -> None:
+    verdict = diagnose(*bent_spring(4.0), QUICK)
+    assert names(verdict) == {("unknown", "joint 2")}
+
+
+@pytest.mark.shared
+@pytest.mark.skipif(not IIWA.is_dir(), reason=f"no {IIWA}")
+@pytest.mark.parametrize("torques", ["recorded", "withheld"])
+def test_a_real_arm_that_gives_way_is_told_so_joint_by_joint(torques: str) -> None:
+    """README: 62.5, 67.7 and 54.6 urad per N m where nothing else gives; the mass table is too light by 1.3 to 1.46.
+
+    By its points, as in the README: beside orientations the drive of joint 3 and the tilt of its neighbours' bearings,
+    which turn the arm about nearly one axis under one moment, are not told apart.
+    """
+    arm = load_arm(IIWA / "robot.yaml")
+    table = read_recordings(IIWA / "recordings.csv.gz", arm.n_motors)
+    table = table.rows(table.run == "2016-11-18")
+    verdict = diagnose(arm, table if torques == "recorded" else replace(table, torque=None), POINTS)
+    assert names(verdict) >= DRIVES
+    found = {e.location: e.parameters[0] for e in verdict.effects if e.effect == "joint_compliance"}
+    for location in ("joint 2", "joint 3", "joint 4"):
+        assert 2e-5 < found[location].value < 1e-4
+        assert found[location].stderr < 0.4 * found[location].value

@@ -1,0 +1,76 @@
+"""Sums over rows by direction, against the columns written out."""
+
+import numpy as np
+import pytest
+
+from armscope.fitting.design_matrix import Stack, arranged, component_rows, stacked
+from armscope.fitting.registration import fit_frames
+from armscope.physics.effect import Driver, Term, motor, term
+from armscope.physics.lens import Lens
+from armscope.physics.registry import library
+from armscope.physics.scene import Posture
+from tests.diagnosis.planted import planted
+
+ROWS = 30
+
+
+@pytest.fixture(scope="module", params=[False, True], ids=["points", "with orientations"])
+def seen(request: pytest.FixtureRequest) -> tuple[Posture, tuple[Term, ...]]:
+    """An arm's posture through a lens of uneven weights, and the library's terms."""
+    arm, table = planted("six-axis", {}, ROWS, 0.03, seed=2)
+    model = fit_frames(arm, table)
+    rng = np.random.default_rng(0)
+    turn = rng.uniform(0.1, 2.0, ROWS) if request.param else None
+    lens = Lens(rng.normal(size=(ROWS, 3, 3)), turn)
+    terms = tuple(dict.fromkeys(t for placed in library(arm, table) for t in placed.terms))
+    return model.posture(model.scene(table)).through(lens), terms
+
+
+def written_out(posture: Posture, terms: tuple[Term, ...]) -> np.ndarray:
+    return component_rows(posture, terms).reshape(len(terms), -1)
+
+
+def test_the_library_turns_motors_by_many_drivers(seen: tuple[Posture, tuple[Term, ...]]) -> None:
+    arrangement = arranged(seen[1])
+    assert {fan.direction.axis for fan in arrangement.fans} == {"turn"}
+    assert sorted(arrangement.order) == list(range(len(seen[1])))
+    assert len(arrangement.others) < len(seen[1]) / 2
+
+
+def test_products_of_columns_are_those_of_the_columns_written_out(seen: tuple[Posture, tuple[Term, ...]]) -> None:
+    posture, terms = seen
+    X, arrangement = written_out(posture, terms), arranged(terms)
+    stack, size = stacked(posture, arrangement), np.abs(X).max() ** 2 * X.shape[1]
+    total = np.zeros((len(terms), len(terms)))
+    stack.add_products(total)
+    np.testing.assert_allclose(arrangement.whole(total), X @ X.T, atol=1e-12 * size)
+    y = np.random.default_rng(1).normal(size=(posture.numbers, ROWS))
+    np.testing.assert_allclose(stack.onto(y)[arrangement.back], X @ y.reshape(-1), atol=1e-12 * size)
+    values = np.random.default_rng(2).normal(size=(2, len(terms)))
+    combined = stack.combined(values[:, arrangement.order])
+    np.testing.assert_allclose(combined.reshape(2, -1), values @ X, atol=1e-12 * size)
+
+
+def test_products_with_other_columns(seen: tuple[Posture, tuple[Term, ...]]) -> None:
+    posture, terms = seen
+    waves = tuple(term(f"{n}", "", (motor(2), Driver("sine", (2, n)))) for n in range(1, 20))
+    few = (*terms[:5], *waves)
+    here, there = arranged(terms), arranged(few)
+    assert there.fans
+    products = stacked(posture, here).products(stacked(posture, there))[np.ix_(here.back, there.back)]
+    expected = written_out(posture, terms) @ written_out(posture, few).T
+    np.testing.assert_allclose(products, expected, atol=1e-12 * np.abs(expected).max())
+
+
+def test_some_rows_and_their_rest_make_all_rows(seen: tuple[Posture, tuple[Term, ...]]) -> None:
+    posture, terms = seen
+    stack = stacked(posture, arranged(terms))
+
+    def products(part: Stack) -> np.ndarray:
+        total = np.zeros((len(terms), len(terms)))
+        part.add_products(total)
+        return total
+
+    parts = products(stack.at(slice(0, 7))) + products(stack.at(np.arange(7, ROWS)))
+    whole = products(stack)
+    np.testing.assert_allclose(parts, whole, atol=1e-12 * np.abs(whole).max())

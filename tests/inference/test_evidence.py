@@ -1,0 +1,123 @@
+"""The closed-form evidence against brute-force Gaussian densities, and its shortcuts against itself."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.stats import multivariate_normal, norm
+
+from armscope.fitting.design_matrix import columns
+from armscope.fitting.linearisation import accumulate, residuals
+from armscope.fitting.model_space import Pool, pool
+from armscope.fitting.registration import fit_frames
+from armscope.inference import evidence
+from armscope.inference.evidence import PERFECT, Chosen, Problem, losses, pinned_losses, weigh
+from armscope.inference.normal_equations import total
+from armscope.inference.updates import gains, group
+from armscope.measurement.row_weights import RowWeights
+from armscope.physics.backgrounds import backgrounds
+from armscope.physics.frames import free_frames
+from armscope.physics.registry import library
+
+from ..diagnosis.planted import planted
+
+ROWS = 40
+
+
+@pytest.fixture(scope="module")
+def setting() -> tuple[Problem, np.ndarray, np.ndarray]:
+    """A problem with its columns (scaled) and response written out, mm."""
+    arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [2e-7]}, ROWS, 0.03, seed=1)
+    model = fit_frames(arm, table)
+    parts: Pool = pool(free_frames(table, False), list(backgrounds(arm, table).values()), library(arm, table))
+    blocks = accumulate(parts, model, table, RowWeights(np.ones(ROWS)), np.arange(ROWS) % 5)
+    problem = evidence.problem(parts, total(blocks), 0.0)
+    X = columns(model.posture(model.scene(table)), parts.terms) / problem.scale
+    return problem, X, residuals(model, table).reshape(-1)
+
+
+def numbers(problem: Problem, *keys: tuple[str, str]) -> tuple[Chosen, ...]:
+    at = {(*p.key, p.variant): n for n, p in reversed(list(enumerate(problem.pool.candidates)))}
+    return tuple(Chosen(at[(*key, "")], 3) for key in keys)
+
+
+def test_blocks_add_up_to_the_sums_over_all_rows(setting: tuple[Problem, np.ndarray, np.ndarray]) -> None:
+    problem, X, y = setting
+    np.testing.assert_allclose(problem.gram.G, X.T @ X, rtol=1e-9, atol=1e-9 * len(y))
+    np.testing.assert_allclose(problem.gram.b, X.T @ y, atol=1e-8 * len(y))
+    assert problem.gram.yy == pytest.approx(y @ y)
+    assert problem.gram.n == 3 * ROWS
+
+
+@pytest.mark.parametrize("background", [PERFECT, (4, 0, 0), (3, 2, 1)])
+def test_evidence_is_the_density_of_the_data(
+    setting: tuple[Problem, np.ndarray, np.ndarray], background: evidence.Background
+) -> None:
+    """Differences of evidence are differences of log N(y; 0, X P X' + noise^2 I), prices taken off.
+
+    A compliance is not negative: its prior is the normal's upper half, twice as dense.
+    """
+    problem, X, y = setting
+
+    def brute(chosen: tuple[Chosen, ...], noise: float) -> float:
+        prior = evidence.prior_variances(problem, chosen, background)
+        covariance = (X * prior) @ X.T + noise**2 * np.eye(len(y))
+        return float(multivariate_normal(np.zeros(len(y)), covariance, allow_singular=False).logpdf(y))
+
+    def upper_half(chosen: tuple[Chosen, ...], noise: float) -> float:
+        prior = evidence.prior_variances(problem, chosen, background)
+        at = problem.pool.columns[chosen[0].candidate][0]
+        covariance = (X * prior) @ X.T + noise**2 * np.eye(len(y))
+        towards = prior[at] * np.linalg.solve(covariance, X[:, at])
+        variance = prior[at] - prior[at] * X[:, at] @ towards
+        return float(np.log(2) + norm.logcdf(towards @ y / np.sqrt(variance)))
+
+    with_it = weigh(problem, numbers(problem, ("joint_compliance", "joint 2")), background, 0.03)
+    without = weigh(problem, (), background, 0.1)
+    price = problem.costs[with_it.chosen[0].candidate] + np.log(len(problem.sizes))
+    expected = brute(with_it.chosen, with_it.noise) - brute((), without.noise)
+    expected += upper_half(with_it.chosen, with_it.noise)
+    assert with_it.value - without.value + price == pytest.approx(expected, abs=1e-3)
+
+
+def test_a_predicted_gain_is_the_gain(setting: tuple[Problem, np.ndarray, np.ndarray]) -> None:
+    problem, *_ = setting
+    parent = weigh(problem, numbers(problem, ("joint_compliance", "joint 2")), PERFECT, 0.03)
+    gain, size = gains(problem, group(problem.pool), parent)
+    for candidate in (0, 9, 40, 70):
+        child = weigh(problem, (*parent.chosen, Chosen(candidate, int(size[candidate]))), PERFECT, parent.noise)
+        assert child.value - parent.value == pytest.approx(gain[candidate], abs=0.3)
+
+
+def test_a_predicted_loss_is_the_loss(setting: tuple[Problem, np.ndarray, np.ndarray]) -> None:
+    """With noise known (not re-estimated), removal by the Savage-Dickey ratio is exact."""
+    problem, *_ = setting
+    chosen = numbers(problem, ("joint_offset", "joint 3"), ("gear_ratio", "joint 4"), ("link_geometry", "link 2"))
+    for background in (PERFECT, (4, 2, 1)):
+        whole = weigh(problem, chosen, background, 0.05)
+        fixed = evidence.Problem(**{**vars(problem), "least_noise": whole.noise * 1.5})
+        whole = weigh(fixed, chosen, background, fixed.least_noise)
+        lost = losses(fixed, whole)
+        for number in range(len(chosen)):
+            less = weigh(fixed, chosen[:number] + chosen[number + 1 :], background, fixed.least_noise)
+            assert whole.value - less.value == pytest.approx(lost[number], abs=1e-4)
+
+
+def test_pinning_an_effect_is_removing_it_where_nothing_else_holds_it(
+    setting: tuple[Problem, np.ndarray, np.ndarray],
+) -> None:
+    problem, *_ = setting
+    chosen = numbers(problem, ("gear_ratio", "joint 3"), ("joint_compliance", "joint 2"))
+    whole = weigh(problem, chosen, PERFECT, 0.05)
+    pinned = pinned_losses(problem, whole, [problem.pool.columns[c.candidate] for c in chosen])
+    prices = [problem.costs[c.candidate] + np.log(len(problem.sizes)) for c in chosen]
+    np.testing.assert_allclose(pinned - prices, losses(problem, whole), atol=1e-6)
+
+
+def test_a_larger_library_makes_a_name_dearer() -> None:
+    arm, table = planted("six-axis", {}, ROWS, 0.03, seed=1)
+    frames = free_frames(table, False)
+    few = pool(frames, [[], [], []], [p for p in library(arm, table) if p.name == "joint_offset"])
+    many = pool(frames, [[], [], []], library(arm, table))
+    cheap, dear = evidence.costs(few)[0], evidence.costs(many)[0]
+    assert dear > cheap + 2
