@@ -13,8 +13,8 @@ from scipy.stats import multivariate_normal
 from armscope.diagnosis import Settings, diagnose
 from armscope.fitting import discrepancy as uncertainty
 from armscope.fitting.discrepancy import SIZES, model_error
-from armscope.fitting.gauss_newton import Refit, refit
 from armscope.fitting.linearisation import residuals
+from armscope.fitting.refit import Refit, refit
 from armscope.fitting.registration import fit_frames
 from armscope.measurement.row_weights import RowNoise
 from armscope.physics.frames import free_frames

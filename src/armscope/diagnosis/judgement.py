@@ -18,8 +18,8 @@ from armscope.diagnosis.summary.homogeneity import carry_over
 from armscope.diagnosis.summary.next_poses import next_poses
 from armscope.diagnosis.summary.unexplained import rows_apart, together, told_backgrounds, too_faint, unexplained_part
 from armscope.fitting.discrepancy import model_error
-from armscope.fitting.gauss_newton import Refit
 from armscope.fitting.linearisation import accumulate
+from armscope.fitting.refit import Refit
 from armscope.inference.detection import presence
 from armscope.inference.normal_equations import Gram
 from armscope.inference.search import Search

@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from armscope.check.preconditions import FEWEST_ROWS, check_table, too_far, with_orientations
 from armscope.core.types import Progress
 from armscope.diagnosis.gravity_direction import lean
 from armscope.diagnosis.held_out import split
 from armscope.diagnosis.judgement import judge, undecided
-from armscope.diagnosis.preconditions import FEWEST_ROWS, check_table, too_far, with_orientations
 from armscope.diagnosis.selection_loop import select
 from armscope.diagnosis.state import Evidence
 from armscope.fitting.linearisation import missed

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from armscope.core.types import Array, Indices, Progress
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.scans.scanning import jumps, mesh_lines, pauses
-from armscope.fitting.gauss_newton import Refit, refit
 from armscope.fitting.joint_scatter import Scattered, find_scatter, levers, noise_between, whitening
 from armscope.fitting.linearisation import accumulate, keep_drivers, missed
 from armscope.fitting.model_space import Pool, pool
+from armscope.fitting.refit import Refit, refit
 from armscope.inference.evidence import Hypothesis, Problem, background_sizes, problem
 from armscope.inference.normal_equations import Gram, total
 from armscope.inference.search import STARTS, Search

@@ -27,8 +27,8 @@ from scipy.linalg import solve_triangular
 
 from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import component_rows
-from armscope.fitting.gauss_newton import Refit
 from armscope.fitting.linearisation import chunks, response
+from armscope.fitting.refit import Refit
 from armscope.inference.evidence import SURE_NATS, forward, lower_factor
 from armscope.physics.effect import AXES, ONE, Direction, motor, term
 from armscope.physics.placing import moving_joints

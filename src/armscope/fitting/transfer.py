@@ -11,8 +11,8 @@ import numpy as np
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.fitting.design_matrix import columns
-from armscope.fitting.gauss_newton import moved_frames
 from armscope.fitting.linearisation import chunks, residuals
+from armscope.fitting.refit import moved_frames
 from armscope.fitting.registration import fit_frames
 from armscope.measurement import robust
 from armscope.physics.effect import Placed, Term

@@ -22,11 +22,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.stats import f as f_distribution
 
+from armscope.check.preconditions import check_table, with_orientations
 from armscope.core.types import Array
-from armscope.diagnosis.preconditions import check_table, with_orientations
-from armscope.fitting.gauss_newton import moved_frames
 from armscope.fitting.linearisation import accumulate, missed
 from armscope.fitting.model_space import Pool, pool
+from armscope.fitting.refit import moved_frames
 from armscope.fitting.registration import fit_frames
 from armscope.inference.evidence import TOLERANCE
 from armscope.inference.normal_equations import Gram, total

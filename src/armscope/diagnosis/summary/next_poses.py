@@ -10,7 +10,7 @@ import numpy as np
 from armscope.design.separation import nats_apart, separating
 from armscope.diagnosis.summary.alternatives import TELLS_APART_NATS, apart
 from armscope.fitting.design_matrix import columns
-from armscope.fitting.gauss_newton import Refit
+from armscope.fitting.refit import Refit
 from armscope.inference.evidence import FRAME_PRIOR_MM, Hypothesis
 from armscope.inference.search import Search
 from armscope.physics.drift import six_terms

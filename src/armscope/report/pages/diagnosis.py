@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from armscope.check.preconditions import check_table
 from armscope.core.files import write_text
-from armscope.diagnosis.preconditions import check_table
 from armscope.recordings import Recordings
 from armscope.report.figures.diagnosis import SavedFigure, location_shares, save_all, waterfall_steps
 from armscope.report.figures.error_field import MOST_ROWS, ErrorField, turnable
