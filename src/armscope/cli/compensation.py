@@ -145,7 +145,12 @@ def _identified(model: Path, fitted: FittedModel, recordings: Path | None) -> Id
             model, "", f"no {FILE} beside it", "commands outside the identified range are refused: it must be known",
             "Give the recordings of the diagnosis with --recordings.",
         )  # fmt: skip
-    return load_identified(beside)
+    identified = load_identified(beside)
+    motors = sum(name.startswith("q") for name in identified.domain.names)
+    if motors != fitted.arm.n_motors:
+        rule = f"the model's arm has {fitted.arm.n_motors}"
+        raise InputError(beside, "domain.inputs", f"{motors} motors", rule, "Is it of another diagnosis?")
+    return identified
 
 
 def _check_robot(robot: Path | None, arm: Arm) -> None:

@@ -131,6 +131,17 @@ def load(model: type[Model], path: Path | str) -> Model:
     return validate(model, content, path)
 
 
+def mapping(content: Any, file: object, what: str) -> dict[str, Any]:
+    """What was read, which must be a mapping; ``what`` the file is, for the error.
+
+    Raises:
+        InputError: it is something else.
+    """
+    if not isinstance(content, dict):
+        raise InputError(file, "", content, f"this is not {what}")
+    return content
+
+
 def folder_of(path: Path | str, what: str) -> Path:
     """A folder that must be there: of ``what``, for the error."""
     path = Path(path)

@@ -23,6 +23,8 @@ REFERENCE_TEMPERATURE_C = 20.0
 """Lengths hold at this temperature."""
 SECONDS_PER_HOUR = 3600.0
 ROWS_PER_UNIT = 1000.0
+LARGEST_ARGUMENT = 1e12
+"""Of a driver: seconds since 1970 are the largest numbers that stand there."""
 
 
 def evaluate(scene: Scene, driver: Driver) -> Array:
@@ -32,7 +34,7 @@ def evaluate(scene: Scene, driver: Driver) -> Array:
         InputError: the recordings lack the column that the driver needs.
     """
     kind, arguments = driver.kind, driver.arguments
-    return np.asarray(_KINDS[kind](scene, *arguments), dtype=np.float64)
+    return np.asarray(KINDS[kind](scene, *arguments), dtype=np.float64)
 
 
 def _one(scene: Scene) -> Array:
@@ -242,7 +244,7 @@ def _missing(scene: Scene, column: str) -> InputError:
     )
 
 
-_KINDS: dict[str, Callable[..., Any]] = {
+KINDS: dict[str, Callable[..., Any]] = {
     "one": _one,
     "angle": _angle,
     "sine": _sine,

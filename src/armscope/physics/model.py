@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -14,17 +14,16 @@ from scipy.spatial.transform import Rotation
 from armscope.core.files import write_yaml
 from armscope.core.inputs import InputError, read_yaml, validate
 from armscope.core.types import Array
-from armscope.physics.effect import Direction, Driver, Effect, Placed, Product, Term
-from armscope.physics.frames import BASE_FRAME, TOOL_FRAME, ToolKey
-from armscope.physics.geometric import BACKGROUND
-from armscope.physics.registry import EFFECTS
+from armscope.physics.effect import Driver
+from armscope.physics.frames import ToolKey
+from armscope.physics.model_file import FORMAT, ModelContent, Reader, turn
 from armscope.physics.scene import Part, Posture, Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.robot.arm import build_arm
-from armscope.robot.description import RobotDescription
 
-FORMAT = "armscope model 1"
+FARTHEST_IN_REACHES, FARTHEST_TOOL_M = 3.0, 1.0
+"""An arm's tool is never as far from the base: what puts it there is no model of it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +64,10 @@ class FittedModel:
 
     def base_of(self, run: str) -> Base:
         """The base of a run; of the last known one for a run that the model does not know."""
+        if not self.bases:
+            raise InputError(
+                "model", "bases", "no base frame", "a model knows where the base stands in one run at least"
+            )
         return self.bases.get(run) or self.bases[list(self.bases)[-1]]
 
     def to_measurement(self, points: Array, runs: NDArray[np.str_]) -> Array:
@@ -120,9 +123,18 @@ def predict(model: FittedModel, recordings: Recordings) -> Array:
     """Tool points (N, 3) in the measurement frame, m, exact.
 
     Raises:
-        InputError: the table lacks a context column that an effect of the model follows.
+        InputError: the table lacks a context column that an effect of the model follows, or the model puts the tool
+            where no arm of this size can.
     """
-    return model.to_measurement(model.posture(model.scene(recordings)).tool, recordings.run)
+    tool = model.posture(model.scene(recordings)).tool
+    distance = np.linalg.norm(tool, axis=1)
+    near = distance <= FARTHEST_IN_REACHES * model.arm.reach + FARTHEST_TOOL_M
+    if not near.all():
+        row = int(np.argmin(near))
+        found, reach = f"a tool point {distance[row]:.3g} m from the base", f"{model.arm.reach:.3g} m"
+        rule = f"{model.arm.name} reaches {reach} at most"
+        raise InputError(recordings.source, f"row {row + 2}", found, rule, "Is the model's file as it was written?")
+    return model.to_measurement(tool, recordings.run)
 
 
 def predict_orientation(model: FittedModel, recordings: Recordings) -> Array:
@@ -138,13 +150,12 @@ def predict_orientation(model: FittedModel, recordings: Recordings) -> Array:
     return turned
 
 
-def save_model(path: Path | str, model: FittedModel, extra: Mapping[str, Any] | None = None) -> None:
+def save_model(path: Path | str, model: FittedModel) -> None:
     """Write model.yaml; the robot's description is part of it (a URDF by its path)."""
     write_yaml(
         path,
         {
             "format": FORMAT,
-            **(extra or {}),
             "robot": model.arm.description.model_dump(mode="json", exclude_none=True),
             "bases": {
                 run: {"rotation": base.rotation.tolist(), "translation_m": base.translation.tolist()}
@@ -173,24 +184,17 @@ def load_model(path: Path | str) -> FittedModel:
         raise InputError(
             path, "format", found, f"a model file says `format: {FORMAT}`", "`armscope diagnose` writes one."
         )
-    try:
-        arm = build_arm(validate(RobotDescription, content["robot"], path))
-        return FittedModel(
-            arm=arm,
-            bases={
-                str(run): Base(np.array(base["rotation"], dtype=float), np.array(base["translation_m"], dtype=float))
-                for run, base in content["bases"].items()
-            },
-            tools=tuple(_part_in(part) for part in content["tools"]),
-            parts=tuple(_part_in(part) for part in content["effects"]),
-            background=tuple(_part_in(part) for part in content["background"]),
-            tool_turns={
-                (turn["target"], turn["run"]): np.array(turn["rotation"], dtype=float)
-                for turn in content.get("tool_turns", [])
-            },
-        )
-    except KeyError as error:
-        raise InputError(path, str(error.args[0]), "nothing", "this key is missing", "Was the file edited?") from error
+    stated = validate(ModelContent, content, path)
+    arm = build_arm(stated.robot)
+    reader = Reader(arm, path)
+    return FittedModel(
+        arm=arm,
+        bases={run: Base(turn(base.rotation), np.array(base.translation_m)) for run, base in stated.bases.items()},
+        tools=reader.parts(stated.tools, "tools"),
+        parts=reader.parts(stated.effects, "effects"),
+        background=reader.parts(stated.background, "background"),
+        tool_turns={(each.target, each.run): turn(each.rotation) for each in stated.tool_turns},
+    )
 
 
 def _part_out(part: Part) -> dict[str, Any]:
@@ -217,37 +221,5 @@ def _part_out(part: Part) -> dict[str, Any]:
     }
 
 
-def _part_in(content: Mapping[str, Any]) -> Part:
-    terms = tuple(
-        Term(
-            term["name"],
-            term["unit"],
-            float(term["si"]),
-            tuple(Product(Direction(p[0], p[1]), _driver_in(p[3:]), float(p[2])) for p in term["products"]),
-        )
-        for term in content["terms"]
-    )
-    placed = Placed(
-        _definitions()[content["effect"]],
-        content["location"],
-        terms,
-        (1.0,) * len(terms),
-        content["driver"],
-        tuple((s["name"], s["unit"], float(s["value"])) for s in content["scanned"]),
-        variant=content["variant"],
-        reading=content["reading"],
-    )
-    return Part(placed, np.array([float(term["value"]) for term in content["terms"]]))
-
-
 def _driver_out(driver: Driver) -> list[Any]:
     return [driver.kind, *[_driver_out(a) if isinstance(a, Driver) else a for a in driver.arguments]]
-
-
-def _driver_in(content: Iterable[Any]) -> Driver:
-    kind, *arguments = content
-    return Driver(kind, tuple(_driver_in(a) if isinstance(a, list) else a for a in arguments))
-
-
-def _definitions() -> dict[str, Effect]:
-    return {effect.name: effect for effect in (BASE_FRAME, TOOL_FRAME, BACKGROUND, *EFFECTS)}
