@@ -1,4 +1,4 @@
-"""`python -m tests.fuzz [reader ...] --seconds 60 --seed 1`: bad files for every reader; what fails is kept as a case."""
+"""`python -m tests.fuzz [reader ...] --seconds 60 --seed 1`: bad files for every reader; failures are kept as cases."""
 
 from __future__ import annotations
 

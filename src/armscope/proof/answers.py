@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
+from armscope.core.files import read_json, read_table
+from armscope.core.inputs import InputError, mapping
 from armscope.proof.definitions import Name
 
 VERDICT, PREDICTED, FAILURE, TIMES = "verdict.json", "test_predicted.csv", "failed.txt", "times.csv"
+WHAT = "verdict.json of a diagnosis"
 
 
 @dataclass(frozen=True)
@@ -57,7 +59,16 @@ def read_answer(folder: Path) -> Answer:
     failure = folder / FAILURE
     if failure.is_file():
         return Answer(folder.name, failed=failure.read_text(encoding="utf-8").strip())
-    content = json.loads((folder / VERDICT).read_text(encoding="utf-8"))
+    path = folder / VERDICT
+    content = mapping(read_json(path, WHAT), path, WHAT)
+    try:
+        return _answer(folder, content)
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        missing = f"no {error}" if isinstance(error, KeyError) else str(error)
+        raise InputError(path, "", missing, f"this is not {WHAT}", "Was the file edited?") from error
+
+
+def _answer(folder: Path, content: dict[str, Any]) -> Answer:
     return Answer(
         world=folder.name,
         claims=tuple(_claim(effect) for effect in content["effects"]),
@@ -66,7 +77,7 @@ def read_answer(folder: Path) -> Answer:
         noise_mm=float("nan") if content["noise_mm"] is None else content["noise_mm"],
         headline=content["headline"],
         background_mm=float(content.get("background", {}).get("rms_at_tool_mm") or 0.0),
-        predicted=pd.read_csv(folder / PREDICTED),
+        predicted=read_table(folder / PREDICTED),
     )
 
 
