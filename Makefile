@@ -21,6 +21,7 @@ test: .venv/installed-test
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+	$(BIN)/lint-imports
 	$(BIN)/snakemake --lint
 	$(BIN)/snakemake -j2 --configfile config/small.yaml --forceall
 	$(BIN)/pytest -n 2

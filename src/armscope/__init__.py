@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import pandas as pd
 
-    from armscope.diagnosis import Settings, Verdict
+    from armscope.diagnosis import Diagnosis, Settings
     from armscope.recordings import Recordings
     from armscope.robot import Arm
 
@@ -17,7 +17,7 @@ __all__ = ["diagnose"]
 
 def diagnose(
     robot: Arm | Path | str, recordings: Recordings | pd.DataFrame | Path | str, settings: Settings | None = None
-) -> Verdict:
+) -> Diagnosis:
     """Find where simulation and recordings differ, and which physics was left out: `armscope diagnose` for notebooks.
 
     Args:

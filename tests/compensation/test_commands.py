@@ -12,7 +12,7 @@ from armscope.compensation import as_path, compensate_black_box, load_error_mode
 from armscope.compensation.physical import load_identified, save_identified
 from armscope.compensation.rapid import read_rapid
 from armscope.core.inputs import InputError
-from armscope.physics.model import save_model
+from armscope.physics.model_file import save_model
 from armscope.robot import forward_kinematics
 from tests.robot.arms import CONFIG, SK120
 

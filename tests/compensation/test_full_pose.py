@@ -20,7 +20,7 @@ from armscope.compensation import (
 from armscope.compensation.forward import BlackBoxArm
 from armscope.core.inputs import InputError
 from armscope.errormodels import FDP_CI, FOURIER_2_AI, SDP_AI, ModelSpec
-from armscope.physics.model import save_model
+from armscope.physics.model_file import save_model
 from armscope.recordings.table import as_recordings
 from armscope.robot import chain, forward_kinematics
 

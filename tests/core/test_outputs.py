@@ -298,7 +298,7 @@ def test_a_disk_that_fills_up_keeps_the_old_result(small_disk):
 
 def test_no_memory_is_one_line_with_an_exit_code_of_its_own(tmp_path):
     code = (
-        "import sys\nimport armscope.physics.model as model\n"
+        "import sys\nimport armscope.physics.model_file as model\n"
         "def hungry(*_):\n    return bytearray(1 << 60)\n"
         "model.load_model = hungry\nfrom armscope.cli import main\nmain()"
     )

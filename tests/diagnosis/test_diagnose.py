@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose, write_verdict
-from armscope.physics.model import load_model, predict
+from armscope.physics.model import predict
+from armscope.physics.model_file import load_model
 from armscope.poses.obstacles import Surroundings, refusals
 from armscope.recordings import read_recordings
 from armscope.robot import load_arm

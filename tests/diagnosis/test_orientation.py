@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from armscope.diagnosis import Settings, diagnose
 from armscope.fitting.linearisation import missed
 from armscope.fitting.registration import fit_frames
-from armscope.physics.model import load_model, save_model
+from armscope.physics.model_file import load_model, save_model
 from armscope.recordings import Recordings, read_recordings
 from armscope.robot import Arm, load_arm
 from armscope.robot.arm import build_arm

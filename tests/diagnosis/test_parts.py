@@ -14,7 +14,7 @@ from armscope.diagnosis import selection_loop as rounds
 from armscope.diagnosis.held_out import split
 from armscope.diagnosis.summary.effect_curve import describe
 from armscope.diagnosis.summary.parameters import parameters
-from armscope.fitting.joint_scatter import find_scatter, levers, whitening
+from armscope.fitting.joint_scatter import find_scatter, motor_jacobians, whitening
 from armscope.measurement import robust
 from armscope.measurement.noise import known_noise, relative_uncertainty
 from armscope.measurement.row_weights import RowWeights
@@ -91,7 +91,7 @@ def test_a_wobble_of_which_half_is_hidden_has_an_interval_that_holds_the_whole()
 
 def test_scatter_is_found_at_its_joint_and_noise_has_no_place() -> None:
     arm, table = planted("six-axis", {}, 150, 0.0, seed=3)
-    moved = levers(FittedModel(arm, {"1": Base(np.eye(3), np.zeros(3))}), table)
+    moved = motor_jacobians(FittedModel(arm, {"1": Base(np.eye(3), np.zeros(3))}), table)
     rng = np.random.default_rng(4)
     noise = 0.02 * rng.normal(size=(150, 3))
     assert find_scatter(noise, moved, 0.0) == []
@@ -106,7 +106,7 @@ def test_scatter_is_found_at_its_joint_and_noise_has_no_place() -> None:
 
 def test_bad_shots_of_any_direction_are_no_scatter() -> None:
     arm, table = planted("six-axis", {}, 150, 0.0, seed=3)
-    moved = levers(FittedModel(arm, {"1": Base(np.eye(3), np.zeros(3))}), table)
+    moved = motor_jacobians(FittedModel(arm, {"1": Base(np.eye(3), np.zeros(3))}), table)
     rng = np.random.default_rng(5)
     residuals = 0.02 * rng.normal(size=(150, 3))
     residuals[:3] += rng.normal(size=(3, 3))
@@ -117,7 +117,7 @@ def test_weights_leave_noise_alone_and_silence_what_is_far() -> None:
     rng = np.random.default_rng(6)
     residuals = rng.normal(size=(400, 3))
     residuals[7] = 30
-    w = robust.weights(residuals, np.ones(400), 0.0)
+    w = robust.quartic_weights(residuals, np.ones(400), 0.0)
     assert w[7] < 0.01
     assert np.mean(w[np.arange(400) != 7] == 1) > 0.99
     assert robust.scale_of(residuals) == pytest.approx(1, rel=0.1)

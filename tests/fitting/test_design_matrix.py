@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from armscope.fitting.design_matrix import Stack, arranged, component_rows, stacked
+from armscope.fitting.design_matrix import StructuredDesign, component_rows, grouped_columns, structured_design
 from armscope.fitting.registration import fit_frames
 from armscope.physics.effect import Driver, Term, motor, term
 from armscope.physics.lens import Lens
@@ -31,23 +31,23 @@ def written_out(posture: Posture, terms: tuple[Term, ...]) -> np.ndarray:
 
 
 def test_the_library_turns_motors_by_many_drivers(seen: tuple[Posture, tuple[Term, ...]]) -> None:
-    arrangement = arranged(seen[1])
-    assert {fan.direction.axis for fan in arrangement.fans} == {"turn"}
-    assert sorted(arrangement.order) == list(range(len(seen[1])))
-    assert len(arrangement.others) < len(seen[1]) / 2
+    column_order = grouped_columns(seen[1])
+    assert {group.direction.axis for group in column_order.groups} == {"turn"}
+    assert sorted(column_order.order) == list(range(len(seen[1])))
+    assert len(column_order.others) < len(seen[1]) / 2
 
 
 def test_products_of_columns_are_those_of_the_columns_written_out(seen: tuple[Posture, tuple[Term, ...]]) -> None:
     posture, terms = seen
-    X, arrangement = written_out(posture, terms), arranged(terms)
-    stack, size = stacked(posture, arrangement), np.abs(X).max() ** 2 * X.shape[1]
+    X, column_order = written_out(posture, terms), grouped_columns(terms)
+    stack, size = structured_design(posture, column_order), np.abs(X).max() ** 2 * X.shape[1]
     total = np.zeros((len(terms), len(terms)))
     stack.add_products(total)
-    np.testing.assert_allclose(arrangement.whole(total), X @ X.T, atol=1e-12 * size)
+    np.testing.assert_allclose(column_order.whole(total), X @ X.T, atol=1e-12 * size)
     y = np.random.default_rng(1).normal(size=(posture.numbers, ROWS))
-    np.testing.assert_allclose(stack.onto(y)[arrangement.back], X @ y.reshape(-1), atol=1e-12 * size)
+    np.testing.assert_allclose(stack.rmatvec(y)[column_order.back], X @ y.reshape(-1), atol=1e-12 * size)
     values = np.random.default_rng(2).normal(size=(2, len(terms)))
-    combined = stack.combined(values[:, arrangement.order])
+    combined = stack.matvec(values[:, column_order.order])
     np.testing.assert_allclose(combined.reshape(2, -1), values @ X, atol=1e-12 * size)
 
 
@@ -55,18 +55,20 @@ def test_products_with_other_columns(seen: tuple[Posture, tuple[Term, ...]]) -> 
     posture, terms = seen
     waves = tuple(term(f"{n}", "", (motor(2), Driver("sine", (2, n)))) for n in range(1, 20))
     few = (*terms[:5], *waves)
-    here, there = arranged(terms), arranged(few)
-    assert there.fans
-    products = stacked(posture, here).products(stacked(posture, there))[np.ix_(here.back, there.back)]
+    here, there = grouped_columns(terms), grouped_columns(few)
+    assert there.groups
+    products = structured_design(posture, here).products(structured_design(posture, there))[
+        np.ix_(here.back, there.back)
+    ]
     expected = written_out(posture, terms) @ written_out(posture, few).T
     np.testing.assert_allclose(products, expected, atol=1e-12 * np.abs(expected).max())
 
 
 def test_some_rows_and_their_rest_make_all_rows(seen: tuple[Posture, tuple[Term, ...]]) -> None:
     posture, terms = seen
-    stack = stacked(posture, arranged(terms))
+    stack = structured_design(posture, grouped_columns(terms))
 
-    def products(part: Stack) -> np.ndarray:
+    def products(part: StructuredDesign) -> np.ndarray:
         total = np.zeros((len(terms), len(terms)))
         part.add_products(total)
         return total

@@ -13,7 +13,8 @@ from armscope.fitting.registration import fit_frames
 from armscope.fitting.transfer import transfer
 from armscope.physics.effect import Driver
 from armscope.physics.freeform import held
-from armscope.physics.model import FittedModel, load_model, predict, save_model
+from armscope.physics.model import FittedModel, predict
+from armscope.physics.model_file import load_model, save_model
 from armscope.physics.registry import library
 from armscope.physics.scene import Part, Scene
 from armscope.recordings import Recordings

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,14 +12,15 @@ from armscope.compensation import load_error_model, load_identified, read_path
 from armscope.core.config import Config
 from armscope.core.inputs import read_yaml, validate
 from armscope.core.variants import read_variants
-from armscope.physics.model import load_model, predict
-from armscope.proof.answers import VERDICT, read_answer
+from armscope.physics.model import predict
+from armscope.physics.model_file import load_model
 from armscope.real.reference import load_reference
 from armscope.recordings import read_recordings
 from armscope.recordings.importing.fetching import load_source
 from armscope.recordings.importing.mapping import load_mapping
 from armscope.recordings.importing.tables import import_recordings
 from armscope.robot import chain, load_arm
+from armscope.verdict.files import read_verdict
 
 ROOT = Path(__file__).parents[2]
 CORPUS = Path(__file__).parent / "corpus"
@@ -78,12 +78,6 @@ def _black_box(path: Path) -> None:
     model.domain.outside(np.zeros((1, len(model.domain.names))))
 
 
-def _answer(path: Path) -> None:
-    shutil.copy(path, path.with_name(VERDICT))
-    path.with_name("test_predicted.csv").write_text("x_mm,y_mm,z_mm\n1,2,3\n")
-    read_answer(path.parent)
-
-
 def _converted(path: Path) -> None:
     import_recordings([path], MAPPING, path.with_name("out.csv"))
 
@@ -128,7 +122,7 @@ READERS = {
     "model.yaml": Reader(_predicted, _seeds("tests/fuzz/corpus/model/*")),
     "domain.json": Reader(load_identified, _seeds("tests/fuzz/corpus/domain/*")),
     "errormodel.json": Reader(_black_box, _seeds("tests/fuzz/corpus/errormodel/*")),
-    "verdict.json": Reader(_answer, _seeds("tests/fuzz/corpus/verdict/*")),
+    "verdict.json": Reader(read_verdict, _seeds("tests/fuzz/corpus/verdict/*")),
     "sweep.csv": Reader(read_variants, _seeds("config/sweeps/*")),
     "config.yaml": Reader(_config, _seeds("config/*.yaml")),
 }

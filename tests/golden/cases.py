@@ -44,19 +44,20 @@ def verdicts(only: str = "") -> Iterator[tuple[str, Verdict]]:
     """Every case's name and verdict."""
     for example in sorted(path for path in (ROOT / "examples").iterdir() if path.is_dir()):
         if only in ("", "examples"):
-            yield example.name, _diagnosed(example, Settings(resamples=2))
+            yield example.name, diagnosed(example, Settings(resamples=2))
     if only in ("", "worlds"):
         with tempfile.TemporaryDirectory() as made:
             for spec in chosen_worlds():
                 home = build(spec, Path(made), ROOT / "config" / "robots")
-                yield f"{spec.id}-{spec.category}", _diagnosed(home / "visible", QUICK)
+                yield f"{spec.id}-{spec.category}", diagnosed(home / "visible", QUICK)
     if only in ("", "real") and REAL.exists():
         arm = load_arm(REAL / "robot.yaml")
         table = read_recordings(REAL / "recordings.csv.gz", arm.n_motors)
         yield "iiwa-with-orientations", diagnose(arm, table.rows(table.run == RUN_OF_REAL), QUICK)
 
 
-def _diagnosed(folder: Path, settings: Settings) -> Verdict:
+def diagnosed(folder: Path, settings: Settings) -> Verdict:
+    """The verdict on a folder's robot.yaml and recordings.csv."""
     arm = load_arm(folder / "robot.yaml")
     return diagnose(arm, read_recordings(folder / "recordings.csv", arm.n_motors), settings)
 

@@ -9,12 +9,12 @@ import pytest
 
 from armscope.diagnosis import diagnose
 from armscope.fitting.design_matrix import columns
-from armscope.fitting.linearisation import accumulate
+from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.fitting.model_space import pool
 from armscope.fitting.registration import fit_frames
 from armscope.inference import evidence
-from armscope.inference.detection import SOMETHING_NATS, presence
-from armscope.inference.evidence import PERFECT, SURE_NATS, Chosen, Problem, weigh
+from armscope.inference.detection import DETECTED_NATS, averaged_log_odds
+from armscope.inference.evidence import PERFECT, SURE_NATS, Problem, SelectedEffect, evaluate
 from armscope.inference.normal_equations import total
 from armscope.inference.search import Search
 from armscope.measurement.row_weights import RowWeights
@@ -35,18 +35,18 @@ def setting() -> tuple[Problem, np.ndarray]:
     arm, table = planted("six-axis", {}, ROWS, NOISE_MM, seed=5)
     model = fit_frames(arm, table)
     parts = pool(free_frames(table, False), list(backgrounds(arm, table).values()), library(arm, table))
-    gram = total(accumulate(parts, model, table, RowWeights(np.ones(ROWS)), np.arange(ROWS) % 5))
+    gram = total(normal_equations_by_block(parts, model, table, RowWeights(np.ones(ROWS)), np.arange(ROWS) % 5))
     problem = evidence.problem(parts, gram, 0.97 * NOISE_MM)
     return problem, columns(model.posture(model.scene(table)), parts.terms) / problem.scale
 
 
 def read(problem: Problem, X: np.ndarray, y: np.ndarray) -> Problem:
     """The same poses with other readings, mm."""
-    return replace(problem, gram=replace(problem.gram, b=X.T @ y, yy=float(y @ y)))
+    return replace(problem, equations=replace(problem.equations, b=X.T @ y, yy=float(y @ y)))
 
 
 def log_odds(problem: Problem, X: np.ndarray, y: np.ndarray) -> float:
-    return presence(Search.on(read(problem, X, y))).log_odds
+    return averaged_log_odds(Search.on(read(problem, X, y))).log_odds
 
 
 def test_noise_alone_seldom_looks_like_something(setting: tuple[Problem, np.ndarray]) -> None:
@@ -56,7 +56,7 @@ def test_noise_alone_seldom_looks_like_something(setting: tuple[Problem, np.ndar
     odds = np.array([log_odds(problem, X, rng.normal(0, NOISE_MM, len(X))) for _ in range(DRAWS)])
     for bound in (0.0, 1.0):
         assert np.mean(odds > bound) < np.exp(-bound)
-    assert np.count_nonzero(odds > SOMETHING_NATS) <= 2
+    assert np.count_nonzero(odds > DETECTED_NATS) <= 2
 
 
 def test_something_is_known_to_be_there_before_it_can_be_named(setting: tuple[Problem, np.ndarray]) -> None:
@@ -68,7 +68,7 @@ def test_something_is_known_to_be_there_before_it_can_be_named(setting: tuple[Pr
     for _ in range(40):
         other = read(problem, X, 5.8 * NOISE_MM * column / np.linalg.norm(column) + rng.normal(0, NOISE_MM, len(X)))
         search = Search.on(other)
-        seen += presence(search).something
+        seen += averaged_log_odds(search).detected
         named += bool(search.best().chosen)
     assert named < seen
     assert seen >= 20
@@ -81,9 +81,9 @@ def test_a_name_that_is_not_worth_its_price_goes(setting: tuple[Problem, np.ndar
     weak = next(n for n, p in enumerate(problem.pool.candidates) if p.key == ("servo_lag", "joint 4"))
     y = 10 * NOISE_MM * X[:, problem.pool.columns[strong][0]] + rng.normal(0, NOISE_MM, len(X))
     search = Search.on(read(problem, X, y))
-    both = weigh(search.problem, (Chosen(strong, 4), Chosen(weak, 0)), PERFECT, NOISE_MM)
-    assert search.worth(both, weak) < SURE_NATS < search.worth(both, strong)
-    assert search.paying(both).candidates == {strong}
+    both = evaluate(search.problem, (SelectedEffect(strong, 4), SelectedEffect(weak, 0)), PERFECT, NOISE_MM)
+    assert search.log_odds(both, weak) < SURE_NATS < search.log_odds(both, strong)
+    assert search.pruned_to_worthwhile(both).candidates == {strong}
 
 
 def test_a_faint_effect_is_told_without_a_name() -> None:

@@ -7,13 +7,20 @@ import pytest
 from scipy.stats import multivariate_normal, norm
 
 from armscope.fitting.design_matrix import columns
-from armscope.fitting.linearisation import accumulate, residuals
+from armscope.fitting.linearisation import normal_equations_by_block, residuals
 from armscope.fitting.model_space import Pool, pool
 from armscope.fitting.registration import fit_frames
 from armscope.inference import evidence
-from armscope.inference.evidence import PERFECT, Chosen, Problem, losses, pinned_losses, weigh
+from armscope.inference.evidence import (
+    PERFECT,
+    Problem,
+    SelectedEffect,
+    evaluate,
+    removal_log_bayes_factors,
+    savage_dickey,
+)
 from armscope.inference.normal_equations import total
-from armscope.inference.updates import gains, group
+from armscope.inference.updates import best_additions, group_candidates
 from armscope.measurement.row_weights import RowWeights
 from armscope.physics.backgrounds import backgrounds
 from armscope.physics.frames import free_frames
@@ -30,23 +37,23 @@ def setting() -> tuple[Problem, np.ndarray, np.ndarray]:
     arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [2e-7]}, ROWS, 0.03, seed=1)
     model = fit_frames(arm, table)
     parts: Pool = pool(free_frames(table, False), list(backgrounds(arm, table).values()), library(arm, table))
-    blocks = accumulate(parts, model, table, RowWeights(np.ones(ROWS)), np.arange(ROWS) % 5)
+    blocks = normal_equations_by_block(parts, model, table, RowWeights(np.ones(ROWS)), np.arange(ROWS) % 5)
     problem = evidence.problem(parts, total(blocks), 0.0)
     X = columns(model.posture(model.scene(table)), parts.terms) / problem.scale
     return problem, X, residuals(model, table).reshape(-1)
 
 
-def numbers(problem: Problem, *keys: tuple[str, str]) -> tuple[Chosen, ...]:
+def numbers(problem: Problem, *keys: tuple[str, str]) -> tuple[SelectedEffect, ...]:
     at = {(*p.key, p.variant): n for n, p in reversed(list(enumerate(problem.pool.candidates)))}
-    return tuple(Chosen(at[(*key, "")], 3) for key in keys)
+    return tuple(SelectedEffect(at[(*key, "")], 3) for key in keys)
 
 
 def test_blocks_add_up_to_the_sums_over_all_rows(setting: tuple[Problem, np.ndarray, np.ndarray]) -> None:
     problem, X, y = setting
-    np.testing.assert_allclose(problem.gram.G, X.T @ X, rtol=1e-9, atol=1e-9 * len(y))
-    np.testing.assert_allclose(problem.gram.b, X.T @ y, atol=1e-8 * len(y))
-    assert problem.gram.yy == pytest.approx(y @ y)
-    assert problem.gram.n == 3 * ROWS
+    np.testing.assert_allclose(problem.equations.G, X.T @ X, rtol=1e-9, atol=1e-9 * len(y))
+    np.testing.assert_allclose(problem.equations.b, X.T @ y, atol=1e-8 * len(y))
+    assert problem.equations.yy == pytest.approx(y @ y)
+    assert problem.equations.n == 3 * ROWS
 
 
 @pytest.mark.parametrize("background", [PERFECT, (4, 0, 0), (3, 2, 1)])
@@ -59,12 +66,12 @@ def test_evidence_is_the_density_of_the_data(
     """
     problem, X, y = setting
 
-    def brute(chosen: tuple[Chosen, ...], noise: float) -> float:
+    def brute(chosen: tuple[SelectedEffect, ...], noise: float) -> float:
         prior = evidence.prior_variances(problem, chosen, background)
         covariance = (X * prior) @ X.T + noise**2 * np.eye(len(y))
         return float(multivariate_normal(np.zeros(len(y)), covariance, allow_singular=False).logpdf(y))
 
-    def upper_half(chosen: tuple[Chosen, ...], noise: float) -> float:
+    def upper_half(chosen: tuple[SelectedEffect, ...], noise: float) -> float:
         prior = evidence.prior_variances(problem, chosen, background)
         at = problem.pool.columns[chosen[0].candidate][0]
         covariance = (X * prior) @ X.T + noise**2 * np.eye(len(y))
@@ -72,21 +79,23 @@ def test_evidence_is_the_density_of_the_data(
         variance = prior[at] - prior[at] * X[:, at] @ towards
         return float(np.log(2) + norm.logcdf(towards @ y / np.sqrt(variance)))
 
-    with_it = weigh(problem, numbers(problem, ("joint_compliance", "joint 2")), background, 0.03)
-    without = weigh(problem, (), background, 0.1)
-    price = problem.costs[with_it.chosen[0].candidate] + np.log(len(problem.sizes))
+    with_it = evaluate(problem, numbers(problem, ("joint_compliance", "joint 2")), background, 0.03)
+    without = evaluate(problem, (), background, 0.1)
+    price = problem.prior_costs[with_it.chosen[0].candidate] + np.log(len(problem.sizes))
     expected = brute(with_it.chosen, with_it.noise) - brute((), without.noise)
     expected += upper_half(with_it.chosen, with_it.noise)
-    assert with_it.value - without.value + price == pytest.approx(expected, abs=1e-3)
+    assert with_it.log_posterior - without.log_posterior + price == pytest.approx(expected, abs=1e-3)
 
 
 def test_a_predicted_gain_is_the_gain(setting: tuple[Problem, np.ndarray, np.ndarray]) -> None:
     problem, *_ = setting
-    parent = weigh(problem, numbers(problem, ("joint_compliance", "joint 2")), PERFECT, 0.03)
-    gain, size = gains(problem, group(problem.pool), parent)
+    parent = evaluate(problem, numbers(problem, ("joint_compliance", "joint 2")), PERFECT, 0.03)
+    gain, size = best_additions(problem, group_candidates(problem.pool), parent)
     for candidate in (0, 9, 40, 70):
-        child = weigh(problem, (*parent.chosen, Chosen(candidate, int(size[candidate]))), PERFECT, parent.noise)
-        assert child.value - parent.value == pytest.approx(gain[candidate], abs=0.3)
+        child = evaluate(
+            problem, (*parent.chosen, SelectedEffect(candidate, int(size[candidate]))), PERFECT, parent.noise
+        )
+        assert child.log_posterior - parent.log_posterior == pytest.approx(gain[candidate], abs=0.3)
 
 
 def test_a_predicted_loss_is_the_loss(setting: tuple[Problem, np.ndarray, np.ndarray]) -> None:
@@ -94,13 +103,13 @@ def test_a_predicted_loss_is_the_loss(setting: tuple[Problem, np.ndarray, np.nda
     problem, *_ = setting
     chosen = numbers(problem, ("joint_offset", "joint 3"), ("gear_ratio", "joint 4"), ("link_geometry", "link 2"))
     for background in (PERFECT, (4, 2, 1)):
-        whole = weigh(problem, chosen, background, 0.05)
+        whole = evaluate(problem, chosen, background, 0.05)
         fixed = evidence.Problem(**{**vars(problem), "least_noise": whole.noise * 1.5})
-        whole = weigh(fixed, chosen, background, fixed.least_noise)
-        lost = losses(fixed, whole)
+        whole = evaluate(fixed, chosen, background, fixed.least_noise)
+        lost = removal_log_bayes_factors(fixed, whole)
         for number in range(len(chosen)):
-            less = weigh(fixed, chosen[:number] + chosen[number + 1 :], background, fixed.least_noise)
-            assert whole.value - less.value == pytest.approx(lost[number], abs=1e-4)
+            less = evaluate(fixed, chosen[:number] + chosen[number + 1 :], background, fixed.least_noise)
+            assert whole.log_posterior - less.log_posterior == pytest.approx(lost[number], abs=1e-4)
 
 
 def test_pinning_an_effect_is_removing_it_where_nothing_else_holds_it(
@@ -108,10 +117,10 @@ def test_pinning_an_effect_is_removing_it_where_nothing_else_holds_it(
 ) -> None:
     problem, *_ = setting
     chosen = numbers(problem, ("gear_ratio", "joint 3"), ("joint_compliance", "joint 2"))
-    whole = weigh(problem, chosen, PERFECT, 0.05)
-    pinned = pinned_losses(problem, whole, [problem.pool.columns[c.candidate] for c in chosen])
-    prices = [problem.costs[c.candidate] + np.log(len(problem.sizes)) for c in chosen]
-    np.testing.assert_allclose(pinned - prices, losses(problem, whole), atol=1e-6)
+    whole = evaluate(problem, chosen, PERFECT, 0.05)
+    pinned = savage_dickey(problem, whole, [problem.pool.columns[c.candidate] for c in chosen])
+    prices = [problem.prior_costs[c.candidate] + np.log(len(problem.sizes)) for c in chosen]
+    np.testing.assert_allclose(pinned - prices, removal_log_bayes_factors(problem, whole), atol=1e-6)
 
 
 def test_a_larger_library_makes_a_name_dearer() -> None:
@@ -119,5 +128,5 @@ def test_a_larger_library_makes_a_name_dearer() -> None:
     frames = free_frames(table, False)
     few = pool(frames, [[], [], []], [p for p in library(arm, table) if p.name == "joint_offset"])
     many = pool(frames, [[], [], []], library(arm, table))
-    cheap, dear = evidence.costs(few)[0], evidence.costs(many)[0]
+    cheap, dear = evidence.prior_costs(few)[0], evidence.prior_costs(many)[0]
     assert dear > cheap + 2

@@ -7,14 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from armscope.inference.normal_equations import Gram
+from armscope.inference.normal_equations import NormalEquations
 from armscope.inference.shapley import shares
 
 ROWS = 60
 
 
-def sums(X: np.ndarray, y: np.ndarray) -> Gram:
-    return Gram(X.T @ X, X.T @ y, float(y @ y), float(len(y)))
+def sums(X: np.ndarray, y: np.ndarray) -> NormalEquations:
+    return NormalEquations(X.T @ X, X.T @ y, float(y @ y), float(len(y)))
 
 
 def frames(X: np.ndarray) -> np.ndarray:

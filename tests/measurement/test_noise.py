@@ -10,7 +10,7 @@ from scipy.stats import chi2
 
 from armscope.diagnosis import Settings, diagnose
 from armscope.fitting.registration import fit_frames
-from armscope.measurement.noise import distances, growth, independent_shares, poses
+from armscope.measurement.noise import distances, growth, independence_weights, poses
 from armscope.recordings import Recordings
 
 from ..diagnosis.planted import one_run, recorded
@@ -25,7 +25,7 @@ def test_visits_count_by_what_is_wrong_with_them(of_pose: float, of_reading: flo
     rng = np.random.default_rng(1)
     pose = np.repeat(np.arange(400), 10)
     left = of_pose * rng.normal(size=(400, 3))[pose] + of_reading * rng.normal(size=(4000, 3))
-    shares = independent_shares(left, pose, np.ones(4000, dtype=bool))
+    shares = independence_weights(left, pose, np.ones(4000, dtype=bool))
     means = left.reshape(400, 10, 3).mean(axis=1)
     counted = np.mean(left**2) / np.mean(means**2)
     assert shares.sum() / 400 == pytest.approx(counted, rel=0.15)
@@ -35,8 +35,8 @@ def test_visits_are_independent_where_only_the_reading_is_wrong_and_where_poses_
     rng = np.random.default_rng(2)
     left = 0.02 * rng.normal(size=(4000, 3))
     everything = np.ones(4000, dtype=bool)
-    np.testing.assert_array_equal(independent_shares(left, np.repeat(np.arange(400), 10), everything), 1.0)
-    np.testing.assert_array_equal(independent_shares(left, np.arange(4000), everything), 1.0)
+    np.testing.assert_array_equal(independence_weights(left, np.repeat(np.arange(400), 10), everything), 1.0)
+    np.testing.assert_array_equal(independence_weights(left, np.arange(4000), everything), 1.0)
 
 
 def test_poses_are_told_apart_by_run_and_target() -> None:

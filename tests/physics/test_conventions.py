@@ -21,7 +21,7 @@ def placed(arm: Arm, table: Recordings, effect: str, location: str, variant: str
     return next(
         p
         for p in library(arm, table)
-        if p.key == (effect, location) and (variant is None or p.variant == variant) and p.reading != "curve"
+        if p.key == (effect, location) and (variant is None or p.variant == variant) and p.parametrisation != "curve"
     )
 
 

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from armscope.core.files import write_table, write_yaml
+from armscope.core.files import write_json, write_table, write_yaml
 from armscope.real.transfer import GEOMETRY_HERE, WITH_CURVES
 from armscope.report.pages.real_arms import RealArm, write_real_arms
+from armscope.verdict.schema import Background
+from tests.report import verdicts
 
 
 @pytest.fixture
@@ -40,12 +41,10 @@ def arm_(tmp_path):
     write_table(
         folder / "curves_by_run.csv", pd.DataFrame(columns=["run", "joint", "angle_rad", "turn_rad", "stderr_rad"])
     )
-    effect = {"title": "joint compliance at joint 2", "rms_at_tool_mm": 0.5, "share": 0.8, "minor": False}
-    verdict = {
-        "headline": "x", "effects": [effect], "background": {"present": True, "share": 0.1},
-        "fitted_rms_mm": {"before": 0.7, "after": 0.1},
-    }  # fmt: skip
-    (folder / "verdict.json").write_text(json.dumps(verdict))
+    effect = verdicts.compliance(title="joint compliance at joint 2", rms_at_tool_mm=0.5, share=0.8)
+    background = Background("all", True, np.nan, 0.1, 0.1)
+    said = verdicts.case(effects=(effect,), background=background, residual_before_mm=0.7).verdict
+    write_json(folder / "verdict.json", said.to_json())
     reference = {
         "source": "here",
         "runs": [

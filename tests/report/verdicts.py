@@ -17,6 +17,7 @@ from armscope.verdict.schema import (
     Atlas,
     Background,
     Curve,
+    Diagnosis,
     FoundEffect,
     HeldOut,
     NextPoses,
@@ -25,7 +26,6 @@ from armscope.verdict.schema import (
     Residuals,
     SuspectRow,
     Unexplained,
-    Verdict,
     WaterfallStep,
 )
 
@@ -38,7 +38,7 @@ NOISE_MM = 0.03
 class Case:
     """A verdict with what it was made from."""
 
-    verdict: Verdict
+    verdict: Diagnosis
     arm: Arm
     recordings: Recordings
 
@@ -64,7 +64,7 @@ def case(
     after = random.normal(0, NOISE_MM, (rows, 3))
     recordings = _recordings(angles, points + 1e-3 * before)
     rms_before, rms_after = (float(np.sqrt(np.mean(values**2))) for values in (before, after))
-    verdict = Verdict(
+    verdict = Diagnosis(
         arm=arm.name,
         source="/home/somebody/recordings.csv",
         rows=rows,

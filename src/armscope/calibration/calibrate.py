@@ -163,6 +163,9 @@ def calibrate(
         splits: how often 70 % of the configurations are drawn to learn from and the rest to be tested on; 0 never, and
             not where base or tool are shared by runs that do not share them.
 
+    Returns:
+        Constants with covariance, frames, held-out errors, and what could not be told apart.
+
     Raises:
         InputError: another number of motors than the arm's, fewer measured numbers than parameters, or compliances
             without loads.
@@ -278,4 +281,4 @@ def _covariance(solved: Solved) -> Array:
         return inverse * float(residual @ residual) / freedom
     weighed = (per_component * residual).reshape(-1, per_row)
     pull = np.einsum("nc,ncp->np", weighed, jacobian.reshape(-1, per_row, free.sum()))
-    return inverse @ (pull.T @ pull) @ inverse * len(residual) / freedom
+    return np.asarray(inverse @ (pull.T @ pull) @ inverse * len(residual) / freedom)

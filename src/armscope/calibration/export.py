@@ -34,6 +34,9 @@ def export(calibration: Calibration, folder: Path | str, target: str | None = No
         folder: where to.
         target: whose tool becomes ``tool_mm``; None takes the first.
 
+    Returns:
+        The files that were written.
+
     Raises:
         InputError: a target that the recordings do not have.
     """

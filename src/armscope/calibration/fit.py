@@ -52,6 +52,9 @@ def least_squares(
         stiffness: (P,) m^2 per squared unit, holds parameters near zero (a prior); None holds none.
         weights: (N,) per row; None counts all alike.
         most_steps: after so many steps the fit stops where it is.
+
+    Returns:
+        The state, weights, steps, and why it stopped.
     """
     weights = np.ones(len(set_up)) if weights is None else weights
     stiffness = np.zeros(len(free)) if stiffness is None else stiffness
@@ -104,6 +107,15 @@ def robust_least_squares(
     """As `least_squares`, with Tukey's biweight on the 3D distances: bad shots lose their say, and keep their rows.
 
     Huber's weights come first, since the biweight is only safe near its solution. The scale is the median distance.
+
+    Args:
+        set_up: rows and arm.
+        state: the start.
+        free: (P,) which parameters move.
+        stiffness: (P,) m^2 per squared unit; None holds none.
+
+    Returns:
+        As `least_squares`, with the final weights (N,).
     """
     fitted = least_squares(set_up, state, free, stiffness)
     steps = fitted.steps

@@ -59,13 +59,21 @@ def nominal_values(arm: Arm, constants: tuple[Constant, ...]) -> Array:
     rows = arm.description.dh.joints
     stated = [float(getattr(rows[each.joint - 1], DH_FIELDS[each.kind])) for each in constants]
     to_si = [1e-3 if each.unit == "m" else np.pi / 180 for each in constants]
-    return np.array(stated) * np.array(to_si)
+    return np.asarray(np.array(stated) * to_si)
 
 
 def corrected(arm: Arm, constants: tuple[Constant, ...], values: Array) -> Arm:
     """The arm with ``values`` (m, rad) added to its constants.
 
     Only the arm's own arrays change for a URDF: its description still names the nominal file (see `export`).
+
+    Args:
+        arm: the nominal arm.
+        constants: which of its constants.
+        values: (P,) m or rad, to be added.
+
+    Returns:
+        The corrected arm.
     """
     if arm.description.dh is None:
         return _with_placements(arm, constants, values)
@@ -101,6 +109,14 @@ def columns(arm: Arm, frames: Chain, constants: tuple[Constant, ...]) -> Array:
     """(N, 3, P) displacement of the tool point by a unit of each constant, in base axes; m/m or m/rad.
 
     Exact for D-H rows at any values; for a URDF's placements exact at zero turns, and to their size beyond.
+
+    Args:
+        arm: the arm.
+        frames: its frames at N poses.
+        constants: P of its constants.
+
+    Returns:
+        (N, 3, P) m per m or rad, in base axes.
     """
     result = np.empty((len(frames.tool), 3, len(constants)))
     by_location: dict[str, list[tuple[int, Array]]] = {}
@@ -114,7 +130,16 @@ def columns(arm: Arm, frames: Chain, constants: tuple[Constant, ...]) -> Array:
 
 
 def turn_columns(arm: Arm, frames: Chain, constants: tuple[Constant, ...]) -> Array:
-    """(N, 3, P) turn of the last frame by a unit of each constant, in base axes; rad/m (zero) or rad/rad."""
+    """(N, 3, P) turn of the last frame by a unit of each constant, in base axes; rad/m (zero) or rad/rad.
+
+    Args:
+        arm: the arm.
+        frames: its frames at N poses.
+        constants: P of its constants.
+
+    Returns:
+        (N, 3, P) rad per m or rad, in base axes.
+    """
     turns = np.empty((len(frames.tool), 3, len(constants)))
     for column, constant in enumerate(constants):
         location, twist = _twist(arm, constant)

@@ -58,6 +58,9 @@ def held_out(
         levels: which levels; "compliance" is left out where no loads are known.
         seeds: one split each.
         most_rows: train on the first so many of the training rows, as the reference does for very long runs.
+
+    Returns:
+        RMS of the 3D distance per split, m, by level.
     """
     rows = set_up(arm, recordings, one_base, tool_per_run)
     levels = [level for level in levels if level != "compliance" or rows.loads is not None]

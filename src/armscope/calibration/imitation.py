@@ -59,6 +59,9 @@ def imitations(
         free: (P,) which were fitted.
         scales: (P,) as for `identifiable`.
         names: (P,) of the parameters.
+
+    Returns:
+        Which fitted parameters it is made of, and how well.
     """
     triangular = np.linalg.qr(jacobian, mode="r") if len(jacobian) > jacobian.shape[1] else jacobian
     columns = triangular * scales / np.sqrt(len(jacobian) / 3)

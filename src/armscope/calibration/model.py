@@ -257,6 +257,9 @@ def set_up(
         tool_per_run: a tool of its own for every run, where it was taken off in between.
         orientation: use measured orientations, where the table has them.
 
+    Returns:
+        Rows with their frames' numbers, poses and loads.
+
     Raises:
         InputError: another number of motors than the arm has.
     """

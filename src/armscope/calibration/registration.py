@@ -31,6 +31,9 @@ def kabsch(points: Array, measured: Array, mirrored: bool = False) -> Similarity
         points: in the arm's base frame.
         measured: the same points in the measurement frame.
         mirrored: allow only improper rotations: the fit that a left-handed measurement frame would need.
+
+    Returns:
+        Rotation, translation, scale, handedness and RMS.
     """
     centre, goal = points.mean(axis=0), measured.mean(axis=0)
     from_centre, from_goal = points - centre, measured - goal
@@ -72,6 +75,9 @@ def starts(flange: Array, turned: Array, target: NDArray[np.intp], measured: Arr
         target: (N,) number of the target of each row.
         measured: (N, 3) in the measurement frame, m.
         tools: (K, 3) nominal offsets, m.
+
+    Returns:
+        One or two placements: rotation, translation (m) and tools (K, 3), m.
     """
     nominal = kabsch(flange + np.einsum("nij,nj->ni", turned, tools[target]), measured)
     found = [Placement(nominal.rotation, nominal.translation, _of_run(tools, target))]

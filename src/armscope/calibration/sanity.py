@@ -21,6 +21,11 @@ SURE_SIGMAS = 3.0
 def require_loads(recordings: Recordings, rows: SetUp, level: Level) -> None:
     """Compliances need something that joints give way under.
 
+    Args:
+        recordings: with their context.
+        rows: the set-up.
+        level: what is asked for.
+
     Raises:
         InputError: nobody knows it.
     """
@@ -49,7 +54,16 @@ def lost(solved: Solved) -> list[str]:
 
 
 def odd_loads(solved: Solved, level: Level, covariance: Array) -> list[str]:
-    """Joints that turn against their load beyond doubt, which no spring does; links that weigh nothing."""
+    """Joints that turn against their load beyond doubt, which no spring does; links that weigh nothing.
+
+    Args:
+        solved: the fit.
+        level: what was free.
+        covariance: (P, P) of the parameters.
+
+    Returns:
+        One sentence each.
+    """
     if level != "compliance":
         return []
     rows, arm, notes = solved.rows, solved.rows.arm, list[str]()

@@ -19,7 +19,16 @@ ROWS = 1000
 
 
 def exchanged_tool(arm: Arm, recordings: Recordings, one_base: bool) -> str:
-    """A sentence if one tool per target does not do for all runs; empty if it does."""
+    """A sentence if one tool per target does not do for all runs; empty if it does.
+
+    Args:
+        arm: the nominal arm.
+        recordings: measured points of several runs.
+        one_base: one base frame for all runs.
+
+    Returns:
+        The sentence.
+    """
     shared, own = (_usual_miss(arm, recordings, one_base, per_run) for per_run in (False, True))
     if shared <= WORSE * own:
         return ""
@@ -27,7 +36,16 @@ def exchanged_tool(arm: Arm, recordings: Recordings, one_base: bool) -> str:
 
 
 def moved_base(arm: Arm, recordings: Recordings, tool_per_run: bool) -> str:
-    """A sentence if one base frame does not do for all runs; empty if it does."""
+    """A sentence if one base frame does not do for all runs; empty if it does.
+
+    Args:
+        arm: the nominal arm.
+        recordings: measured points of several runs.
+        tool_per_run: a tool of its own for every run.
+
+    Returns:
+        The sentence.
+    """
     shared, own = (_usual_miss(arm, recordings, one_base, tool_per_run) for one_base in (True, False))
     if shared <= WORSE * own:
         return ""

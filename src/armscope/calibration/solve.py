@@ -54,6 +54,9 @@ def solve(
         priors: their sizes.
         robust: take the say from bad shots.
         start: of the fit; None places base and tools first.
+
+    Returns:
+        The fit, which parameters were free, and what held the others.
     """
     solver = robust_least_squares if robust else least_squares
     start = placed(rows) if start is None else start

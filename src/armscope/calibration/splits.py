@@ -28,5 +28,14 @@ def split(recordings: Recordings, seed: int) -> tuple[NDArray[np.intp], NDArray[
 
 
 def foretold(rows: SetUp, train: NDArray[np.intp], test: NDArray[np.intp]) -> NDArray[np.intp]:
-    """The rows of a test part whose base and tool the training part tells: without, nobody could foretell them."""
+    """The rows of a test part whose base and tool the training part tells: without, nobody could foretell them.
+
+    Args:
+        rows: the set-up.
+        train: rows of the training part.
+        test: rows of the test part.
+
+    Returns:
+        The rows of ``test`` that stay.
+    """
     return test[np.isin(rows.base[test], rows.base[train]) & np.isin(rows.tool[test], rows.tool[train])]

@@ -56,7 +56,16 @@ READINGS: tuple[Reading, ...] = (
 
 
 def orientation_mistakes(rows: SetUp, state: State, quaternions: Array | None) -> list[Suspicion]:
-    """The reading of the quaternions (N, 4) under which each tool sits still on the flange."""
+    """The reading of the quaternions (N, 4) under which each tool sits still on the flange.
+
+    Args:
+        rows: of one table.
+        state: its frames, fitted to positions.
+        quaternions: (N, 4) wxyz as in the table; None where there are none.
+
+    Returns:
+        At most one suspicion.
+    """
     known = np.zeros(len(rows), bool) if quaternions is None else np.isfinite(quaternions).all(axis=1)
     if quaternions is None or known.sum() < FEWEST:
         return []

@@ -131,7 +131,16 @@ def _limits(arm: Arm, recordings: Recordings) -> list[Notice]:
 
 
 def too_far(arm: Arm, recordings: Recordings, residuals: Array) -> Notice | None:
-    """Why the arm's model can't be the recordings' at all, if so; ``residuals`` (N, 3) mm after the free frames."""
+    """Why the arm's model can't be the recordings' at all, if so; ``residuals`` (N, 3) mm after the free frames.
+
+    Args:
+        arm: the nominal arm.
+        recordings: the rows.
+        residuals: (N, 3) mm after the free frames.
+
+    Returns:
+        The notice; None where the model may be theirs.
+    """
     size = float(np.median(np.linalg.norm(residuals, axis=1))) / np.sqrt(3)
     if size < TOO_FAR * arm.reach * 1e3:
         return None

@@ -6,7 +6,7 @@ Each command imports what it needs when it runs, so that `armscope --help` and s
 from __future__ import annotations
 
 import os
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -58,13 +58,18 @@ def options(
 
 
 @app.command("schema", rich_help_panel=EXPERIMENTS)
-def print_schema() -> None:
-    """Print the JSON schema of config.yaml."""
+def print_schema(
+    of: Annotated[Literal["config", "verdict", "model"], typer.Argument(help="the file")] = "config",
+) -> None:
+    """Print the JSON schema of config.yaml, verdict.json or model.yaml."""
     import json
 
-    from armscope.core.config import schema
+    from armscope.core import config
+    from armscope.physics import model_file
+    from armscope.verdict import contract
 
-    print(json.dumps(schema(), indent=2))
+    schemas = {"config": config.schema, "verdict": contract.schema, "model": model_file.schema}
+    print(json.dumps(schemas[of](), indent=2))
 
 
 def main() -> None:

@@ -58,7 +58,7 @@ def compensate(
     )
     from armscope.compensation.output import FORMATS, write_commands
     from armscope.core.outputs import is_stream
-    from armscope.physics.model import load_model
+    from armscope.physics.model_file import load_model
     from armscope.robot.inverse import LARGEST_STEP_RAD
 
     if not str(output).endswith(FORMATS) and not is_stream(output):

@@ -162,8 +162,9 @@ def _by_physics(
     model: Path, poses: Path, pose: bool
 ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None, Recordings]:
     """Points (N, 3), m, and orientations (N, 3, 3) in the measurement frame, and the rows they are of."""
-    from armscope.physics.model import load_model, predict_orientation
     from armscope.physics.model import predict as predicted_points
+    from armscope.physics.model import predict_orientation
+    from armscope.physics.model_file import load_model
     from armscope.recordings import read_recordings
 
     fitted = load_model(model)
@@ -182,12 +183,13 @@ def _refuse_missing_context(model: Path, fitted: FittedModel, rows: Recordings) 
     """
     import numpy as np
 
-    from armscope.compensation.physical import FILE, LOADS, drivers_of, load_identified, missing_context
+    from armscope.compensation.physical import FILE, drivers_of, load_identified, missing_context
     from armscope.core.inputs import InputError
+    from armscope.physics.drivers import KINDS
 
     beside = model.parent / FILE
     if not beside.is_file():
-        if rows.payload is None and drivers_of(fitted) & LOADS:
+        if rows.payload is None and any("payload" in KINDS[kind].follows for kind in drivers_of(fitted)):
             print(f"note: no payload_kg, and no {FILE} beside the model: the arm carries nothing", file=sys.stderr)
         return
     for column, missing in missing_context(fitted, load_identified(beside), rows).items():

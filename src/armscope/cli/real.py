@@ -103,8 +103,9 @@ def plant(
     from armscope.real.making import Places, make_altered, make_original, make_withheld
     from armscope.real.settings import PlantSettings
     from armscope.real.staging import of_run, stage, with_payload
-    from armscope.recordings.table import read_text_table
+    from armscope.recordings.textfile import read_text_table
     from armscope.robot import load_arm
+    from armscope.verdict.files import read_verdict
 
     chosen = parsed(PlantSettings, settings)
     arm, table, places = load_arm(robot), read_text_table(recordings), Places(robot, visible, sealed)
@@ -118,7 +119,7 @@ def plant(
     else:
         if verdict is None:
             raise InputError("--verdict", "", "nothing", "effects are sized by what the original's verdict leaves")
-        level = read_json(verdict, "verdict.json of a diagnosis")["fitted_rms_mm"]["after"] * 1e-3
+        level = read_verdict(verdict).residual_after_mm * 1e-3
         drawn = read_json(seed_file, "the file of `armscope proof seed`")["proof_seed"] if seed_file else 0
         seed = [chosen.seed, drawn, *chosen.title.encode()]
         make_altered(mine, chosen.effects, chosen.sizes, level, seed, places)

@@ -134,6 +134,9 @@ def error_model(arm: Arm, fit: Fit, angles: Array, seed: int | None = None, base
         angles: (M, m) its identification rows, rad.
         seed: whose swarm; None takes, per axis, the one with the smallest residual; -1 the least-squares fit.
         base: measurement frame from base frame; None: they are the same.
+
+    Returns:
+        The model with the range in which it holds.
     """
     axes = np.arange(len(fit.axes))
     if seed == -1:
@@ -146,7 +149,16 @@ def error_model(arm: Arm, fit: Fit, angles: Array, seed: int | None = None, base
 
 
 def domain_of(arm: Arm, spec: ModelSpec, angles: Array) -> Domain:
-    """Where a black-box model holds: the range of its own inputs, and motors that stood still stay where they were."""
+    """Where a black-box model holds: the range of its own inputs, and motors that stood still stay where they were.
+
+    Args:
+        arm: the nominal arm.
+        spec: which inputs the model has.
+        angles: (M, m) its identification rows, rad.
+
+    Returns:
+        The domain; its inputs are mm or rad.
+    """
     names = [f"q{motor}" for motor in range(1, arm.n_motors + 1)]
     if spec.space == "angular":
         return Domain.of(angles, names, ["rad"] * len(names))

@@ -139,7 +139,17 @@ def _left(candidate: Candidate, path: MeasuredPath) -> Array:
 
 
 def vectors(model: str, trajectory: str, stage: str, error_mm: Array) -> pd.DataFrame:
-    """One part of `left_over`'s table."""
+    """One part of `left_over`'s table.
+
+    Args:
+        model: the model's name.
+        trajectory: the trajectory's name.
+        stage: before or after compensation, and by what.
+        error_mm: (N, 3).
+
+    Returns:
+        One row per point.
+    """
     keys = {"model": model, "trajectory": trajectory, "stage": stage, "point": np.arange(1, len(error_mm) + 1)}
     return pd.DataFrame(keys | dict(zip(ERROR_COLUMNS, error_mm.T, strict=True)))
 

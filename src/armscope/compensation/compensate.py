@@ -53,6 +53,14 @@ def compensate_black_box(model: ErrorModel, path: WantedPath, options: Options |
     Motors that stood still when the model was identified keep their angles. With ``pose`` the orientation is corrected,
     too, if the model was fitted to orientations; otherwise it says nothing about them, and the nominal one is kept.
 
+    Args:
+        model: fitted by `fit_error_model`, or read from a file.
+        path: wanted points, or angles that stand for them.
+        options: frame, pose and limits; None takes the defaults.
+
+    Returns:
+        Commands (N, m), rad, with what they will reach, which rows can't be had, and why.
+
     Raises:
         InputError: a path of another arm, or options that the path can't serve.
     """
@@ -86,6 +94,15 @@ def compensate_physical(
 
     In the base frame the point that is brought to the wanted one is the real place of the measured tool point; in the
     measurement frame it is what the instrument would read there (its scale error included).
+
+    Args:
+        model: of a diagnosis.
+        identified: the rows on which it was identified: ranges and context.
+        path: wanted points with the context that the model follows, or angles that stand for them.
+        options: frame, pose and limits; None takes the defaults.
+
+    Returns:
+        Commands (N, m), rad, with what they will reach, which rows can't be had, and why.
 
     Raises:
         InputError: a path of another arm, or options that the path can't serve.

@@ -54,7 +54,16 @@ class Domain:
 
     @staticmethod
     def of(inputs: ArrayLike, names: Sequence[str], units: Sequence[str]) -> Domain:
-        """The domain of identification rows ``inputs`` (M, k)."""
+        """The domain of identification rows ``inputs`` (M, k).
+
+        Args:
+            inputs: (M, k) identification rows.
+            names: (k,) of the inputs.
+            units: (k,) of the inputs.
+
+        Returns:
+            Their means, spreads and ranges, and a thinned copy for distances to the nearest row.
+        """
         table = np.asarray(inputs, dtype=float)
         tolerances = np.array([STILL[unit] for unit in units])
         moving = np.ptp(table, axis=0) > tolerances

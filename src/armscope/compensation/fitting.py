@@ -58,6 +58,9 @@ def fit_error_model(
         products: choose sparsely among products of the inputs' terms, by least squares, in one region.
         orientation: whether measured orientations are fitted.
 
+    Returns:
+        The fitted model with its RMS residuals and the range in which it holds.
+
     Raises:
         InputError: too few rows; several runs or targets; measurements that stand in another frame.
     """
@@ -162,6 +165,15 @@ def turning_errors(arm: Arm, rows: Recordings, base: Base, register: bool) -> tu
 
     With ``register`` the tool frame's constant turn is the mean of what is measured behind the nominal last frame;
     without, the two frames are the same.
+
+    Args:
+        arm: the nominal arm.
+        rows: with orientations (N, 4), measurement frame from tool frame.
+        base: measurement frame from base frame.
+        register: fit the tool frame's constant turn.
+
+    Returns:
+        Rotation vectors (N, 3), rad, and the tool frame's turn (3, 3).
 
     Raises:
         InputError: orientations of another frame.

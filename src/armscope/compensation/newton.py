@@ -60,7 +60,7 @@ class Wanted:
         """(N, 3 or 6, m) how the gap closes by unit turns of the motors, m/rad."""
         if self.rotations is None:
             return stand.jacobian[:, :3]
-        return stand.jacobian * np.repeat([1.0, lever], 3)[None, :, None]
+        return np.asarray(stand.jacobian * np.repeat([1.0, lever], 3)[None, :, None])
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +83,17 @@ class Solution:
 
 
 def weakest(wanted: Wanted, stand: Stand, free: NDArray[np.bool_], arm_lever: float) -> Array:
-    """(N,) smallest singular value of the scaled Jacobian: what a unit turn of the motors moves the tool at least."""
+    """(N,) smallest singular value of the scaled Jacobian: what a unit turn of the motors moves the tool at least.
+
+    Args:
+        wanted: N rows.
+        stand: the arm where it is.
+        free: (m,) motors that may move.
+        arm_lever: m that a radian of the tool's turn counts as.
+
+    Returns:
+        (N,) m per rad; near 0 the row is singular.
+    """
     jacobian = wanted.jacobian(stand, arm_lever) * free
     gram = jacobian @ np.swapaxes(jacobian, 1, 2)
     smallest: Array = np.sqrt(np.maximum(np.linalg.eigvalsh(gram)[:, 0], 0)) / arm_lever
@@ -100,6 +110,9 @@ def solve(
 ) -> Solution:
     """The commands nearest to ``start`` (N, m) rad that bring the tool to ``wanted``, within the joint limits.
 
+    A motor that would break its limit is put there, and the others solve again; a row is given up when no motor is left
+    or the rest can't reach.
+
     Args:
         forward: the arm.
         wanted: N rows.
@@ -107,8 +120,8 @@ def solve(
         free: (m,) motors that may move.
         rows: (N,) their row numbers in the path; None counts from 0.
 
-    A motor that would break its limit is put there, and the others solve again; a row is given up when no motor is left
-    or the rest can't reach.
+    Returns:
+        Angles (N, m), rad, which rows converged, the motor whose limit stopped a row, how near a singularity each is.
     """
     rows = np.arange(len(wanted)) if rows is None else rows
     low, high = forward.arm.limits.T

@@ -12,7 +12,8 @@ import pandas as pd
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.recordings import Recordings
-from armscope.recordings.table import as_recordings, read_text_table
+from armscope.recordings.table import as_recordings
+from armscope.recordings.textfile import read_text_table
 from armscope.robot import Arm
 
 Frame = Literal["base", "measurement"]
@@ -48,7 +49,19 @@ def read_path(path: Path | str, arm: Arm) -> WantedPath:
 
 
 def as_path(table: pd.DataFrame, source: Path | str, arm: Arm) -> WantedPath:
-    """A table as a path; see `read_path`."""
+    """A table as a path; see `read_path`.
+
+    Args:
+        table: with points x_mm, y_mm, z_mm, or motor angles, and context.
+        source: where it was read, for errors.
+        arm: the nominal arm.
+
+    Returns:
+        The wanted path.
+
+    Raises:
+        InputError: as `read_path`.
+    """
     has_angles = any(f"q{motor}_{unit}" in table for motor in range(1, 10) for unit in ("rad", "deg"))
     has_points = any(f"{axis}_{unit}" in table for axis in "xyz" for unit in ("mm", "m"))
     if not has_angles and not has_points:

@@ -14,7 +14,7 @@ from armscope.compensation.domain import Domain
 from armscope.core.files import read_json, write_json
 from armscope.core.inputs import InputError, mapping, validate
 from armscope.core.types import Array
-from armscope.physics.effect import Driver
+from armscope.physics.drivers import COLUMNS, KINDS, kinds_in
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain
@@ -23,22 +23,6 @@ from armscope.robot.gravity import gravity_torques, mass_moment_regressor
 FORMAT = "armscope domain 1"
 FILE = "domain.json"
 WHAT = "domain.json of `armscope diagnose`"
-
-LOADS = {
-    *("payload", "payload torque", "heavier", "off centre"),
-    *("force", "moment", "bend", "torque", "gravity torque", "load side"),
-}
-"""Drivers that follow the payload."""
-RECORDED = {"torque", "load side"}
-"""Drivers that take recorded torques where there are some."""
-CONTEXT = {
-    "payload_kg": LOADS,
-    "temperature_c": {"warmth"},
-    "time_s": {"hours", "after time"},
-    "approach": {"approach", "lost motion"},
-    "dq_rad_s": {"speed"},
-}
-"""By column: the drivers that need it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,42 +115,49 @@ def load_identified(path: Path | str) -> Identified:
 
 def drivers_of(model: FittedModel) -> set[str]:
     """The kinds of drivers that a model's effects follow, nested ones included."""
-
-    def kinds(driver: Driver) -> set[str]:
-        nested = [kinds(argument) for argument in driver.arguments if isinstance(argument, Driver)]
-        return {driver.kind}.union(*nested)
-
     parts = (*model.parts, *model.tools)
     products = [product for part in parts for term in part.placed.terms for product in term.products]
-    return set().union(*(kinds(product.driver) for product in products)) if products else set()
+    return {kind for product in products for kind in kinds_in(product.driver)}
 
 
 def missing_context(model: FittedModel, identified: Identified, rows: Recordings) -> dict[str, NDArray[np.bool_]]:
-    """By column that the model needs: (N,) which rows lack it."""
-    used, lacks = drivers_of(model), {}
-    held = {
-        "payload_kg": rows.payload,
-        "temperature_c": rows.temperature,
-        "time_s": rows.time,
-        "approach": rows.approach,
-        "dq_rad_s": rows.speed,
-    }
-    for column, kinds in CONTEXT.items():
-        if not used & kinds:
-            continue
-        if column == "payload_kg" and (identified.payload_kg is None or identified.payload_kg == (0.0, 0.0)):
-            continue  # an arm that was never loaded: none is meant
-        values = held[column]
+    """By column that the model needs: (N,) which rows lack it.
+
+    Args:
+        model: of a diagnosis.
+        identified: what its recordings held.
+        rows: of the path.
+
+    Returns:
+        Masks (N,) by column.
+    """
+    used = [KINDS[kind] for kind in drivers_of(model)]
+    needed = {kind.needs for kind in used} | {"payload" for kind in used if "payload" in kind.follows}
+    # an arm that was never loaded: none is meant
+    if identified.payload_kg is None or identified.payload_kg == (0.0, 0.0):
+        needed.discard("payload")
+    lacks = {}
+    for field, column in COLUMNS.items():
+        values = getattr(rows, field)
         missing = np.ones(len(rows), dtype=bool)
         if values is not None:
             missing = np.asarray(np.isnan(values).reshape(len(rows), -1).any(axis=1))
-        if missing.any():
+        if field in needed and missing.any():
             lacks[column] = missing
     return lacks
 
 
 def beyond_time(model: FittedModel, identified: Identified, rows: Recordings) -> NDArray[np.bool_]:
-    """(N,) rows at times to which a drift of the model would have to be continued: a tenth beyond what was recorded."""
+    """(N,) rows at times to which a drift of the model would have to be continued: a tenth beyond what was recorded.
+
+    Args:
+        model: of a diagnosis.
+        identified: what its recordings held.
+        rows: of the path.
+
+    Returns:
+        (N,) whether a row's time is beyond; all False where nothing drifts.
+    """
     if "hours" not in drivers_of(model) or identified.time_s is None or rows.time is None:
         return np.zeros(len(rows), dtype=bool)
     first, last = identified.time_s
@@ -196,8 +187,21 @@ def with_torques(model: FittedModel, identified: Identified, rows: Recordings, a
 
     Torques of a diagnosis may come from recordings. A path has none yet: gravity of mass moments fitted to the
     recorded torques gives them.
+
+    Args:
+        model: of a diagnosis.
+        identified: what its recordings held, with the mass moments fitted to their torques.
+        rows: of the path.
+        angles: (N, m) rad, NaN where unknown.
+
+    Returns:
+        The rows, and the sentence; it is empty where none are needed, the path has its own, or no moments were fitted.
     """
-    if not drivers_of(model) & RECORDED or identified.torque_weights is None or rows.torque is not None:
+    if (
+        not any("torque" in KINDS[kind].follows for kind in drivers_of(model))
+        or identified.torque_weights is None
+        or rows.torque is not None
+    ):
         return rows, ""
     known = ~np.isnan(angles).any(axis=1)
     torque = np.full_like(angles, np.nan)

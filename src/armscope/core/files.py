@@ -60,6 +60,9 @@ def read_table(path: Path | str, columns: Iterable[str] = (), what: str = "a tab
         columns: what it must have.
         what: what it is, for the error.
 
+    Returns:
+        The table, every column as pandas reads it.
+
     Raises:
         InputError: no such file, no table, a column is missing.
     """
@@ -210,7 +213,13 @@ def write_text(path: Path | str, text: str) -> None:
 
 
 def write_table(path: Path | str, table: pd.DataFrame, digits: int = 10) -> None:
-    """Write a table as CSV without its index, numbers with ``digits`` significant digits (``.gz`` compresses)."""
+    """Write a table as CSV without its index, numbers with ``digits`` significant digits (``.gz`` compresses).
+
+    Args:
+        path: where to; ``.gz`` compresses.
+        table: what to write.
+        digits: significant digits of its numbers.
+    """
     text = table.to_csv(index=False, float_format=f"%.{digits}g", lineterminator="\n")
     with replacing(path) as beside:
         # no name and no time in the header, so that the same table has the same bytes

@@ -107,7 +107,19 @@ def read_yaml(path: Path | str) -> Any:
 
 
 def validate(model: type[Model], content: Any, file: object) -> Model:
-    """``content`` as a ``model``; the first thing wrong becomes an `InputError` that names its place in ``file``."""
+    """``content`` as a ``model``; the first thing wrong becomes an `InputError` that names its place in ``file``.
+
+    Args:
+        model: the pydantic model that the content must fit.
+        content: what was read.
+        file: where it was read, for the error.
+
+    Returns:
+        The content as the model.
+
+    Raises:
+        InputError: the first thing that doesn't fit, with the nearest known key where a key is unknown.
+    """
     try:
         return model.model_validate(content)
     except pydantic.ValidationError as error:
@@ -132,7 +144,15 @@ def load(model: type[Model], path: Path | str) -> Model:
 
 
 def mapping(content: Any, file: object, what: str) -> dict[str, Any]:
-    """What was read, which must be a mapping; ``what`` the file is, for the error.
+    """What was read, which must be a mapping.
+
+    Args:
+        content: what was read.
+        file: where from, and
+        what: what that is, for the error.
+
+    Returns:
+        the same.
 
     Raises:
         InputError: it is something else.

@@ -109,6 +109,11 @@ class Result:
     def check(self, name: str, inputs: set[tuple[int, int]], force: bool) -> None:
         """Whether a name may be written.
 
+        Args:
+            name: seen from the result's home.
+            inputs: identities of the command's inputs.
+            force: overwrite files that armscope did not write.
+
         Raises:
             InputError: it is an input of the same command, or there is a file that this command did not write.
         """

@@ -39,6 +39,9 @@ def d_optimal(jacobian: Array, count: int, rng: np.random.Generator, starts: int
         rng: draws the starts after the first.
         starts: local optima to compare.
 
+    Returns:
+        (count,) row numbers, ascending.
+
     Raises:
         ValueError: fewer candidates than poses, or too few poses for the parameters.
     """
@@ -55,7 +58,18 @@ def d_optimal(jacobian: Array, count: int, rng: np.random.Generator, starts: int
 
 
 def optimal(index: str, jacobian: Array, count: int, rng: np.random.Generator, starts: int = 3) -> Rows:
-    """(count,) rows of the candidates (N, 3, p) with the largest observability index found; see `d_optimal`."""
+    """(count,) rows of the candidates (N, 3, p) with the largest observability index found; see `d_optimal`.
+
+    Args:
+        index: one of `indices.SOURCES`.
+        jacobian: (N, 3, p) of N candidates, of full column rank.
+        count: how many to choose.
+        rng: draws the starts after the first.
+        starts: local optima to compare.
+
+    Returns:
+        (count,) row numbers, ascending.
+    """
     rows = d_optimal(jacobian, count, rng, starts)
     return rows if index == "O1" else np.sort(_improved(index, jacobian, rows))
 

@@ -17,7 +17,7 @@ The more the better, for all five. O1 orders sets of poses alike whatever the pa
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
 import numpy as np
@@ -40,17 +40,27 @@ IDENTIFIABLE = 1e-6
 
 
 def observability(index: str, singular: Array, poses: int) -> Array:
-    """An index (..) from singular values (.., p) of the stacked Jacobian of so many poses; 0 where one of them is 0."""
+    """An index (..) from singular values (.., p) of the stacked Jacobian of so many poses; 0 where one of them is 0.
+
+    Args:
+        index: O1 ... O5.
+        singular: (.., p) singular values in units that compare.
+        poses: how many poses they are of.
+
+    Returns:
+        (..) the index, of the unit of the singular values (O2 has none).
+    """
     s = np.sort(np.asarray(singular, dtype=float), axis=-1)[..., ::-1]
     smallest, largest = s[..., -1], s[..., 0]
     with np.errstate(divide="ignore", invalid="ignore"):
-        value = {
+        formulas: dict[str, Callable[[], Array]] = {
             "O1": lambda: np.exp(np.mean(np.log(s), axis=-1)) / np.sqrt(poses),
             "O2": lambda: smallest / largest,
             "O3": lambda: smallest,
             "O4": lambda: smallest**2 / largest,
             "O5": lambda: 1 / np.sum(1 / s, axis=-1),
-        }[index]()
+        }
+        value = formulas[index]()
     return np.where(smallest > 0, np.nan_to_num(value), 0.0)
 
 

@@ -49,6 +49,15 @@ def nats_apart(jacobian: Array, apart: Array, covariance: Array, noise: float) -
 
     1/2 d' (J C J' + noise^2 I)^-1 d, the misfit that is left when its parameters follow the new rows as far as the old
     ones let them. Shapes as for `separating`, the poses already chosen.
+
+    Args:
+        jacobian: (K, 3, p) of the rival's parameters at the poses.
+        apart: (K, 3) difference of the two predictions there.
+        covariance: (p, p) of the rival's parameters by the old rows.
+        noise: 1-sigma per axis, in the unit of ``apart``.
+
+    Returns:
+        The evidence, nats.
     """
     lying = jacobian.reshape(-1, jacobian.shape[2])
     spread = lying @ covariance @ lying.T + noise**2 * np.eye(len(lying))

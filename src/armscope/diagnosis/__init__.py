@@ -3,6 +3,6 @@
 from armscope.diagnosis.pipeline import Settings, diagnose
 from armscope.fitting.transfer import Transferred, transfer
 from armscope.verdict.files import write_verdict
-from armscope.verdict.schema import Verdict
+from armscope.verdict.schema import Diagnosis, Verdict
 
-__all__ = ["Settings", "Transferred", "Verdict", "diagnose", "transfer", "write_verdict"]
+__all__ = ["Diagnosis", "Settings", "Transferred", "Verdict", "diagnose", "transfer", "write_verdict"]

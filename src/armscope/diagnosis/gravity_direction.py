@@ -15,9 +15,17 @@ from scipy.spatial.transform import Rotation
 from scipy.special import log_ndtr
 
 from armscope.core.types import Array
-from armscope.fitting.linearisation import accumulate, residuals
+from armscope.fitting.linearisation import normal_equations_by_block, residuals
 from armscope.fitting.model_space import pool
-from armscope.inference.evidence import BACKGROUND_SIZES, FAMILY_SIZES, SURE_NATS, Hypothesis, Problem, problem, weigh
+from armscope.inference.evidence import (
+    BACKGROUND_SIZES,
+    FAMILY_SIZES,
+    SURE_NATS,
+    Hypothesis,
+    Problem,
+    evaluate,
+    problem,
+)
 from armscope.inference.normal_equations import total
 from armscope.measurement import robust
 from armscope.measurement.noise import Noise
@@ -101,7 +109,7 @@ class _Valley:
         self.start, self.recordings, self.noise = start, recordings, noise
         self.frames = free_frames(recordings, tool_per_run)
         left = residuals(start, recordings)
-        self.weights = RowWeights(robust.first_weights(left, np.ones(len(left)), noise.least_mm))
+        self.weights = RowWeights(robust.huber_weights(left, np.ones(len(left)), noise.least_mm))
         self.known: dict[tuple[float, ...], float] = {}
 
     def depth(self, tilt: Array) -> float:
@@ -116,12 +124,14 @@ class _Valley:
         parts = pool(self.frames, list(backgrounds(arm, self.recordings).values()), [])
         model = FittedModel(arm, self.start.bases, self.start.tools)
         blocks = np.zeros(len(self.recordings), dtype=np.intp)
-        made = problem(parts, total(accumulate(parts, model, self.recordings, self.weights, blocks)), 0.0)
+        made = problem(
+            parts, total(normal_equations_by_block(parts, model, self.recordings, self.weights, blocks)), 0.0
+        )
         start = max(made.mismatch, 1e-4)
         geometric = (0, len(BACKGROUND_SIZES) - 1)
         sizes = [(g, e, 0) for g in geometric for e in range(1, FAMILY_SIZES)]
-        weighed = (weigh(made, (), size, start) for size in sizes)
-        return -max(each.value + _gives_along(made, each) for each in weighed)
+        weighed = (evaluate(made, (), size, start) for size in sizes)
+        return -max(each.log_posterior + _gives_along(made, each) for each in weighed)
 
 
 def _gives_along(made: Problem, hypothesis: Hypothesis) -> float:

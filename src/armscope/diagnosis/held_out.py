@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
-from armscope.fitting.design_matrix import columns, stacked
-from armscope.fitting.linearisation import chunks, pool_values, response
+from armscope.fitting.design_matrix import columns, structured_design
+from armscope.fitting.linearisation import chunks, current_parameters, response
 from armscope.fitting.model_space import Pool
-from armscope.inference.evidence import PERFECT, Chosen, Hypothesis, Problem, weigh
-from armscope.inference.normal_equations import Gram, total
+from armscope.inference.evidence import PERFECT, Hypothesis, Problem, SelectedEffect, evaluate
+from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.search import LARGE, STARTS, Search
-from armscope.measurement.row_weights import COUNTS, RowWeights
+from armscope.measurement.row_weights import INLIER_WEIGHT, RowWeights
 from armscope.physics.effect import Term
 from armscope.physics.lens import Lens
 from armscope.physics.model import FittedModel
@@ -59,7 +59,7 @@ def split(recordings: Recordings, rng: np.random.Generator) -> Blocks:
 
 def cross_validate(
     problem: Problem,
-    blocks: Sequence[Gram],
+    blocks: Sequence[NormalEquations],
     split: Blocks,
     best: Hypothesis,
     order: Sequence[int],
@@ -85,7 +85,7 @@ def cross_validate(
     fitted = _readings(problem, sets, best, noise)
     values = {}
     for fold in folds:
-        trained = problem.with_gram(whole - total([blocks[int(k)] for k in np.flatnonzero(split.fold == fold)]))
+        trained = problem.with_equations(whole - total([blocks[int(k)] for k in np.flatnonzero(split.fold == fold)]))
         chosen = _chosen_again(trained, best)
         readings = [*_readings(trained, sets, best, noise), chosen]
         values[fold] = np.array([h.coefficients(len(problem.scale)) / problem.scale for h in readings])
@@ -130,12 +130,12 @@ def _chosen_again(trained: Problem, best: Hypothesis) -> Hypothesis:
 
 
 def _readings(
-    problem: Problem, sets: Sequence[tuple[Chosen, ...]], best: Hypothesis, first_noise: float
+    problem: Problem, sets: Sequence[tuple[SelectedEffect, ...]], best: Hypothesis, first_noise: float
 ) -> list[Hypothesis]:
     """The waterfall's hypotheses: nothing, growing sets of effects, all of them with the background."""
     noises = [first_noise, *[best.noise] * (len(sets) - 1)]
     backgrounds = [*[PERFECT] * (len(sets) - 1), best.background]
-    return [weigh(problem, *each) for each in zip(sets, backgrounds, noises, strict=True)]
+    return [evaluate(problem, *each) for each in zip(sets, backgrounds, noises, strict=True)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,7 +155,7 @@ class Rows:
     @property
     def trusted(self) -> NDArray[np.bool_]:
         """(N,) rows that do not look like bad shots."""
-        return np.asarray(self.weights.trust > COUNTS)
+        return np.asarray(self.weights.robust_weight > INLIER_WEIGHT)
 
 
 def left_over(rows: Rows, pool: Pool, values: Array, number: Indices | None = None) -> Array:
@@ -167,15 +167,15 @@ def left_over(rows: Rows, pool: Pool, values: Array, number: Indices | None = No
     """
     values = values if number is not None else values[None]
     number = np.zeros(len(rows.recordings), dtype=np.intp) if number is None else number
-    arrangement, current = pool.arrangement, pool_values(pool, rows.point)
-    added = (values - current)[:, :, arrangement.order]
+    column_order, current = pool.column_order, current_parameters(pool, rows.point)
+    added = (values - current)[:, :, column_order.order]
     left = np.empty((values.shape[1], len(rows.recordings), 3 if rows.recordings.orientation is None else 6))
     for part, posture in chunks(rows.point, rows.recordings):
         lens = _plain(posture)
-        seen, y = stacked(posture.through(lens), arrangement), response(rows.point, posture, lens)
+        seen, y = structured_design(posture.through(lens), column_order), response(rows.point, posture, lens)
         for f in np.unique(number[part]):
             inside = np.flatnonzero(number[part] == f)
-            modelled = seen.at(inside).combined(added[f])
+            modelled = seen.at(inside).matvec(added[f])
             left[:, part[inside]] = y[inside] - np.swapaxes(modelled, 1, 2)
     if rows.recordings.orientation is not None:
         left[:, ~np.isfinite(rows.recordings.orientation).all(axis=1), 3:] = np.nan
@@ -190,7 +190,7 @@ def _plain(posture: Posture) -> Lens:
 
 
 def _held_out_errors(
-    problem: Problem, blocks: Sequence[Gram], split: Blocks, rows: Rows, values: Mapping[int, Array]
+    problem: Problem, blocks: Sequence[NormalEquations], split: Blocks, rows: Rows, values: Mapping[int, Array]
 ) -> Array:
     """(K, N, 3 or 6) errors, mm and mrad, of every row under the readings of the fold that it took no part in.
 
@@ -219,9 +219,9 @@ def _refitted(rows: Rows, terms: Sequence[Term], at: Indices, errors: Array) -> 
     table = rows.recordings.rows(at)
     X = np.concatenate([columns(posture.through(_plain(posture)), terms) for _, posture in chunks(rows.point, table)])
     y = np.moveaxis(errors, 0, 2).reshape(len(X), -1)
-    weights = [np.sqrt(rows.weights.row[at])] * 3
+    weights = [np.sqrt(rows.weights.weight[at])] * 3
     if rows.weights.turns is not None:
-        weights += [rows.weights.lever * np.sqrt(rows.weights.turns.row[at])] * 3
+        weights += [rows.weights.lever * np.sqrt(rows.weights.turns.weight[at])] * 3
     root = np.stack(weights, axis=1).reshape(-1, 1)
     values = np.linalg.lstsq(root * X, root * np.nan_to_num(y), rcond=1e-12)[0]
     return np.asarray(np.moveaxis((y - X @ values).reshape(len(at), -1, y.shape[1]), 2, 0))
@@ -239,7 +239,7 @@ def _rms(errors: Array, which: slice = POINTS) -> Array:
     return np.sqrt(np.divide(sums, counts, out=np.full(len(errors), np.nan), where=counts > 0))
 
 
-def _steps(best: Hypothesis, order: Sequence[int]) -> list[tuple[Chosen, ...]]:
+def _steps(best: Hypothesis, order: Sequence[int]) -> list[tuple[SelectedEffect, ...]]:
     """Growing sets of effects, and the whole set once more for the background."""
     chosen = {c.candidate: c for c in best.chosen}
     sets = [tuple(chosen[c] for c in order[:n]) for n in range(len(order) + 1)]

@@ -10,18 +10,24 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array, Progress
 from armscope.diagnosis.held_out import Rows, cross_validate
-from armscope.diagnosis.state import Evidence
+from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary import alternatives as certainty
 from armscope.diagnosis.summary.attribution_map import atlas
 from armscope.diagnosis.summary.effects import found_effect, rest_of_a_curve, scattered_effects, with_weight
-from armscope.diagnosis.summary.homogeneity import carry_over
+from armscope.diagnosis.summary.homogeneity import subset_consistency
 from armscope.diagnosis.summary.next_poses import next_poses
-from armscope.diagnosis.summary.unexplained import rows_apart, together, told_backgrounds, too_faint, unexplained_part
+from armscope.diagnosis.summary.unexplained import (
+    background_summaries,
+    rows_apart,
+    together,
+    too_faint,
+    unexplained_part,
+)
 from armscope.fitting.discrepancy import model_error
-from armscope.fitting.linearisation import accumulate
+from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.fitting.refit import Refit
-from armscope.inference.detection import presence
-from armscope.inference.normal_equations import Gram
+from armscope.inference.detection import averaged_log_odds
+from armscope.inference.normal_equations import NormalEquations
 from armscope.inference.search import Search
 from armscope.inference.shapley import shares
 from armscope.measurement.noise import Noise
@@ -32,6 +38,7 @@ from armscope.verdict.headline import headline
 from armscope.verdict.schema import (
     Answer,
     Background,
+    Diagnosis,
     FoundEffect,
     HeldOut,
     Notice,
@@ -39,7 +46,6 @@ from armscope.verdict.schema import (
     Residuals,
     SuspectRow,
     Unexplained,
-    Verdict,
     WaterfallStep,
 )
 
@@ -48,21 +54,21 @@ LISTED_SUSPECTS = 200
 
 
 def judge(
-    evidence: Evidence, resamples: int, cross_validation: bool, rng: np.random.Generator, tell: Progress
-) -> Verdict:
+    state: DiagnosisState, resamples: int, cross_validation: bool, rng: np.random.Generator, tell: Progress
+) -> Diagnosis:
     """Certainty, validation, atlas and words."""
-    fit, best, problem = evidence.fit, evidence.best, evidence.problem
+    fit, best, problem = state.fit, state.best, state.problem
     search = Search.on(problem)
     tell("weighing alternatives", 0.55)
     rivals = {c.candidate: certainty.alternatives(search, best, c.candidate) for c in best.chosen}
-    often = certainty.inclusion(problem, evidence.blocks, best, evidence.found, resamples, rng) if resamples else {}
-    scene = fit.model.scene(evidence.recordings)
-    gram = _plain_gram(evidence)
+    often = certainty.inclusion_frequency(problem, state.blocks, best, state.found, resamples, rng) if resamples else {}
+    scene = fit.model.scene(state.recordings)
+    gram = _plain_gram(state)
     variance = _variance_after_frames(gram, fit.pool.frames)
     shared, of_families = _shares(fit, gram)
-    wrong = model_error(fit, evidence.recordings, evidence.noise.least_mm)
+    wrong = model_error(fit, state.recordings, state.noise.least_mm)
     found = {
-        c.candidate: found_effect(evidence, search, c, part, rivals[c.candidate], often, scene, gram, share, wrong)
+        c.candidate: found_effect(state, search, c, part, rivals[c.candidate], often, scene, gram, share, wrong)
         for c, part, share in zip(best.chosen, fit.model.parts, shared, strict=True)
     }
     order = sorted(found, key=lambda c: -found[c].rms_at_tool_mm)
@@ -70,34 +76,34 @@ def judge(
     waterfall: tuple[WaterfallStep, ...] = ()
     if cross_validation:
         tell("validating on held-out rows", 0.75)
-        rows = Rows(evidence.point, evidence.recordings, fit.weights)
-        held_out, waterfall = cross_validate(problem, evidence.blocks, evidence.layout, best, order, rows)
+        rows = Rows(state.point, state.recordings, fit.weights)
+        held_out, waterfall = cross_validate(problem, state.blocks, state.layout, best, order, rows)
     tell("drawing the atlas", 0.9)
-    background = told_backgrounds(evidence, search, gram, of_families)
+    background = background_summaries(state, search, gram, of_families)
     named = [with_weight(found[c], background) for c in order]
     waterfall = _with_weights(waterfall, named)
-    scattered = [s for s in scattered_effects(evidence, variance) if not rest_of_a_curve(s, named)]
-    over = carry_over(problem, evidence.blocks, evidence.layout, best, evidence.point, evidence.recordings, fit.weights)
+    scattered = [s for s in scattered_effects(state, variance) if not rest_of_a_curve(s, named)]
+    over = subset_consistency(problem, state.blocks, state.layout, best, state.point, state.recordings, fit.weights)
     named = [replace(e, carries_over=over.get(c, "")) for c, e in zip(order, named, strict=True)]
     effects = tuple(sorted([*named, *scattered], key=lambda effect: -effect.rms_at_tool_mm))
     named_or_spread = bool(effects) or any(family.present for family in background)
-    unexplained = unexplained_part(effects, evidence)
+    unexplained = unexplained_part(effects, state)
     if not unexplained.present:
-        unexplained = rows_apart(evidence)
+        unexplained = rows_apart(state)
     if not named_or_spread and not unexplained.present:
-        unexplained = too_faint(presence(search))
+        unexplained = too_faint(averaged_log_odds(search))
     answer, mismatch = _answer(effects, background, unexplained)
-    separating = next_poses(search, best, rivals, fit, evidence.recordings, rng)
-    draft = Verdict(
+    separating = next_poses(search, best, rivals, fit, state.recordings, rng)
+    draft = Diagnosis(
         arm=fit.model.arm.name,
-        source=evidence.recordings.source,
-        rows=len(evidence.recordings),
-        runs=tuple(str(run) for run in np.unique(evidence.recordings.run)),
+        source=state.recordings.source,
+        rows=len(state.recordings),
+        runs=tuple(str(run) for run in np.unique(state.recordings.run)),
         answer=answer,
         headline="",
         mismatch=mismatch,
         noise_mm=fit.noise,
-        noise_source=evidence.noise.source + ("; it grows with the distance" if evidence.growth else ""),
+        noise_source=state.noise.source + ("; it grows with the distance" if state.growth else ""),
         residual_before_mm=float(np.sqrt(variance)),
         residual_after_mm=_weighted_rms(fit),
         effects=effects,
@@ -106,13 +112,13 @@ def judge(
         unexplained=unexplained,
         held_out=held_out,
         waterfall=waterfall,
-        atlas=atlas(fit.pool, fit.model, evidence.recordings, replace(fit.weights, turns=None)),
-        residuals=_residuals(evidence),
-        suspects=_suspects(evidence),
+        atlas=atlas(fit.pool, fit.model, state.recordings, replace(fit.weights, turns=None)),
+        residuals=_residuals(state),
+        suspects=_suspects(state),
         next_poses=separating,
-        notices=(*evidence.notices, *_carefully(evidence), *(wrong.told() if found else ())),
-        model=_held(fit.model, evidence.recordings),
-        orientations=_orientations(evidence),
+        notices=(*state.notices, *_carefully(state), *(wrong.told() if found else ())),
+        model=_held(fit.model, state.recordings),
+        orientations=_orientations(state),
     )
     return replace(draft, headline=headline(draft))
 
@@ -128,16 +134,16 @@ def _held(model: FittedModel, recordings: Recordings) -> FittedModel:
     return replace(model, parts=tuple(replace(p, placed=held(p.placed, recordings)) for p in model.parts))
 
 
-def _plain_gram(evidence: Evidence) -> Gram:
+def _plain_gram(state: DiagnosisState) -> NormalEquations:
     """The fit's sums over the points as they were measured: without whitening and orientations."""
-    fit = evidence.fit
+    fit = state.fit
     if fit.weights.whitening is None and fit.weights.turns is None:
         return fit.gram
-    one_block = np.zeros(len(evidence.recordings), dtype=np.intp)
-    return accumulate(fit.pool, fit.model, evidence.recordings, fit.weights.of_points, one_block)[0]
+    one_block = np.zeros(len(state.recordings), dtype=np.intp)
+    return normal_equations_by_block(fit.pool, fit.model, state.recordings, fit.weights.of_points, one_block)[0]
 
 
-def _variance_after_frames(gram: Gram, frames: NDArray[np.intp]) -> float:
+def _variance_after_frames(gram: NormalEquations, frames: NDArray[np.intp]) -> float:
     """Residual variance per axis after the free frames only, mm^2."""
     G = gram.G[np.ix_(frames, frames)]
     explained = gram.b[frames] @ np.linalg.lstsq(G, gram.b[frames], rcond=1e-12)[0]
@@ -146,11 +152,11 @@ def _variance_after_frames(gram: Gram, frames: NDArray[np.intp]) -> float:
 
 
 def _weighted_rms(fit: Refit) -> float:
-    trusted = fit.weights.trust > SUSPECT_WEIGHT
+    trusted = fit.weights.robust_weight > SUSPECT_WEIGHT
     return float(np.sqrt(np.mean(fit.residuals[trusted] ** 2)))
 
 
-def _shares(fit: Refit, gram: Gram) -> tuple[list[float], list[float]]:
+def _shares(fit: Refit, gram: NormalEquations) -> tuple[list[float], list[float]]:
     """Share of the variance after the frames of every effect, and of every family's background."""
     members = [fit.pool.of(part.placed) for part in fit.model.parts]
     families = [columns for columns in fit.pool.background if len(columns)]
@@ -168,23 +174,23 @@ def _answer(
     return "nothing missing", False
 
 
-def _residuals(evidence: Evidence) -> Residuals:
-    table, fit = evidence.recordings, evidence.fit
+def _residuals(state: DiagnosisState) -> Residuals:
+    table, fit = state.recordings, state.fit
     return Residuals(
         points=fit.model.to_base(table.positions, table.run) * 1e3,
-        before=evidence.first.shift,
+        before=state.first.shift,
         after=fit.residuals,
-        weight=fit.weights.trust,
+        weight=fit.weights.robust_weight,
         id=table.id,
         run=table.run,
     )
 
 
-def _orientations(evidence: Evidence) -> Orientations | None:
-    fit, before = evidence.fit, evidence.first.turn
+def _orientations(state: DiagnosisState) -> Orientations | None:
+    fit, before = state.fit, state.first.turn
     if fit.missed.turn is None or fit.weights.turns is None or before is None:
         return None
-    trusted = fit.weights.turns.row > SUSPECT_WEIGHT * np.asarray(fit.weights.turns.clean)
+    trusted = fit.weights.turns.weight > SUSPECT_WEIGHT * np.asarray(fit.weights.turns.nominal_weight)
     return Orientations(
         rows=int(np.isfinite(fit.missed.turn).all(axis=1).sum()),
         noise_mrad=1e3 * float(np.sqrt(np.mean(fit.missed.turn[trusted] ** 2))),
@@ -193,27 +199,27 @@ def _orientations(evidence: Evidence) -> Orientations | None:
     )
 
 
-def _suspects(evidence: Evidence) -> tuple[SuspectRow, ...]:
-    fit, table = evidence.fit, evidence.recordings
-    relative = fit.weights.trust
+def _suspects(state: DiagnosisState) -> tuple[SuspectRow, ...]:
+    fit, table = state.fit, state.recordings
+    relative = fit.weights.robust_weight
     rows = np.flatnonzero(relative < SUSPECT_WEIGHT)
     size = np.linalg.norm(fit.residuals, axis=1)
     worst = rows[np.argsort(-size[rows])][:LISTED_SUSPECTS]
     return tuple(SuspectRow(str(table.id[r]), str(table.run[r]), float(size[r]), float(relative[r])) for r in worst)
 
 
-def _carefully(evidence: Evidence) -> list[Notice]:
+def _carefully(state: DiagnosisState) -> list[Notice]:
     """What the fit itself says against too much trust."""
     notices = []
-    if evidence.growth is not None:
-        away = np.linalg.norm(evidence.recordings.positions, axis=1)
-        near, far = (f"{float(evidence.growth.at(d)):.2g} mm at {d:.1f} m" for d in (away.min(), away.max()))
+    if state.growth is not None:
+        away = np.linalg.norm(state.recordings.positions, axis=1)
+        near, far = (f"{float(state.growth.at(d)):.2g} mm at {d:.1f} m" for d in (away.min(), away.max()))
         text = (
             f"The noise per axis grows with the distance from the instrument, from {near} to {far} "
-            f"({evidence.growth.slope_mm_per_m:.2g} mm per metre): farther rows count less."
+            f"({state.growth.slope_mm_per_m:.2g} mm per metre): farther rows count less."
         )
         notices.append(Notice("noise by distance", text))
-    stated, fitted = evidence.noise.stated_mm, evidence.fit.noise
+    stated, fitted = state.noise.stated_mm, state.fit.noise
     if stated and fitted < 0.75 * stated:
         text = f"The residual ({fitted:.3g} mm) is well below the stated noise ({stated:.3g} mm): is that number right?"
         notices.append(Notice("stated noise", text))
@@ -227,12 +233,12 @@ def undecided(
     noise: Noise,
     notices: tuple[Notice, ...],
     seconds: float,
-) -> Verdict:
+) -> Diagnosis:
     """The verdict where no effect can honestly be named."""
     rms = float(np.sqrt(np.mean(residuals**2)))
     points = start.to_base(recordings.positions, recordings.run) * 1e3
     count = len(recordings)
-    return Verdict(
+    return Diagnosis(
         arm=start.arm.name,
         source=recordings.source,
         rows=count,

@@ -14,7 +14,7 @@ from armscope.diagnosis.gravity_direction import lean
 from armscope.diagnosis.held_out import split
 from armscope.diagnosis.judgement import judge, undecided
 from armscope.diagnosis.selection_loop import select
-from armscope.diagnosis.state import Evidence
+from armscope.diagnosis.state import DiagnosisState
 from armscope.fitting.linearisation import missed
 from armscope.fitting.registration import fit_frames, other_tools
 from armscope.measurement.noise import Noise, known_noise
@@ -23,7 +23,7 @@ from armscope.physics.frames import free_frames
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-from armscope.verdict.schema import Notice, Verdict
+from armscope.verdict.schema import Diagnosis, Notice
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ def diagnose(
     recordings: Recordings,
     settings: Settings | None = None,
     progress: Progress | None = None,
-) -> Verdict:
+) -> Diagnosis:
     """Find where in the arm the mismatch arises, which physics was left out, and how large it is.
 
     Args:
@@ -85,7 +85,7 @@ def diagnose(
     layout = split(table, rng)
     found = select(start, table, noise, frames, layout.of_row, tell)
     verdict = judge(
-        Evidence(
+        DiagnosisState(
             **vars(found), start=start, recordings=table, first=first, noise=noise, notices=notices, layout=layout
         ),
         settings.resamples,

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from armscope.core.types import Indices
-from armscope.inference.evidence import SURE_NATS, Chosen, Hypothesis, Problem, pinned_losses, weigh
+from armscope.inference.evidence import SURE_NATS, Hypothesis, Problem, SelectedEffect, evaluate, savage_dickey
 from armscope.inference.search import Search
 from armscope.physics.elastic import JOINT_COMPLIANCE
 from armscope.physics.freeform import REST_OF_LOAD
@@ -32,7 +32,7 @@ def named(search: Search, hypothesis: Hypothesis) -> Hypothesis:
     """
     while True:
         told = _promoted(search.problem, _straightened(search.problem, hypothesis))
-        faintest = search.faintest(told)
+        faintest = search.weakest(told)
         if faintest is None:
             return told
         hypothesis = search.without(hypothesis, [faintest.candidate])
@@ -64,8 +64,10 @@ def _promoted(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
 
 
 def _with_names(problem: Problem, hypothesis: Hypothesis, names: Sequence[int], rms: np.ndarray) -> Hypothesis:
-    added = [Chosen(n, _nearest_size(problem, float(size)), within=True) for n, size in zip(names, rms, strict=True)]
-    return weigh(problem, (*hypothesis.chosen, *added), hypothesis.background, hypothesis.noise)
+    added = [
+        SelectedEffect(n, _nearest_size(problem, float(size)), nested=True) for n, size in zip(names, rms, strict=True)
+    ]
+    return evaluate(problem, (*hypothesis.chosen, *added), hypothesis.background, hypothesis.noise)
 
 
 def _means(problem: Problem, hypothesis: Hypothesis, number: int) -> np.ndarray:
@@ -92,9 +94,9 @@ def _unnamed(problem: Problem, hypothesis: Hypothesis) -> Iterator[int]:
 
 def _lost(problem: Problem, hypothesis: Hypothesis, number: int) -> float:
     """Nats lost when a candidate's columns are held at zero; all, where a value that can't be negative is."""
-    if problem.pool.along[number] and _means(problem, hypothesis, number)[0] <= 0:
+    if problem.pool.nonnegative[number] and _means(problem, hypothesis, number)[0] <= 0:
         return -np.inf
-    return float(pinned_losses(problem, hypothesis, [problem.pool.columns[number]])[0])
+    return float(savage_dickey(problem, hypothesis, [problem.pool.columns[number]])[0])
 
 
 def _nearest_size(problem: Problem, rms: float) -> int:
@@ -109,15 +111,15 @@ def _straightened(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
     for curve in hypothesis.chosen:
         placed = problem.pool.candidates[curve.candidate]
         key = (JOINT_COMPLIANCE.name, placed.location)
-        if placed.reading != "curve" or placed.variant != "load" or key not in stated:
+        if placed.parametrisation != "curve" or placed.variant != "load" or key not in stated:
             continue
         straight, bent = _line(problem, hypothesis, curve.candidate)
         if straight**2 < LINE_SHARE * (straight**2 + bent**2):
             continue
         others = tuple(c for c in hypothesis.chosen if c is not curve)
-        line = Chosen(stated[key], _nearest_size(problem, straight), within=True)
-        rest = Chosen(rests[placed.location], _nearest_size(problem, bent), within=True)
-        hypothesis = weigh(problem, (*others, line, rest), hypothesis.background, hypothesis.noise)
+        line = SelectedEffect(stated[key], _nearest_size(problem, straight), nested=True)
+        rest = SelectedEffect(rests[placed.location], _nearest_size(problem, bent), nested=True)
+        hypothesis = evaluate(problem, (*others, line, rest), hypothesis.background, hypothesis.noise)
     return hypothesis
 
 
@@ -140,7 +142,7 @@ def _line(problem: Problem, hypothesis: Hypothesis, curve: int) -> tuple[float, 
 
 def _beyond_frames(problem: Problem, columns: Indices) -> np.ndarray:
     """(c, c) products of columns beyond what the free frames absorb."""
-    G, frames = problem.gram.G, problem.pool.frames
+    G, frames = problem.equations.G, problem.pool.frames
     absorbed = np.linalg.lstsq(G[np.ix_(frames, frames)], G[np.ix_(frames, columns)], rcond=1e-12)[0]
     return np.asarray(G[np.ix_(columns, columns)] - G[np.ix_(columns, frames)] @ absorbed)
 
@@ -163,9 +165,9 @@ def rest_of(problem: Problem, hypothesis: Hypothesis, line: int) -> list[int]:
     return [c for c, p in others.items() if p.location == placed.location and p.variant == REST_OF_LOAD]
 
 
-def worth(problem: Problem, hypothesis: Hypothesis, name: Chosen) -> float:
+def worth(problem: Problem, hypothesis: Hypothesis, name: SelectedEffect) -> float:
     """Evidence for a name within a background or a curve, nats: lost when it is held at zero, the noise growing."""
     members = [name.candidate, *rest_of(problem, hypothesis, name.candidate)]
     columns = np.unique(np.concatenate([problem.pool.columns[c] for c in members]))
-    lost = float(pinned_losses(problem, hypothesis, [columns])[0])
+    lost = float(savage_dickey(problem, hypothesis, [columns])[0])
     return problem.n / 2 * float(np.log1p(2 * max(lost, 0.0) / problem.n))

@@ -1,6 +1,6 @@
 """Rounds of columns -> selection -> exact refit -> scan, until neither effects, suspect rows nor scatter change.
 
-A long table is diagnosed on a sample of its rows first; all rows then weigh what could matter, once.
+A long table is diagnosed on a sample of its rows first; all rows then evaluate what could matter, once.
 """
 
 from __future__ import annotations
@@ -14,17 +14,25 @@ from numpy.typing import NDArray
 from armscope.core.types import Array, Indices, Progress
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.scans.scanning import jumps, mesh_lines, pauses
-from armscope.fitting.joint_scatter import Scattered, find_scatter, levers, noise_between, whitening
-from armscope.fitting.linearisation import accumulate, keep_drivers, missed
+from armscope.fitting.joint_scatter import Scattered, find_scatter, motor_jacobians, noise_between, whitening
+from armscope.fitting.linearisation import keep_drivers, missed, normal_equations_by_block
 from armscope.fitting.model_space import Pool, pool
 from armscope.fitting.refit import Refit, refit
 from armscope.inference.evidence import Hypothesis, Problem, background_sizes, problem
-from armscope.inference.normal_equations import Gram, total
+from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.search import STARTS, Search
-from armscope.inference.updates import gains
+from armscope.inference.updates import best_additions
 from armscope.measurement import robust
-from armscope.measurement.noise import Growth, Noise, distances, growth, independent_shares, poses, relative_uncertainty
-from armscope.measurement.row_weights import COUNTS, RowNoise
+from armscope.measurement.noise import (
+    Growth,
+    Noise,
+    distances,
+    growth,
+    independence_weights,
+    poses,
+    relative_uncertainty,
+)
+from armscope.measurement.row_weights import INLIER_WEIGHT, RowNoise
 from armscope.physics.backgrounds import backgrounds
 from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import Placed
@@ -58,7 +66,7 @@ class Selected:
     """Where the rounds ended; ``point`` is where the blocks were linearised; ``best`` is ``found`` with names."""
 
     problem: Problem
-    blocks: list[Gram]
+    blocks: list[NormalEquations]
     point: FittedModel
     found: Hypothesis
     best: Hypothesis
@@ -77,11 +85,11 @@ def select(
 ) -> Selected:
     """The effects that the evidence asks for, fitted with the exact model."""
     if len(recordings) <= SAMPLE_ROWS:
-        return Rounds(start, recordings, noise, frames, block_of_row, tell).until_settled()
+        return SelectionLoop(start, recordings, noise, frames, block_of_row, tell).run()
     rows = _sample(recordings)
-    small = Rounds(start, recordings.rows(rows), noise, frames, block_of_row[rows], tell)
-    found = small.until_settled(of_a_sample=True)
-    whole = Rounds(start, recordings, noise, frames, block_of_row, tell, _promising(found))
+    small = SelectionLoop(start, recordings.rows(rows), noise, frames, block_of_row[rows], tell)
+    found = small.run(of_a_sample=True)
+    whole = SelectionLoop(start, recordings, noise, frames, block_of_row, tell, _promising(found))
     whole.follow(small)
     tell("weighing all rows", 0.45)
     whole.round((found.best.background,))
@@ -100,16 +108,16 @@ def _promising(found: Selected) -> list[Placed]:
     """The chosen effects and those that come next, given the best hypothesis and given none."""
     search = Search.on(found.problem)
     candidates = found.problem.pool.candidates
-    kept = set(found.best.candidates) | {n for n, placed in enumerate(candidates) if placed.fine}
-    coarse = {candidates[n].key for n in kept if candidates[n].fine and candidates[n].variant == "angle"}
+    kept = set(found.best.candidates) | {n for n, placed in enumerate(candidates) if placed.refinement}
+    coarse = {candidates[n].key for n in kept if candidates[n].refinement and candidates[n].variant == "angle"}
     kept |= {n for n, placed in enumerate(candidates) if placed.key in coarse and placed.variant == "angle"}
     for hypothesis in (found.best, search.empty()):
-        gain, _ = gains(found.problem, search.groups, hypothesis)
+        gain, _ = best_additions(found.problem, search.groups, hypothesis)
         kept |= {int(c) for c in np.argsort(-gain)[: PROMISING // 2]}
     return [candidates[c] for c in sorted(kept) if candidates[c].effect is not PAYLOAD_ERROR]
 
 
-class Rounds:
+class SelectionLoop:
     """The rounds on one table.
 
     Args:
@@ -137,18 +145,18 @@ class Rounds:
         self.block_of_row = block_of_row
         self.candidates = library(start.arm, recordings) if candidates is None else list(candidates)
         self.families = list(backgrounds(start.arm, recordings).values())
-        self.moved = levers(start, self.recordings)
+        self.moved = motor_jacobians(start, self.recordings)
         self.model, self.missed = start, missed(start, self.recordings)
         self.scatter: list[Scattered] = []
         self.pose = poses(self.recordings)
         self.growth: Growth | None = None
         uncertainty = relative_uncertainty(self.recordings, robust.scale_of(self.left))
         near = np.ones(len(self.recordings), dtype=bool)
-        self.rows = RowNoise(uncertainty, independent_shares(self.left, self.pose, near))
-        self.weights = self.rows.weighed_first(self.missed, noise.least_mm)
+        self.rows = RowNoise(uncertainty, independence_weights(self.left, self.pose, near))
+        self.weights = self.rows.first_weights(self.missed, noise.least_mm)
         self.last: tuple[Hypothesis, Pool] | None = None
 
-    def until_settled(self, of_a_sample: bool = False) -> Selected:
+    def run(self, of_a_sample: bool = False) -> Selected:
         """Rounds until nothing changes; those on all rows still follow where these are a sample."""
         previous: State | None = None
         settled = False
@@ -177,7 +185,7 @@ class Rounds:
                 self.round(None)
         return self.selected()
 
-    def follow(self, other: Rounds) -> None:
+    def follow(self, other: SelectionLoop) -> None:
         """Go on from where the rounds on a sample of the rows ended."""
         self.model, self.last, self.scatter, self.growth = other.model, other.last, other.scatter, other.growth
         self.missed = missed(self.model, self.recordings)
@@ -193,10 +201,10 @@ class Rounds:
         model, payload = _payload(self.model, self.recordings)
         self.pool = pool(self.frames, self.families, [*self.candidates, *payload])
         self.point = model
-        self.blocks = accumulate(self.pool, model, self.recordings, self.weights, self.block_of_row)
+        self.blocks = normal_equations_by_block(self.pool, model, self.recordings, self.weights, self.block_of_row)
         self.problem = problem(self.pool, total(self.blocks), self.noise.least_mm)
         search = Search.on(self.problem)
-        warm = None if self.last is None else search.taken_over(*self.last)
+        warm = None if self.last is None else search.transferred(*self.last)
         if starts is None:
             starts = STARTS if warm is None else (warm.background,)
         found = search.best(starts, warm)
@@ -215,7 +223,7 @@ class Rounds:
     def _fitted(self, model: FittedModel) -> Refit:
         """The best hypothesis fitted with the exact model."""
         effects = [
-            (self.pool.candidates[c.candidate], float(self.problem.sizes[c.size]) * (WITHIN if c.within else 1.0))
+            (self.pool.candidates[c.candidate], float(self.problem.sizes[c.size]) * (WITHIN if c.nested else 1.0))
             for c in self.best.chosen
         ]
         small = list(zip(self.families, background_sizes(self.problem, self.best), strict=True))
@@ -227,15 +235,17 @@ class Rounds:
         return [
             c.candidate
             for c, part in zip(self.best.chosen, self.fit.model.parts, strict=True)
-            if c.within and self.pool.along[c.candidate] and part.values[0] < 0
+            if c.nested and self.pool.nonnegative[c.candidate] and part.values[0] < 0
         ]
 
     def _weigh_rows(self, noise: float, white: Array | None) -> None:
         """What the residuals tell about the rows' noise, and their weights by it."""
         uncertainty = relative_uncertainty(self.recordings, noise, self._by_distance())
-        alone = RowNoise(uncertainty, np.ones(len(uncertainty))).weighed(self.missed, self.noise.least_mm)
-        self.rows = RowNoise(uncertainty, independent_shares(self.left, self.pose, alone.trust > COUNTS))
-        self.weights = self.rows.weighed(self.missed, self.noise.least_mm, white)
+        alone = RowNoise(uncertainty, np.ones(len(uncertainty))).weights(self.missed, self.noise.least_mm)
+        self.rows = RowNoise(
+            uncertainty, independence_weights(self.left, self.pose, alone.robust_weight > INLIER_WEIGHT)
+        )
+        self.weights = self.rows.weights(self.missed, self.noise.least_mm, white)
 
     def selected(self) -> Selected:
         """Where the rounds stand."""
@@ -246,7 +256,7 @@ class Rounds:
     def _state(self) -> State:
         """What must not change any more: the effects and the rows that do not count."""
         chosen = [self.pool.candidates[c] for c in self.best.candidates]
-        return frozenset(str(p) + p.variant for p in chosen), self.weights.trust < COUNTS
+        return frozenset(str(p) + p.variant for p in chosen), self.weights.robust_weight < INLIER_WEIGHT
 
     def _alike(self, state: State, previous: State) -> bool:
         """Whether two rounds ended alike: the same effects, and the same rows count but for a few of very many."""
@@ -255,7 +265,7 @@ class Rounds:
 
     def _rests(self) -> bool:
         """Whether some effect rests on others' values, which then must settle, too."""
-        return any(self.pool.candidates[c].effect.rests_on for c in self.best.candidates)
+        return any(self.pool.candidates[c].effect.requires for c in self.best.candidates)
 
     def _noise_changed(self) -> bool:
         return self._grows() or self._scatter_changed()
@@ -279,7 +289,7 @@ class Rounds:
         if self.recordings.sigma is not None or self.growth is not None or self.scatter:
             return False
         away = distances(self.model, self.recordings)
-        found = None if away is None else growth(self.left, away, self.weights.trust > COUNTS)
+        found = None if away is None else growth(self.left, away, self.weights.robust_weight > INLIER_WEIGHT)
         if found is None or found.evidence < sum(each.evidence for each in self._find_scatter()):
             return False
         self.growth = found
@@ -293,11 +303,11 @@ class Rounds:
         return find_scatter(self.left[rows] / relative, self.moved[:, rows] / relative, self.noise.least_mm)
 
     def _take_scatter(self, found: list[Scattered]) -> None:
-        """Whiten the rows by scatter of these places and sizes, and weigh them anew."""
+        """Whiten the rows by scatter of these places and sizes, and evaluate them anew."""
         self.scatter = found
         between = noise_between(self.left, self.moved, found, self.noise.least_mm)
         white = whitening(found, self.moved, between)
-        self.weights = self.rows.weighed(self.missed, self.noise.least_mm, white)
+        self.weights = self.rows.weights(self.missed, self.noise.least_mm, white)
 
     def _scanned(self, search: Search, model: FittedModel) -> list[Placed]:
         """New candidates whose scanned numbers promise something, given the best hypothesis and given none."""
@@ -330,7 +340,7 @@ class Rounds:
 def _payload(model: FittedModel, recordings: Recordings) -> tuple[FittedModel, list[Placed]]:
     """Payload errors on top of what gives way in the model, and the model with its own ones written anew."""
     stiff = [part for part in model.parts if part.placed.effect is not PAYLOAD_ERROR]
-    placed = list(payload_errors(recordings, [part for part in stiff if part.placed.reading == "plain"]))
+    placed = list(payload_errors(recordings, [part for part in stiff if part.placed.parametrisation == "plain"]))
     by_variant = {p.variant: p for p in placed}
     errors = [
         Part(by_variant[part.placed.variant], part.values)

@@ -14,7 +14,7 @@ from armscope.verdict.schema import Notice
 
 
 @dataclass(frozen=True, eq=False)
-class Evidence(Selected):
+class DiagnosisState(Selected):
     """Where the rounds of selection ended, and what they started from; ``first``: what the free frames leave."""
 
     start: FittedModel

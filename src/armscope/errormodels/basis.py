@@ -53,7 +53,7 @@ class Basis:
     @property
     def dimensions(self) -> int:
         """m, the number of coordinates."""
-        return self.triangular.shape[0]
+        return int(self.triangular.shape[0])
 
     def targets(self, errors: Array) -> tuple[Array, Array]:
         """b (axes x m) and the unexplainable mean square (axes) for ``errors`` (N x axes)."""
@@ -71,7 +71,7 @@ class Basis:
         """
         rms_errors = np.sqrt(np.mean(np.square(errors), axis=0))
         rms_columns = np.linalg.norm(self.triangular, axis=0)
-        return rms_errors[:, None] / rms_columns
+        return np.asarray(rms_errors[:, None] / rms_columns)
 
     def raw_coefficients(self, coordinates: Array) -> Array:
         """Raw coefficients (... x n) of coordinates z (... x m)."""
@@ -80,6 +80,14 @@ class Basis:
 
 def make_basis(kind: BasisKind | str, columns: Array, names: Sequence[str]) -> Basis:
     """The basis of a model's ``columns`` (N x n, the first constant) named ``names``.
+
+    Args:
+        kind: one of `BasisKind`.
+        columns: N x n, the model's terms at the identification rows, the first constant.
+        names: n, of the terms.
+
+    Returns:
+        The basis; terms that others imply are dropped and named in it.
 
     Raises:
         ValueError: a first column that is not constant, an unknown kind, or numbers that are not finite.

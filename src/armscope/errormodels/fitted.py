@@ -72,7 +72,7 @@ class FittedModel:
     @property
     def best_seeds(self) -> NDArray[np.intp]:
         """For each axis, the index of the seed with the smallest residual on the identification rows, A."""
-        return np.argmin(self.fitness_mm, axis=0)
+        return np.asarray(np.argmin(self.fitness_mm, axis=0))
 
     def predict(self, inputs: ArrayLike, seed: int | None = None) -> Array:
         """The predicted errors in mm, N x A, at ``inputs`` (N x k).
@@ -94,7 +94,7 @@ class FittedModel:
 
     def predict_all(self, inputs: ArrayLike) -> Array:
         """The predictions of all seeds in mm, S x N x A."""
-        return np.matmul(self.features.matrix(inputs), self.coefficients.transpose(0, 2, 1))
+        return np.asarray(np.matmul(self.features.matrix(inputs), self.coefficients.transpose(0, 2, 1)))
 
     def predict_least_squares(self, inputs: ArrayLike) -> Array:
         """The predictions of the least-squares coefficients in mm, N x A."""

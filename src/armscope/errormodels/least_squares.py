@@ -16,6 +16,9 @@ def fit_least_squares(features: FeatureSet, inputs: Array, errors_mm: Array) -> 
         features: the model's terms.
         inputs: N x k, mm or rad.
         errors_mm: N x axes.
+
+    Returns:
+        Coefficients, axes x terms, in the terms' own units, and RMS residuals (axes,), mm.
     """
     columns = features.matrix(inputs)
     basis = make_basis(BasisKind.STANDARDISED, columns, features.term_names)

@@ -126,14 +126,23 @@ class ProductFeatures:
         k, kind, order = factor
         if kind == "T":
             z = (table[:, k] - self.centre[k]) / self.half_range[k]
-            return np.asarray(chebyshev.chebval(z, chebyshev.chebder(np.eye(order + 1)[order]))) / self.half_range[k]
+            return np.asarray(chebyshev.chebval(z, chebyshev.chebder(np.eye(order + 1)[order])) / self.half_range[k])
         angle = order * self._unit(k)
         slope = -np.sin(angle * table[:, k]) if kind == "cos" else np.cos(angle * table[:, k])
         return np.asarray(angle * slope)
 
 
 def candidate_terms(spec: ModelSpec, half_range: Array, most_inputs: int = MOST_INPUTS) -> tuple[Term, ...]:
-    """All products of total order up to ``spec.order`` between inputs that move; the constant first."""
+    """All products of total order up to ``spec.order`` between inputs that move; the constant first.
+
+    Args:
+        spec: the model's input, degree and kind.
+        half_range: (k,) half of each input's range; an input with none stands still and enters no product.
+        most_inputs: how many inputs a product may join.
+
+    Returns:
+        The terms by total order, then by how many inputs they join.
+    """
     options: list[list[Factor | None]] = []
     for k, width in enumerate(half_range):
         orders = range(1, spec.order + 1) if width > 0 else ()

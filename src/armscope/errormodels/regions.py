@@ -62,7 +62,16 @@ class Cut:
 
 
 def divide(inputs: ArrayLike, halvings: int, overlap: float = OVERLAP) -> Cut | None:
-    """The borders that divide identification rows (M, k) into 2^halvings regions; None for a single one."""
+    """The borders that divide identification rows (M, k) into 2^halvings regions; None for a single one.
+
+    Args:
+        inputs: (M, k) identification rows, mm or rad.
+        halvings: how often the workspace is halved.
+        overlap: of neighbours, in standard deviations of the rows along the axis that is cut.
+
+    Returns:
+        The cuts as a tree.
+    """
     table = checked_inputs(inputs)
     spread = np.std(table, axis=0)
     return _halved(table, np.where(spread > 0, spread, np.inf), halvings, overlap)
@@ -95,6 +104,15 @@ def weights(cut: Cut | None, inputs: Array) -> Array:
 def fit_regions(features: FeatureSet, cut: Cut | None, inputs: ArrayLike, errors_mm: Array) -> Array:
     """Coefficients (regions, axes, terms) of each region's weighted least-squares fit.
 
+    Args:
+        features: the model's terms.
+        cut: the borders; None for one region.
+        inputs: (M, k), mm or rad.
+        errors_mm: (M, axes).
+
+    Returns:
+        Coefficients, mm per unit of a term.
+
     Raises:
         ValueError: a region with too few rows for its terms.
     """
@@ -116,7 +134,17 @@ def fit_regions(features: FeatureSet, cut: Cut | None, inputs: ArrayLike, errors
 
 
 def blended(features: FeatureSet, cut: Cut | None, coefficients: Array, inputs: ArrayLike) -> Array:
-    """Predicted errors (N, axes), mm, of all regions' models together."""
+    """Predicted errors (N, axes), mm, of all regions' models together.
+
+    Args:
+        features: the model's terms.
+        cut: the borders; None for one region.
+        coefficients: (regions, axes, terms) of `fit_regions`.
+        inputs: (N, k), mm or rad.
+
+    Returns:
+        (N, axes) mm.
+    """
     table = checked_inputs(inputs)
     predicted: Array = np.einsum("nr,nt,rat->na", weights(cut, table), features.matrix(table), coefficients)
     return predicted

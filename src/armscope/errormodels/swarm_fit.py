@@ -59,6 +59,9 @@ def fit_swarms(
         basis: the coordinates to search in; the search box follows from the data (`Basis.half_widths`).
         engine: see `minimise_least_squares`.
 
+    Returns:
+        One fit per problem, in the order of the problems, with every seed's coefficients.
+
     Raises:
         ValueError: problems, seeds or settings that can't be used.
     """
@@ -76,7 +79,20 @@ def fit_random_search(
     settings: SwarmSettings | None = None,
     basis: BasisKind | str = BasisKind.QR,
 ) -> list[FittedModel]:
-    """The baseline: as `fit_swarms`, in the same box, with as many evaluations, but of independent random points."""
+    """The baseline: as `fit_swarms`, in the same box, with as many evaluations, but of independent random points.
+
+    Args:
+        problems: what to fit.
+        seeds: at least one; the same seed gives the same fit.
+        settings: of the swarm that it stands beside; the threshold is in mm.
+        basis: the coordinates to search in.
+
+    Returns:
+        One fit per problem, in the order of the problems.
+
+    Raises:
+        ValueError: as `fit_swarms`.
+    """
     settings = settings or SwarmSettings()
 
     def search(objective: LeastSquares, low: Array, high: Array, generators: list[np.random.Generator]) -> SwarmResult:

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
-from armscope.fitting.design_matrix import arranged, stacked
-from armscope.fitting.linearisation import chunks, pool_values, response
+from armscope.fitting.design_matrix import grouped_columns, structured_design
+from armscope.fitting.linearisation import chunks, current_parameters, response
 from armscope.fitting.model_space import Pool
-from armscope.inference.evidence import forward
+from armscope.inference.evidence import solve_lower
 from armscope.measurement.row_weights import RowWeights
 from armscope.physics.effect import Term
 from armscope.physics.model import FittedModel
@@ -20,7 +20,7 @@ from armscope.recordings import Recordings
 
 
 @dataclass(frozen=True, eq=False)
-class Blocks:
+class ColumnBlocks:
     """m blocks of c columns beside k columns of a model; mm per SI unit.
 
     Attributes:
@@ -41,44 +41,44 @@ def weigh_blocks(
     model: FittedModel,
     recordings: Recordings,
     weights: RowWeights,
-) -> Blocks:
+) -> ColumnBlocks:
     """Sums over rows for blocks of equally many terms against the pool's columns ``inside``."""
     m, c = len(blocks), len(blocks[0])
-    beside = arranged([term for block in blocks for term in block])
-    model_terms = arranged([pool.terms[i] for i in inside])
-    values = pool_values(pool, model)
+    beside = grouped_columns([term for block in blocks for term in block])
+    model_terms = grouped_columns([pool.terms[i] for i in inside])
+    values = current_parameters(pool, model)
     # the response before any effect, also of those that are not among the columns inside
     active = np.flatnonzero(values)
-    present = arranged([pool.terms[i] for i in active])
+    present = grouped_columns([pool.terms[i] for i in active])
     k = len(inside)
     own, cross, b = np.zeros((m * c, m * c)), np.zeros((k, m * c)), np.zeros(m * c)
     for rows, posture in chunks(model, recordings):
         lens = weights.lens(rows)
         seen = posture.through(lens)
-        y = response(model, posture, lens).T + stacked(seen, present).combined(values[active][present.order])
-        E = stacked(seen, beside)
+        y = response(model, posture, lens).T + structured_design(seen, present).matvec(values[active][present.order])
+        E = structured_design(seen, beside)
         E.add_products(own)
-        cross += stacked(seen, model_terms).products(E)
-        b += E.onto(y)
+        cross += structured_design(seen, model_terms).products(E)
+        b += E.rmatvec(y)
     own = beside.whole(own).reshape(m, c, m, c)[np.arange(m), :, np.arange(m), :]
     cross = cross[np.ix_(model_terms.back, beside.back)]
-    return Blocks(own, np.moveaxis(cross.reshape(k, m, c), 1, 0), b[beside.back].reshape(m, c))
+    return ColumnBlocks(own, np.moveaxis(cross.reshape(k, m, c), 1, 0), b[beside.back].reshape(m, c))
 
 
-def conditioned(blocks: Blocks, factor: Array, half: Array) -> tuple[Array, Array]:
+def schur_complement(blocks: ColumnBlocks, factor: Array, whitened_rhs: Array) -> tuple[Array, Array]:
     """(own, b) of the blocks once the model's posterior is conditioned on.
 
     Args:
         factor: (k, k) Cholesky factor of the model's penalised Gram matrix, in the blocks' units.
-        half: (k,) factor^-1 X'Wy of the model.
+        whitened_rhs: (k,) factor^-1 X'Wy of the model.
     """
     m, k, c = blocks.cross.shape
-    V = forward(factor, blocks.cross.transpose(1, 0, 2).reshape(k, m * c))
+    V = solve_lower(factor, blocks.cross.transpose(1, 0, 2).reshape(k, m * c))
     V = V.reshape(k, m, c).transpose(1, 0, 2)
-    return blocks.own - np.swapaxes(V, 1, 2) @ V, blocks.b - np.einsum("mkc,k->mc", V, half)
+    return blocks.own - np.swapaxes(V, 1, 2) @ V, blocks.b - np.einsum("mkc,k->mc", V, whitened_rhs)
 
 
-def explained(own: Array, b: Array, before: Array, tiny: float = 1e-6) -> Array:
+def rss_reduction(own: Array, b: Array, before: Array, tiny: float = 1e-6) -> Array:
     """(m,) reduction of the sum of squares by each block; directions that the model absorbs already count nothing.
 
     Args:

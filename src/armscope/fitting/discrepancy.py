@@ -29,7 +29,7 @@ from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import component_rows
 from armscope.fitting.linearisation import chunks, response
 from armscope.fitting.refit import Refit
-from armscope.inference.evidence import SURE_NATS, forward, lower_factor
+from armscope.inference.evidence import SURE_NATS, lower_cholesky, solve_lower
 from armscope.physics.effect import AXES, ONE, Direction, motor, term
 from armscope.physics.placing import moving_joints
 from armscope.recordings import Recordings
@@ -90,8 +90,8 @@ def model_error(fit: Refit, recordings: Recordings, least_mm: float) -> ModelErr
     rows = np.unique(np.linspace(0, len(recordings) - 1, min(len(recordings), MOST_ROWS)).astype(np.intp))
     share = len(rows) / len(recordings)
     sums = _sums(fit, recordings, rows)
-    factor = lower_factor(sums.normal / share, fit.noise**2 * fit.precision)
-    taken_up = forward(factor, sums.cross)
+    factor = lower_cholesky(sums.normal / share, fit.noise**2 * fit.precision)
+    taken_up = solve_lower(factor, sums.cross)
     moved = solve_triangular(factor, taken_up, lower=True, trans="T")
     # what residuals show of an error once the fit has taken up what it can; all in multiples of the noise
     noise = max(fit.noise, least_mm)
@@ -235,8 +235,8 @@ def _weigh(own: Array, pull: Array, chi2: float, freedom: float, least: float, o
     nothing, _ = likelihood(0.0, 0.0)
     nats, squares = [], []
     for size in SIZES:
-        factor = lower_factor(size**2 * own, np.ones(len(pull)))
-        quadratic = size**2 * float(np.sum(forward(factor, pull) ** 2))
+        factor = lower_cholesky(size**2 * own, np.ones(len(pull)))
+        quadratic = size**2 * float(np.sum(solve_lower(factor, pull) ** 2))
         value, left = likelihood(quadratic, 2 * float(np.log(np.diag(factor)).sum()))
         nats.append(value - nothing)
         squares.append(left)

@@ -38,7 +38,7 @@ class Scattered:
     evidence: float
 
 
-def levers(model: FittedModel, recordings: Recordings) -> Array:
+def motor_jacobians(model: FittedModel, recordings: Recordings) -> Array:
     """(m, N, 3) displacement of the tool by each motor, base axes, mm/rad."""
     moved = np.empty((model.arm.n_motors, len(recordings), 3))
     for rows, posture in chunks(model, recordings):
@@ -52,7 +52,7 @@ def find_scatter(residuals: Array, moved: Array, least_noise: float) -> list[Sca
 
     Args:
         residuals: (N, 3) mm, base axes.
-        moved: (m, N, 3) from `levers`.
+        moved: (m, N, 3) from `motor_jacobians`.
         least_noise: mm.
     """
     size = np.linalg.norm(residuals, axis=1)

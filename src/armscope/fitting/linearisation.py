@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
-from armscope.fitting.design_matrix import stacked
+from armscope.fitting.design_matrix import structured_design
 from armscope.fitting.model_space import Pool
-from armscope.inference.normal_equations import Gram
+from armscope.inference.normal_equations import NormalEquations
 from armscope.measurement.row_weights import Missed, RowWeights
 from armscope.physics.lens import Lens
 from armscope.physics.model import FittedModel
@@ -115,9 +115,9 @@ def response(model: FittedModel, posture: Posture, lens: Lens) -> Array:
     return lens.through(shift, 1e3 * np.nan_to_num(model.missed_turns(posture)))
 
 
-def accumulate(
+def normal_equations_by_block(
     pool: Pool, model: FittedModel, recordings: Recordings, weights: RowWeights, blocks: Indices
-) -> list[Gram]:
+) -> list[NormalEquations]:
     """Gram matrices per block of rows.
 
     The response is the residual of the model plus what its own effects contribute linearly, so that every hypothesis
@@ -127,27 +127,27 @@ def accumulate(
         weights: of the rows.
         blocks: (N,) number of each row's block, from 0.
     """
-    arrangement = pool.arrangement
-    current = pool_values(pool, model)[arrangement.order]
+    column_order = pool.column_order
+    current = current_parameters(pool, model)[column_order.order]
     count, p = int(blocks.max()) + 1, len(pool.terms)
     G = [np.zeros((p, p)) for _ in range(count)]
     b, yy, n = np.zeros((count, p)), np.zeros(count), np.zeros(count)
     order = np.argsort(blocks, kind="stable") if count > 1 and recordings not in _KEPT else None
     for rows, posture in chunks(model, recordings, order):
         lens = weights.lens(rows)
-        seen = stacked(posture.through(lens), arrangement)
-        y = response(model, posture, lens).T + seen.combined(current)
+        seen = structured_design(posture.through(lens), column_order)
+        y = response(model, posture, lens).T + seen.matvec(current)
         numbers, inside = weights.numbers(rows), blocks[rows]
         for block in np.unique(inside):
             at = _where(inside == block)
             part, yb = seen.at(at), y[:, at]
             part.add_products(G[block])
-            b[block] += part.onto(yb)
+            b[block] += part.rmatvec(yb)
             yy[block] += np.vdot(yb, yb)
             n[block] += numbers[at].sum()
-    back = arrangement.back
+    back = column_order.back
     # one after the other: each has millions of numbers
-    return [Gram(arrangement.whole(G.pop(0)), b[k][back], float(yy[k]), float(n[k])) for k in range(count)]
+    return [NormalEquations(column_order.whole(G.pop(0)), b[k][back], float(yy[k]), float(n[k])) for k in range(count)]
 
 
 def _where(inside: NDArray[np.bool_]) -> slice | Indices:
@@ -156,7 +156,7 @@ def _where(inside: NDArray[np.bool_]) -> slice | Indices:
     return slice(int(at[0]), int(at[-1]) + 1) if at[-1] - at[0] + 1 == len(at) else at
 
 
-def pool_values(pool: Pool, model: FittedModel) -> Array:
+def current_parameters(pool: Pool, model: FittedModel) -> Array:
     """(p,) the model's values of the pool's terms (frames count as zero: they are part of the linearisation point)."""
     values = np.zeros(len(pool.terms))
     for part in (*model.background, *model.parts):

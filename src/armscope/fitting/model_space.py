@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
-from armscope.fitting.design_matrix import Arrangement, arranged
+from armscope.fitting.design_matrix import ColumnOrder, grouped_columns
 from armscope.physics.effect import Placed, Term, clash
 
 
@@ -35,7 +35,7 @@ class Pool:
     columns: tuple[Indices, ...]
 
     @functools.cached_property
-    def clashes(self) -> tuple[frozenset[int], ...]:
+    def excludes(self) -> tuple[frozenset[int], ...]:
         """For each candidate, those that can't stand beside it: other forms of it, and curves that contain it."""
         places: dict[str, list[int]] = {}
         for number, placed in enumerate(self.candidates):
@@ -55,43 +55,45 @@ class Pool:
         """
         return tuple(
             (
-                frozenset(n for n in self.clashes[number] if self.candidates[n].reading != "curve"),
+                frozenset(n for n in self.excludes[number] if self.candidates[n].parametrisation != "curve"),
                 1 if placed.variant == "angle" else 2,
             )
             for number, placed in enumerate(self.candidates)
-            if placed.reading == "curve" and not placed.fine
+            if placed.parametrisation == "curve" and not placed.refinement
         )
 
-    def crowding(self, candidates: frozenset[int]) -> int:
+    def excess_special_cases(self, candidates: frozenset[int]) -> int:
         """By how many effects some curve's special cases at one place exceed what is common."""
         return max((len(special & candidates) - common for special, common in self.special_cases), default=0)
 
     @functools.cached_property
-    def resting(self) -> dict[int, frozenset[int]]:
+    def requires(self) -> dict[int, frozenset[int]]:
         """Candidates that do nothing by themselves, and those that each of them can rest on."""
         return {
             number: frozenset(
                 n
                 for n, other in enumerate(self.candidates)
-                if other.family == placed.effect.rests_on and not other.effect.rests_on
+                if other.family == placed.effect.requires and not other.effect.requires
             )
             for number, placed in enumerate(self.candidates)
-            if placed.effect.rests_on
+            if placed.effect.requires
         }
 
     @functools.cached_property
-    def along(self) -> NDArray[np.bool_]:
+    def nonnegative(self) -> NDArray[np.bool_]:
         """Whether each candidate has one value that can't be negative."""
-        return np.array([placed.effect.along and len(placed.terms) == 1 for placed in self.candidates], dtype=np.bool_)
+        return np.array(
+            [placed.effect.nonnegative and len(placed.terms) == 1 for placed in self.candidates], dtype=np.bool_
+        )
 
-    def stands(self, candidates: frozenset[int]) -> bool:
+    def requirements_met(self, candidates: frozenset[int]) -> bool:
         """Whether every one of some candidates has what it rests on."""
-        return all(candidates & needed for number, needed in self.resting.items() if number in candidates)
+        return all(candidates & needed for number, needed in self.requires.items() if number in candidates)
 
     @functools.cached_property
-    def arrangement(self) -> Arrangement:
+    def column_order(self) -> ColumnOrder:
         """The columns sorted by how they are best multiplied."""
-        return arranged(self.terms)
+        return grouped_columns(self.terms)
 
     def of(self, placed: Placed) -> Indices:
         """Columns of an effect whose terms are all in the pool."""
@@ -111,7 +113,7 @@ def pool(frames: Sequence[Placed], backgrounds: Sequence[Sequence[Placed]], cand
         return np.array([index.setdefault(term, len(index)) for term in placed.terms], dtype=np.intp)
 
     frame_columns = np.concatenate([add(p) for p in frames])
-    shapes = [{int(n): s for p in family for n, s in zip(add(p), p.shape, strict=True)} for family in backgrounds]
+    shapes = [{int(n): s for p in family for n, s in zip(add(p), p.prior_scale, strict=True)} for family in backgrounds]
     columns = tuple(add(p) for p in candidates)
     return Pool(
         tuple(index),

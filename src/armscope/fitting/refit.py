@@ -10,11 +10,11 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from armscope.core.types import Array
-from armscope.fitting.linearisation import accumulate, missed, pool_values
+from armscope.fitting.linearisation import current_parameters, missed, normal_equations_by_block
 from armscope.fitting.model_space import Pool, pool
 from armscope.fitting.registration import moved_base
 from armscope.inference.evidence import FRAME_PRIOR_MM, TOLERANCE
-from armscope.inference.normal_equations import Gram, scales
+from armscope.inference.normal_equations import NormalEquations, column_scales
 from armscope.measurement import robust
 from armscope.measurement.row_weights import Missed, RowNoise, RowWeights
 from armscope.physics.effect import AXES, Placed, Term
@@ -50,7 +50,7 @@ class Refit:
 
     model: FittedModel
     pool: Pool
-    gram: Gram
+    gram: NormalEquations
     precision: Array
     covariance: Array
     noise: float
@@ -98,8 +98,8 @@ def refit(
     noise = least_noise
     left = missed(model, recordings)
     for _ in range(STEPS):
-        weights = rows.weighed(left, least_noise, whitening)
-        gram = accumulate(parts, model, recordings, weights, blocks)[0]
+        weights = rows.weights(left, least_noise, whitening)
+        gram = normal_equations_by_block(parts, model, recordings, weights, blocks)[0]
         noise = noise or robust.scale_of(left.shift)
         precision = _precision(parts, gram, [size for _, size in backgrounds], effects)
         A = gram.G + np.diag(noise**2 * precision)
@@ -135,7 +135,9 @@ def _without(placed: Placed, named: set[Term]) -> Placed | None:
     kept = [n for n, term in enumerate(placed.terms) if term not in named]
     if not kept:
         return None
-    return replace(placed, terms=tuple(placed.terms[n] for n in kept), shape=tuple(placed.shape[n] for n in kept))
+    return replace(
+        placed, terms=tuple(placed.terms[n] for n in kept), prior_scale=tuple(placed.prior_scale[n] for n in kept)
+    )
 
 
 def _start(model: FittedModel, background: Sequence[Placed], effects: Sequence[tuple[Placed, float]]) -> FittedModel:
@@ -154,27 +156,21 @@ def _start(model: FittedModel, background: Sequence[Placed], effects: Sequence[t
     )
 
 
-def _precision(parts: Pool, gram: Gram, sizes: Sequence[float], effects: Sequence[tuple[Placed, float]]) -> Array:
+def _precision(
+    parts: Pool, gram: NormalEquations, sizes: Sequence[float], effects: Sequence[tuple[Placed, float]]
+) -> Array:
     """(p,) prior precisions in SI units."""
-    scale = scales(gram, parts.frames)
+    scale = column_scales(gram, parts.frames)
     variance = np.full(len(parts.terms), np.inf)
     for number, (columns, shape, size) in enumerate(zip(parts.background, parts.background_shape, sizes, strict=True)):
         variance[columns] = (size * TOLERANCE) ** 2 if number == 0 else (size * shape / scale[columns]) ** 2
     for (placed, size), at in zip(effects, parts.columns, strict=True):
-        wide = 1.0 if _part_of_it_unseen(placed) else FREE
-        variance[at] = (wide * size * np.array(placed.shape) / scale[at]) ** 2
+        wide = 1.0 if placed.partly_unseen else FREE
+        variance[at] = (wide * size * np.array(placed.prior_scale) / scale[at]) ** 2
         # nor farther than frames go, however much of it they would absorb
         variance[at] = np.minimum(variance[at], FRAME_PRIOR_MM**2 * gram.n / np.maximum(np.diag(gram.G)[at], 1e-24))
     variance[parts.frames] = (FRAME_PRIOR_MM / scale[parts.frames]) ** 2
     return np.asarray(1 / variance)
-
-
-def _part_of_it_unseen(placed: Placed) -> bool:
-    """Whether recordings may not tell some combination of an effect's values, which then stays as wide as its size.
-
-    Of an axis that wobbles once per turn, half turns with the tool, whose offset is free, where no joint follows.
-    """
-    return placed.reading == "curve" or placed.variant == "unknown masses" or placed.name == "axis_wobble"
 
 
 def _solve(A: Array, b: Array) -> tuple[Array, Array]:
@@ -193,7 +189,7 @@ def _updated(
     share: float,
 ) -> FittedModel:
     """The model with new values, or a share of the way there; frame columns are increments where it stands."""
-    present = pool_values(parts, model)
+    present = current_parameters(parts, model)
     values = present + share * (values - present)
 
     def new(placed: Placed) -> Array:

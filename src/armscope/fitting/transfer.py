@@ -15,6 +15,7 @@ from armscope.fitting.linearisation import chunks, residuals
 from armscope.fitting.refit import moved_frames
 from armscope.fitting.registration import fit_frames
 from armscope.measurement import robust
+from armscope.physics.drivers import follows
 from armscope.physics.effect import Placed, Term
 from armscope.physics.frames import free_frames
 from armscope.physics.model import FittedModel
@@ -25,8 +26,6 @@ Frame = Literal["base", "tool"]
 
 BACKGROUND = "background"
 """Stands for the small errors that were allowed for everywhere and are not named."""
-OF_ITS_RUN = {"time", "temperature", "order of rows"}
-"""Drivers of curves that describe the run on which they were learned, not the arm."""
 STEPS = 8
 CONVERGED = 1e-9
 """m and rad."""
@@ -114,7 +113,9 @@ def transfer(
 
 def belongs_to_the_arm(placed: Placed) -> bool:
     """Whether an effect may be expected on another run, too."""
-    curve_of_a_run = placed.reading == "curve" and placed.driver in OF_ITS_RUN
+    curve_of_a_run = placed.parametrisation == "curve" and any(
+        follows("run", product.driver) for term in placed.terms for product in term.products
+    )
     return placed.family not in ("drift", "frame") and not curve_of_a_run
 
 
@@ -182,7 +183,7 @@ def _placed_anew(
 def _steps(model: FittedModel, recordings: Recordings, terms: Sequence[Term]) -> dict[Term, float]:
     """A step of each of the free frames' terms, SI units."""
     left = residuals(model, recordings)
-    weight = robust.first_weights(left, np.ones(len(left)), 0.0)
+    weight = robust.huber_weights(left, np.ones(len(left)), 0.0)
     G, b = np.zeros((len(terms), len(terms))), np.zeros(len(terms))
     for rows, posture in chunks(model, recordings):
         X = columns(posture, terms)

@@ -15,10 +15,10 @@ from scipy.special import logsumexp
 from armscope.core.types import Array
 from armscope.inference.evidence import BACKGROUND_SIZES, FAMILY_SIZES, SURE_NATS, kinds
 from armscope.inference.search import Search
-from armscope.inference.updates import gains_by_size
+from armscope.inference.updates import addition_scores
 from armscope.physics.effect import Placed, region
 
-SOMETHING_NATS = 2.0
+DETECTED_NATS = 2.0
 """Log odds from which something is said to be missing: no false alarm in 600 simulated clean arms. (Where nothing is
 missing, an average of evidence exceeds log odds x with a chance of exp(-x) at most; in fact far less often.)"""
 SURE_OF_PLACE = 0.95
@@ -26,7 +26,7 @@ LISTED = 3
 
 
 @dataclass(frozen=True)
-class Presence:
+class Detection:
     """What is known before anything is named.
 
     Attributes:
@@ -42,17 +42,17 @@ class Presence:
     likeliest: tuple[Placed, ...]
 
     @property
-    def something(self) -> bool:
+    def detected(self) -> bool:
         """Whether something is missing beyond reasonable doubt."""
-        return self.log_odds > SOMETHING_NATS
+        return self.log_odds > DETECTED_NATS
 
 
-def presence(search: Search) -> Presence:
+def averaged_log_odds(search: Search) -> Detection:
     """The odds that anything is missing, against a perfect arm."""
     problem = search.problem
     nothing = search.perfect()
-    by_size = gains_by_size(problem, search.groups, nothing) + SURE_NATS
-    by_size[:, list(problem.pool.resting)] = -np.inf
+    by_size = addition_scores(problem, search.groups, nothing) + SURE_NATS
+    by_size[:, list(problem.pool.requires)] = -np.inf
     effects = logsumexp(by_size, axis=0)
     backgrounds = _background_odds(search)
     # a background is one more kind of error
@@ -61,7 +61,7 @@ def presence(search: Search) -> Presence:
     order = np.argsort(-effects)
     size = float(problem.sizes[int(np.argmax(by_size[:, order[0]]))])
     likeliest = {problem.pool.candidates[c].key: problem.pool.candidates[c] for c in order[: 3 * LISTED]}
-    return Presence(
+    return Detection(
         float(logsumexp(everything)), size, _place(search, effects), tuple(list(likeliest.values())[:LISTED])
     )
 
@@ -75,7 +75,9 @@ def _background_odds(search: Search) -> Array:
             continue
         sizes = range(1, len(BACKGROUND_SIZES) if family == 0 else FAMILY_SIZES)
         alone = [tuple(size if n == family else 0 for n in range(len(nothing.background))) for size in sizes]
-        values = [search.resized(nothing, background).value - nothing.value for background in alone]
+        values = [
+            search.with_background(nothing, background).log_posterior - nothing.log_posterior for background in alone
+        ]
         # the geometric one is free in a hypothesis; here it pays like every kind
         paid = 0.0 if family else np.log(kinds(search.problem.pool)) + np.log(len(values))
         odds.append(float(logsumexp(values)) - paid)

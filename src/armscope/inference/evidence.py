@@ -19,7 +19,7 @@ from scipy.special import log_ndtr
 
 from armscope.core.types import Array, Indices
 from armscope.fitting.model_space import Pool
-from armscope.inference.normal_equations import Gram, scales
+from armscope.inference.normal_equations import NormalEquations, column_scales
 
 FRAME_PRIOR_MM = 50.0
 """Frames are free: their prior is wide, and the same in all hypotheses."""
@@ -31,7 +31,7 @@ is among them: two dozen free values, however small, would take up any single on
 seen."""
 FAMILY_SIZES = 4
 """Sizes of an elastic or transmission background: none, then the smallest of the effects' sizes."""
-CROWDED_NATS = 15.0
+EXCESS_SPECIAL_CASE_NATS = 15.0
 """What every further effect that follows one joint's own angle costs more: one unknown cause is likelier than several
 known ones. (In development worlds two names for one kink beat the free curve by at most 22 nats, half of them by less
 than 10; 38 of 40 true pairs beat it by more than 15.)"""
@@ -51,67 +51,67 @@ Background = tuple[int, ...]
 
 
 @dataclass(frozen=True)
-class Chosen:
+class SelectedEffect:
     """An effect in a hypothesis: which candidate, with which size (index into the problem's sizes).
 
-    One that stands ``within`` a background or a curve is a name for a part of it, and pays nothing for itself.
+    One that stands ``nested`` a background or a curve is a name for a part of it, and pays nothing for itself.
     """
 
     candidate: int
     size: int
-    within: bool = False
+    nested: bool = False
 
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """A Gram matrix made ready for weighing hypotheses.
+    """Normal equations made ready for evaluating hypotheses.
 
     Attributes:
         pool: what the columns are.
-        gram: with columns scaled to 1 mm RMS at the tool.
+        equations: with columns scaled to 1 mm RMS at the tool.
         scale: (p,) what they were divided by, mm per SI unit.
         least_noise: mm; the noise is never taken to be below (stated, or seen in repeats).
         sizes: (SIZES,) effect sizes that compete, mm at the tool.
-        costs: (candidates,) log prior odds against each candidate, nats.
+        prior_costs: (candidates,) log prior odds against each candidate, nats.
         background_cost: of an elastic or transmission background: one kind of error among the others, of some size.
         mismatch: RMS per axis after the free frames, mm.
     """
 
     pool: Pool
-    gram: Gram
+    equations: NormalEquations
     scale: Array
     least_noise: float
     sizes: Array
-    costs: Array
+    prior_costs: Array
     background_cost: float
     mismatch: float
 
     @property
     def n(self) -> float:
         """Number of residuals."""
-        return self.gram.n
+        return self.equations.n
 
-    def with_gram(self, gram: Gram) -> Problem:
-        """The same problem on other rows; ``gram`` is unscaled."""
-        return replace(self, gram=gram.scaled(self.scale))
+    def with_equations(self, equations: NormalEquations) -> Problem:
+        """The same problem on other rows; ``equations`` is unscaled."""
+        return replace(self, equations=equations.scaled(self.scale))
 
 
-def problem(pool: Pool, gram: Gram, least_noise: float) -> Problem:
+def problem(pool: Pool, equations: NormalEquations, least_noise: float) -> Problem:
     """Scale a Gram matrix and set prior sizes and costs."""
-    scale = scales(gram, pool.frames)
-    scaled = gram.scaled(scale)
+    scale = column_scales(equations, pool.frames)
+    scaled = equations.scaled(scale)
     mismatch = _rms_after_frames(scaled, pool.frames)
-    low = max(least_noise * min(BARELY_SEEN / np.sqrt(max(gram.n, 1.0)), 0.5), 0.01 * mismatch)
+    low = max(least_noise * min(BARELY_SEEN / np.sqrt(max(equations.n, 1.0)), 0.5), 0.01 * mismatch)
     sizes = np.geomspace(low, max(2 * mismatch, 4 * low), SIZES)
     spread = float(np.log(kinds(pool)) + np.log(FAMILY_SIZES - 1))
-    return Problem(pool, scaled, scale, least_noise, sizes, costs(pool), spread, mismatch)
+    return Problem(pool, scaled, scale, least_noise, sizes, prior_costs(pool), spread, mismatch)
 
 
-def _rms_after_frames(gram: Gram, frames: Indices) -> float:
-    Gf = gram.G[np.ix_(frames, frames)]
-    explained = gram.b[frames] @ np.linalg.lstsq(Gf, gram.b[frames], rcond=1e-12)[0]
-    left = float(gram.yy - explained)
-    return float(np.sqrt(max(left, 0.0) / max(gram.n - len(frames), 1.0)))
+def _rms_after_frames(equations: NormalEquations, frames: Indices) -> float:
+    Gf = equations.G[np.ix_(frames, frames)]
+    explained = equations.b[frames] @ np.linalg.lstsq(Gf, equations.b[frames], rcond=1e-12)[0]
+    left = float(equations.yy - explained)
+    return float(np.sqrt(max(left, 0.0) / max(equations.n - len(frames), 1.0)))
 
 
 def kinds(pool: Pool) -> int:
@@ -119,20 +119,20 @@ def kinds(pool: Pool) -> int:
     return max(len({placed.name for placed in pool.candidates}), 1)
 
 
-def costs(pool: Pool) -> Array:
+def prior_costs(pool: Pool) -> Array:
     """Each effect type is as likely as any other, each of its locations as any other, each scanned number, too."""
     locations: dict[str, set[str]] = {}
     variants: dict[tuple[str, str], int] = {}
     for placed in pool.candidates:
         locations.setdefault(placed.name, set()).add(placed.location)
-        if placed.tried == 1 and not placed.fine:
+        if placed.multiplicity == 1 and not placed.refinement:
             variants[placed.key] = variants.get(placed.key, 0) + 1
     return np.array(
         [
             SURE_NATS
             + np.log(kinds(pool))
             + np.log(len(locations[placed.name]))
-            + np.log(placed.tried if placed.tried > 1 else variants.get(placed.key, 1))
+            + np.log(placed.multiplicity if placed.multiplicity > 1 else variants.get(placed.key, 1))
             for placed in pool.candidates
         ]
     )
@@ -147,11 +147,11 @@ class Hypothesis:
         background: size of each family's background: an index into `BACKGROUND_SIZES` for the geometric one; 0 for
             none or 1 + an index into the problem's sizes for the others.
         noise: mm per axis.
-        value: log evidence with prior, nats.
-        evidence: log evidence alone, nats.
+        log_posterior: log evidence with prior, nats.
+        log_evidence: log evidence alone, nats.
         columns: columns of the pool that take part, ascending.
         variance: their prior variances, mm^2 at the tool.
-        factor: Cholesky factor (lower) of G + noise^2 / variance.
+        cholesky: lower Cholesky factor of G + noise^2 / variance.
         mean: posterior mean of the scaled coefficients.
         rss: penalised residual sum of squares, mm^2.
         known_inverse: of the factor, where weighing it needed it.
@@ -159,14 +159,14 @@ class Hypothesis:
 
     settled: ClassVar[bool] = True
     """The noise is this hypothesis' own."""
-    chosen: tuple[Chosen, ...]
+    chosen: tuple[SelectedEffect, ...]
     background: Background
     noise: float
-    value: float
-    evidence: float
+    log_posterior: float
+    log_evidence: float
     columns: Indices = field(repr=False)
     variance: Array = field(repr=False)
-    factor: Array = field(repr=False)
+    cholesky: Array = field(repr=False)
     mean: Array = field(repr=False)
     rss: float = field(repr=False)
     known_inverse: Array | None = field(default=None, repr=False)
@@ -174,7 +174,7 @@ class Hypothesis:
     @functools.cached_property
     def inverse(self) -> Array:
         """The inverse of the factor."""
-        return np.asarray(dtrtri(self.factor, lower=1)[0]) if self.known_inverse is None else self.known_inverse
+        return np.asarray(dtrtri(self.cholesky, lower=1)[0]) if self.known_inverse is None else self.known_inverse
 
     @property
     def candidates(self) -> frozenset[int]:
@@ -188,59 +188,63 @@ class Hypothesis:
         return full
 
 
-def weigh(problem: Problem, chosen: tuple[Chosen, ...], background: Background, noise: float) -> Hypothesis:
+def evaluate(problem: Problem, chosen: tuple[SelectedEffect, ...], background: Background, noise: float) -> Hypothesis:
     """Evidence of a hypothesis; the noise starts from ``noise`` and is re-estimated (MacKay 1992)."""
     prior = prior_variances(problem, chosen, background)
     columns = np.flatnonzero(prior > 0)
     variance = prior[columns]
-    G, b = problem.gram.G[np.ix_(columns, columns)], problem.gram.b[columns]
-    factor = first = lower_factor(G, noise**2 / variance)
+    G, b = problem.equations.G[np.ix_(columns, columns)], problem.equations.b[columns]
+    factor = first = lower_cholesky(G, noise**2 / variance)
     # how many values the data determine hardly changes with the noise: one inverse is enough
     inverse = np.asarray(dtrtri(first, lower=1)[0])
-    spent = len(columns) - noise**2 * float(np.sum(np.einsum("ij,ij->j", inverse, inverse) / variance))
+    effective_dof = len(columns) - noise**2 * float(np.sum(np.einsum("ij,ij->j", inverse, inverse) / variance))
     for step in range(NOISE_STEPS):
-        half = forward(factor, b)
-        rss = float(problem.gram.yy - half @ half)
-        mean = np.asarray(dtrtrs(factor, half, lower=1, trans=1)[0])
+        whitened_rhs = solve_lower(factor, b)
+        rss = float(problem.equations.yy - whitened_rhs @ whitened_rhs)
+        mean = np.asarray(dtrtrs(factor, whitened_rhs, lower=1, trans=1)[0])
         misfit = rss - noise**2 * float(np.sum(mean**2 / variance))
-        updated = np.sqrt(max(misfit, 0.0) / max(problem.n - spent, 1.0))
+        updated = np.sqrt(max(misfit, 0.0) / max(problem.n - effective_dof, 1.0))
         updated = max(float(updated), problem.least_noise, 1e-6)
         if step == NOISE_STEPS - 1 or abs(updated - noise) < NOISE_SETTLED * noise:
             break
         noise = updated
-        factor = lower_factor(G, noise**2 / variance)
+        factor = lower_cholesky(G, noise**2 / variance)
     logdet = 2 * np.sum(np.log(np.diag(factor))) + np.sum(np.log(variance)) - 2 * len(columns) * np.log(noise)
     evidence = float(-problem.n * np.log(noise) - 0.5 * logdet - 0.5 * rss / noise**2)
     values = [
-        int(problem.pool.columns[c.candidate][0]) for c in chosen if not c.within and problem.pool.along[c.candidate]
+        int(problem.pool.columns[c.candidate][0])
+        for c in chosen
+        if not c.nested and problem.pool.nonnegative[c.candidate]
     ]
     at = np.searchsorted(columns, values)
     away = mean[at] / (noise * np.sqrt(np.sum(inverse[:, at] ** 2, axis=0)))
-    value = evidence - price(problem, chosen, background, away)
+    value = evidence - negative_log_prior(problem, chosen, background, away)
     known = inverse if factor is first else None
     return Hypothesis(chosen, background, noise, value, evidence, columns, variance, factor, mean, rss, known)
 
 
-def price(problem: Problem, chosen: tuple[Chosen, ...], background: Background, away: Array) -> float:
+def negative_log_prior(
+    problem: Problem, chosen: tuple[SelectedEffect, ...], background: Background, away: Array
+) -> float:
     """What a hypothesis pays for its effects and backgrounds, nats; infinite if some effect lacks what it rests on.
 
     Args:
         away: of each effect's value that can't be negative, standard errors from zero; half of the prior goes to the
             other half, each by itself.
     """
-    own = [c for c in chosen if not c.within]
-    if not problem.pool.stands(frozenset(c.candidate for c in chosen)):
+    own = [c for c in chosen if not c.nested]
+    if not problem.pool.requirements_met(frozenset(c.candidate for c in chosen)):
         return np.inf
-    paid = sum(problem.costs[c.candidate] + np.log(len(problem.sizes)) for c in own)
+    paid = sum(problem.prior_costs[c.candidate] + np.log(len(problem.sizes)) for c in own)
     paid += problem.background_cost * np.count_nonzero(background[1:])
-    paid += CROWDED_NATS * max(problem.pool.crowding(frozenset(c.candidate for c in own)), 0)
+    paid += EXCESS_SPECIAL_CASE_NATS * max(problem.pool.excess_special_cases(frozenset(c.candidate for c in own)), 0)
     return float(paid - np.sum(np.log(2) + log_ndtr(away)))
 
 
 ROUNDING = 1e-11
 
 
-def lower_factor(G: Array, ridge: Array) -> Array:
+def lower_cholesky(G: Array, ridge: Array) -> Array:
     """Cholesky factor (lower) of G + diag(ridge); a ridge below rounding is raised to it (few rows, fitted exactly)."""
     A = G.copy()
     A.reshape(-1)[:: len(A) + 1] += np.maximum(ridge, ROUNDING * np.diag(G))
@@ -251,12 +255,12 @@ def lower_factor(G: Array, ridge: Array) -> Array:
     return np.asarray(factor)
 
 
-def forward(factor: Array, right: Array) -> Array:
+def solve_lower(factor: Array, right: Array) -> Array:
     """factor^-1 right."""
     return np.asarray(dtrtrs(factor, right, lower=1)[0])
 
 
-def pinned_losses(problem: Problem, hypothesis: Hypothesis, groups: Sequence[Indices]) -> Array:
+def savage_dickey(problem: Problem, hypothesis: Hypothesis, groups: Sequence[Indices]) -> Array:
     """Nats lost when columns are pinned to zero, group by group, at the noise as it is (Savage-Dickey ratio)."""
     at = {int(column): n for n, column in enumerate(hypothesis.columns)}
     lost = []
@@ -270,13 +274,13 @@ def pinned_losses(problem: Problem, hypothesis: Hypothesis, groups: Sequence[Ind
     return np.array(lost)
 
 
-def losses(problem: Problem, hypothesis: Hypothesis) -> Array:
+def removal_log_bayes_factors(problem: Problem, hypothesis: Hypothesis) -> Array:
     """What each chosen effect's removal would cost, nats, at the noise as it is (Savage-Dickey ratio)."""
     at = {int(column): n for n, column in enumerate(hypothesis.columns)}
     lost = []
     for c in hypothesis.chosen:
         own = np.array([at[int(column)] for column in problem.pool.columns[c.candidate]])
-        added = (problem.sizes[c.size] * np.array(problem.pool.candidates[c.candidate].shape)) ** 2
+        added = (problem.sizes[c.size] * np.array(problem.pool.candidates[c.candidate].prior_scale)) ** 2
         rest = np.maximum(hypothesis.variance[own] - added, 1e-12 * added)
         inverse = hypothesis.inverse[:, own]
         sigma = hypothesis.noise**2 * (inverse.T @ inverse)
@@ -286,11 +290,11 @@ def losses(problem: Problem, hypothesis: Hypothesis) -> Array:
         mean = hypothesis.mean[own]
         quadratic = mean @ (extra * np.linalg.solve(M, mean))
         logdet = np.linalg.slogdet(M)[1] - np.sum(np.log(hypothesis.variance[own] / rest))
-        lost.append(0.5 * quadratic + 0.5 * logdet - problem.costs[c.candidate] - np.log(len(problem.sizes)))
+        lost.append(0.5 * quadratic + 0.5 * logdet - problem.prior_costs[c.candidate] - np.log(len(problem.sizes)))
     return np.array(lost)
 
 
-def prior_variances(problem: Problem, chosen: tuple[Chosen, ...], background: Background) -> Array:
+def prior_variances(problem: Problem, chosen: tuple[SelectedEffect, ...], background: Background) -> Array:
     """(p,) prior variances of the scaled columns, mm^2; zero where a column takes no part."""
     prior = np.zeros(len(problem.scale))
     pool = problem.pool
@@ -302,7 +306,7 @@ def prior_variances(problem: Problem, chosen: tuple[Chosen, ...], background: Ba
             prior[columns] += (problem.sizes[size - 1] * shape) ** 2
     prior[pool.frames] = FRAME_PRIOR_MM**2
     for c in chosen:
-        own = np.array(pool.candidates[c.candidate].shape)
+        own = np.array(pool.candidates[c.candidate].prior_scale)
         prior[pool.columns[c.candidate]] += (problem.sizes[c.size] * own) ** 2
     return prior
 

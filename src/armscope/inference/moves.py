@@ -9,7 +9,7 @@ from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import region
 
 
-def taken_out(pool: Pool, chosen: Sequence[int]) -> list[tuple[int, ...]]:
+def block_removals(pool: Pool, chosen: Sequence[int]) -> list[tuple[int, ...]]:
     """Each effect by itself; all of one region; a drift and one more of the base."""
     return [*((candidate,) for candidate in chosen), *_regions(pool, chosen), *_drifting(pool, chosen)]
 
@@ -25,5 +25,5 @@ def _drifting(pool: Pool, chosen: Sequence[int]) -> list[tuple[int, ...]]:
     """A drift and one more effect of the base, which a drift with other pauses may hold, where there are such."""
     base = [candidate for candidate in chosen if pool.candidates[candidate].location == "base"]
     drifts = [candidate for candidate in base if pool.candidates[candidate].effect is BASE_DRIFT]
-    with_pauses = any(placed.effect is BASE_DRIFT and placed.tried > 1 for placed in pool.candidates)
+    with_pauses = any(placed.effect is BASE_DRIFT and placed.multiplicity > 1 for placed in pool.candidates)
     return [(drift, other) for drift in drifts for other in base if other != drift] if with_pauses else []

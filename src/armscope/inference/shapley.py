@@ -14,27 +14,27 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from armscope.core.types import Array, Indices
-from armscope.inference.evidence import forward, lower_factor
-from armscope.inference.normal_equations import Gram
+from armscope.inference.evidence import lower_cholesky, solve_lower
+from armscope.inference.normal_equations import NormalEquations
 
 MOST_ORDERS = 120
 """All orders up to five members; as many drawn at random, and their reverses, where there are more."""
 
 
-def shares(gram: Gram, ridge: Array, frames: Indices, members: Sequence[Indices]) -> Array:
+def shares(equations: NormalEquations, ridge: Array, frames: Indices, members: Sequence[Indices]) -> Array:
     """(members,) share of the variance after the frames that each member explains, 0 ... 1.
 
     Args:
-        gram: sums over the rows.
+        equations: sums over the rows.
         ridge: (p,) noise variance over prior variance of each column: what a value that is held near zero costs.
         frames: columns of the free frames; they come first in every order.
         members: columns of each effect or background.
     """
     count = len(members)
-    scale = np.sqrt(np.maximum(np.diag(gram.G) + ridge, 1e-300))
-    G, b = gram.G / np.outer(scale, scale), gram.b / scale
+    scale = np.sqrt(np.maximum(np.diag(equations.G) + ridge, 1e-300))
+    G, b = equations.G / np.outer(scale, scale), equations.b / scale
     held = ridge / scale**2
-    left = float(gram.yy - _explained(G, b, held, frames).sum())
+    left = float(equations.yy - _explained(G, b, held, frames).sum())
     if count == 0 or left <= 0:
         return np.zeros(count)
     totals, orders = np.zeros(count), 0
@@ -50,8 +50,8 @@ def shares(gram: Gram, ridge: Array, frames: Indices, members: Sequence[Indices]
 
 def _explained(G: Array, b: Array, held: Array, columns: Indices) -> Array:
     """What each column explains beyond those before it, mm^2."""
-    factor = lower_factor(G[np.ix_(columns, columns)], held[columns])
-    explained: Array = forward(factor, b[columns]) ** 2
+    factor = lower_cholesky(G[np.ix_(columns, columns)], held[columns])
+    explained: Array = solve_lower(factor, b[columns]) ** 2
     return explained
 
 

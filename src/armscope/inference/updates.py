@@ -17,7 +17,15 @@ from scipy.linalg.lapack import dtrtrs
 
 from armscope.core.types import Array, Indices
 from armscope.fitting.model_space import Pool
-from armscope.inference.evidence import Background, Chosen, Hypothesis, Problem, forward, price, prior_variances
+from armscope.inference.evidence import (
+    Background,
+    Hypothesis,
+    Problem,
+    SelectedEffect,
+    negative_log_prior,
+    prior_variances,
+    solve_lower,
+)
 
 MANY_COLUMNS = 8
 """Sets of at least this many columns are factorised size by size, which takes less time than their eigenvalues."""
@@ -26,7 +34,7 @@ ROUNDED = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
-class Groups:
+class CandidateGroups:
     """Candidates of equal numbers of columns, so that they are scored together.
 
     Attributes:
@@ -42,24 +50,24 @@ class Groups:
     shapes: tuple[Array, ...]
 
 
-def group(pool: Pool) -> Groups:
+def group_candidates(pool: Pool) -> CandidateGroups:
     """Candidates that compete, by their number of columns."""
     by_size: dict[int, list[int]] = {}
     for number, columns in enumerate(pool.columns):
-        if not pool.candidates[number].fine:
+        if not pool.candidates[number].refinement:
             by_size.setdefault(len(columns), []).append(number)
     all_columns = [pool.columns[m] for members in by_size.values() for m in members]
     competing = np.unique(np.concatenate(all_columns)) if all_columns else np.empty(0, dtype=np.intp)
-    return Groups(
+    return CandidateGroups(
         competing,
         tuple(np.array(members) for members in by_size.values()),
         tuple(np.searchsorted(competing, [pool.columns[m] for m in members]) for members in by_size.values()),
-        tuple(np.array([pool.candidates[m].shape for m in members]) for members in by_size.values()),
+        tuple(np.array([pool.candidates[m].prior_scale for m in members]) for members in by_size.values()),
     )
 
 
 @dataclass(frozen=True, eq=False)
-class Left:
+class ConditionedColumns:
     """What a hypothesis leaves of q columns once its posterior is conditioned on.
 
     Attributes:
@@ -77,36 +85,36 @@ class Left:
     def own(self, problem: Problem, at: Indices) -> Array:
         """(m, c, c) sums over rows within each of m sets (m, c) of the columns."""
         columns, taken = self.columns[at], self.taken[at]
-        own = problem.gram.G[columns[:, :, None], columns[:, None, :]] - taken @ np.swapaxes(taken, 1, 2)
+        own = problem.equations.G[columns[:, :, None], columns[:, None, :]] - taken @ np.swapaxes(taken, 1, 2)
         if self.returned is not None:
             returned = self.returned[at]
             own += returned @ np.swapaxes(returned, 1, 2)
         return np.asarray(own)
 
 
-def left(problem: Problem, columns: Indices, hypothesis: Hypothesis) -> Left:
+def condition_on(problem: Problem, columns: Indices, hypothesis: Hypothesis) -> ConditionedColumns:
     """What a hypothesis leaves of some columns."""
-    G, b, inside = problem.gram.G, problem.gram.b, hypothesis.columns
-    taken = np.asarray(dtrtrs(hypothesis.factor, G[np.ix_(columns, inside)].T, lower=1, overwrite_b=1)[0]).T
-    return Left(columns, b[columns] - taken @ forward(hypothesis.factor, b[inside]), taken)
+    G, b, inside = problem.equations.G, problem.equations.b, hypothesis.columns
+    taken = np.asarray(dtrtrs(hypothesis.cholesky, G[np.ix_(columns, inside)].T, lower=1, overwrite_b=1)[0]).T
+    return ConditionedColumns(columns, b[columns] - taken @ solve_lower(hypothesis.cholesky, b[inside]), taken)
 
 
 @dataclass(frozen=True, eq=False)
-class Changed:
+class LowRankUpdate:
     """A hypothesis with smaller priors on some of its columns, or without them, at the noise as it is.
 
     Attributes:
         whole: the hypothesis.
-        value, rss: as of a hypothesis.
+        log_posterior, rss: as of a hypothesis.
         at: (r,) where the columns stand whose priors changed.
         inner: (r, r) the matrix of the change of rank r: posterior covariance plus what the priors leave.
     """
 
     settled: ClassVar[bool] = False
     whole: Hypothesis
-    chosen: tuple[Chosen, ...]
+    chosen: tuple[SelectedEffect, ...]
     background: Background
-    value: float
+    log_posterior: float
     rss: float
     at: Indices
     inner: Array
@@ -121,17 +129,17 @@ class Changed:
         """The numbers of its candidates."""
         return frozenset(c.candidate for c in self.chosen)
 
-    def left(self, whole: Left) -> Left:
+    def conditioned(self, whole: ConditionedColumns) -> ConditionedColumns:
         """What it leaves of columns, from what the whole hypothesis leaves of them."""
         factor: Array = np.asarray(np.linalg.cholesky(self.inner), dtype=np.float64)
-        returned = forward(factor, self.whole.inverse[:, self.at].T @ whole.taken.T)
-        b = whole.b + forward(factor, self.whole.mean[self.at]) @ returned
-        return Left(whole.columns, b, whole.taken, returned.T)
+        returned = solve_lower(factor, self.whole.inverse[:, self.at].T @ whole.taken.T)
+        b = whole.b + solve_lower(factor, self.whole.mean[self.at]) @ returned
+        return ConditionedColumns(whole.columns, b, whole.taken, returned.T)
 
 
-def changed(
-    problem: Problem, hypothesis: Hypothesis, chosen: tuple[Chosen, ...], background: Background
-) -> Changed | None:
+def low_rank_update(
+    problem: Problem, hypothesis: Hypothesis, chosen: tuple[SelectedEffect, ...], background: Background
+) -> LowRankUpdate | None:
     """A hypothesis with other effects or sizes, at the noise as it is; None if that needs columns it does not have.
 
     A prior precision that grows by d (noise units) at columns R turns A into A + E d E': by Woodbury's identity all
@@ -149,50 +157,50 @@ def changed(
     mean = hypothesis.mean[at]
     rss = hypothesis.rss + float(mean @ np.linalg.solve(inner, mean)) if len(at) else hypothesis.rss
     logdet = float(np.linalg.slogdet(inner)[1] + np.sum(np.log(noise**2 * np.abs(before - after) / before**2)))
-    evidence = hypothesis.evidence - 0.5 * logdet - 0.5 * (rss - hypothesis.rss) / noise**2
-    paid = _price(problem, hypothesis, chosen, background, at, inner)
-    return Changed(hypothesis, chosen, background, evidence - paid, rss, at, inner)
+    evidence = hypothesis.log_evidence - 0.5 * logdet - 0.5 * (rss - hypothesis.rss) / noise**2
+    paid = _negative_log_prior(problem, hypothesis, chosen, background, at, inner)
+    return LowRankUpdate(hypothesis, chosen, background, evidence - paid, rss, at, inner)
 
 
-def _price(
+def _negative_log_prior(
     problem: Problem,
     whole: Hypothesis,
-    chosen: tuple[Chosen, ...],
+    chosen: tuple[SelectedEffect, ...],
     background: Background,
     at: Indices,
     inner: Array,
 ) -> float:
     """What a changed hypothesis pays, nats; values that can't be negative are looked at where they now stand."""
     pool = problem.pool
-    values = [int(pool.columns[c.candidate][0]) for c in chosen if not c.within and pool.along[c.candidate]]
+    values = [int(pool.columns[c.candidate][0]) for c in chosen if not c.nested and pool.nonnegative[c.candidate]]
     own = np.searchsorted(whole.columns, values)
     inverse = whole.inverse[:, own]
     both = inverse.T @ whole.inverse[:, at]
     moved = np.linalg.solve(inner, both.T).T if len(at) else both
     mean = whole.mean[own] - moved @ whole.mean[at]
     variance = whole.noise**2 * (np.sum(inverse**2, axis=0) - np.sum(moved * both, axis=1))
-    return price(problem, chosen, background, mean / np.sqrt(np.maximum(variance, 1e-300)))
+    return negative_log_prior(problem, chosen, background, mean / np.sqrt(np.maximum(variance, 1e-300)))
 
 
-def roughly_lost(problem: Problem, hypothesis: Hypothesis, kept: tuple[Chosen, ...]) -> float:
+def approximate_removal_loss(problem: Problem, hypothesis: Hypothesis, kept: tuple[SelectedEffect, ...]) -> float:
     """Nats lost with only some effects kept, of which the noise, if it were free, would take up some by growing."""
-    rest = changed(problem, hypothesis, kept, hypothesis.background)
+    rest = low_rank_update(problem, hypothesis, kept, hypothesis.background)
     assert rest is not None
-    return problem.n / 2 * float(np.log1p(2 * max(hypothesis.value - rest.value, 0.0) / problem.n))
+    return problem.n / 2 * float(np.log1p(2 * max(hypothesis.log_posterior - rest.log_posterior, 0.0) / problem.n))
 
 
-def gains(problem: Problem, groups: Groups, hypothesis: Hypothesis) -> tuple[Array, Indices]:
+def best_additions(problem: Problem, groups: CandidateGroups, hypothesis: Hypothesis) -> tuple[Array, Indices]:
     """What each candidate would add to a hypothesis' value at its best size, nats, and the index of that size."""
-    by_size = gains_by_size(problem, groups, hypothesis)
+    by_size = addition_scores(problem, groups, hypothesis)
     return by_size.max(axis=0), by_size.argmax(axis=0)
 
 
-def gains_by_size(
+def addition_scores(
     problem: Problem,
-    groups: Groups,
-    hypothesis: Hypothesis | Changed,
+    groups: CandidateGroups,
+    hypothesis: Hypothesis | LowRankUpdate,
     asked: NDArray[np.bool_] | None = None,
-    rest: Left | None = None,
+    rest: ConditionedColumns | None = None,
 ) -> Array:
     """(SIZES, candidates) what each candidate would add to a hypothesis' value at each size, nats.
 
@@ -206,10 +214,10 @@ def gains_by_size(
     """
     if rest is None:
         assert isinstance(hypothesis, Hypothesis)
-        rest = left(problem, groups.competing, hypothesis)
+        rest = condition_on(problem, groups.competing, hypothesis)
     noise, chi2 = hypothesis.noise, hypothesis.rss / hypothesis.noise**2
     s2 = problem.sizes**2
-    by_size = np.full((len(problem.sizes), len(problem.costs)), -np.inf)
+    by_size = np.full((len(problem.sizes), len(problem.prior_costs)), -np.inf)
     for members, columns, shapes in zip(groups.members, groups.columns, groups.shapes, strict=True):
         inside = np.ones(len(members), dtype=np.bool_) if asked is None else asked[members]
         if not np.any(inside):
@@ -224,11 +232,11 @@ def gains_by_size(
             likelier = 0.5 * quadratic
         by_size[:, members[inside]] = likelier - 0.5 * logdet
     # what can't be negative and would be is not worth looking at; the others' prior is twice as dense
-    along = np.flatnonzero(problem.pool.along & np.isfinite(by_size[0]))
+    along = np.flatnonzero(problem.pool.nonnegative & np.isfinite(by_size[0]))
     first = [int(problem.pool.columns[number][0]) for number in along]
     pushed = rest.b[np.searchsorted(groups.competing, first)] > 0
     by_size[:, along] += np.where(pushed, np.log(2), -np.inf)
-    return by_size - problem.costs - np.log(len(problem.sizes))
+    return by_size - problem.prior_costs - np.log(len(problem.sizes))
 
 
 def _at_sizes(D: Array, r: Array, s2: Array) -> tuple[Array, Array]:
@@ -260,11 +268,11 @@ def _factorised(D: Array, r: Array, s2: Array) -> tuple[Array, Array]:
     return s2[:, None] * np.sum(factor[:, :, c, :c] ** 2, axis=2), 2 * np.sum(np.log(diagonal), axis=2)
 
 
-def joint_gains(problem: Problem, rest: Hypothesis, sets: Sequence[tuple[Chosen, ...]]) -> Array:
+def joint_addition_scores(problem: Problem, rest: Hypothesis, sets: Sequence[tuple[SelectedEffect, ...]]) -> Array:
     """What each set of effects together would add to a hypothesis' value, nats; for small sets of small effects."""
     members = sorted({c.candidate for chosen in sets for c in chosen})
     columns = np.concatenate([problem.pool.columns[m] for m in members])
-    noise, remaining = rest.noise, left(problem, columns, rest)
+    noise, remaining = rest.noise, condition_on(problem, columns, rest)
     inner = remaining.own(problem, np.arange(len(columns))[None])[0] / noise**2
     r = remaining.b / noise**2
     ends = np.cumsum([len(problem.pool.columns[m]) for m in members])
@@ -273,13 +281,13 @@ def joint_gains(problem: Problem, rest: Hypothesis, sets: Sequence[tuple[Chosen,
     for chosen in sets:
         own = np.concatenate([at[c.candidate] for c in chosen])
         size = np.concatenate(
-            [problem.sizes[c.size] * np.array(problem.pool.candidates[c.candidate].shape) for c in chosen]
+            [problem.sizes[c.size] * np.array(problem.pool.candidates[c.candidate].prior_scale) for c in chosen]
         )
         A = np.eye(len(own)) + inner[np.ix_(own, own)] * np.outer(size, size)
         u = size * r[own]
         quadratic = np.array(float(u @ np.linalg.solve(A, u)))
         gain = _profiled(quadratic, rest.rss / noise**2, problem.n, noise, problem.least_noise)
-        paid = sum(problem.costs[c.candidate] + np.log(len(problem.sizes)) for c in chosen)
+        paid = sum(problem.prior_costs[c.candidate] + np.log(len(problem.sizes)) for c in chosen)
         totals.append(float(gain) - 0.5 * float(np.linalg.slogdet(A)[1]) - paid)
     return np.array(totals)
 

@@ -71,7 +71,7 @@ def poses(recordings: Recordings) -> Indices:
     return np.asarray(np.unique(keys, axis=0, return_inverse=True)[1].reshape(-1))
 
 
-def independent_shares(residuals: Array, pose: Indices, trusted: NDArray[np.bool_]) -> Array:
+def independence_weights(residuals: Array, pose: Indices, trusted: NDArray[np.bool_]) -> Array:
     """(N,) share of an independent row that each row stands for.
 
     A residual is what is wrong with its pose (variance u^2, the same at every visit) and the reading's noise (e^2). The

@@ -13,7 +13,7 @@ Rule = Callable[[Array, Array, float], Array]
 
 MEDIAN_OF_CHI3 = 1.5381722
 """Median length of a 3-vector of unit normals."""
-FAR = 4.5
+TUNING_CONSTANT = 4.5
 """Scales beyond which a row is weighted down: one clean row in 6000."""
 SUSPECT_WEIGHT = 0.5
 
@@ -23,14 +23,14 @@ def scale_of(residuals: Array, least: float = 0.0) -> float:
     return max(float(np.median(np.linalg.norm(residuals, axis=1))) / MEDIAN_OF_CHI3, least, 1e-9)
 
 
-def first_weights(residuals: Array, uncertainty: Array, least: float) -> Array:
+def huber_weights(residuals: Array, uncertainty: Array, least: float) -> Array:
     """(N,) weights while structure may still be in the residuals: Huber's, so that nothing is silenced yet."""
     far = _distance(residuals, uncertainty, least)
-    return np.minimum(1.0, FAR / far) / uncertainty**2
+    return np.minimum(1.0, TUNING_CONSTANT / far) / uncertainty**2
 
 
-def weights(residuals: Array, uncertainty: Array, least: float) -> Array:
-    """(N,) weights against the fitted model: 1 up to `FAR` scales, then falling with the fourth power.
+def quartic_weights(residuals: Array, uncertainty: Array, least: float) -> Array:
+    """(N,) weights against the fitted model: 1 up to `TUNING_CONSTANT` scales, then falling with the fourth power.
 
     Args:
         residuals: (N, 3).
@@ -38,7 +38,7 @@ def weights(residuals: Array, uncertainty: Array, least: float) -> Array:
         least: the noise is not taken to be below this.
     """
     far = _distance(residuals, uncertainty, least)
-    return np.minimum(1.0, FAR / far) ** 4 / uncertainty**2
+    return np.minimum(1.0, TUNING_CONSTANT / far) ** 4 / uncertainty**2
 
 
 def _distance(residuals: Array, uncertainty: Array, least: float) -> Array:

@@ -10,7 +10,7 @@ from armscope.core.types import Array, Indices
 from armscope.measurement import robust
 from armscope.physics.lens import Lens
 
-COUNTS = 0.5
+INLIER_WEIGHT = 0.5
 """Rows with a smaller part of their clean weight do not count as measurements."""
 
 
@@ -37,40 +37,40 @@ class RowNoise:
 
     Attributes:
         uncertainty: (N,) relative to the usual row's.
-        share: (N,) of an independent row that each stands for: a pose visited again is no new pose.
+        independence_weight: (N,) of an independent row that each stands for: a pose visited again is no new pose.
     """
 
     uncertainty: Array
-    share: Array
+    independence_weight: Array
 
     @property
-    def clean(self) -> Array:
+    def nominal_weight(self) -> Array:
         """(N,) weights of rows that are no bad shots."""
-        return np.asarray(self.share / self.uncertainty**2)
+        return np.asarray(self.independence_weight / self.uncertainty**2)
 
-    def weighed(self, missed: Missed, least: float, whitening: Array | None = None) -> RowWeights:
+    def weights(self, missed: Missed, least: float, whitening: Array | None = None) -> RowWeights:
         """Weights against what a fitted model leaves, its shifts whitened."""
-        white = RowWeights(self.clean, whitening).whitened(missed.shift)
-        return self._weights(robust.weights, white, missed.turn, least, whitening)
+        white = RowWeights(self.nominal_weight, whitening).whitened(missed.shift)
+        return self._weights(robust.quartic_weights, white, missed.turn, least, whitening)
 
-    def weighed_first(self, missed: Missed, least: float) -> RowWeights:
+    def first_weights(self, missed: Missed, least: float) -> RowWeights:
         """Weights while structure may still be in the residuals."""
-        return self._weights(robust.first_weights, missed.shift, missed.turn, least, None)
+        return self._weights(robust.huber_weights, missed.shift, missed.turn, least, None)
 
     def _weights(
         self, rule: robust.Rule, white: Array, turn: Array | None, least: float, whitening: Array | None
     ) -> RowWeights:
-        row = rule(white, self.uncertainty, least) * self.share
-        shifts = RowWeights(row, whitening, self.clean, self.share)
+        row = rule(white, self.uncertainty, least) * self.independence_weight
+        shifts = RowWeights(row, whitening, self.nominal_weight, self.independence_weight)
         if turn is None:
             return shifts
         known = np.isfinite(turn).all(axis=1)
-        clean = np.where(known, self.share, 0.0)
+        clean = np.where(known, self.independence_weight, 0.0)
         of_turns = clean.copy()
         of_turns[known] *= rule(turn[known], np.ones(int(known.sum())), FINEST_TURN_RAD)
         noise = robust.scale_of(white / self.uncertainty[:, None], least)
         lever = 1e-3 * noise / robust.scale_of(turn[known], FINEST_TURN_RAD)
-        return replace(shifts, turns=RowWeights(of_turns, None, clean, self.share), lever=lever)
+        return replace(shifts, turns=RowWeights(of_turns, None, clean, self.independence_weight), lever=lever)
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,31 +78,31 @@ class RowWeights:
     """Weights of N rows.
 
     Attributes:
-        row: (N,) weights.
+        weight: (N,) weights.
         whitening: (N, 3, 3) of each row's shift, or None.
-        clean: (N,) the weights if no row were a bad shot; None: ones.
-        share: (N,) of an independent row that each row stands for; None: ones.
+        nominal_weight: (N,) the weights if no row were a bad shot; None: ones.
+        independence_weight: (N,) of an independent row that each row stands for; None: ones.
         turns: weights of the rows' orientations, 0 where not measured; None: orientations don't count.
         lever: m/rad by which a turn counts beside a shift: the ratio of their noises.
     """
 
-    row: Array
+    weight: Array
     whitening: Array | None = None
-    clean: Array | None = None
-    share: Array | None = None
+    nominal_weight: Array | None = None
+    independence_weight: Array | None = None
     turns: RowWeights | None = None
     lever: float = 0.0
 
     @property
-    def trust(self) -> Array:
+    def robust_weight(self) -> Array:
         """(N,) 1 for rows that look like the others, less for bad shots."""
-        return self.row if self.clean is None else np.asarray(self.row / self.clean)
+        return self.weight if self.nominal_weight is None else np.asarray(self.weight / self.nominal_weight)
 
     def count(self, rows: Indices) -> Array:
         """(n,) how many independent measurements each of ``rows`` is: none, if it looks like a bad shot."""
-        clean = 1.0 if self.clean is None else self.clean[rows]
-        share = np.ones(len(rows)) if self.share is None else self.share[rows]
-        return np.where(self.row[rows] > COUNTS * clean, share, 0.0)
+        clean = 1.0 if self.nominal_weight is None else self.nominal_weight[rows]
+        share = np.ones(len(rows)) if self.independence_weight is None else self.independence_weight[rows]
+        return np.where(self.weight[rows] > INLIER_WEIGHT * clean, share, 0.0)
 
     def numbers(self, rows: Indices) -> Array:
         """(n,) how many independent numbers each of ``rows`` holds."""
@@ -111,9 +111,9 @@ class RowWeights:
 
     def lens(self, rows: Indices) -> Lens:
         """W^1/2 of ``rows``: roots of the weights, times the whitening and the lever."""
-        root = np.sqrt(self.row[rows])[:, None, None]
+        root = np.sqrt(self.weight[rows])[:, None, None]
         shift = root * (np.eye(3) if self.whitening is None else self.whitening[rows])
-        return Lens(shift, None if self.turns is None else self.lever * np.sqrt(self.turns.row[rows]))
+        return Lens(shift, None if self.turns is None else self.lever * np.sqrt(self.turns.weight[rows]))
 
     @property
     def of_points(self) -> RowWeights:
@@ -122,10 +122,12 @@ class RowWeights:
 
     def take(self, rows: Indices, share: float = 1.0) -> RowWeights:
         """The weights of some rows, each standing for 1 / ``share`` rows."""
-        white, clean, independent = (None if x is None else x[rows] for x in (self.whitening, self.clean, self.share))
+        white, clean, independent = (
+            None if x is None else x[rows] for x in (self.whitening, self.nominal_weight, self.independence_weight)
+        )
         turns = None if self.turns is None else self.turns.take(rows, share)
         clean = None if clean is None else clean / share
-        return RowWeights(self.row[rows] / share, white, clean, independent, turns, self.lever)
+        return RowWeights(self.weight[rows] / share, white, clean, independent, turns, self.lever)
 
     def whitened(self, residuals: Array) -> Array:
         """Residuals (N, 3) without the known scatter."""

@@ -89,7 +89,7 @@ def anchor(
 
     def coordinates(in_sigmas: Array) -> Array:
         measured_mm = (errors.positions(motor_angles, in_sigmas) + noise_m) * 1e3 - nominal_mm
-        return np.einsum("nc,rna->rac", q, measured_mm).reshape(len(in_sigmas), -1)
+        return np.asarray(np.einsum("nc,rna->rac", q, measured_mm).reshape(len(in_sigmas), -1))
 
     slope = np.einsum("nc,nak->ack", q, errors.jacobian(frames) * 1e3).reshape(len(printed), -1)
     gain = slope.T @ np.linalg.inv(slope @ slope.T)

@@ -137,7 +137,8 @@ class _Evidence:
 
     def over_tests(self, model: str) -> Array:
         """3D RMS over the held-out trajectories together, each with the same weight (they have equally many points)."""
-        return np.sqrt(np.mean([self.spatial[model, name].to_numpy() ** 2 for name in TEST_TRAJECTORIES], axis=0))
+        squares = [self.spatial[model, name].to_numpy() ** 2 for name in TEST_TRAJECTORIES]
+        return np.asarray(np.sqrt(np.mean(squares, axis=0)))
 
 
 def _reduced(evidence: _Evidence) -> _Judged:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -53,7 +54,7 @@ def residual_table(measurements: Measurements, fits: Sequence[FittedModel]) -> p
 
 def _rows(
     robot: str, model: str, trajectory: str, method: str, seeds: Sequence[int], residuals: Array
-) -> dict[str, NDArray]:
+) -> dict[str, NDArray[Any]]:
     """The table's columns for residuals (S, N, 3) of S fits."""
     n_points = residuals.shape[1]
     squares = np.einsum("sna,sna->sa", residuals, residuals)

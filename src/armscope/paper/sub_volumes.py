@@ -70,7 +70,7 @@ def _fit(terms: Array, errors: Array) -> Array:
     """(R, terms, 3) least squares of R robots' errors (R, N, 3)."""
     scale = np.linalg.norm(terms, axis=0)
     solved: Array = np.linalg.pinv(terms / scale) @ errors
-    return solved / scale[:, None]
+    return np.asarray(solved / scale[:, None])
 
 
 Tree = tuple[int, float, "Tree", "Tree"] | None

@@ -23,7 +23,7 @@ def backgrounds(arm: Arm, recordings: Recordings) -> dict[str, list[Placed]]:
     """By family: D-H constants of all links, give of all joints and bearings, two waves per turn of all gears."""
     give = [placed for placed in elastic.JOINT_COMPLIANCE.place(arm, recordings) if placed.variant == ""]
     give += [
-        replace(placed, shape=tuple(BEARINGS * size for size in placed.shape))
+        replace(placed, prior_scale=tuple(BEARINGS * size for size in placed.prior_scale))
         for placed in elastic.BEARING_COMPLIANCE.place(arm, recordings)
     ]
     return {

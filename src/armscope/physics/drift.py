@@ -54,7 +54,7 @@ class Pause:
     rows: float
 
 
-def drift_with_pauses(pauses: Sequence[Pause], tried: int) -> Placed:
+def drift_with_pauses(pauses: Sequence[Pause], multiplicity: int) -> Placed:
     """A base that moves steadily in time, of which only the order of rows is known, and where it paused."""
     terms = tuple(
         replace(
@@ -72,7 +72,7 @@ def drift_with_pauses(pauses: Sequence[Pause], tried: int) -> Placed:
     rows = ", ".join(f"{p.row:g}" for p in pauses)
     told = f"order of rows, with a pause before row{'s' if len(pauses) > 1 else ''} {rows}"
     variant = " ".join(["rows", *(f"{p.row:g}/{p.run}+{p.rows:.1f}" for p in pauses)])
-    return Placed(BASE_DRIFT, "base", terms, (1.0,) * 6, told, tried=tried, variant=variant)
+    return Placed(BASE_DRIFT, "base", terms, (1.0,) * 6, told, multiplicity=multiplicity, variant=variant)
 
 
 def pauses_of(placed: Placed) -> list[Pause]:
@@ -89,6 +89,7 @@ BASE_DRIFT = Effect(
     "Measure fixed reference points on the base at the start and the end.",
     "Let the set-up settle and warm up; measure references in between and correct.",
     needs=("time_s, or rows in order",),
+    contained_in=("time",),
 )
 
 
@@ -108,18 +109,18 @@ def _axes_of_tool(recordings: Recordings) -> tuple[str, ...]:
     return AXES[:3] if recordings.orientation is None else AXES
 
 
-def base_shift(recordings: Recordings, row: int, tried: int) -> Placed:
+def base_shift(recordings: Recordings, row: int, multiplicity: int) -> Placed:
     """The base jumps before a row (0-based) and stays so until the end of the row's run."""
-    return _shift(BASE_SHIFT, "base", AXES, recordings, row, tried)
+    return _shift(BASE_SHIFT, "base", AXES, recordings, row, multiplicity)
 
 
-def tool_shift(recordings: Recordings, row: int, tried: int) -> Placed:
+def tool_shift(recordings: Recordings, row: int, multiplicity: int) -> Placed:
     """The tool jumps before a row (0-based) and stays so until the end of the row's run."""
-    return _shift(TOOL_SHIFT, "tool", _axes_of_tool(recordings), recordings, row, tried)
+    return _shift(TOOL_SHIFT, "tool", _axes_of_tool(recordings), recordings, row, multiplicity)
 
 
 def _shift(
-    effect: Effect, location: str, axes: tuple[str, ...], recordings: Recordings, row: int, tried: int
+    effect: Effect, location: str, axes: tuple[str, ...], recordings: Recordings, row: int, multiplicity: int
 ) -> Placed:
     run = str(recordings.run[row])
     several = f", run {run}" if len(np.unique(recordings.run)) > 1 else ""
@@ -137,7 +138,7 @@ def _shift(
         (1.0,) * len(axes),
         ("time" if recordings.time is not None else "order of rows") + several,
         scanned=(scanned,),
-        tried=tried,
+        multiplicity=multiplicity,
         variant=f"{run} {scanned[2]:g}",
     )
 
@@ -157,6 +158,7 @@ BASE_SHIFT = Effect(
     "The base or the instrument jumped during the recording.",
     "Look into the log for what happened at that time; measure reference points on the base.",
     "Fasten the base and the instrument; register again after each change.",
+    several=True,
 )
 
 TOOL_SHIFT = Effect(
@@ -166,6 +168,7 @@ TOOL_SHIFT = Effect(
     "The tool or its reflector moved on the flange during the recording or between runs.",
     "Look into the log for what happened at that time; measure the tool point again.",
     "Fasten the tool; calibrate the tool point again after each change.",
+    several=True,
 )
 
 EFFECTS = [BASE_DRIFT, BASE_SHIFT, TOOL_SHIFT]

@@ -5,7 +5,9 @@ A driver's value is zero where its context was not recorded, so that a missing v
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,8 +25,6 @@ REFERENCE_TEMPERATURE_C = 20.0
 """Lengths hold at this temperature."""
 SECONDS_PER_HOUR = 3600.0
 ROWS_PER_UNIT = 1000.0
-LARGEST_ARGUMENT = 1e12
-"""Of a driver: seconds since 1970 are the largest numbers that stand there."""
 
 
 def evaluate(scene: Scene, driver: Driver) -> Array:
@@ -33,8 +33,26 @@ def evaluate(scene: Scene, driver: Driver) -> Array:
     Raises:
         InputError: the recordings lack the column that the driver needs.
     """
-    kind, arguments = driver.kind, driver.arguments
-    return np.asarray(KINDS[kind](scene, *arguments), dtype=np.float64)
+    return np.asarray(KINDS[driver.kind].values(scene, *driver.arguments), dtype=np.float64)
+
+
+def recorded(scene: Scene, context: str, motor: int = 0) -> Array:
+    """A context field of the scene's recordings ("temperature", ...), or one motor's column of it, NaN where unknown.
+
+    Raises:
+        InputError: it was not recorded.
+    """
+    values: Array | None = getattr(scene.recordings, context)
+    if values is not None:
+        return values[:, motor - 1] if motor else values
+    column = COLUMNS[context].replace("dq_", f"dq{motor or ''}_")
+    raise InputError(
+        scene.recordings.source,
+        "line 1",
+        f"no column {column}{motor if motor and column == context else ''}",
+        "an effect in the model follows this column",
+        "Add it to the table.",
+    )
 
 
 def _one(scene: Scene) -> Array:
@@ -92,9 +110,7 @@ def _gravity_torque(scene: Scene, j: int) -> Array:
 
 def _payload_torque(scene: Scene, j: int) -> Array:
     """Torque on motor j of the payload alone."""
-    if scene.recordings.payload is None:
-        raise _missing(scene, "payload_kg")
-    return _unit_mass_torques(scene)[:, j - 1] * np.nan_to_num(scene.recordings.payload)
+    return _unit_mass_torques(scene)[:, j - 1] * np.nan_to_num(recorded(scene, "payload"))
 
 
 def _unit_mass_torques(scene: Scene) -> Array:
@@ -143,9 +159,7 @@ def _bend(scene: Scene, link: int, axis: int) -> Array:
 
 
 def _approach(scene: Scene, j: int) -> Array:
-    if scene.recordings.approach is None:
-        raise _missing(scene, f"approach{j}")
-    return np.nan_to_num(scene.recordings.approach[:, j - 1])
+    return np.nan_to_num(recorded(scene, "approach", j))
 
 
 def _lost_motion(scene: Scene, j: int, centre: float, width: float) -> Array:
@@ -154,23 +168,17 @@ def _lost_motion(scene: Scene, j: int, centre: float, width: float) -> Array:
 
 
 def _speed(scene: Scene, j: int) -> Array:
-    if scene.recordings.speed is None:
-        raise _missing(scene, f"dq{j}_rad_s")
-    return np.nan_to_num(scene.recordings.speed[:, j - 1])
+    return np.nan_to_num(recorded(scene, "speed", j))
 
 
 def _warmth(scene: Scene) -> Array:
     """Temperature above the reference, K."""
-    if scene.recordings.temperature is None:
-        raise _missing(scene, "temperature_c")
-    return np.nan_to_num(scene.recordings.temperature - REFERENCE_TEMPERATURE_C)
+    return np.nan_to_num(recorded(scene, "temperature") - REFERENCE_TEMPERATURE_C)
 
 
 def _hours(scene: Scene, start: float) -> Array:
     """Hours since ``start`` (s)."""
-    if scene.recordings.time is None:
-        raise _missing(scene, "time_s")
-    return np.nan_to_num((scene.recordings.time - start) / SECONDS_PER_HOUR)
+    return np.nan_to_num((recorded(scene, "time") - start) / SECONDS_PER_HOUR)
 
 
 def _rows(scene: Scene) -> Array:
@@ -179,9 +187,7 @@ def _rows(scene: Scene) -> Array:
 
 
 def _after_time(scene: Scene, start: float, run: str) -> Array:
-    if scene.recordings.time is None:
-        raise _missing(scene, "time_s")
-    return (scene.recordings.time >= start) & (scene.recordings.run == run)
+    return (recorded(scene, "time") >= start) & (scene.recordings.run == run)
 
 
 def _after_row(scene: Scene, first_row: float, run: str) -> Array:
@@ -234,47 +240,81 @@ def _away_from_zero(values: Array) -> Array:
     return np.where(np.abs(values) < 0.1, np.where(values < 0, -0.1, 0.1), values)
 
 
-def _missing(scene: Scene, column: str) -> InputError:
-    return InputError(
-        scene.recordings.source,
-        "line 1",
-        f"no column {column}",
-        "an effect in the model follows this column",
-        "Add it to the table.",
-    )
+@dataclass(frozen=True)
+class DriverKind:
+    """How a driver is evaluated, and all that anybody else asks about it.
+
+    Attributes:
+        values: (scene, *arguments of the driver) -> (N,) values, SI units (time in hours).
+        needs: the field of the recordings without which it can't be evaluated ("temperature"; "" for none).
+        follows: what it depends on: "load" (where the arm stands under gravity), "payload", "weight" (it is a load,
+            proportional to what hangs there), "torque" (recorded where it was), "run" (it describes a recording, not
+            the arm).
+        unit: of its values where an effect is drawn as a curve over it; "" where it is not.
+    """
+
+    values: Callable[..., Any]
+    needs: str = ""
+    follows: frozenset[str] = frozenset()
+    unit: str = ""
 
 
-KINDS: dict[str, Callable[..., Any]] = {
-    "one": _one,
-    "angle": _angle,
-    "sine": _sine,
-    "cosine": _cosine,
-    "chain sine": _chain_sine,
-    "chain cosine": _chain_cosine,
-    "chain angle": _chain_angle,
-    "payload": _payload,
-    "force": _force,
-    "torque": _torque,
-    "gravity torque": _gravity_torque,
-    "payload torque": _payload_torque,
-    "heavier": _heavier,
-    "off centre": _off_centre,
-    "regressor": _regressor,
-    "load side": _load_side,
-    "moment": _moment,
-    "bend": _bend,
-    "approach": _approach,
-    "lost motion": _lost_motion,
-    "speed": _speed,
-    "warmth": _warmth,
-    "hours": _hours,
-    "rows": _rows,
-    "after time": _after_time,
-    "after row": _after_row,
-    "in run": _in_run,
-    "on target": _on_target,
-    "on target in run": _on_target_in_run,
-    "spline": _spline,
-    "rod": _rod,
-    "rocker": _rocker,
+COLUMNS = {
+    "payload": "payload_kg",
+    "temperature": "temperature_c",
+    "time": "time_s",
+    "approach": "approach",
+    "speed": "dq_rad_s",
 }
+"""Context: field of the recordings, and the column (one per motor for the last two) that it comes from."""
+
+_LOAD = frozenset({"load", "payload"})
+_WEIGHT = _LOAD | {"weight"}
+_RUN = frozenset({"run"})
+
+KINDS: dict[str, DriverKind] = {
+    "one": DriverKind(_one),
+    "angle": DriverKind(_angle, unit="rad"),
+    "sine": DriverKind(_sine),
+    "cosine": DriverKind(_cosine),
+    "chain sine": DriverKind(_chain_sine),
+    "chain cosine": DriverKind(_chain_cosine),
+    "chain angle": DriverKind(_chain_angle),
+    "payload": DriverKind(_payload, follows=frozenset({"payload"})),
+    "force": DriverKind(_force, follows=_WEIGHT),
+    "torque": DriverKind(_torque, follows=_WEIGHT | {"torque"}, unit="N m"),
+    "gravity torque": DriverKind(_gravity_torque, follows=_WEIGHT),
+    "payload torque": DriverKind(_payload_torque, needs="payload", follows=_LOAD),
+    "heavier": DriverKind(_heavier, follows=_LOAD),
+    "off centre": DriverKind(_off_centre, follows=_LOAD),
+    "regressor": DriverKind(_regressor, follows=frozenset({"load"})),
+    "load side": DriverKind(_load_side, follows=_LOAD | {"torque"}),
+    "moment": DriverKind(_moment, follows=_WEIGHT),
+    "bend": DriverKind(_bend, follows=_WEIGHT),
+    "approach": DriverKind(_approach, needs="approach"),
+    "lost motion": DriverKind(_lost_motion, needs="approach"),
+    "speed": DriverKind(_speed, needs="speed"),
+    "warmth": DriverKind(_warmth, needs="temperature", follows=_RUN, unit="K above 20 C"),
+    "hours": DriverKind(_hours, needs="time", follows=_RUN, unit="h"),
+    "rows": DriverKind(_rows, follows=_RUN),
+    "after time": DriverKind(_after_time, needs="time", follows=_RUN),
+    "after row": DriverKind(_after_row, follows=_RUN),
+    "in run": DriverKind(_in_run, follows=_RUN),
+    "on target": DriverKind(_on_target),
+    "on target in run": DriverKind(_on_target_in_run),
+    "spline": DriverKind(_spline),
+    "rod": DriverKind(_rod),
+    "rocker": DriverKind(_rocker),
+}
+
+
+def kinds_in(driver: Driver) -> frozenset[str]:
+    """The kinds of a driver and of those that it is a function of."""
+    inner = (kinds_in(argument) for argument in driver.arguments if isinstance(argument, Driver))
+    return frozenset({driver.kind}).union(*inner)
+
+
+@functools.lru_cache(maxsize=100_000)
+def follows(what: str, driver: Driver) -> bool:
+    """Whether a driver, or one that it is a function of, depends on one of these (`DriverKind.follows`)."""
+    return any(what in KINDS[kind].follows for kind in kinds_in(driver))

@@ -12,7 +12,11 @@ from dataclasses import dataclass, field
 from numbers import Real
 from typing import TYPE_CHECKING, Literal
 
+from armscope.core.location import Location
+
 if TYPE_CHECKING:
+    from armscope.core.types import Array
+    from armscope.physics.scene import Part, Scene
     from armscope.recordings import Recordings
     from armscope.robot import Arm
 
@@ -97,26 +101,28 @@ class Placed:
         effect: its definition.
         location: where, in the words of the verdict ("joint 2", "joint 6 from joint 5").
         terms: its linear parameters.
-        shape: relative size that each term is expected to have at the tool; one number per term.
+        prior_scale: relative size that each term is expected to have at the tool; one number per term.
         driver: what it follows, in words.
         scanned: numbers that were found by scanning (periods per turn, time of a jump), with their units.
-        tried: how many values of the scanned numbers compete: the evidence pays for them.
+        multiplicity: how many values of the scanned numbers compete: the evidence pays for them.
         variant: which of several forms of the effect at this location this is.
-        reading: how the terms' values are told: "plain", or "sine" for (sine, cosine) pairs as amplitude and phase,
-            or "curve" for a free curve.
-        fine: a finer form of a curve: it does not compete, it may take the curve's place once that is chosen.
+        parametrisation: how the terms' values are told: "plain", or "sine" for (sine, cosine) pairs as amplitude and
+            phase, or "curve" for a free curve.
+        refinement: a finer form of a curve: it does not compete, it may take the curve's place once that is chosen.
+        partly_unseen: recordings may not tell some combination of its values, which then stays as wide as its prior.
     """
 
     effect: Effect
     location: str
     terms: tuple[Term, ...]
-    shape: tuple[float, ...]
+    prior_scale: tuple[float, ...]
     driver: str
     scanned: tuple[tuple[str, str, float], ...] = ()
-    tried: int = 1
+    multiplicity: int = 1
     variant: str = ""
-    reading: Literal["plain", "sine", "curve"] = "plain"
-    fine: bool = False
+    parametrisation: Literal["plain", "sine", "curve"] = "plain"
+    refinement: bool = False
+    partly_unseen: bool = False
 
     @property
     def name(self) -> str:
@@ -150,8 +156,11 @@ class Effect:
         confirm: one sentence: how to confirm it on the real arm.
         cure: one sentence: how to cure it.
         needs: context columns without which it can't be seen.
-        rests_on: family without which it does nothing: a payload's error shows through what gives way.
-        along: its one value is not negative: what gives way does so along its load.
+        requires: family without which it does nothing: a payload's error shows through what gives way.
+        nonnegative: its one value is not negative: what gives way does so along its load.
+        several: whether several of it (mesh lines, jumps, curves of different drivers) may stand at one place.
+        contained_in: free curves, by driver, that hold it as a special case at the same location.
+        exact: its motion where the terms are only the slope: (direction, amount (N,)) of a part at a scene's rows.
     """
 
     name: str
@@ -161,18 +170,13 @@ class Effect:
     confirm: str = field(compare=False)
     cure: str = field(compare=False)
     needs: tuple[str, ...] = ()
-    rests_on: str = ""
-    along: bool = False
-
-
-CONTAINED = {
-    "angle": {"joint_offset", "gear_ratio", "gear_eccentricity", "gear_mesh"},
-    "load": {"joint_compliance", "joint_offset", "backlash"},
-    "approach": {"backlash"},
-    "time": {"base_drift", "joint_offset"},
-    "temperature": {"joint_offset"},
-}
-"""What a free curve of a driver contains as special cases at the same location."""
+    requires: str = ""
+    nonnegative: bool = False
+    several: bool = False
+    contained_in: tuple[str, ...] = ()
+    exact: Callable[[Scene, Part], Iterable[tuple[Direction, Array]]] | None = field(
+        default=None, repr=False, compare=False
+    )
 
 
 def clash(one: Placed, other: Placed) -> bool:
@@ -181,20 +185,18 @@ def clash(one: Placed, other: Placed) -> bool:
     Several mesh lines or jumps can (their scanned numbers or runs differ), and curves of different drivers.
     """
     if one.name == other.name:
-        if one.name == "base_drift":
-            return True  # one base moves one way; with pauses or without is the same motion
-        several = one.tried > 2 or one.reading == "curve" or one.family == "drift"
-        return one.variant == other.variant if several else True
-    for curve, special in ((one, other), (other, one)):
-        if curve.reading == "curve" and special.name in CONTAINED.get(curve.variant, set()):
-            return special.name != "backlash" or special.variant == curve.variant
-    return False
+        return one.variant == other.variant if one.effect.several else True
+    return _contains(one, other) or _contains(other, one)
+
+
+def _contains(curve: Placed, special: Placed) -> bool:
+    """Whether a free curve holds an effect as a special case; a variant named as a driver is in that one's curve."""
+    within = special.effect.contained_in
+    if curve.parametrisation != "curve" or curve.variant not in within:
+        return False
+    return special.variant not in within or special.variant == curve.variant
 
 
 def region(placed: Placed) -> str:
-    """Where an effect stands, coarsely: base, or the number of the joint whose neighbourhood moves.
-
-    Link j of a standard D-H row lies between joints j and j+1; "joint 6 from joint 5" counts as joint 6.
-    """
-    words = placed.location.split()
-    return words[1] if words[0] in ("joint", "link") and len(words) > 1 else placed.location
+    """Where an effect stands, coarsely: base, or the number of the joint whose neighbourhood moves."""
+    return Location.of(placed.location).region

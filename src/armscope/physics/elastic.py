@@ -70,6 +70,7 @@ def _unknown_masses(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
             tuple(shape),
             f"load of joint {j}, masses unknown",
             variant=UNKNOWN_MASSES,
+            partly_unseen=True,
         )
 
 
@@ -96,7 +97,8 @@ JOINT_COMPLIANCE = Effect(
     "The joint's drive gives way about its axis in proportion to the load that gravity puts on the motor.",
     "Hang a known weight on the tool in the same pose and measure how far this joint turns.",
     "Add torque x compliance to the commanded angle, or have the controller's elastic model do it.",
-    along=True,
+    nonnegative=True,
+    contained_in=("load",),
 )
 
 
@@ -122,7 +124,7 @@ BEARING_COMPLIANCE = Effect(
     "The joint's bearing tilts across its axis under the moment that everything beyond puts on it.",
     "Hang a known weight on the outstretched arm and measure the tilt on both sides of the bearing.",
     "Preload or replace the bearing, or compensate by moment x compliance.",
-    along=True,
+    nonnegative=True,
 )
 
 
@@ -138,7 +140,7 @@ BASE_COMPLIANCE = Effect(
     "The base (pedestal, floor, bolts) tilts under the arm's moment.",
     "Put a reflector or an inclinometer on the base and swing the outstretched arm around.",
     "Stiffen the mounting, or compensate by moment x compliance.",
-    along=True,
+    nonnegative=True,
 )
 
 
@@ -165,7 +167,7 @@ LINK_BENDING = Effect(
     "The link bends like a beam under the load at its end.",
     "Put reflectors on both ends of the link and load the arm.",
     "Compensate by the beam's model, or stiffen the link.",
-    along=True,
+    nonnegative=True,
 )
 
 EFFECTS = [JOINT_COMPLIANCE, BEARING_COMPLIANCE, BASE_COMPLIANCE, LINK_BENDING]

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
@@ -39,10 +40,10 @@ def waves(recordings: Recordings) -> int:
 def refined(arm: Arm, recordings: Recordings, curve: Placed) -> Placed | None:
     """A free curve of a joint's own angle with the finest waves that a long table carries; None for other curves."""
     count = min(len(recordings) // ROWS_PER_FINE_WAVE, MOST_FINE_WAVES)
-    if curve.effect is not UNKNOWN or curve.variant != "angle" or curve.fine or count <= MOST_WAVES:
+    if curve.effect is not UNKNOWN or curve.variant != "angle" or curve.refinement or count <= MOST_WAVES:
         return None
-    j = int(curve.location.split()[1])
-    return replace(_angle_curve(arm, recordings, j, count, SMOOTH_FINE_WAVES), fine=True)
+    j = Location.of(curve.location).number
+    return replace(_angle_curve(arm, recordings, j, count, SMOOTH_FINE_WAVES), refinement=True)
 
 
 def held(curve: Placed, recordings: Recordings) -> Placed:
@@ -50,9 +51,9 @@ def held(curve: Placed, recordings: Recordings) -> Placed:
 
     There its waves would only repeat, and its trend run on. Single rows far out (a home pose) are no part of the range.
     """
-    if curve.reading != "curve" or curve.variant != "angle":
+    if curve.parametrisation != "curve" or curve.variant != "angle":
         return curve
-    low, high = _range(recordings.motor_angles[:, int(curve.location.split()[1]) - 1])
+    low, high = _range(recordings.motor_angles[:, Location.of(curve.location).number - 1])
 
     def bounded(product: Product) -> Product:
         driver = product.driver
@@ -112,7 +113,7 @@ def _load(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
         trends = len(terms) - len(bumps)
         yield _curve(f"joint {j}", terms, [1.0] * len(bumps), f"load of joint {j}", "load", trends)
         rest = _curve(f"joint {j}", bumps, [1.0] * len(bumps), f"load of joint {j}", REST_OF_LOAD)
-        yield replace(rest, fine=True)
+        yield replace(rest, refinement=True)
 
 
 def _lost_motion(recordings: Recordings) -> Iterator[Placed]:
@@ -166,7 +167,8 @@ def _curve(
         (*[1.0] * trends, *(s / total for s in shape)),
         driver,
         variant=variant,
-        reading="curve",
+        parametrisation="curve",
+        partly_unseen=True,
     )
 
 
@@ -194,6 +196,7 @@ UNKNOWN = Effect(
     "Something here follows its driver in a way that none of the library's effects explains.",
     "Measure this joint alone in fine steps over the driver's range.",
     "Correct by the fitted curve until its cause is found.",
+    several=True,
 )
 
 EFFECTS = [UNKNOWN]

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
+from armscope.core.types import Array
 from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.placing import STANDS_STILL_RAD, moving_joints
-from armscope.physics.scene import LINKAGE_JOINT
+from armscope.physics.scene import LINKAGE_JOINT, Part, Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
+from armscope.robot.parallelogram import forearm_deviation
 
 MILLIMETRE = 1e-3
 PARALLEL_RAD = 1e-2
@@ -56,6 +59,7 @@ JOINT_OFFSET = Effect(
     "The encoder's zero is off, so the joint always stands at an angle other than the commanded one.",
     "Bring the joint to its calibration mark or level its link with an inclinometer at zero and read the angle.",
     "Correct the encoder's zero (mastering) by the angle found.",
+    contained_in=("angle", "load", "time", "temperature"),
 )
 
 
@@ -122,9 +126,10 @@ def _place_wobbles(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
                 (1.0,) * 4,
                 f"angle of joint {j}",
                 scanned=(("per_turn", "1/turn", per_turn),),
-                tried=2,
+                multiplicity=2,
                 variant=str(per_turn),
-                reading="sine",
+                parametrisation="sine",
+                partly_unseen=True,  # half of a wave turns with the tool, whose offset is free, where no joint follows
             )
 
 
@@ -146,6 +151,15 @@ def _place_linkage(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     yield Placed(PARALLELOGRAM_GEOMETRY, "parallelogram", terms, (1.0, 1.0), f"angle of joint {LINKAGE_JOINT}")
 
 
+def _closed_loop(scene: Scene, part: Part) -> Iterator[tuple[Direction, Array]]:
+    """The forearm's turn with the bars' lengths in error, the loop closed exactly, rad."""
+    errors = {term.name: value for term, value in zip(part.placed.terms, part.values, strict=True)}
+    nominal = scene.linkage
+    actual = replace(nominal, rocker=nominal.rocker + errors["rocker"], rod=nominal.rod + errors["rod"])
+    turn = forearm_deviation(actual, scene.elbow_angle) - forearm_deviation(nominal, scene.elbow_angle)
+    yield Direction(f"joint {LINKAGE_JOINT}", "rz"), turn
+
+
 PARALLELOGRAM_GEOMETRY = Effect(
     "parallelogram_geometry",
     "geometric",
@@ -153,6 +167,7 @@ PARALLELOGRAM_GEOMETRY = Effect(
     "The linkage's opposite bars differ in length, so the forearm does not keep parallel to its crank.",
     "Turn motor 2 alone and watch the forearm's inclination: in a true parallelogram it does not change.",
     "Adjust the rod's length, or put the measured lengths into the controller's model.",
+    exact=_closed_loop,
 )
 
 EFFECTS = [JOINT_OFFSET, LINK_GEOMETRY, AXIS_WOBBLE, PARALLELOGRAM_GEOMETRY]

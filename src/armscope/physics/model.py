@@ -1,26 +1,20 @@
-"""The fitted model: an arm, its frames, its effects; it predicts exactly, and is a file of its own (model.yaml)."""
+"""The fitted model: an arm, its frames, its effects; it predicts exactly (`model_file` keeps it as model.yaml)."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from armscope.core.files import write_yaml
-from armscope.core.inputs import InputError, read_yaml, validate
+from armscope.core.inputs import InputError
 from armscope.core.types import Array
-from armscope.physics.effect import Driver
 from armscope.physics.frames import ToolKey
-from armscope.physics.model_file import FORMAT, ModelContent, Reader, turn
 from armscope.physics.scene import Part, Posture, Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-from armscope.robot.arm import build_arm
 
 FARTHEST_IN_REACHES, FARTHEST_TOOL_M = 3.0, 1.0
 """An arm's tool is never as far from the base: what puts it there is no model of it."""
@@ -148,78 +142,3 @@ def predict_orientation(model: FittedModel, recordings: Recordings) -> Array:
         rows = recordings.run == run
         turned[rows] = model.base_of(str(run)).rotation @ rotations[rows]
     return turned
-
-
-def save_model(path: Path | str, model: FittedModel) -> None:
-    """Write model.yaml; the robot's description is part of it (a URDF by its path)."""
-    write_yaml(
-        path,
-        {
-            "format": FORMAT,
-            "robot": model.arm.description.model_dump(mode="json", exclude_none=True),
-            "bases": {
-                run: {"rotation": base.rotation.tolist(), "translation_m": base.translation.tolist()}
-                for run, base in model.bases.items()
-            },
-            "tools": [_part_out(part) for part in model.tools],
-            "tool_turns": [
-                {"target": target, "run": run, "rotation": turn.tolist()}
-                for (target, run), turn in model.tool_turns.items()
-            ],
-            "effects": [_part_out(part) for part in model.parts],
-            "background": [_part_out(part) for part in model.background],
-        },
-    )
-
-
-def load_model(path: Path | str) -> FittedModel:
-    """Read model.yaml.
-
-    Raises:
-        InputError: it is no model of this format.
-    """
-    content = read_yaml(path)
-    if not isinstance(content, dict) or content.get("format") != FORMAT:
-        found = content.get("format", "no key format") if isinstance(content, dict) else "no mapping"
-        raise InputError(
-            path, "format", found, f"a model file says `format: {FORMAT}`", "`armscope diagnose` writes one."
-        )
-    stated = validate(ModelContent, content, path)
-    arm = build_arm(stated.robot)
-    reader = Reader(arm, path)
-    return FittedModel(
-        arm=arm,
-        bases={run: Base(turn(base.rotation), np.array(base.translation_m)) for run, base in stated.bases.items()},
-        tools=reader.parts(stated.tools, "tools"),
-        parts=reader.parts(stated.effects, "effects"),
-        background=reader.parts(stated.background, "background"),
-        tool_turns={(each.target, each.run): turn(each.rotation) for each in stated.tool_turns},
-    )
-
-
-def _part_out(part: Part) -> dict[str, Any]:
-    placed = part.placed
-    return {
-        "effect": placed.name,
-        "location": placed.location,
-        "driver": placed.driver,
-        "scanned": [{"name": name, "unit": unit, "value": value} for name, unit, value in placed.scanned],
-        "reading": placed.reading,
-        "variant": placed.variant,
-        "terms": [
-            {
-                "name": term.name,
-                "unit": term.unit,
-                "si": term.si,
-                "value": float(value),
-                "products": [
-                    [p.direction.location, p.direction.axis, p.factor, *_driver_out(p.driver)] for p in term.products
-                ],
-            }
-            for term, value in zip(placed.terms, part.values, strict=True)
-        ],
-    }
-
-
-def _driver_out(driver: Driver) -> list[Any]:
-    return [driver.kind, *[_driver_out(a) if isinstance(a, Driver) else a for a in driver.arguments]]

@@ -1,38 +1,29 @@
-"""model.yaml, typed: what a fitted model may say, so that an edited or truncated file is one clear error."""
+"""model.yaml: the fitted model as a file, its version, its JSON schema; the one place that writes and reads them."""
 
 from __future__ import annotations
 
-import inspect
-import math
-from collections.abc import Sequence
+from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import AfterValidator, BeforeValidator, Field
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
-from armscope.core.inputs import InputError, Strict, nearest
-from armscope.core.types import Array
-from armscope.physics import drivers
-from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term
-from armscope.physics.frames import BASE_FRAME, TOOL_FRAME
-from armscope.physics.geometric import BACKGROUND
-from armscope.physics.registry import EFFECTS
+from armscope.core.files import write_yaml
+from armscope.core.inputs import InputError, Strict, read_yaml, validate
+from armscope.physics.effect import Driver
+from armscope.physics.model import Base, FittedModel
+from armscope.physics.model_check import Reader
 from armscope.physics.scene import Part
-from armscope.robot import Arm
-from armscope.robot.description import RobotDescription, Vector
+from armscope.robot.arm import build_arm
+from armscope.robot.description import RobotDescription
 
-FORMAT = "armscope model 1"
+Format = Literal["armscope model 1"]
+FORMAT: Format = "armscope model 1"
 NOT_A_TURN = 1e-6
 """By which the rows of a rotation may fail to be orthonormal: more than rounding, less than any error that matters."""
 LARGEST_VALUE = 1e6
 """Of any parameter, SI: none of an arm's comes near it, and squares of larger ones overflow."""
 FARTHEST_M = 1e5
-DEEPEST_DRIVER = 4
-"""Levels of drivers of drivers."""
-
-Word = Annotated[str, Field(max_length=500)]
-Name = Annotated[Word, BeforeValidator(lambda value: str(value) if isinstance(value, int) else value)]
-Value = Annotated[float, Field(ge=-LARGEST_VALUE, le=LARGEST_VALUE)]
 
 
 def _turn(rows: tuple[Any, ...]) -> tuple[Any, ...]:
@@ -42,225 +33,158 @@ def _turn(rows: tuple[Any, ...]) -> tuple[Any, ...]:
     return rows
 
 
-Number = Annotated[float, Field(ge=-2, le=2)]
-Row = tuple[Number, Number, Number]
+Word = Annotated[str, Field(max_length=500)]
+Name = Annotated[Word, BeforeValidator(lambda value: str(value) if isinstance(value, int) else value)]
+Metres = Annotated[float, Field(ge=-FARTHEST_M, le=FARTHEST_M)]
+Vector = tuple[Metres, Metres, Metres]
+Component = Annotated[float, Field(ge=-2, le=2)]
+Row = tuple[Component, Component, Component]
 Rotation = Annotated[tuple[Row, Row, Row], AfterValidator(_turn)]
+ProductFile = Annotated[
+    list[Any],
+    Field(min_length=4),
+    WithJsonSchema(
+        {
+            "type": "array",
+            "description": "frame, axis, factor, kind of driver, its arguments (a driver again, nested, or numbers)",
+            "prefixItems": [{"type": "string"}, {"type": "string"}, {"type": "number"}, {"type": "string"}],
+            "minItems": 4,
+        }
+    ),
+]
 
 
-class BaseContent(Strict):
-    """Where the base stands in the measurement frame."""
+class BaseFile(Strict):
+    """Measurement frame from base frame: measured = rotation @ tool + translation."""
 
     rotation: Rotation
-    translation_m: Annotated[Vector, AfterValidator(lambda at: _within(at, FARTHEST_M))]
+    translation_m: Vector
 
 
-class ToolTurn(Strict):
-    """How a tool's measured frame is turned against the arm's last frame; ``run`` null: in all runs."""
+class ScannedFile(Strict):
+    """A number that was found by trying values: waves per turn, the moment of a jump."""
+
+    name: Word
+    unit: Word
+    value: int | float
+
+
+class TermFile(Strict):
+    """A linear parameter: its value in SI units, SI units per file unit, and what one SI unit of it does."""
+
+    name: Word
+    unit: Word
+    si: Annotated[float, Field(gt=0, le=1e12)]
+    value: Annotated[float, Field(ge=-LARGEST_VALUE, le=LARGEST_VALUE)]
+    products: tuple[ProductFile, ...]
+
+
+class PartFile(Strict):
+    """An effect at its place."""
+
+    effect: Word
+    location: Word
+    driver: Word
+    scanned: tuple[ScannedFile, ...]
+    reading: Literal["plain", "sine", "curve"]
+    variant: Name
+    terms: tuple[TermFile, ...]
+
+
+class ToolTurnFile(Strict):
+    """The arm's last frame from a measured tool frame; ``run`` null: in every run."""
 
     target: Name
     run: Name | None
     rotation: Rotation
 
 
-class Scanned(Strict):
-    """A number that was found by scanning."""
+class ModelFile(Strict):
+    """The content of model.yaml; the attributes of `armscope.physics.model.FittedModel`."""
 
-    name: Word
-    unit: Word
-    value: float
-
-
-class TermContent(Strict):
-    """One parameter; each product is [location, axis, factor, driver, arguments of the driver ...]."""
-
-    name: Word
-    unit: Word
-    si: Annotated[float, Field(gt=0, le=1e12)]
-    value: Value
-    products: tuple[tuple[Any, ...], ...]
-
-
-class PartContent(Strict):
-    """An effect in its place, with its parameters."""
-
-    effect: Word
-    location: Word
-    driver: Word
-    scanned: tuple[Scanned, ...]
-    reading: Literal["plain", "sine", "curve"]
-    variant: Name
-    terms: tuple[TermContent, ...]
-
-
-class ModelContent(Strict):
-    """A whole model.yaml."""
-
-    format: Literal["armscope model 1"]
+    format: Format
     robot: RobotDescription
-    bases: dict[Name, BaseContent]
-    tools: tuple[PartContent, ...]
-    tool_turns: tuple[ToolTurn, ...] = ()
-    effects: tuple[PartContent, ...]
-    background: tuple[PartContent, ...]
+    bases: dict[Name, BaseFile]
+    tools: tuple[PartFile, ...]
+    tool_turns: tuple[ToolTurnFile, ...] = ()
+    effects: tuple[PartFile, ...]
+    background: tuple[PartFile, ...]
 
 
-def _within(values: tuple[float, ...], most: float) -> tuple[float, ...]:
-    if any(abs(value) > most for value in values):
-        raise ValueError(f"no number here is beyond {most:g}")
-    return values
+def schema() -> dict[str, Any]:
+    """The JSON schema of model.yaml."""
+    return ModelFile.model_json_schema(mode="serialization")
 
 
-class Reader:
-    """Parts of a model file as parts of a model of an arm.
+def save_model(path: Path | str, model: FittedModel) -> None:
+    """Write model.yaml; the robot's description is part of it (a URDF by its path)."""
+    file = ModelFile(
+        format=FORMAT,
+        robot=model.arm.description,
+        bases={
+            run: BaseFile(rotation=base.rotation.tolist(), translation_m=base.translation.tolist())
+            for run, base in model.bases.items()
+        },
+        tools=tuple(_part_out(part) for part in model.tools),
+        tool_turns=tuple(
+            ToolTurnFile(target=target, run=run, rotation=turn.tolist())
+            for (target, run), turn in model.tool_turns.items()
+        ),
+        effects=tuple(_part_out(part) for part in model.parts),
+        background=tuple(_part_out(part) for part in model.background),
+    )
+    # the description leaves out what it does not state; elsewhere nothing is a value
+    robot = model.arm.description.model_dump(mode="json", exclude_none=True)
+    write_yaml(path, {**file.model_dump(mode="json"), "robot": robot})
 
-    Args:
-        arm: the arm.
-        source: the file, for messages.
+
+def load_model(path: Path | str) -> FittedModel:
+    """Read model.yaml.
+
+    Raises:
+        InputError: it is no model of this format.
     """
+    content = read_yaml(path)
+    if not isinstance(content, dict) or content.get("format") != FORMAT:
+        found = content.get("format", "no key format") if isinstance(content, dict) else "no mapping"
+        raise InputError(
+            path, "format", found, f"a model file says `format: {FORMAT}`", "`armscope diagnose` writes one."
+        )
+    file = validate(ModelFile, content, path)
+    reader = Reader(arm := build_arm(file.robot), path)
+    return FittedModel(
+        arm=arm,
+        bases={run: Base(np.array(base.rotation), np.array(base.translation_m)) for run, base in file.bases.items()},
+        tools=reader.parts(file.tools, "tools"),
+        parts=reader.parts(file.effects, "effects"),
+        background=reader.parts(file.background, "background"),
+        tool_turns={(turn.target, turn.run): np.array(turn.rotation) for turn in file.tool_turns},
+    )
 
-    def __init__(self, arm: Arm, source: object) -> None:
-        self.arm, self.source = arm, source
-        self._definitions: dict[str, Effect] = {
-            effect.name: effect for effect in (BASE_FRAME, TOOL_FRAME, BACKGROUND, *EFFECTS)
-        }
 
-    def parts(self, contents: Sequence[PartContent], place: str) -> tuple[Part, ...]:
-        """Parts as the file lists them under a key.
-
-        Raises:
-            InputError: an effect, a location or a driver that this arm can't have; its place is named.
-        """
-        return tuple(self._part(content, f"{place}[{number}]") for number, content in enumerate(contents))
-
-    def _part(self, content: PartContent, place: str) -> Part:
-        if content.effect not in self._definitions:
-            cure = nearest(content.effect, self._definitions)
-            raise InputError(self.source, f"{place}.effect", content.effect, "no effect of that name", cure)
-        if content.effect == "parallelogram_geometry":
-            self._check_linkage(content, place)
-        terms = tuple(
-            Term(
-                term.name,
-                term.unit,
-                term.si,
-                tuple(
-                    self._product(product, f"{place}.terms[{number}].products[{which}]")
-                    for which, product in enumerate(term.products)
+def _part_out(part: Part) -> PartFile:
+    placed = part.placed
+    return PartFile(
+        effect=placed.name,
+        location=placed.location,
+        driver=placed.driver,
+        scanned=tuple(ScannedFile(name=name, unit=unit, value=value) for name, unit, value in placed.scanned),
+        reading=placed.parametrisation,
+        variant=placed.variant,
+        terms=tuple(
+            TermFile(
+                name=term.name,
+                unit=term.unit,
+                si=term.si,
+                value=float(value),
+                products=tuple(
+                    [p.direction.location, p.direction.axis, p.factor, *_driver_out(p.driver)] for p in term.products
                 ),
             )
-            for number, term in enumerate(content.terms)
-        )
-        placed = Placed(
-            self._definitions[content.effect],
-            content.location,
-            terms,
-            (1.0,) * len(terms),
-            content.driver,
-            tuple((each.name, each.unit, each.value) for each in content.scanned),
-            variant=content.variant,
-            reading=content.reading,
-        )
-        return Part(placed, np.array([term.value for term in content.terms]))
-
-    def _check_linkage(self, content: PartContent, place: str) -> None:
-        lengths = self.arm.description.parallelogram
-        if lengths is None:
-            raise InputError(self.source, place, content.effect, "this arm has no `parallelogram`")
-        errors = {term.name: term.value for term in content.terms}
-        if set(errors) != {"rod", "rocker"}:
-            raise InputError(self.source, f"{place}.terms", sorted(errors), "its terms are rocker and rod")
-        shortest = 1e-3 * min(lengths.rod_mm, lengths.rocker_mm)
-        for name, value in errors.items():
-            if abs(value) > shortest / 2:
-                raise InputError(
-                    self.source, f"{place}.terms", f"{name} {value:g} m", "a bar's error is less than half"
-                )
-
-    def _product(self, content: tuple[Any, ...], place: str) -> Product:
-        if len(content) < 4:
-            raise InputError(self.source, place, list(content), "[location, axis, factor, driver, ...]")
-        location, axis, factor, *driver = content
-        direction = Direction(self._location(location, axis, place), axis)
-        return Product(direction, self._driver(driver, place), self._finite(factor, place))
-
-    def _location(self, location: Any, axis: Any, place: str) -> str:
-        axes = {"instrument": ("scale",), "motor": ("turn",)}
-        kind = self._frame(location, ("base", "tool", "instrument", "joint", "link", "motor"), place)
-        if axis not in axes.get(kind, AXES):
-            raise InputError(self.source, place, axis, f"at {location} the axis is one of {axes.get(kind, AXES)}")
-        return str(location)
-
-    def _frame(self, location: Any, kinds: Sequence[str], place: str) -> str:
-        """The kind of a location; it is there."""
-        counts = {"joint": self.arm.n_joints, "link": self.arm.n_joints, "motor": self.arm.n_motors}
-        kind, _, number = str(location).partition(" ")
-        known = not number if kind not in counts else number.isascii() and number.isdecimal() and number[0] != "0"
-        if kind not in kinds or not known or (kind in counts and not 1 <= int(number[:4]) <= counts[kind]):
-            rule = f"a location is {', '.join(kinds)}, with a number up to {self.arm.n_joints} where there are several"
-            raise InputError(self.source, place, location, rule)
-        return kind
-
-    def _driver(self, content: Any, place: str, depth: int = 0) -> Driver:
-        if not isinstance(content, list | tuple) or not content or depth >= DEEPEST_DRIVER:
-            raise InputError(self.source, place, content, "a driver is its kind and its arguments")
-        kind, *arguments = content
-        if not isinstance(kind, str) or kind not in drivers.KINDS:
-            cure = nearest(str(kind), drivers.KINDS)
-            raise InputError(self.source, place, kind, "no driver of that kind", cure)
-        if kind in ("rod", "rocker") and self.arm.description.parallelogram is None:
-            raise InputError(self.source, place, kind, "this arm has no `parallelogram`")
-        names = self._names(kind, len(arguments), place)
-        taken = (self._argument(kind, name, each, place, depth) for name, each in zip(names, arguments, strict=True))
-        return Driver(kind, tuple(taken))
-
-    def _names(self, kind: str, count: int, place: str) -> list[str]:
-        """What the arguments of a driver are called, by the function that evaluates it."""
-        parameters = list(inspect.signature(drivers.KINDS[kind]).parameters.values())[1:]
-        names = [each.name for each in parameters if each.kind is not inspect.Parameter.VAR_POSITIONAL]
-        required = sum(each.default is inspect.Parameter.empty for each in parameters if each.name in names)
-        counts = {len(names), required}
-        if len(names) < len(parameters):  # as many more as it may be: the ends of a range, or weights of mass moments
-            more = 2 if parameters[-1].name == "ends" else 4 * self.arm.n_joints
-            counts = {required, required + 2} if more == 2 else {required + more}
-            names += [parameters[-1].name] * more
-        if count not in counts:
-            rule = (
-                f"{kind!r} takes {' or '.join(map(str, sorted(counts)))} arguments: {', '.join(dict.fromkeys(names))}"
-            )
-            raise InputError(self.source, place, f"{count} arguments", rule)
-        return names[:count]
-
-    def _argument(self, kind: str, name: str, value: Any, place: str, depth: int) -> object:
-        """An argument of a driver by what it is called."""
-        if name in ("source", "load"):
-            return self._driver(value, place, depth + 1)
-        if name in ("run", "target"):
-            if isinstance(value, str):
-                return value
-            raise InputError(self.source, place, value, f"a {name} is a name")
-        if name == "location":
-            self._frame(value, ("base", "joint"), place)
-            return value
-        if name in ("j", "link", "axis"):
-            motors = self.arm.n_joints if kind.startswith("chain") else self.arm.n_motors
-            most = {"j": motors, "link": self.arm.n_joints, "axis": 5 if kind == "bend" else 2}
-            least = 0 if name == "axis" else 1
-            if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most[name]:
-                raise InputError(self.source, place, value, f"{name} is a whole number from {least} to {most[name]}")
-            return value
-        number = self._finite(value, place)
-        if name == "width" and number <= 0:
-            raise InputError(self.source, place, value, "a width is positive")
-        return value
-
-    def _finite(self, value: Any, place: str) -> float:
-        if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-            raise InputError(self.source, place, value, "this must be a finite number")
-        if abs(value) > drivers.LARGEST_ARGUMENT:
-            raise InputError(self.source, place, value, f"no number here is beyond {drivers.LARGEST_ARGUMENT:g}")
-        return float(value)
+            for term, value in zip(placed.terms, part.values, strict=True)
+        ),
+    )
 
 
-def turn(rotation: Rotation) -> Array:
-    """A rotation (3, 3) as an array."""
-    return np.array(rotation, dtype=float)
+def _driver_out(driver: Driver) -> list[Any]:
+    return [driver.kind, *[_driver_out(a) if isinstance(a, Driver) else a for a in driver.arguments]]

@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from armscope.physics.drivers import follows
 from armscope.physics.effect import Driver, Effect, Placed, Product, Term
 from armscope.physics.elastic import UNKNOWN_MASSES
 from armscope.physics.scene import Part
 from armscope.recordings import Recordings
-
-LOADS = ("torque", "gravity torque", "moment", "bend")
-"""Drivers that a payload changes; recorded torques hold the true payload already."""
 
 
 def payload_errors(recordings: Recordings, elastic: Sequence[Part]) -> Iterator[Placed]:
@@ -40,10 +38,10 @@ def payload_errors(recordings: Recordings, elastic: Sequence[Part]) -> Iterator[
 
 
 def _givings(part: Part) -> Iterator[Product]:
-    """What gives way in a part, times how much."""
+    """What gives way in a part, times how much; recorded torques hold the true payload already."""
     for value, term in zip(part.values, part.placed.terms, strict=True):
         for product in term.products:
-            if product.driver.kind in LOADS and value != 0:
+            if follows("weight", product.driver) and value != 0:
                 yield Product(product.direction, product.driver, product.factor * float(value))
 
 
@@ -68,7 +66,7 @@ PAYLOAD_ERROR = Effect(
     "Weigh the tool and its load, and find its centre of mass by hanging it from two points.",
     "Correct the payload's data in the controller.",
     needs=("payload_kg",),
-    rests_on="elastic",
+    requires="elastic",
 )
 
 EFFECTS = [PAYLOAD_ERROR]

@@ -7,7 +7,6 @@ gives way, once more where the arm stands with that: what is left is of third or
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable, Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass, field, replace
@@ -15,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics import drivers
 from armscope.physics.effect import AXES, Direction, Driver, Placed, Term
@@ -23,7 +23,7 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain, twist_jacobian
 from armscope.robot.gravity import gravity_wrenches
 from armscope.robot.kinematics import joint_axes, joint_jacobian, turn_jacobian
-from armscope.robot.parallelogram import Linkage, forearm_deviation
+from armscope.robot.parallelogram import Linkage
 
 LINKAGE_JOINT = 3
 """The chain joint that a parallelogram drives."""
@@ -74,7 +74,7 @@ class Scene:
 
     def driver(self, driver: Driver) -> Array:
         """Values (N,) of a driver."""
-        if self._rigid is not None and not follows_load(driver):
+        if self._rigid is not None and not drivers.follows("load", driver):
             return self._rigid.driver(driver)
         values: Array = self.remember(driver, lambda: drivers.evaluate(self, driver))
         return values
@@ -134,10 +134,9 @@ class Scene:
 
         def compute() -> Array:
             force, moment = self.wrenches
-            kind, _, number = location.partition(" ")
-            if kind == "base":
+            if location == "base":
                 return moment[:, 0] + np.cross(self.loaded.joint_origin[:, 0], force[:, 0])
-            j = int(number) - 1
+            j = Location.of(location).index
             return np.einsum("nba,nb->na", self.loaded.joint_rotation[:, j], moment[:, j])
 
         values: Array = self.remember(("moment", location), compute)
@@ -148,10 +147,9 @@ class Scene:
 
         def compute() -> Array:
             force, _ = self.wrenches
-            kind, _, number = location.partition(" ")
-            j = 0 if kind == "base" else int(number) - 1
-            if kind == "base":
+            if location == "base":
                 return force[:, 0]
+            j = Location.of(location).index
             return np.einsum("nba,nb->na", self.loaded.joint_rotation[:, j], force[:, j])
 
         values: Array = self.remember(("force", location), compute)
@@ -227,8 +225,9 @@ class Scene:
             amounts[direction] = amounts[direction] + amount if direction in amounts else amount
 
         for part in parts:
-            if part.placed.name == "parallelogram_geometry":
-                add(Direction(f"joint {LINKAGE_JOINT}", "rz"), self._closed_loop(part))
+            if part.placed.effect.exact is not None:
+                for direction, amount in part.placed.effect.exact(self, part):
+                    add(direction, amount)
                 continue
             for value, term in zip(part.values, part.placed.terms, strict=True):
                 for product in term.products if value else ():
@@ -241,25 +240,12 @@ class Scene:
 
     def _moved_by(self, direction: Direction) -> Iterator[tuple[str, int, float]]:
         """The frames that move in a direction, the axes along or about which they do, and by how much."""
-        if direction.location.startswith("motor"):
-            j = int(direction.location.split()[1]) - 1
-            for joint in np.flatnonzero(self.arm.actuation[:, j]):
-                yield f"joint {joint + 1}", AXES.index("rz"), float(self.arm.actuation[joint, j])
+        place = Location.of(direction.location)
+        if place.kind == "motor":
+            for joint in np.flatnonzero(self.arm.actuation[:, place.index]):
+                yield f"joint {joint + 1}", AXES.index("rz"), float(self.arm.actuation[joint, place.index])
         elif direction.location != "instrument":
             yield direction.location, AXES.index(direction.axis), 1.0
-
-    def _closed_loop(self, part: Part) -> Array:
-        """The forearm's turn with the bars' lengths in error, the loop closed exactly, rad."""
-        errors = {term.name: value for term, value in zip(part.placed.terms, part.values, strict=True)}
-        nominal = self.linkage
-        actual = Linkage(
-            nominal.crank,
-            nominal.rocker + errors["rocker"],
-            nominal.rod + errors["rod"],
-            nominal.upper_arm,
-            nominal.crank_angle,
-        )
-        return forearm_deviation(actual, self.elbow_angle) - forearm_deviation(nominal, self.elbow_angle)
 
     def stretch(self, parts: Sequence[Part]) -> float:
         """The instrument's scale error of all parts together."""
@@ -290,24 +276,12 @@ class Scene:
 
 FARTHEST_M = 0.2
 """An arm that a fit on its way bends farther than this is loaded as if it were rigid."""
-LOADS = frozenset(
-    {"torque", "gravity torque", "payload torque", "load side", "regressor", "moment", "force", "bend"}
-    | {"heavier", "off centre"}
-)
-"""Drivers that depend on where the arm stands."""
-
-
-@functools.lru_cache(maxsize=100_000)
-def follows_load(driver: Driver) -> bool:
-    """Whether a driver is a load, or a function of one."""
-    inner = (argument for argument in driver.arguments if isinstance(argument, Driver))
-    return driver.kind in LOADS or any(follows_load(argument) for argument in inner)
 
 
 def _gives_way(part: Part) -> bool:
     """Whether a part follows a load and is there at all."""
     return bool(np.any(part.values)) and any(
-        follows_load(product.driver) for term in part.placed.terms for product in term.products
+        drivers.follows("load", product.driver) for term in part.placed.terms for product in term.products
     )
 
 
@@ -346,7 +320,7 @@ class Posture:
         """Each direction at a location, the tool point's displacement and the tool's turn per unit of it."""
         if location == "instrument":
             yield Direction(location, "scale"), self.frames.tool, np.zeros_like(self.frames.tool)
-        elif location.startswith("motor"):
+        elif Location.of(location).kind == "motor":
             by_motor = joint_jacobian(self.frames) @ self.scene.arm.actuation
             turned = joint_axes(self.frames) @ self.scene.arm.actuation
             for j in range(by_motor.shape[2]):

@@ -39,16 +39,17 @@ GEAR_RATIO = Effect(
     "The joint turns by a little more or less than commanded, in proportion to the angle.",
     "Turn the joint alone by a large angle and back and measure the angle turned with the tracker.",
     "Correct the gear ratio (or the belt's or encoder's scale) in the controller.",
+    contained_in=("angle",),
 )
 
 
 def _place_eccentricities(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     for j in moving_joints(recordings):
         for per_turn in (1, 2):
-            yield _cyclic(GEAR_ECCENTRICITY, j, per_turn, tried=2)
+            yield _cyclic(GEAR_ECCENTRICITY, j, per_turn, multiplicity=2)
 
 
-def _cyclic(effect: Effect, j: int, per_turn: int, tried: int) -> Placed:
+def _cyclic(effect: Effect, j: int, per_turn: int, multiplicity: int) -> Placed:
     return Placed(
         effect,
         f"joint {j}",
@@ -56,9 +57,9 @@ def _cyclic(effect: Effect, j: int, per_turn: int, tried: int) -> Placed:
         (1.0, 1.0),
         f"angle of joint {j}",
         scanned=(("per_turn", "1/turn", per_turn),),
-        tried=tried,
+        multiplicity=multiplicity,
         variant=str(per_turn),
-        reading="sine",
+        parametrisation="sine",
     )
 
 
@@ -69,12 +70,13 @@ GEAR_ECCENTRICITY = Effect(
     "A gear or the encoder's disc sits off its centre, so the angle error repeats once or twice per joint turn.",
     "Turn the joint alone in steps of 10 degrees over a full turn and look for one or two waves.",
     "Re-centre the encoder disc or gear, or store the fitted wave as a correction table.",
+    contained_in=("angle",),
 )
 
 
 def mesh(j: int, per_turn: int) -> Placed:
     """A gear mesh error of motor j with ``per_turn`` periods per joint turn."""
-    return _cyclic(GEAR_MESH, j, per_turn, tried=len(MESH_COUNTS))
+    return _cyclic(GEAR_MESH, j, per_turn, multiplicity=len(MESH_COUNTS))
 
 
 GEAR_MESH = Effect(
@@ -84,6 +86,8 @@ GEAR_MESH = Effect(
     "The teeth of a gear stage engage unevenly, so the angle error repeats many times per joint turn.",
     "Turn the joint alone in steps much finer than the period found and look for the wave.",
     "Compare the period with the gear stages' tooth counts; replace the stage, or store the wave as a correction.",
+    several=True,
+    contained_in=("angle",),
 )
 
 
@@ -110,6 +114,7 @@ BACKLASH = Effect(
     "The gear has play: the joint rests on one flank or the other, by the side it came from or gravity pushes it to.",
     "Approach one pose from both sides of this joint and compare.",
     "Adjust or preload the gear; until then always approach from the same side.",
+    contained_in=("load", "approach"),
 )
 
 

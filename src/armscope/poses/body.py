@@ -49,7 +49,17 @@ class Shape:
 
 
 def pieces(arm: Arm, frames: Chain, shapes: list[Shape], radius: float) -> list[Piece]:
-    """The body at some poses: the shapes and the tool, or the centre line where there are no shapes."""
+    """The body at some poses: the shapes and the tool, or the centre line where there are no shapes.
+
+    Args:
+        arm: the arm.
+        frames: its frames at N poses.
+        shapes: capsules fixed to its links; none: the centre line stands for the body.
+        radius: of the centre line and of the tool, m.
+
+    Returns:
+        Capsules with ends (N, 3) in the base frame, m.
+    """
     lines = centre_lines(arm, frames)
     if not shapes:
         return _along(lines, radius)

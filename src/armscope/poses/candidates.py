@@ -43,6 +43,16 @@ def candidates(arm: Arm, count: int, around: Surroundings, seed: int, payload_kg
 
     Each is tried from a random side of every joint, and every other one (at random) with the payload.
 
+    Args:
+        arm: the arm; its joint limits bound the poses.
+        count: how many.
+        around: floor, tracker, body: what refuses a pose.
+        seed: of the sequence and of the context.
+        payload_kg: carried in every other row.
+
+    Returns:
+        The poses with their context, how many were drawn for them, and how many each reason refused.
+
     Raises:
         InputError: hardly any pose is possible.
     """
@@ -68,7 +78,16 @@ def candidates(arm: Arm, count: int, around: Surroundings, seed: int, payload_kg
 
 
 def pose_rows(angles: Array, rng: np.random.Generator, payload_kg: float = 0.0) -> Recordings:
-    """Rows to be measured, with the context that effects may follow: side of approach and payload."""
+    """Rows to be measured, with the context that effects may follow: side of approach and payload.
+
+    Args:
+        angles: (N, m) rad.
+        rng: draws side of approach and payload.
+        payload_kg: carried in every other row, on average.
+
+    Returns:
+        N rows without positions.
+    """
     count, none = len(angles), np.full(len(angles), "")
     approach = rng.choice([-1.0, 1.0], angles.shape)
     payload = np.where(rng.random(count) < 0.5, payload_kg, 0.0) if payload_kg > 0 else None
@@ -82,6 +101,19 @@ def grid(arm: Arm, count: int, around: Surroundings, rng: np.random.Generator, p
     """``count`` possible poses of a regular grid over the ranges, the coarsest that has so many, drawn from it.
 
     Three steps per joint at least: two cannot tell a turn from a shift of the link beyond.
+
+    Args:
+        arm: the arm; its joint limits bound the grid.
+        count: how many.
+        around: what refuses a pose.
+        rng: draws ``count`` of the grid's possible poses, and their context.
+        payload_kg: carried in every other row, on average.
+
+    Returns:
+        The rows, without positions.
+
+    Raises:
+        InputError: no grid of reasonable size has so many possible poses.
     """
     low, high = ranges(arm)
     levels = 3

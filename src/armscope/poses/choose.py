@@ -65,6 +65,20 @@ def choose(
 ) -> Choice:
     """The ``count`` possible poses that show some effects best, by an observability index (O1 is D-optimality).
 
+    Args:
+        arm: the nominal arm.
+        count: how many poses.
+        around: what refuses a pose; None: only the joint limits and the arm's own body.
+        effects: names of the vocabulary, or `shown.GEOMETRY`.
+        index: O1 ... O5, see `armscope.design.indices`.
+        n_candidates: possible poses to choose from.
+        payload_kg: carried in every other candidate.
+        seed: of candidates and starts.
+        starts: local optima to compare.
+
+    Returns:
+        The chosen rows in an order that makes the way short, the candidates, and the parameters that they show.
+
     Raises:
         InputError: too few possible poses, too few poses for the parameters, or effects that poses cannot show.
     """
@@ -80,7 +94,16 @@ def choose(
 
 
 def by_other_criteria(choice: Choice, seed: int = 0, starts: int = 3) -> dict[str, Recordings]:
-    """As many of the same candidates chosen by each of the other indices: name of the index -> poses."""
+    """As many of the same candidates chosen by each of the other indices: name of the index -> poses.
+
+    Args:
+        choice: whose candidates are taken.
+        seed: of the starts.
+        starts: local optima to compare.
+
+    Returns:
+        Rows by the name of the index.
+    """
     table = choice.candidates.table
     rows = {
         index: optimal(index, choice.jacobian, len(choice.rows), np.random.default_rng(seed), starts)
@@ -97,7 +120,19 @@ def random_choice(choice: Choice, rng: np.random.Generator) -> Recordings:
 
 
 def grid_choice(choice: Choice, rng: np.random.Generator, payload_kg: float = 0.0) -> Recordings:
-    """As many possible poses of a grid."""
+    """As many possible poses of a grid.
+
+    Args:
+        choice: whose arm, surroundings and count are taken.
+        rng: draws the poses from the grid.
+        payload_kg: carried in every other row, on average.
+
+    Returns:
+        The rows, without positions.
+
+    Raises:
+        InputError: as `candidates.grid`.
+    """
     return grid(choice.shown.arm, len(choice.rows), choice.around, rng, payload_kg)
 
 

@@ -91,7 +91,16 @@ def summary(table: pd.DataFrame) -> dict[str, dict[str, float]]:
 
 
 def share_won(table: pd.DataFrame, column: str, against: str) -> float:
-    """The share of seeds in which the chosen poses' error is the smaller one; the arm and its noise are the same."""
+    """The share of seeds in which the chosen poses' error is the smaller one; the arm and its noise are the same.
+
+    Args:
+        table: one row per seed and set of poses, with columns seed and set.
+        column: which error.
+        against: the set that the chosen one is compared with.
+
+    Returns:
+        The share, 0 ... 1.
+    """
     by_seed = table.pivot(index="seed", columns="set", values=column)
     return float(np.mean(by_seed["chosen"] < by_seed[against]))
 
@@ -106,7 +115,16 @@ def _fitted(seen: Shown, poses: Recordings, measured: Array) -> Array:
 
 
 def predicted_errors(choice: Choice, noise: float, sets: Mapping[str, Recordings]) -> pd.DataFrame:
-    """1-sigma of every parameter by linear theory, sigma^2 (J'J)^-1, natural units: one row per parameter."""
+    """1-sigma of every parameter by linear theory, sigma^2 (J'J)^-1, natural units: one row per parameter.
+
+    Args:
+        choice: whose parameters are asked for.
+        noise: 1-sigma per axis, m.
+        sets: poses by name.
+
+    Returns:
+        A row per parameter with a column ``sd_NAME`` per set; frames are left out.
+    """
     seen = choice.shown
     table = pd.DataFrame({"parameter": seen.names, "unit": [term.unit for _, term in seen.terms]})
     for kind, poses in sets.items():

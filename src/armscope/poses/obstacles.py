@@ -65,7 +65,16 @@ REASONS = ("hits itself", "hits the floor", "out of the tracker's sight")
 
 
 def refusals(arm: Arm, motor_angles: Array, around: Surroundings) -> NDArray[np.str_]:
-    """(N,) one of `REASONS`, or "" for poses (N, m) rad that are possible."""
+    """(N,) one of `REASONS`, or "" for poses (N, m) rad that are possible.
+
+    Args:
+        arm: the arm.
+        motor_angles: (N, m) rad.
+        around: floor, tracker, body.
+
+    Returns:
+        (N,) texts.
+    """
     low, high = ranges(arm)
     probes = low + qmc.Halton(arm.n_motors, scramble=False).random(PROBES) * (high - low)
     frames = chain(arm, np.concatenate([probes, motor_angles]))
@@ -115,7 +124,15 @@ def _hidden(body: list[Piece], tool: Array, tracker: Array, radius: float) -> ND
 
 
 def segment_distance(start: Array, end: Array, other_start: Array, other_end: Array) -> Array:
-    """(N,) shortest distance of N segments from N others, all ends (N, 3); after Ericson (2005), section 5.1.9."""
+    """(N,) shortest distance of N segments from N others, all ends (N, 3); after Ericson (2005), section 5.1.9.
+
+    Args:
+        start, end: (N, 3) ends of the segments.
+        other_start, other_end: (N, 3) ends of the others.
+
+    Returns:
+        (N,) distances in the unit of the ends.
+    """
     along, across = end - start, other_end - other_start
     between = start - other_start
     a, e = (np.maximum(np.sum(each**2, axis=1), 1e-18) for each in (along, across))

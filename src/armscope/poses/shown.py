@@ -11,6 +11,7 @@ import scipy.linalg
 from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError, nearest
+from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import AXES, ONE, Placed, Term
@@ -84,6 +85,9 @@ def shown(arm: Arm, table: Recordings, effects: Sequence[str] = (GEOMETRY,)) -> 
         table: candidate poses with the context that effects follow.
         effects: names of the vocabulary, or `GEOMETRY`.
 
+    Returns:
+        The parameters with their natural sizes, and the names of those that the poses don't tell apart.
+
     Raises:
         InputError: an unknown name, or an effect that poses alone cannot show.
     """
@@ -114,7 +118,7 @@ def _placed(arm: Arm, table: Recordings, effects: Sequence[str]) -> list[Placed]
             continue
         if name not in known:
             raise InputError("--effects", "", name, "no effect of this name", nearest(name, {*known, GEOMETRY}))
-        here = [each for each in everywhere if each.name == name and not each.fine]
+        here = [each for each in everywhere if each.name == name and not each.refinement]
         first = {each.location: each for each in reversed(here)}  # one form of it per location
         if not here:
             needs = ", ".join(known[name].needs)
@@ -131,7 +135,7 @@ def _tier(placed: Placed) -> int:
     """Order of preference where parameters imitate each other: frames, then zeros of motors, which a user can set."""
     if placed.family == "frame":
         return 0
-    return 1 if placed.family == "geometric" and placed.location.startswith("joint") else 2
+    return 1 if placed.family == "geometric" and Location.of(placed.location).kind == "joint" else 2
 
 
 def _told_apart(columns: Array, tiers: NDArray[np.intp]) -> NDArray[np.bool_]:

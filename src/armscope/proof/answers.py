@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 
-from armscope.core.files import read_json, read_table
-from armscope.core.inputs import InputError, mapping
+from armscope.core.files import read_table
 from armscope.proof.definitions import Name
+from armscope.verdict.files import VERDICT, read_verdict
+from armscope.verdict.schema import FoundEffect
 
-VERDICT, PREDICTED, FAILURE, TIMES = "verdict.json", "test_predicted.csv", "failed.txt", "times.csv"
-WHAT = "verdict.json of a diagnosis"
+PREDICTED, FAILURE, TIMES = "test_predicted.csv", "failed.txt", "times.csv"
 
 
 @dataclass(frozen=True)
@@ -59,40 +58,28 @@ def read_answer(folder: Path) -> Answer:
     failure = folder / FAILURE
     if failure.is_file():
         return Answer(folder.name, failed=failure.read_text(encoding="utf-8").strip())
-    path = folder / VERDICT
-    content = mapping(read_json(path, WHAT), path, WHAT)
-    try:
-        return _answer(folder, content)
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
-        missing = f"no {error}" if isinstance(error, KeyError) else str(error)
-        raise InputError(path, "", missing, f"this is not {WHAT}", "Was the file edited?") from error
-
-
-def _answer(folder: Path, content: dict[str, Any]) -> Answer:
+    verdict = read_verdict(folder / VERDICT)
     return Answer(
         world=folder.name,
-        claims=tuple(_claim(effect) for effect in content["effects"]),
-        mismatch=content["mismatch"],
-        answer=content["answer"],
-        noise_mm=float("nan") if content["noise_mm"] is None else content["noise_mm"],
-        headline=content["headline"],
-        background_mm=float(content.get("background", {}).get("rms_at_tool_mm") or 0.0),
+        claims=tuple(_claim(effect) for effect in verdict.effects),
+        mismatch=verdict.mismatch,
+        answer=verdict.answer,
+        noise_mm=verdict.noise_mm,
+        headline=verdict.headline,
+        background_mm=verdict.background.rms_at_tool_mm,
         predicted=read_table(folder / PREDICTED),
     )
 
 
-def _claim(content: dict[str, Any]) -> Claim:
+def _claim(effect: FoundEffect) -> Claim:
     return Claim(
-        effect=content["effect"],
-        location=content["location"],
-        driver=content["driver"],
-        minor=content["minor"],
-        named_as=content["named_as"],
-        rms_mm=content["rms_at_tool_mm"],
-        evidence_nats=content["evidence_nats"],
-        parameters={
-            p["name"]: (p["value"], float("nan") if p["stderr"] is None else p["stderr"], p["unit"])
-            for p in content["parameters"]
-        },
-        alternatives=tuple((a["effect"], a["location"]) for a in content["alternatives"]),
+        effect=effect.effect,
+        location=effect.location,
+        driver=effect.driver,
+        minor=effect.minor,
+        named_as=effect.named_as,
+        rms_mm=effect.rms_at_tool_mm,
+        evidence_nats=effect.evidence_nats,
+        parameters={p.name: (p.value, p.stderr, p.unit) for p in effect.parameters},
+        alternatives=tuple((other.effect, other.location) for other in effect.alternatives),
     )

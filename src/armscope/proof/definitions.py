@@ -57,6 +57,8 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
+from armscope.core.location import Location
+
 Name = tuple[str, str]
 
 CLEAR_STRENGTH = 2.95
@@ -74,8 +76,7 @@ SEEDS = ("fixed", "fresh", "all")
 
 def place(location: str) -> str:
     """Where along the arm: joint 2, link 2 and "joint 2 from joint 1" are one place."""
-    words = location.split()
-    return words[1] if len(words) > 1 and words[0] in ("joint", "link") else location
+    return Location.of(location).region
 
 
 @dataclass(frozen=True)
@@ -136,7 +137,17 @@ THRESHOLD_AIM = (0.0, 1.25)
 
 
 def judged(cases: int, estimate: float, low: float, high: float, aim: tuple[float, float]) -> str:
-    """ "met", "open", "not met" or "too few cases" for an estimate with an interval, against the aim's bounds."""
+    """ "met", "open", "not met" or "too few cases" for an estimate with an interval, against the aim's bounds.
+
+    Args:
+        cases: how many; too few are not judged.
+        estimate: of the share or ratio.
+        low, high: its 95 % interval.
+        aim: least and most that are aimed at.
+
+    Returns:
+        One of the four.
+    """
     if cases < FEWEST_CASES or not np.isfinite(estimate):
         return "too few cases"
     least, most = aim

@@ -35,6 +35,9 @@ def compare(truth: Concealed, claims: Sequence[Claim], times: pd.Series | None) 
         truth: the concealed effect.
         claims: every claim of that name (several waves or jumps); the one whose scanned number is nearest is taken.
         times: recorded `time_s` (a jump is right if no recorded row lies between the true and the found time).
+
+    Returns:
+        One per number of the effect: true, claimed, standard error, and whether the interval holds it.
     """
     true = {name: value for name, (value, _) in truth.parameters.items()}
     claim = min(claims, key=lambda claim: _scanned_apart(true, claim))

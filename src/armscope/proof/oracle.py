@@ -21,6 +21,15 @@ def power(noncentrality: float, columns: int, rows: int, frame_numbers: int) -> 
 
     The oracle fits free frames of ``frame_numbers`` numbers, too, those of any diagnosis: a base (6) in each run that
     the table tells apart, and a tool point (3).
+
+    Args:
+        noncentrality: the effect's squared size in units of the noise.
+        columns: its numbers.
+        rows: measured points, of three coordinates each.
+        frame_numbers: free numbers of base and tool.
+
+    Returns:
+        The chance, 0 ... 1.
     """
     freedom = 3 * rows - frame_numbers - columns
     critical = f.isf(FALSE_ALARMS_OF_ORACLE, columns, freedom)
@@ -28,12 +37,32 @@ def power(noncentrality: float, columns: int, rows: int, frame_numbers: int) -> 
 
 
 def reliable_noncentrality(columns: int, rows: int, frame_numbers: int, share: float = RELIABLE) -> float:
-    """The noncentrality at which the oracle finds the effect in that ``share`` of cases."""
+    """The noncentrality at which the oracle finds the effect in that ``share`` of cases.
+
+    Args:
+        columns: the effect's numbers.
+        rows: measured points.
+        frame_numbers: free numbers of base and tool.
+        share: of cases, 0 ... 1.
+
+    Returns:
+        The noncentrality.
+    """
     return float(brentq(lambda value: power(value, columns, rows, frame_numbers) - share, 1e-3, 1e3))
 
 
 def size_in_thresholds(noncentrality: float, columns: int, rows: int, frame_numbers: int) -> float:
-    """An effect's size in multiples of the size at which the oracle finds it in nine of ten cases."""
+    """An effect's size in multiples of the size at which the oracle finds it in nine of ten cases.
+
+    Args:
+        noncentrality: the effect's squared size in units of the noise.
+        columns: its numbers.
+        rows: measured points.
+        frame_numbers: free numbers of base and tool.
+
+    Returns:
+        1 where the oracle just finds it reliably.
+    """
     return float(np.sqrt(noncentrality / reliable_noncentrality(columns, rows, frame_numbers)))
 
 
@@ -55,6 +84,9 @@ def threshold(size: Array, found: NDArray[np.bool_], share: float, rng: np.rando
         found: (K,) whether each was found.
         share: where to read it off, 0 ... 1.
         rng: of the bootstrap over cases.
+
+    Returns:
+        The size with its 95 % interval, and how many cases it rests on.
     """
     if len(size) < 10 or found.all() or not found.any():
         return Threshold(float("nan"), float("nan"), float("nan"), len(size))

@@ -92,7 +92,17 @@ def _powered(effects: pd.DataFrame) -> pd.DataFrame:
 
 
 def detection_threshold(effects: pd.DataFrame, column: str, share: float, rng: np.random.Generator) -> Threshold:
-    """Where on the scale of the oracle's thresholds that share is found."""
+    """Where on the scale of the oracle's thresholds that share is found.
+
+    Args:
+        effects: one row per concealed effect, as `scoring` writes them.
+        column: which finding counts.
+        share: where to read it off, 0 ... 1.
+        rng: of the bootstrap over cases.
+
+    Returns:
+        The size in multiples of the oracle's threshold.
+    """
     chosen = _powered(effects)
     return threshold(
         chosen["size_in_thresholds"].to_numpy(dtype=float), chosen[column].to_numpy(dtype=bool), share, rng

@@ -148,7 +148,16 @@ def held_out_ratio(truth: Truth, answer: Answer) -> float:
 
 
 def outside_outcome(truth: Truth, answer: Answer, claims: Sequence[Claim]) -> str:
-    """How a world outside the library was answered; see `definitions`."""
+    """How a world outside the library was answered; see `definitions`.
+
+    Args:
+        truth: what the world concealed.
+        answer: the diagnosis's.
+        claims: the effects that it names.
+
+    Returns:
+        The outcome's name.
+    """
     matches, left = match(truth.effects, claims)
     where = {place(effect.location) for effect in truth.story}
     names = [claim for claim in left if claim.effect != UNKNOWN]

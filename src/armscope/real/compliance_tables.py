@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 from scipy.stats import t as t_distribution
 
+from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.real.compliances import BLOCKS, Agreement, Give, compare, fit_give
 from armscope.real.reference import ReferenceCompliances, rows_of_run
@@ -47,6 +48,12 @@ def compare_runs(
     tell: Callable[[str], None] = lambda text: None,
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """What every run says of the joints asked for, and which runs agree: from points alone, and from orientations, too.
+
+    Args:
+        arm: the nominal arm, with masses.
+        recordings: all runs of a set.
+        reference: which runs and joints are asked for.
+        tell: hears what is being done.
 
     Returns:
         Compliances: learned, run, of (joint, or the combination that all runs tell best), value, stderr, low, high,
@@ -93,7 +100,7 @@ def _value_rows(
     for name, direction in (of | {in_words(best, n_motors): best}).items():
         for run, each in found.items():
             value, stderr = _along(each, direction)
-            known = reference.microrad_per_nm.get(int(name.split()[1])) if name in of else None
+            known = reference.microrad_per_nm.get(Location.of(name).number) if name in of else None
             yield {
                 "run": run,
                 "of": name,

@@ -23,13 +23,14 @@ import numpy as np
 from scipy.stats import f as f_distribution
 
 from armscope.check.preconditions import check_table, with_orientations
+from armscope.core.location import Location
 from armscope.core.types import Array
-from armscope.fitting.linearisation import accumulate, missed
+from armscope.fitting.linearisation import missed, normal_equations_by_block
 from armscope.fitting.model_space import Pool, pool
 from armscope.fitting.refit import moved_frames
 from armscope.fitting.registration import fit_frames
 from armscope.inference.evidence import TOLERANCE
-from armscope.inference.normal_equations import Gram, total
+from armscope.inference.normal_equations import NormalEquations, total
 from armscope.measurement import robust
 from armscope.measurement.row_weights import RowNoise
 from armscope.physics import elastic, geometric
@@ -96,6 +97,9 @@ def fit_give(arm: Arm, recordings: Recordings, run: str) -> Give:
         arm: the nominal arm, with masses.
         recordings: rows with recorded torques; their orientations are used where they were measured.
         run: what to call them.
+
+    Returns:
+        Compliances, rad/(N m), with covariances; the noise and masses that they were fitted with.
     """
     table = check_table(arm, recordings).recordings
     tool_per_run = len(np.unique(table.run)) > 1
@@ -112,7 +116,7 @@ def fit_give(arm: Arm, recordings: Recordings, run: str) -> Give:
     blocks, noise = _settled(parts, model, small, table, precision)
     mean, posterior, covariance = _jackknifed(blocks, noise, precision)
     at = np.concatenate([parts.of(placed) for placed in (*drives, *bearings)])
-    joint = [int(placed.location.split()[1]) - 1 for placed in (*drives, *bearings)]
+    joint = [Location.of(placed.location).index for placed in (*drives, *bearings)]
     number = np.array(joint) + arm.n_motors * (np.arange(len(joint)) >= len(drives))
 
     def of_all(matrix: Array) -> Array:
@@ -166,7 +170,7 @@ def _precision(parts: Pool) -> Array:
 
 def _settled(
     parts: Pool, model: FittedModel, small: Sequence[Placed], table: Recordings, precision: Array
-) -> tuple[list[Gram], float]:
+) -> tuple[list[NormalEquations], float]:
     """Sums over each block of rows where the exact fit settles, and the noise there (mm): Gauss-Newton, robust."""
     rows = RowNoise(np.ones(len(table)), np.ones(len(table)))
     block = np.arange(len(table)) * BLOCKS // len(table)
@@ -174,7 +178,7 @@ def _settled(
     left = missed(model, table)
     values, noise = np.zeros(len(parts.terms)), robust.scale_of(left.shift)
     for _ in range(STEPS):
-        blocks = accumulate(parts, model, table, rows.weighed(left, 0.0), block)
+        blocks = normal_equations_by_block(parts, model, table, rows.weights(left, 0.0), block)
         gram = total(blocks)
         covariance = _inverse(gram.G / noise**2 + np.diag(precision))
         before, values = values, covariance @ gram.b / noise**2
@@ -185,7 +189,7 @@ def _settled(
         inner = np.concatenate(parts.background)
         if np.all(np.abs(values - before)[inner] < SETTLED * np.sqrt(np.diag(covariance))[inner]):
             break
-    return accumulate(parts, model, table, rows.weighed(left, 0.0), block), noise
+    return normal_equations_by_block(parts, model, table, rows.weights(left, 0.0), block), noise
 
 
 def _at(parts: Pool, model: FittedModel, values: Array) -> FittedModel:
@@ -193,7 +197,7 @@ def _at(parts: Pool, model: FittedModel, values: Array) -> FittedModel:
     return replace(moved, background=tuple(Part(p.placed, values[parts.of(p.placed)]) for p in model.background))
 
 
-def _jackknifed(blocks: Sequence[Gram], noise: float, precision: Array) -> tuple[Array, Array, Array]:
+def _jackknifed(blocks: Sequence[NormalEquations], noise: float, precision: Array) -> tuple[Array, Array, Array]:
     """Posterior mean, posterior covariance if the model were true, and with the rows' part as the blocks scatter.
 
     Without block b the mean is theta_b; the rows' part is (B-1)/B sum (theta_b - mean)(theta_b - mean)' (Tukey 1958).

@@ -80,7 +80,7 @@ def turned_by_curves(model: FittedModel, rows: Recordings) -> Recordings | None:
 
 
 def _follows_own_angle(part: Part) -> bool:
-    return part.placed.reading == "curve" and part.placed.driver == f"angle of {part.placed.location}"
+    return part.placed.parametrisation == "curve" and part.placed.driver == f"angle of {part.placed.location}"
 
 
 def curve_table(verdicts: Mapping[str, Verdict]) -> pd.DataFrame:

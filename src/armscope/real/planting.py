@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.real.staging import Stage
 from armscope.world.catalogue import KINDS
@@ -101,7 +102,7 @@ class Theatre:
         columns = self._frames
         train = np.concatenate([3 * self.stage.train + axis for axis in range(3)])
         step = np.linalg.lstsq(columns[train], moved.ravel()[train], rcond=None)[0]
-        return moved - (columns @ step).reshape(-1, 3)
+        return np.asarray(moved - (columns @ step).reshape(-1, 3))
 
     @property
     def _frames(self) -> Array:
@@ -150,6 +151,9 @@ def plant(
         level: what the arm leaves unexplained, RMS per axis, m.
         rng: draws place and numbers.
 
+    Yields:
+        The recordings with the effect in them, and the truth, size by size.
+
     Raises:
         CannotPlantError: the recordings have no place where this effect could be seen.
     """
@@ -186,9 +190,9 @@ def _places(theatre: Theatre, kind: Kind) -> list[str]:
     for place in kind.places(stage.arm.description):
         if kind.driver == LOAD and load[number(place)] <= LEAST_TORQUE * load.max():
             continue
-        if place.startswith("joint") and kind.driver != LOAD and not moves[number(place)]:
+        if Location.of(place).kind == "joint" and kind.driver != LOAD and not moves[number(place)]:
             continue
-        if " from " in place and not moves[second_number(place)]:
+        if Location.of(place).source and not moves[second_number(place)]:
             continue
         found.append(place)
     if not found:

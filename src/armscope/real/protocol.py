@@ -18,7 +18,7 @@ import pandas as pd
 from armscope.calibration import held_out
 from armscope.calibration.splits import split
 from armscope.core.types import Array
-from armscope.diagnosis import Settings, Verdict, diagnose
+from armscope.diagnosis import Diagnosis, Settings, diagnose
 from armscope.errormodels import PAPER_MODELS, fit_least_squares
 from armscope.paper.printed import IDENTIFICATION
 from armscope.paper.real import real_measurements
@@ -63,6 +63,9 @@ def measure_run(
         diagnosed_splits: on how many of the splits the diagnosis is repeated; None takes all.
         oriented_splits: on how many of these it is repeated with orientations, too; None takes all.
         tell: hears what is being done.
+
+    Returns:
+        Held-out errors by model and split, mm, and what was named on each split.
     """
     table = rows_of_run(recordings, reference.run, reference.first_id)
     seeds = range(reference.splits)
@@ -92,13 +95,13 @@ def measure_run(
     return Measured(pd.DataFrame(rows), pd.DataFrame(names, columns=columns))
 
 
-def rms_distance_mm(verdict: Verdict, recordings: Recordings) -> float:
+def rms_distance_mm(verdict: Diagnosis, recordings: Recordings) -> float:
     """RMS of the 3D distance between what a diagnosis predicts and what was measured, mm."""
     missed = predict(verdict.model, recordings) - recordings.positions
     return 1e3 * float(np.sqrt(np.mean(np.sum(missed**2, axis=1))))
 
 
-def rms_turn_mrad(verdict: Verdict, recordings: Recordings) -> float:
+def rms_turn_mrad(verdict: Diagnosis, recordings: Recordings) -> float:
     """RMS of the angle between predicted and measured orientations, mrad; NaN where the diagnosis learned none."""
     if not verdict.model.tool_turns:
         return float("nan")
@@ -106,7 +109,7 @@ def rms_turn_mrad(verdict: Verdict, recordings: Recordings) -> float:
     return 1e3 * float(np.sqrt(np.nanmean(np.sum(turns**2, axis=1))))
 
 
-def named(verdict: Verdict) -> list[dict[str, object]]:
+def named(verdict: Diagnosis) -> list[dict[str, object]]:
     """The effects of a verdict as rows."""
     return [
         {
@@ -123,7 +126,16 @@ def named(verdict: Verdict) -> list[dict[str, object]]:
 
 
 def paper_models(arm: Arm, table: Recordings, seed: int = 0) -> list[dict[str, object]]:
-    """The paper's models at 85 identification rows, by least squares: rows of model, split, train, test, rms_mm."""
+    """The paper's models at 85 identification rows, by least squares: rows of model, split, train, test, rms_mm.
+
+    Args:
+        arm: the nominal arm.
+        table: rows of one run.
+        seed: of the split.
+
+    Returns:
+        One dictionary per model and split.
+    """
     sets = {each.name: each for each in real_measurements(arm, table, seed, PAPER_ROWS).measurements.sets}
     train, test = sets.pop(IDENTIFICATION), next(iter(sets.values()))
     found: list[tuple[str, Array]] = [(UNCORRECTED, test.errors_mm[0])]

@@ -109,6 +109,14 @@ def load_reference(path: Path | str) -> Reference:
 def rows_of_run(recordings: Recordings, run: str, first_id: int | None = None) -> Recordings:
     """The rows of a run, from an id on.
 
+    Args:
+        recordings: all runs of a set.
+        run: which.
+        first_id: the first row's id; None takes all.
+
+    Returns:
+        The rows.
+
     Raises:
         InputError: there are none.
     """

@@ -15,6 +15,7 @@ import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation
 
+from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics import elastic, geometric, transmission
 from armscope.physics.model import Base, FittedModel, predict, predict_orientation
@@ -48,7 +49,16 @@ class Drawn:
 
 
 def draw(arm: Arm, rows: Recordings, rng: np.random.Generator) -> Drawn:
-    """An arm that is a little wrong everywhere; joints that move in ``rows`` have waves."""
+    """An arm that is a little wrong everywhere; joints that move in ``rows`` have waves.
+
+    Args:
+        arm: the nominal arm.
+        rows: whose joints' motions are followed.
+        rng: draws its faults.
+
+    Returns:
+        Compliances of drives and bearings, rad/(N m), and all other effects.
+    """
     drives, bearings = rng.uniform(*DRIVES, arm.n_motors), rng.uniform(*BEARINGS, arm.n_joints)
     normal = [(geometric.background(arm), GEOMETRY), (transmission.GEAR_ECCENTRICITY.place(arm, rows), WAVE)]
     normal += [(geometric.AXIS_WOBBLE.place(arm, rows), WOBBLE)]
@@ -68,7 +78,18 @@ def draw(arm: Arm, rows: Recordings, rng: np.random.Generator) -> Drawn:
 
 
 def record(arm: Arm, rows: Recordings, drawn: Drawn, softer: float, rng: np.random.Generator) -> Recordings:
-    """``rows`` as a drawn arm gives them, its compliances ``softer`` times as large."""
+    """``rows`` as a drawn arm gives them, its compliances ``softer`` times as large.
+
+    Args:
+        arm: the nominal arm.
+        rows: angles, torques and context.
+        drawn: the arm's faults.
+        softer: factor of its compliances.
+        rng: draws the noise.
+
+    Returns:
+        Rows with points, orientations and torques as that arm gives them.
+    """
     heavy = as_heavy_as_recorded(arm, rows)[0]
     assert rows.torque is not None
     torque = gravity_as_recorded(arm, rows)
@@ -76,7 +97,7 @@ def record(arm: Arm, rows: Recordings, drawn: Drawn, softer: float, rng: np.rand
     # the sensors' errors of one row come with another, so that nobody can know them
     recorded = torque + rng.permutation(rows.torque - torque)
     give = [
-        Part(placed, np.array([softer * compliances[int(placed.location.split()[1]) - 1]]))
+        Part(placed, np.array([softer * compliances[Location.of(placed.location).index]]))
         for effect, compliances in (
             (elastic.JOINT_COMPLIANCE, drawn.drives),
             (elastic.BEARING_COMPLIANCE, drawn.bearings),
@@ -97,6 +118,13 @@ def record(arm: Arm, rows: Recordings, drawn: Drawn, softer: float, rng: np.rand
 
 def rehearse(arm: Arm, one: Recordings, other: Recordings, joints: Sequence[int], arms: int, seed: int) -> pd.DataFrame:
     """Drawn arms recorded in two runs and compared.
+
+    Args:
+        arm: the nominal arm.
+        one, other: the runs whose angles and torques are taken.
+        joints: which compliances are compared.
+        arms: how many are drawn.
+        seed: of the drawing.
 
     Returns:
         A row per kind of the other run's arm: arm, arms, agree (how many), numbers, held (joints' intervals in both
@@ -123,7 +151,18 @@ def rehearse(arm: Arm, one: Recordings, other: Recordings, joints: Sequence[int]
 def rehearse_runs(
     arm: Arm, recordings: Recordings, reference: ReferenceCompliances, arms: int, seed: int
 ) -> pd.DataFrame:
-    """`rehearse` at the first two runs' angles and torques: from points alone, and from orientations, too."""
+    """`rehearse` at the first two runs' angles and torques: from points alone, and from orientations, too.
+
+    Args:
+        arm: the nominal arm.
+        recordings: all runs of a set.
+        reference: which runs and joints are asked for.
+        arms: how many are drawn.
+        seed: of the drawing.
+
+    Returns:
+        As `rehearse`, with what was learned from and the two runs.
+    """
     one, other = reference.runs[:2]
     found = []
     for learned in (POINTS, ORIENTATIONS) if recordings.orientation is not None else (POINTS,):

@@ -194,7 +194,7 @@ def _changed(claim: Claim, truth: Concealed, content: dict[str, Any], before: Se
         if name in claim.parameters and name in same[0].parameters:
             step = claim.parameters[name][0] - same[0].parameters[name][0]
             return step / planted >= CHANGED_SHARE
-    return abs(claim.rms_mm**2 - same[0].rms_mm ** 2) >= (CHANGED_SHARE * content["rms_mm"]) ** 2
+    return bool(abs(claim.rms_mm**2 - same[0].rms_mm ** 2) >= (CHANGED_SHARE * content["rms_mm"]) ** 2)
 
 
 def _scanned(claim: Claim) -> tuple[float, ...]:

@@ -59,7 +59,16 @@ class Stage:
 
 
 def of_run(table: pd.DataFrame, run: str | None, first_id: int | None) -> pd.DataFrame:
-    """A run's rows, from an id on; all rows where nothing is asked for."""
+    """A run's rows, from an id on; all rows where nothing is asked for.
+
+    Args:
+        table: as in the file.
+        run: which; None takes all.
+        first_id: the first row's id; None takes all.
+
+    Returns:
+        The rows, numbered from 0.
+    """
     if run is not None:
         table = table[table["run"] == run]
     if first_id is not None:
@@ -81,6 +90,9 @@ def stage(arm: Arm, table: pd.DataFrame, most_rows: int, source: str = "table") 
         table: the rows as in the file.
         most_rows: larger tables are thinned.
         source: the table's name, for messages.
+
+    Returns:
+        The rows and what the virtual worlds' engine needs of them.
 
     Raises:
         InputError: the arm is that of a URDF, which the virtual worlds' engine does not read.

@@ -12,7 +12,7 @@ from armscope.calibration.fit import least_squares, placed, rms_distance
 from armscope.calibration.held_out import held_out
 from armscope.calibration.model import LEVELS, Level, SetUp, State, set_up
 from armscope.calibration.solve import Priors, solve
-from armscope.diagnosis import Settings, Verdict, diagnose
+from armscope.diagnosis import Diagnosis, Settings, diagnose
 from armscope.fitting.transfer import transfer as carry_over
 from armscope.real.curves import turned_by_curves
 from armscope.real.protocol import ARMSCOPE
@@ -29,7 +29,16 @@ SPLITS, MOST_ROWS = (0, 1, 2), 3000
 
 
 def calibrated_transfer(arm: Arm, recordings: Recordings, transfer: ReferenceTransfer) -> dict[str, float]:
-    """RMS of the 3D distance (mm) on all rows of another run, by what was learned: a level, or compliances alone."""
+    """RMS of the 3D distance (mm) on all rows of another run, by what was learned: a level, or compliances alone.
+
+    Args:
+        arm: the nominal arm.
+        recordings: all runs of a set.
+        transfer: which run is learned on, and which is predicted.
+
+    Returns:
+        mm by level.
+    """
     learned = set_up(arm, rows_of_run(recordings, transfer.learned))
     applied = _of_kind(learned, set_up(arm, rows_of_run(recordings, transfer.applied)))
     start = placed(learned)
@@ -45,8 +54,17 @@ def calibrated_transfer(arm: Arm, recordings: Recordings, transfer: ReferenceTra
     return found
 
 
-def diagnosed_transfer(learned: Verdict, rows: Recordings, transfer: ReferenceTransfer) -> dict[str, float]:
-    """RMS of the 3D distance (mm) on the other run of a whole verdict's model, and of its elastic part alone."""
+def diagnosed_transfer(learned: Diagnosis, rows: Recordings, transfer: ReferenceTransfer) -> dict[str, float]:
+    """RMS of the 3D distance (mm) on the other run of a whole verdict's model, and of its elastic part alone.
+
+    Args:
+        learned: the verdict on the run that was learned on.
+        rows: of the other run.
+        transfer: which runs.
+
+    Returns:
+        mm by model.
+    """
     if "tool" not in transfer.refitted:
         known = [part.placed.variant for part in learned.model.tools]
         rows = replace(rows, target=np.where(np.isin(rows.target, known), rows.target, known[0]))
@@ -57,11 +75,19 @@ def diagnosed_transfer(learned: Verdict, rows: Recordings, transfer: ReferenceTr
     return found
 
 
-def curves_transfer(arm: Arm, learned: Verdict, rows: Recordings) -> dict[str, float]:
+def curves_transfer(arm: Arm, learned: Diagnosis, rows: Recordings) -> dict[str, float]:
     """Held-out RMS of the 3D distance (mm) on the other run with its own geometry, without and with learned curves.
 
     A curve and the geometry beside which it was learned imitate each other in part, so curves are judged beside a
     geometry that is fitted where they are used.
+
+    Args:
+        arm: the nominal arm.
+        learned: the verdict on the run that was learned on.
+        rows: of the other run.
+
+    Returns:
+        mm by model.
     """
     turned = turned_by_curves(learned.model, rows)
     if turned is None:
@@ -72,8 +98,17 @@ def curves_transfer(arm: Arm, learned: Verdict, rows: Recordings) -> dict[str, f
     return found
 
 
-def learn(arm: Arm, recordings: Recordings, transfers: Sequence[ReferenceTransfer]) -> dict[str, Verdict]:
-    """The verdict of every run that something is learned on: from points alone, as what stands beside it."""
+def learn(arm: Arm, recordings: Recordings, transfers: Sequence[ReferenceTransfer]) -> dict[str, Diagnosis]:
+    """The verdict of every run that something is learned on: from points alone, as what stands beside it.
+
+    Args:
+        arm: the nominal arm.
+        recordings: all runs of a set.
+        transfers: which runs are asked for.
+
+    Returns:
+        Verdicts by run.
+    """
     settings = Settings(resamples=0, cross_validation=False, orientation=False)
     runs = dict.fromkeys(transfer.learned for transfer in transfers)
     return {run: diagnose(arm, rows_of_run(recordings, run), settings) for run in runs}
@@ -83,10 +118,21 @@ def measure_transfers(
     arm: Arm,
     recordings: Recordings,
     transfers: Sequence[ReferenceTransfer],
-    verdicts: Mapping[str, Verdict],
+    verdicts: Mapping[str, Diagnosis],
     tell: Callable[[str], None] = lambda text: None,
 ) -> list[tuple[ReferenceTransfer, dict[str, float]]]:
-    """RMS of the 3D distance (mm) on rows of the other run, by model; ``verdicts`` as `learn` gives them."""
+    """RMS of the 3D distance (mm) on rows of the other run, by model; ``verdicts`` as `learn` gives them.
+
+    Args:
+        arm: the nominal arm.
+        recordings: all runs of a set.
+        transfers: which runs are asked for.
+        verdicts: by run.
+        tell: hears what is being done.
+
+    Returns:
+        Each transfer with mm by model.
+    """
     found = []
     for transfer in transfers:
         rows = rows_of_run(recordings, transfer.applied)

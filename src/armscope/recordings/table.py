@@ -93,7 +93,7 @@ class Recordings:
     @property
     def n_motors(self) -> int:
         """Number of motor angles per row."""
-        return self.motor_angles.shape[1]
+        return int(self.motor_angles.shape[1])
 
     def rows(self, which: NDArray[np.bool_] | NDArray[np.intp] | slice) -> Recordings:
         """The recordings of some rows, in that order."""

@@ -60,7 +60,10 @@ def embed(figure: Path | str, alt: str = "") -> Markup:
 
 
 def html_table(rows: pd.DataFrame, digits: int = 3) -> Markup:
-    """A table as HTML: numbers right, with ``digits`` significant digits, text left, a dash for nothing."""
+    """A table as HTML: numbers right, with ``digits`` significant digits, text left, a dash for nothing.
+
+    Names and words come from users' files: whatever they hold is shown, never obeyed.
+    """
     text = [name for name in rows.columns if not pd.api.types.is_numeric_dtype(rows[name])]
 
     def shown(value: Any) -> str:
@@ -68,7 +71,8 @@ def html_table(rows: pd.DataFrame, digits: int = 3) -> Markup:
 
     left: Any = {name: [{"selector": "th, td", "props": "text-align: left; white-space: normal"}] for name in text}
     same_for_same_rows = f"{zlib.crc32(rows.to_csv().encode()):08x}"
-    styler = Styler(rows, uuid=same_for_same_rows, cell_ids=False).hide(axis="index").format(shown, na_rep="–")
+    styler = Styler(rows, uuid=same_for_same_rows, cell_ids=False).hide(axis="index")
+    styler = styler.format(shown, na_rep="–", escape="html").format_index(axis="columns", escape="html")
     html = styler.set_table_styles(left, overwrite=False).to_html()
     return Markup('<div class="scroll">{}</div>').format(Markup(html))
 

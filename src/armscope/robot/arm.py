@@ -62,7 +62,7 @@ class Arm:
     @property
     def n_motors(self) -> int:
         """Number of motor angles."""
-        return self.actuation.shape[1]
+        return int(self.actuation.shape[1])
 
     @property
     def joint_names(self) -> tuple[str, ...]:
@@ -180,7 +180,7 @@ def _actuation_matrix(description: RobotDescription, n_joints: int) -> Array:
 def _limits(description: RobotDescription, model: pin.Model) -> Array:
     n_motors = description.n_motors(model.njoints - 1)
     if description.joint_limits_deg is not None:
-        return np.radians(np.array(description.joint_limits_deg))
+        return np.asarray(np.radians(description.joint_limits_deg))
     limits = np.tile([-np.inf, np.inf], (n_motors, 1))
     if description.urdf is None:
         return limits

@@ -20,6 +20,9 @@ def gravity_wrenches(arm: Arm, frames: Chain, payload: Array | None = None) -> t
         arm: the arm; a tool load counts with the last link.
         frames: its frames at N poses.
         payload: (N,) kg, a point mass at the tool point; None or NaN counts as none.
+
+    Returns:
+        Force, N, and moment, N m, both (N, n, 3), in base axes at each joint's origin.
     """
     n_poses, n_joints = frames.joint_origin.shape[:2]
     weights = np.broadcast_to(arm.masses[:, None] * arm.gravity, (n_poses, n_joints, 3))
@@ -34,9 +37,18 @@ def gravity_wrenches(arm: Arm, frames: Chain, payload: Array | None = None) -> t
 
 
 def gravity_torques(arm: Arm, frames: Chain, payload: Array | None = None) -> Array:
-    """(N, m) torque of gravity on each motor, N m, positive along its angle: virtual work through `actuation`."""
+    """(N, m) torque of gravity on each motor, N m, positive along its angle: virtual work through `actuation`.
+
+    Args:
+        arm: the arm; a tool load counts with the last link.
+        frames: its frames at N poses.
+        payload: (N,) kg, a point mass at the tool point; None or NaN counts as none.
+
+    Returns:
+        (N, m) torques, N m.
+    """
     _, moment = gravity_wrenches(arm, frames, payload)
-    return np.einsum("nji,nji->nj", frames.joint_rotation[..., 2], moment) @ arm.actuation
+    return np.asarray(np.einsum("nji,nji->nj", frames.joint_rotation[..., 2], moment) @ arm.actuation)
 
 
 def mass_moment_regressor(arm: Arm, frames: Chain) -> Array:
@@ -55,14 +67,14 @@ def mass_moment_regressor(arm: Arm, frames: Chain) -> Array:
         torque[:, : link + 1, link, 0] = np.sum(axes[:, : link + 1] * np.cross(lever, arm.gravity), axis=2)
         by_moment = np.cross(np.swapaxes(turned[:, link], 1, 2), arm.gravity)
         torque[:, : link + 1, link, 1:] = np.einsum("nji,nki->njk", axes[:, : link + 1], by_moment)
-    return np.einsum("njkp,jm->nmkp", torque, arm.actuation).reshape(n_poses, arm.n_motors, 4 * n_joints)
+    return np.asarray(np.einsum("njkp,jm->nmkp", torque, arm.actuation).reshape(n_poses, arm.n_motors, 4 * n_joints))
 
 
 def _centres_of_mass(arm: Arm, frames: Chain) -> Array:
     """(N, n, 3) in base axes, m."""
     behind_inverse = np.swapaxes(arm.behind[:, :3, :3], 1, 2)
     in_link = np.einsum("jab,jb->ja", behind_inverse, arm.centres - arm.behind[:, :3, 3])
-    return frames.link_origin + np.einsum("njab,jb->nja", frames.link_rotation, in_link)
+    return np.asarray(frames.link_origin + np.einsum("njab,jb->nja", frames.link_rotation, in_link))
 
 
 def _beyond(per_link: Array) -> Array:

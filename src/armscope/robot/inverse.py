@@ -84,6 +84,8 @@ def follow_path(
 ) -> PathSolution:
     """Motor angles that bring the nominal tool point along ``targets``, each as near as possible to the one before.
 
+    Rows that can't be reached are skipped: the path goes on from the last point that was.
+
     Args:
         arm: the arm.
         targets: (N, 3) in the base frame, m.
@@ -91,7 +93,8 @@ def follow_path(
         held: motors that keep an angle (rad), by their number from 1.
         largest_step: rad; a larger motion of any motor between neighbours is a jump (the way to the first is free).
 
-    Rows that can't be reached are skipped: the path goes on from the last point that was.
+    Returns:
+        Angles (N, m), rad, NaN where a row can't be reached, with the reason of each such row.
     """
     targets = np.atleast_2d(np.asarray(targets, dtype=float))
     held = dict(held or {})

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.robot.arm import Arm
 
@@ -37,12 +38,12 @@ class Chain:
 
     def frame(self, location: str) -> tuple[Array, Array]:
         """Rotation (N, 3, 3) and origin (N, 3) of the frame at "base", "joint j", "link j" or "tool"."""
-        kind, _, number = location.partition(" ")
-        if kind == "joint":
-            return self.joint_rotation[:, int(number) - 1], self.joint_origin[:, int(number) - 1]
-        if kind == "link":
-            return self.link_rotation[:, int(number) - 1], self.link_origin[:, int(number) - 1]
-        if kind == "tool":
+        place = Location.of(location)
+        if place.kind == "joint":
+            return self.joint_rotation[:, place.index], self.joint_origin[:, place.index]
+        if place.kind == "link":
+            return self.link_rotation[:, place.index], self.link_origin[:, place.index]
+        if place.kind == "tool":
             return self.tool_rotation, self.tool
         return np.broadcast_to(np.eye(3), self.tool_rotation.shape), np.zeros_like(self.tool)
 
@@ -54,6 +55,9 @@ def chain(arm: Arm, motor_angles: Array, twists: Twists | None = None) -> Chain:
         arm: the arm.
         motor_angles: (N, m) rad.
         twists: small twists by location ("base", "joint j", "link j", "tool"), each (6,) or (N, 6).
+
+    Returns:
+        Rotations and origins of every joint's and link's frame, and the tool point, in the base frame, m.
     """
     twists = twists or {}
     angles = np.atleast_2d(motor_angles) @ arm.actuation.T
@@ -82,7 +86,16 @@ def chain(arm: Arm, motor_angles: Array, twists: Twists | None = None) -> Chain:
 
 
 def forward_kinematics(arm: Arm, motor_angles: Array, twists: Twists | None = None) -> Array:
-    """Tool points (N, 3), m, in the base frame, at motor angles (N, m) rad."""
+    """Tool points (N, 3), m, in the base frame, at motor angles (N, m) rad.
+
+    Args:
+        arm: the arm.
+        motor_angles: (N, m) rad.
+        twists: small twists by location, m and rad, as for `chain`.
+
+    Returns:
+        (N, 3) tool points in the base frame, m.
+    """
     return chain(arm, motor_angles, twists).tool
 
 

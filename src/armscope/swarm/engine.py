@@ -46,6 +46,9 @@ def minimise(
         chunk: how many swarms are computed side by side; None: as many as a processor's cache holds. The result does
             not depend on it.
 
+    Returns:
+        Best positions and fitness by swarm, their history, and why each stopped.
+
     Raises:
         ValueError: bounds that are not finite, that are in the wrong order, or that do not fit the generators; an
             objective that returns another shape.
@@ -66,6 +69,13 @@ def minimise(
 
 def checked_box(lower: ArrayLike, upper: ArrayLike, swarms: int) -> tuple[Array, Array]:
     """The search box of each swarm, S x D, checked.
+
+    Args:
+        lower, upper: the search box, D or S x D.
+        swarms: S.
+
+    Returns:
+        Lower and upper bounds, each S x D.
 
     Raises:
         ValueError: as `minimise` says.

@@ -43,7 +43,17 @@ def run_kernel(
     generators: Sequence[np.random.Generator],
     settings: SwarmSettings,
 ) -> SwarmResult:
-    """What `minimise` does for ``problems.mean_squares``. Bounds are S x D; the generators must be SFC64."""
+    """What `minimise` does for ``problems.mean_squares``. Bounds are S x D; the generators must be SFC64.
+
+    Args:
+        problems: S problems.
+        lower, upper: S x D, checked.
+        generators: S SFC64 generators; each is advanced by the numbers that its swarm drew.
+        settings: see `SwarmSettings`; the threshold is of the mean square.
+
+    Returns:
+        As `minimise`.
+    """
     swarms, dimensions = problems.targets.shape
     count, clamp = settings.iterations, settings.velocity_clamp
     given = Problems(

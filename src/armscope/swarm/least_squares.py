@@ -73,7 +73,7 @@ class LeastSquares:
             gaps -= self.targets[swarms, None, :]
         squares = np.einsum("spd,spd->sp", gaps, gaps)
         squares += self.rests[swarms, None]
-        return squares
+        return np.asarray(squares)
 
 
 def minimise_least_squares(
@@ -93,6 +93,9 @@ def minimise_least_squares(
         settings: see `SwarmSettings`.
         engine: "numba" (needs SFC64 generators), "numpy", or "auto": numba where it can be used. Both follow the same
             trajectories up to rounding.
+
+    Returns:
+        As `minimise`, the fitness being the RMS residual.
 
     Raises:
         ValueError: as `minimise`; an unknown engine, or one that cannot be used here.

@@ -17,7 +17,7 @@ def global_best(best_fitness: NDArray[np.float64]) -> NDArray[np.intp]:
     Returns:
         Its index, swarms x 1; of equal ones the first.
     """
-    return np.argmin(best_fitness, axis=1)[:, None]
+    return np.asarray(np.argmin(best_fitness, axis=1)[:, None])
 
 
 def ring_best(best_fitness: NDArray[np.float64]) -> NDArray[np.intp]:
@@ -33,7 +33,7 @@ def ring_best(best_fitness: NDArray[np.float64]) -> NDArray[np.intp]:
     itself = np.arange(count)
     candidates = np.stack([itself, (itself - 1) % count, (itself + 1) % count])
     chosen = np.argmin(best_fitness[:, candidates], axis=1)
-    return candidates[chosen, itself]
+    return np.asarray(candidates[chosen, itself])
 
 
 NEIGHBOURHOODS: dict[str, Callable[[NDArray[np.float64]], NDArray[np.intp]]] = {

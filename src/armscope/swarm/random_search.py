@@ -23,6 +23,15 @@ def random_search(
 
     The points come in rounds of ``settings.particles``, so that its history stands beside a swarm's. Arguments, result
     and errors as `minimise`; update rule, neighbourhood and clamp have no meaning here, the threshold has.
+
+    Args:
+        objective: see `Objective`.
+        lower, upper: the box, D or S x D for S generators.
+        generators: one for each search.
+        settings: how many points, and the threshold.
+
+    Returns:
+        The best point of each search, with its history by rounds.
     """
     settings = settings or SwarmSettings()
     low, high = checked_box(lower, upper, len(generators))

@@ -47,6 +47,9 @@ def velocity_update(
         coefficients: w, c1 and c2.
         speed_limit: the largest |v(t+1)| allowed in each dimension; None allows any.
         out: where to put the result, which saves memory traffic; it may be ``velocities``.
+
+    Returns:
+        v(t+1), shaped as ``positions``; it is ``out`` where that was given.
     """
     updated = np.multiply(velocities, coefficients.inertia, out=out)
     pull = personal_bests - positions

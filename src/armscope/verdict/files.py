@@ -7,9 +7,11 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from armscope.core.files import write_json, write_table
-from armscope.physics.model import save_model
-from armscope.verdict.schema import Atlas, Verdict
+from armscope.core.files import read_json, write_json, write_table
+from armscope.physics.model_file import save_model
+from armscope.verdict.schema import Atlas, Diagnosis, Verdict
+
+VERDICT = "verdict.json"
 
 FILES = (
     "verdict.json", "model.yaml", "predicted.csv", "suspects.csv", "next_poses.csv", "curves.csv", "atlas.csv",
@@ -17,14 +19,23 @@ FILES = (
 """All that `write_verdict` may write."""
 
 
-def write_verdict(verdict: Verdict, folder: Path | str) -> None:
+def read_verdict(path: Path | str) -> Verdict:
+    """Read verdict.json.
+
+    Raises:
+        InputError: it is none, or of another version.
+    """
+    return Verdict.from_json(read_json(path, "verdict.json of a diagnosis"), path)
+
+
+def write_verdict(verdict: Diagnosis, folder: Path | str) -> None:
     """Write everything that `armscope diagnose` leaves behind, but the report page.
 
     verdict.json, model.yaml, predicted.csv (measured and predicted points), suspects.csv, and, where they exist,
     next_poses.csv, curves.csv, atlas.csv.
     """
     folder = Path(folder)
-    write_json(folder / "verdict.json", verdict.to_json())
+    write_json(folder / VERDICT, verdict.to_json())
     save_model(folder / "model.yaml", verdict.model)
     write_table(folder / "predicted.csv", predicted_table(verdict))
     suspects = pd.DataFrame([vars(row) for row in verdict.suspects], columns=["id", "run", "residual_mm", "weight"])
@@ -37,7 +48,7 @@ def write_verdict(verdict: Verdict, folder: Path | str) -> None:
         write_table(folder / "atlas.csv", atlas_table(verdict.atlas))
 
 
-def predicted_table(verdict: Verdict) -> pd.DataFrame:
+def predicted_table(verdict: Diagnosis) -> pd.DataFrame:
     """Per row: predicted tool point in the measurement frame and the residuals before and after, mm."""
     rows = verdict.residuals
     points = rows.points - rows.after
@@ -52,7 +63,7 @@ def predicted_table(verdict: Verdict) -> pd.DataFrame:
     return table
 
 
-def next_poses_table(verdict: Verdict) -> pd.DataFrame:
+def next_poses_table(verdict: Diagnosis) -> pd.DataFrame:
     """Poses to measure next, ready to be commanded, the most telling first."""
     poses = verdict.next_poses
     assert poses is not None
@@ -62,7 +73,7 @@ def next_poses_table(verdict: Verdict) -> pd.DataFrame:
     return table
 
 
-def curves_table(verdict: Verdict) -> pd.DataFrame:
+def curves_table(verdict: Diagnosis) -> pd.DataFrame:
     """Every effect's curve over its driver, one row per point."""
     pieces = [
         pd.DataFrame(

@@ -1,17 +1,18 @@
-"""What a diagnosis says: plain data, everything that a report draws, and verdict.json's contract.
+"""What a diagnosis says: plain data.
 
-A report needs nothing but a `Verdict`. Units stand in the names (mm, rad, nats); arrays are NumPy arrays. Effects stand
-in order of `rms_at_tool_mm`; those with ``minor`` true are apart from the story. ``mismatch`` is None where the
-recordings cannot tell. What the verdict must not hide stands in ``notices``.
+A `Verdict` is what verdict.json holds, both ways (`armscope.verdict.contract` has the file's names); a `Diagnosis` is a
+verdict with what only lives in memory: the arrays that a report draws, the fitted model. Units stand in the names (mm,
+rad, nats); arrays are NumPy arrays.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import BeforeValidator, WithJsonSchema
 
 from armscope.core.types import Array
 from armscope.physics.model import FittedModel
@@ -19,6 +20,12 @@ from armscope.physics.model import FittedModel
 Specific = Literal["effect", "region", "family"]
 TOGETHER = "together"
 Answer = Literal["nothing missing", "explained", "partly explained", "cannot tell"]
+Number = Annotated[
+    float,
+    BeforeValidator(lambda value: np.nan if value is None else value),
+    WithJsonSchema({"anyOf": [{"type": "number"}, {"type": "null"}]}),
+]
+"""A number that may not be known: NaN, null in a file."""
 INTERVAL = 1.959964
 """Half width of a 95 % interval in standard errors."""
 
@@ -45,7 +52,7 @@ class Alternative:
     effect: str
     location: str
     family: str
-    evidence_gap_nats: float
+    evidence_gap_nats: Number
     driver: str
 
 
@@ -81,9 +88,10 @@ class FoundEffect:
         alternatives: what could stand in its place, nearest first.
         inclusion: how often it, or one of its alternatives at the same place, is chosen when rows are resampled
             (0 ... 1); None where resampling was switched off.
-        curve: its shape over the driver, where it has one.
-        physics, confirm, cure: one sentence each.
         carries_over: what is known about it on other runs, payloads or regions; empty where that was not tested.
+        description: the shape of its curve in words; empty where it has none.
+        curve: its shape over the driver, where it has one. Lives in memory (and in curves.csv) only.
+        physics, confirm, cure: one sentence each, the definition's; not in verdict.json.
     """
 
     effect: str
@@ -99,11 +107,16 @@ class FoundEffect:
     evidence_nats: float
     alternatives: tuple[Alternative, ...]
     inclusion: float | None
-    curve: Curve | None
-    physics: str
-    confirm: str
-    cure: str
+    curve: Curve | None = None
+    physics: str = ""
+    confirm: str = ""
+    cure: str = ""
     carries_over: str = ""
+    description: str = ""
+
+    def __post_init__(self) -> None:
+        if self.curve is not None and not self.description:
+            object.__setattr__(self, "description", self.curve.description)
 
 
 @dataclass(frozen=True)
@@ -113,7 +126,7 @@ class Unexplained:
     present: bool
     location: str | None = None
     driver: str | None = None
-    rms_mm: float = 0.0
+    rms_mm: Number = 0.0
     description: str = ""
 
 
@@ -127,9 +140,9 @@ class Background:
 
     family: str
     present: bool
-    size: float
-    rms_at_tool_mm: float
-    share: float
+    size: Number
+    rms_at_tool_mm: Number
+    share: Number
 
 
 @dataclass(frozen=True)
@@ -141,9 +154,9 @@ class WaterfallStep:
     """
 
     label: str
-    fitted_mm: float
-    held_out_mm: float
-    spread_mm: float = float("nan")
+    fitted_mm: Number
+    held_out_mm: Number
+    spread_mm: Number = float("nan")
     minor: bool = False
 
 
@@ -218,8 +231,8 @@ class SuspectRow:
 
     id: str
     run: str
-    residual_mm: float
-    weight: float
+    residual_mm: Number
+    weight: Number
 
 
 @dataclass(frozen=True, eq=False)
@@ -244,12 +257,20 @@ class Notice:
 
 @dataclass(frozen=True, eq=False)
 class Verdict:
-    """The whole answer; see the module's docstring."""
+    """What verdict.json holds.
 
-    arm: str
-    source: str
-    rows: int
-    runs: tuple[str, ...]
+    Attributes:
+        answer, headline: the answer in two words and in one sentence.
+        mismatch: None where the recordings cannot tell.
+        noise_mm: per axis, 1 sigma; ``noise_source`` says where it comes from.
+        residual_before_mm, residual_after_mm: RMS per axis on the fitted rows, frames only and with the model.
+        effects: in order of ``rms_at_tool_mm``; those with ``minor`` true are apart from the story.
+        background, background_families: small errors everywhere, together and by family.
+        notices: what the verdict must not hide.
+        rows, runs: that were used, and which runs they are of.
+        settings: what was asked for.
+    """
+
     answer: Answer
     headline: str
     mismatch: bool | None
@@ -263,80 +284,55 @@ class Verdict:
     unexplained: Unexplained
     held_out: HeldOut
     waterfall: tuple[WaterfallStep, ...]
-    atlas: Atlas | None
-    residuals: Residuals
     suspects: tuple[SuspectRow, ...]
-    next_poses: NextPoses | None
     notices: tuple[Notice, ...]
-    model: FittedModel
+    rows: int
+    runs: tuple[str, ...]
     orientations: Orientations | None = None
-    seconds: float = 0.0
     settings: dict[str, Any] = field(default_factory=dict)
-
-    def after(self, seconds: float, settings: dict[str, Any]) -> Verdict:
-        """The verdict with how long it took and what was asked for."""
-        return replace(self, seconds=seconds, settings=dict(settings))
 
     def to_json(self) -> dict[str, Any]:
         """The content of verdict.json: the contract's names, and further ones."""
-        return {
-            "mismatch": self.mismatch,
-            "answer": self.answer,
-            "headline": self.headline,
-            "noise_mm": self.noise_mm,
-            "noise_source": self.noise_source,
-            "effects": [_effect(effect) for effect in self.effects],
-            "unexplained": {
-                "present": self.unexplained.present,
-                "location": self.unexplained.location,
-                "driver": self.unexplained.driver,
-                "rms_mm": self.unexplained.rms_mm,
-                "description": self.unexplained.description,
-            },
-            "background": vars(self.background),
-            "background_families": [vars(family) for family in self.background_families],
-            "held_out_rms_mm": {
-                "before": self.held_out.before,
-                "after": self.held_out.after,
-                "before_all_rows": self.held_out.before_all_rows,
-                "after_all_rows": self.held_out.after_all_rows,
-                "spread": self.held_out.spread,
-                "folds": self.held_out.folds,
-                "grouped_by": self.held_out.grouped_by,
-            },
-            "orientation": None if self.orientations is None else self._told_of_turns(self.orientations),
-            "fitted_rms_mm": {"before": self.residual_before_mm, "after": self.residual_after_mm},
-            "waterfall": [vars(step) for step in self.waterfall],
-            "suspects": [vars(row) for row in self.suspects],
-            "notices": [vars(notice) for notice in self.notices],
-            "rows": self.rows,
-            "runs": list(self.runs),
-            "settings": self.settings,
-        }
+        from armscope.verdict.contract import to_json
 
-    def _told_of_turns(self, seen: Orientations) -> dict[str, Any]:
-        held_out = {"before": self.held_out.turn_before, "after": self.held_out.turn_after}
-        return {**vars(seen), "held_out_rms_mrad": held_out}
+        return to_json(self)
+
+    @staticmethod
+    def from_json(content: Any, source: object = "verdict.json") -> Verdict:
+        """A verdict from the content of verdict.json: all that `to_json` writes, no curves, no sentences of effects.
+
+        Args:
+            content: as JSON gives it.
+            source: the file, for an error.
+
+        Raises:
+            InputError: it is none, or of another version.
+        """
+        from armscope.verdict.contract import from_json
+
+        return from_json(content, source)
 
 
-def _effect(found: FoundEffect) -> dict[str, Any]:
-    return {
-        "effect": found.effect,
-        "location": found.location,
-        "family": found.family,
-        "driver": found.driver,
-        "named_as": found.named_as,
-        "title": found.title,
-        "minor": found.minor,
-        "parameters": [
-            {"name": p.name, "unit": p.unit, "value": p.value, "stderr": p.stderr, "interval_95": list(p.interval)}
-            for p in found.parameters
-        ],
-        "rms_at_tool_mm": found.rms_at_tool_mm,
-        "share": found.share,
-        "evidence_nats": found.evidence_nats,
-        "alternatives": [vars(alternative) for alternative in found.alternatives],
-        "inclusion": found.inclusion,
-        "description": found.curve.description if found.curve else "",
-        "carries_over": found.carries_over,
-    }
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Diagnosis(Verdict):
+    """A verdict with what only lives in memory.
+
+    Attributes:
+        arm: the arm's name.
+        source: the table's file.
+        atlas, residuals, next_poses: what a report draws (atlas.csv, predicted.csv and next_poses.csv hold most of it).
+        model: the fitted model (model.yaml).
+        seconds: how long it took.
+    """
+
+    arm: str
+    source: str
+    atlas: Atlas | None
+    residuals: Residuals
+    next_poses: NextPoses | None
+    model: FittedModel
+    seconds: float = 0.0
+
+    def after(self, seconds: float, settings: dict[str, Any]) -> Diagnosis:
+        """The diagnosis with how long it took and what was asked for."""
+        return replace(self, seconds=seconds, settings=dict(settings))

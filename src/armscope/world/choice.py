@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.location import Location
 from armscope.world.catalogue import KINDS, Wish
 from armscope.world.kinds import LOAD, Concealed, Kind, Scene, number
 from armscope.world.rivals import Judge, Visibility
@@ -36,6 +37,9 @@ def choose(
         sigma: noise per axis, m.
         ambiguous: take what can't be told apart; otherwise, what can.
         rng: draws places and numbers.
+
+    Returns:
+        The concealed effects, the story's first wish first.
 
     Raises:
         RuntimeError: the first wish of the story can't be had anywhere in this arm.
@@ -114,20 +118,40 @@ def _taken(kind: Kind, place: str, chosen: list[Sized]) -> bool:
 
 def _loaded(scene: Scene, kind: Kind, place: str) -> bool:
     """Whether gravity turns the motor that an effect of load is to sit at."""
-    if kind.driver != LOAD or not place.startswith("joint") or kind.effect == "bearing_compliance":
+    if kind.driver != LOAD or Location.of(place).kind != "joint" or kind.effect == "bearing_compliance":
         return True
     return bool(scene.torque_scale[number(place)] > LEAST_TORQUE * scene.torque_scale.max())
 
 
 def visibilities(judge: Judge, chosen: list[Sized], sigma: float) -> list[Visibility]:
-    """How well each of the concealed effects can be found beside the others."""
+    """How well each of the concealed effects can be found beside the others.
+
+    Args:
+        judge: of what can be told apart.
+        chosen: the concealed effects.
+        sigma: noise per axis, m.
+
+    Returns:
+        One per effect.
+    """
     return [judge.visibility(size, _others(size, chosen), sigma) for size in chosen]
 
 
 def visibilities_in_runs(
     judge: Judge, chosen: list[Sized], known: Sequence[Visibility], sigma: float, run: NDArray[np.int64]
 ) -> list[Visibility]:
-    """The same where the table says each row's run (N,), so that the base is free in each; ``known`` without it."""
+    """The same where the table says each row's run (N,), so that the base is free in each; ``known`` without it.
+
+    Args:
+        judge: of what can be told apart.
+        chosen: the concealed effects.
+        known: of `visibilities`.
+        sigma: noise per axis, m.
+        run: (N,) number of each row's run.
+
+    Returns:
+        One per effect.
+    """
     return [
         judge.seen_in_runs(visibility, size, _others(size, chosen), sigma, run)
         for visibility, size in zip(known, chosen, strict=True)

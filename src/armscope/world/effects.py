@@ -202,6 +202,16 @@ def close_loop(crank_angle: Array, crank: float, rod: float, rocker: float, uppe
     """(N,) angle of the rocker, rad, from the upper arm's direction; crank and rocker point alike, lengths in m.
 
     Newton's method on |upper arm + rocker - crank| = rod, started from the ideal parallelogram.
+
+    Args:
+        crank_angle: (N,) rad, from the upper arm's direction.
+        crank, rod, rocker, upper_arm: lengths of the bars, m.
+
+    Returns:
+        (N,) rad.
+
+    Raises:
+        RuntimeError: bars of these lengths don't meet.
     """
     angle = np.array(crank_angle, dtype=float)
     for _ in range(50):

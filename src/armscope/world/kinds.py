@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.robot.description import RobotDescription
 from armscope.world.mechanism import Geometry
@@ -138,12 +139,12 @@ class Concealed:
 
 def number(location: str) -> int:
     """0-based number of the joint or link that a location names first."""
-    return int(location.split()[1]) - 1
+    return Location.of(location).index
 
 
 def second_number(location: str) -> int:
     """0-based number of the joint that drives a coupling."""
-    return int(location.split()[-1]) - 1
+    return Location.of(location).source - 1
 
 
 def joints(description: RobotDescription) -> list[str]:

@@ -43,6 +43,14 @@ def candidate_poses(low: ArrayLike, high: ArrayLike, count: int, seed: int) -> A
     """(count, m) motor angles spread evenly between ``low`` and ``high`` (m,) rad; held motors have low = high.
 
     A scrambled Halton sequence over the motors that move.
+
+    Args:
+        low, high: (m,) rad.
+        count: how many.
+        seed: of the scrambling.
+
+    Returns:
+        (count, m) rad.
     """
     low, high = np.asarray(low, dtype=float), np.asarray(high, dtype=float)
     moving = np.flatnonzero(high > low)
@@ -70,6 +78,9 @@ def choose_poses(jacobian: Array, count: int, rng: np.random.Generator, random_d
         rng: draws the random choices that the index is compared with.
         random_draws: how many of those.
 
+    Returns:
+        The chosen rows, their index, and the median index of random choices.
+
     Raises:
         ValueError: fewer candidates than poses, or too few poses for the parameters.
     """
@@ -89,7 +100,7 @@ def _identifiable(jacobian: Array) -> Array:
     """The Jacobian by the combinations of parameters that the candidates can show at all."""
     _, singular, directions = np.linalg.svd(jacobian.reshape(-1, jacobian.shape[2]), full_matrices=False)
     kept = directions[singular > IDENTIFIABLE * singular[0]]
-    return jacobian @ kept.T
+    return np.asarray(jacobian @ kept.T)
 
 
 def _index(reduced: Array, rows: NDArray[np.intp]) -> float:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import orth
 
+from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.world.effects import REFERENCE_C, close_loop
 from armscope.world.kinds import Scene, joints, links_longer_than
@@ -41,7 +42,7 @@ class Patterns:
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
         geometry, session = scene.geometry, scene.session
-        self.bending = [int(place.split()[1]) - 1 for place in links_longer_than(0.1)(scene.description)]
+        self.bending = [Location.of(place).index for place in links_longer_than(0.1)(scene.description)]
         layout = Layout(
             row_errors=np.zeros((geometry.n_joints, 4)),
             freedoms=all_freedoms(geometry.n_joints),
@@ -163,7 +164,7 @@ def _twisted_row(patterns: Patterns, j: int) -> Array:
     geometry = patterns.scene.geometry
     if geometry.modified:
         # alpha turns about x through the row's start; the tilt about x through the joint's origin, d further along z
-        return patterns.of(f"tilt {j + 1} x") - geometry.rows[j, 2] * patterns.of(f"shift {j + 1} y")
+        return np.asarray(patterns.of(f"tilt {j + 1} x") - geometry.rows[j, 2] * patterns.of(f"shift {j + 1} y"))
     if j + 1 == geometry.n_joints:
         return np.zeros_like(patterns.tool)
     return patterns.of(f"tilt {j + 2} x")
@@ -208,7 +209,16 @@ class Judge:
         self._starts = np.cumsum([0] + [rival.columns.shape[1] for rival in self.rivals])
 
     def visibility(self, truth: Sized, others: list[Sized], sigma: float) -> Visibility:
-        """How well ``truth`` can be found beside ``others`` at noise ``sigma`` (m per axis)."""
+        """How well ``truth`` can be found beside ``others`` at noise ``sigma`` (m per axis).
+
+        Args:
+            truth: the concealed effect.
+            others: what is concealed beside it.
+            sigma: noise per axis, m.
+
+        Returns:
+            Noncentrality, numbers of the effect and of the frames, and rivals that predict nearly the same.
+        """
         nuisance, pattern = self._beyond(self.frames, truth, others, sigma)
         matrix = self._matrix - nuisance @ (nuisance.T @ self._matrix)
         gram, overlap = matrix.T @ matrix, matrix.T @ pattern
@@ -237,6 +247,16 @@ class Judge:
         """``known`` for an oracle who must fit a base in each run, as a table with runs, (N,) ``run``, asks for.
 
         The alternatives stay those in front of one base: what a free base per run hides besides is no further answer.
+
+        Args:
+            known: of `visibility`.
+            truth: the concealed effect.
+            others: what is concealed beside it.
+            sigma: noise per axis, m.
+            run: (N,) number of each row's run.
+
+        Returns:
+            As known, with another noncentrality and more numbers of frames.
         """
         frames = free_frames(self.tool, self.tool_turn, run)
         _, pattern = self._beyond(frames, truth, others, sigma)

@@ -48,6 +48,9 @@ def random_session(
         rule: one of `POSE_RULES`.
         largest_payload: kg; payloads are 0, 1, 2 or 3 thirds of it.
         warming: span of the temperature over the session, K.
+
+    Returns:
+        Commanded angles, rad, and the context of every row.
     """
     commanded = reachable_poses(description, rng, count, rule)
     motors = commanded.shape[1]
@@ -66,7 +69,20 @@ def random_session(
 
 
 def reachable_poses(description: RobotDescription, rng: np.random.Generator, count: int, rule: str = "free") -> Array:
-    """(count, m) motor angles within the limits, tool above the floor and clear of the base, to 1e-7 rad."""
+    """(count, m) motor angles within the limits, tool above the floor and clear of the base, to 1e-7 rad.
+
+    Args:
+        description: the arm; its joint limits bound the poses.
+        rng: draws the poses.
+        count: how many.
+        rule: one of `POSE_RULES`.
+
+    Returns:
+        (count, m) rad.
+
+    Raises:
+        RuntimeError: hardly any pose of the rule can be reached.
+    """
     assert description.joint_limits_deg is not None, "worlds need joint limits"
     geometry = Geometry(description)
     mechanism = Mechanism(geometry, Layout(row_errors=np.zeros((geometry.n_joints, 4))))

@@ -134,6 +134,14 @@ class Balance:
 def balance(geometry: Geometry, session: Session, hidden: Hidden) -> Balance:
     """The equilibrium of a concealed arm at every row of a session.
 
+    Args:
+        geometry: the arm's true geometry.
+        session: angles and context of N rows.
+        hidden: concealed springs, clearances and scale.
+
+    Returns:
+        Tool points (N, 3), m, orientations, motor torques (N, m), N m, and the largest force left over, as a share.
+
     Raises:
         RuntimeError: the springs are too weak to carry the arm.
     """

@@ -31,7 +31,16 @@ class Frames:
 
 
 def fit_frames(tool: Array, tool_turn: Array, measured: Array) -> Frames:
-    """The frames that bring tool points (N, 3) closest to measured ones (N, 3), by Gauss-Newton from no error."""
+    """The frames that bring tool points (N, 3) closest to measured ones (N, 3), by Gauss-Newton from no error.
+
+    Args:
+        tool: (N, 3) m.
+        tool_turn: (N, 3, 3) orientation of the tool.
+        measured: (N, 3) m, in the measurement frame.
+
+    Returns:
+        Base frame and error of the tool point.
+    """
     frames = Frames(np.zeros(3), np.zeros(3), np.zeros(3))
     for _ in range(4):
         placed = frames.place(tool, tool_turn)
@@ -60,6 +69,9 @@ def free_frames(tool: Array, tool_turn: Array, run: NDArray[np.int64] | None = N
         tool: (N, 3) tool points, m.
         tool_turn: (N, 3, 3) orientation of the tool.
         run: (N,) run of each row, where the table says it; otherwise the whole table is one.
+
+    Returns:
+        Columns, m per m or rad.
     """
     columns = frame_columns(tool, tool_turn)
     base, point = columns[:, :6], columns[:, 6:]
@@ -75,7 +87,16 @@ def rms(difference: Array) -> float:
 
 
 def rms_after_frames(tool: Array, nominal: Array, tool_turn: Array) -> float:
-    """RMS per axis that a model ``nominal`` (N, 3) misses of ``tool`` (N, 3) once its frames are fitted, m."""
+    """RMS per axis that a model ``nominal`` (N, 3) misses of ``tool`` (N, 3) once its frames are fitted, m.
+
+    Args:
+        tool: (N, 3) true tool points, m.
+        nominal: (N, 3) the model's, m.
+        tool_turn: (N, 3, 3) orientation of the tool.
+
+    Returns:
+        RMS per axis, m.
+    """
     return rms(fit_frames(nominal, tool_turn, tool).place(nominal, tool_turn) - tool)
 
 
@@ -135,6 +156,9 @@ def sized(
         wanted: RMS per axis, m.
         rounds: linear scalings; each is followed by a simulation, so the RMS returned is that of the numbers returned.
         largest_factor: largest multiple of the natural size that is accepted.
+
+    Returns:
+        The effect at its new size, its RMS and its displacements (N, 3), m.
     """
     without = stand(scene, []).tool
     tool = stand(scene, [effect]).tool
@@ -166,6 +190,15 @@ def carried(scene: Scene, effect: Concealed, carriers: list[Concealed], wanted: 
     """A payload error and the compliances through which it shows, scaled so that its RMS is ``wanted`` m.
 
     The error keeps its natural size; what gives way under it is made weaker or stiffer.
+
+    Args:
+        scene: rows over which the RMS is taken.
+        effect: the payload error.
+        carriers: compliances at some natural size.
+        wanted: RMS per axis, m.
+
+    Returns:
+        The error and its carriers, each with its RMS and displacements.
     """
     for _ in range(2):
         without, tool = stand(scene, carriers).tool, stand(scene, [*carriers, effect]).tool

@@ -73,6 +73,14 @@ def geometric_errors(
     """The geometric errors of an arm, with one-sigma sizes per link and for the base.
 
     D-H rows give their values' errors; a URDF has no such rows, so each joint's frame may be shifted and turned.
+
+    Args:
+        arm: the nominal arm.
+        link_m, link_rad: one-sigma sizes of a link's shifts and turns.
+        base_m, base_rad: of the base's.
+
+    Returns:
+        Names, locations, directions and sizes of all of them.
     """
     rows = [(name, "base", twist, base_rad if angular else base_m, angular) for name, twist, angular in _frame("base ")]
     for number in range(1, arm.n_joints + 1):

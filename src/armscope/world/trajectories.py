@@ -35,6 +35,9 @@ def archimedes_spiral(
         turns_pi: phi goes from 0 up to this many times pi (5), in ``count`` steps.
         count: the number of points N (200); phi of the last is one step short of the end.
         rise: change of the third coordinate from the first point to one step beyond the last, linear, m.
+
+    Returns:
+        (N, 3) m.
     """
     first, second, third = PLANES[plane]
     share = np.arange(count) / count

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
-from armscope.fitting.column_blocks import Blocks, conditioned, weigh_blocks
+from armscope.fitting.column_blocks import ColumnBlocks, schur_complement, weigh_blocks
 from armscope.fitting.design_matrix import columns
-from armscope.fitting.linearisation import chunks, pool_values, response
-from armscope.inference.evidence import Hypothesis, Problem, forward
+from armscope.fitting.linearisation import chunks, current_parameters, response
+from armscope.inference.evidence import Hypothesis, Problem, solve_lower
 from armscope.measurement.row_weights import RowWeights
 from armscope.physics.drift import BASE_SHIFT, Pause, base_shift, drift_with_pauses, pauses_of, row_number, tool_shift
 from armscope.physics.effect import Placed
@@ -52,8 +52,8 @@ def mesh_lines(
     before = np.einsum("mcc->mc", sums.own)
     for hypothesis in given:
         inside = np.isin(columns, hypothesis.columns)
-        narrowed = Blocks(sums.own, sums.cross[:, inside], sums.b)
-        gain = _gain(problem, hypothesis, *conditioned(narrowed, *_in_si(problem, hypothesis)), before)
+        narrowed = ColumnBlocks(sums.own, sums.cross[:, inside], sums.b)
+        gain = _gain(problem, hypothesis, *schur_complement(narrowed, *_in_si(problem, hypothesis)), before)
         for number, row in enumerate(gain.reshape(len(joints), -1)):
             for at in np.argsort(-row)[:LINES_KEPT]:
                 if row[at] > WORTH_A_LOOK:
@@ -71,8 +71,8 @@ def _spread(count: int) -> NDArray[np.intp]:
 def _in_si(problem: Problem, hypothesis: Hypothesis) -> tuple[Array, Array]:
     """The hypothesis' Cholesky factor for columns in mm per SI unit, and factor^-1 b."""
     at = hypothesis.columns
-    half = hypothesis.inverse @ problem.gram.b[at]
-    return hypothesis.factor * problem.scale[at][:, None], half
+    whitened_rhs = hypothesis.inverse @ problem.equations.b[at]
+    return hypothesis.cholesky * problem.scale[at][:, None], whitened_rhs
 
 
 def _gain(problem: Problem, hypothesis: Hypothesis, own: Array, b: Array, before: Array) -> Array:
@@ -101,8 +101,8 @@ def jumps(
             before = np.einsum("mcc->mc", sums.own)
             for number, hypothesis in enumerate(given):
                 inside = np.isin(_all_columns(given), hypothesis.columns)
-                narrowed = Blocks(sums.own, sums.cross[:, inside], sums.b)
-                gain = _gain(problem, hypothesis, *conditioned(narrowed, *_in_si(problem, hypothesis)), before)
+                narrowed = ColumnBlocks(sums.own, sums.cross[:, inside], sums.b)
+                gain = _gain(problem, hypothesis, *schur_complement(narrowed, *_in_si(problem, hypothesis)), before)
                 at = int(np.argmax(gain))
                 promising = float(gain[at]), build(recordings, int(rows[cuts[at]]), tried)
                 best[number] = max((b for b in (best[number], promising) if b), key=lambda entry: entry[0])
@@ -134,15 +134,15 @@ def pauses(
     passed = _rows_passed(recordings, known)
     pieces = list(_pieces(recordings))
     ways_to_pause = LENGTHS_OF_PAUSES * sum(len(cuts) for _, cuts in pieces)
-    factor, half = _in_si(problem, drifting)
+    factor, whitened_rhs = _in_si(problem, drifting)
     for rows, cuts in pieces:
         sums = _step_sums(problem, drifting.columns, model, recordings, weights, rows, cuts, base_shift)
-        V = forward(factor, (sums.cross @ way).T)
+        V = solve_lower(factor, (sums.cross @ way).T)
         alone = np.einsum("mij,i,j->m", sums.own, way, way)
         # two steps have the rows behind the later one in common
         own = alone[np.maximum.outer(np.arange(len(cuts)), np.arange(len(cuts)))] - V.T @ V
         line = passed[rows] - passed[rows].mean()
-        run, pull = str(recordings.run[rows[0]]), sums.b @ way - V.T @ half
+        run, pull = str(recordings.run[rows[0]]), sums.b @ way - V.T @ whitened_rhs
         before = [(run, row_number(recordings, int(row))) for row in rows[cuts]]
         fitted = [before.index((p.run, p.row)) for p in known if (p.run, p.row) in before]
         for chosen, length in _steps(own, pull, drifting, fitted, np.log(ways_to_pause)):
@@ -228,7 +228,7 @@ def when_stderr(
             continue
         sums = _step_sums(problem, without.columns, model, recordings, weights, rows, cuts, build)
         before = np.einsum("mcc->mc", sums.own)
-        gain = _gain(problem, without, *conditioned(sums, *_in_si(problem, without)), before)
+        gain = _gain(problem, without, *schur_complement(sums, *_in_si(problem, without)), before)
         likely = np.exp(gain - gain.max())
         at = rows[cuts]
         moment = recordings.time[at] if recordings.time is not None else [row_number(recordings, int(r)) for r in at]
@@ -262,14 +262,14 @@ def _step_sums(
     rows: NDArray[np.intp],
     cuts: NDArray[np.intp],
     build: Callable[[Recordings, int, int], Placed],
-) -> Blocks:
+) -> ColumnBlocks:
     """Sums over the rows behind each cut."""
     pool = problem.pool
     table = recordings.rows(rows)
     terms = build(recordings, int(rows[0]), 1).terms
     c, k = len(terms), len(inside)
     model_terms = [pool.terms[i] for i in inside]
-    values = pool_values(pool, model)
+    values = current_parameters(pool, model)
     active = np.flatnonzero(values)
     present = [pool.terms[i] for i in active]
     segment = np.searchsorted(cuts, np.arange(len(rows)), side="right")
@@ -290,4 +290,4 @@ def _step_sums(
         ):
             total[segment[part][starts]] += np.add.reduceat(products, starts, axis=0)
     own, cross, b = (np.cumsum(x[::-1], axis=0)[::-1][1:] for x in (own, cross, b))
-    return Blocks(own, cross, b)
+    return ColumnBlocks(own, cross, b)

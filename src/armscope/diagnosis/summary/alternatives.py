@@ -9,7 +9,7 @@ import numpy as np
 
 from armscope.diagnosis.promotion import named, rest_of
 from armscope.inference.evidence import Hypothesis, Problem
-from armscope.inference.normal_equations import Gram
+from armscope.inference.normal_equations import NormalEquations
 from armscope.inference.search import LARGE, SLACK_NATS, Search
 from armscope.physics.effect import Placed, region
 from armscope.physics.elastic import JOINT_COMPLIANCE
@@ -19,7 +19,7 @@ LISTED_NATS = 10.0
 """Alternatives that lose more evidence than this are not listed."""
 LISTED_NATS_OF_SPECIAL_CASES = 40.0
 """A curve's special cases are listed farther: most of it may be one of them."""
-TELLS_APART_NATS = 3.0
+INDISTINGUISHABLE_NATS = 3.0
 """Evidence of 20 to 1: two readings closer than this are both named."""
 LOOKED_AT = 12
 COARSELY = 0.25
@@ -33,7 +33,7 @@ def alternatives(search: Search, best: Hypothesis, candidate: int) -> list[tuple
     a curve of load is rivalled by what rivals the curve; a curve of another drive's load is told as its compliance.
     """
     rest = rest_of(search.problem, best, candidate)
-    if search.held(best, candidate) and not rest:
+    if search.in_background(best, candidate) and not rest:
         return []
     base = search.without(best, [candidate, *rest])
     taken = {search.placed(c).key for c in best.candidates}
@@ -41,18 +41,18 @@ def alternatives(search: Search, best: Hypothesis, candidate: int) -> list[tuple
     paid = _price_of_curve(search, candidate) if rest else 0.0
     lines = {p.location: p for p in search.problem.pool.candidates if p.effect is JOINT_COMPLIANCE and not p.variant}
     # what a coarse prediction puts far behind is not weighed
-    listed_nats = LISTED_NATS_OF_SPECIAL_CASES if search.placed(candidate).reading == "curve" else LISTED_NATS
-    lost = best.value - base.value
+    listed_nats = LISTED_NATS_OF_SPECIAL_CASES if search.placed(candidate).parametrisation == "curve" else LISTED_NATS
+    lost = best.log_posterior - base.log_posterior
     least = lost - paid - listed_nats - COARSELY * max(lost, 0.0) - SLACK_NATS
     for other in search.additions(base, LOOKED_AT, [candidate], least):
         placed = search.placed(other.chosen[-1].candidate)
-        gap = best.value - other.value - paid
-        curve = search.placed(candidate).reading == "curve"
-        special = curve and other.chosen[-1].candidate in search.problem.pool.clashes[candidate]
-        same = bool(rest) and other.chosen[-1].candidate in search.problem.pool.clashes[candidate]
+        gap = best.log_posterior - other.log_posterior - paid
+        curve = search.placed(candidate).parametrisation == "curve"
+        special = curve and other.chosen[-1].candidate in search.problem.pool.excludes[candidate]
+        same = bool(rest) and other.chosen[-1].candidate in search.problem.pool.excludes[candidate]
         if same or placed.key in taken or gap > (LISTED_NATS_OF_SPECIAL_CASES if special else LISTED_NATS):
             continue
-        if rest and placed.variant == "load" and placed.reading == "curve":
+        if rest and placed.variant == "load" and placed.parametrisation == "curve":
             placed = lines.get(placed.location, placed)
         if placed.key not in nearest or gap < nearest[placed.key][0]:
             nearest[placed.key] = (gap, placed, other)
@@ -62,17 +62,17 @@ def alternatives(search: Search, best: Hypothesis, candidate: int) -> list[tuple
 def _price_of_curve(search: Search, line: int) -> float:
     """What the curve that a line was taken from cost, nats: its names were free."""
     problem = search.problem
-    curves = [n for n in problem.pool.clashes[line] if problem.pool.candidates[n].reading == "curve"]
-    return float(problem.costs[curves[0]] + np.log(len(problem.sizes))) if curves else 0.0
+    curves = [n for n in problem.pool.excludes[line] if problem.pool.candidates[n].parametrisation == "curve"]
+    return float(problem.prior_costs[curves[0]] + np.log(len(problem.sizes))) if curves else 0.0
 
 
-def apart(best: Hypothesis, other: Hypothesis, effect: Placed, rival: Placed) -> float:
+def discriminability(best: Hypothesis, other: Hypothesis, effect: Placed, rival: Placed) -> float:
     """Nats by which the data tell an effect and its rival apart.
 
     The evidence also holds what a rival of one parameter more (a wave of free phase) pays for it; where the two fit
     alike, that is no measurement: such a rival counts by its fit alone. Larger ones fit anything and count in full.
     """
-    gap = best.value - other.value
+    gap = best.log_posterior - other.log_posterior
     if len(rival.terms) > len(effect.terms) + 1:
         return gap
     return min(gap, max((other.rss - best.rss) / (2 * best.noise**2), 0.0))
@@ -87,7 +87,7 @@ def listed(found: Sequence[tuple[float, Placed, Hypothesis]]) -> tuple[Alternati
 
 def name(placed: Placed, rivals: Sequence[Placed]) -> tuple[Specific, str]:
     """How specific the name may be, and the name in words, given the rivals that cannot be told apart from it."""
-    if not rivals and placed.reading == "curve":
+    if not rivals and placed.parametrisation == "curve":
         return "effect", f"an unknown error at {placed.location} that follows the {placed.driver}"
     if not rivals:
         return "effect", f"{_words(placed.name)} at {placed.location}"
@@ -115,9 +115,9 @@ def _words(effect: str) -> str:
     return effect.replace("_", " ")
 
 
-def inclusion(
+def inclusion_frequency(
     problem: Problem,
-    blocks: Sequence[Gram],
+    blocks: Sequence[NormalEquations],
     best: Hypothesis,
     found: Hypothesis,
     draws: int,
@@ -138,8 +138,8 @@ def inclusion(
     for _ in range(draws):
         times = np.bincount(rng.integers(0, len(blocks), len(blocks)), minlength=len(blocks))
         gram = _weighted(blocks, times)
-        search = Search.on(problem.with_gram(gram), beam=1, branches=2)
-        again = named(search, search.best(starts=(best.background,), also=search.coarse(found), polished=not large))
+        search = Search.on(problem.with_equations(gram), beam=1, branches=2)
+        again = named(search, search.best(starts=(best.background,), also=search.coarsened(found), polished=not large))
         places_again = {_place(problem.pool.candidates[c]) for c in again.candidates}
         for candidate, place in places.items():
             hits[candidate] += place in places_again
@@ -150,11 +150,11 @@ def _place(placed: Placed) -> tuple[str, str]:
     return placed.key
 
 
-def _weighted(blocks: Sequence[Gram], times: np.ndarray) -> Gram:
+def _weighted(blocks: Sequence[NormalEquations], times: np.ndarray) -> NormalEquations:
     drawn = [int(k) for k in np.flatnonzero(times)]
     G = sum(times[k] * blocks[k].G for k in drawn)
     b = sum(times[k] * blocks[k].b for k in drawn)
-    return Gram(
+    return NormalEquations(
         np.asarray(G),
         np.asarray(b),
         float(sum(times[k] * blocks[k].yy for k in drawn)),

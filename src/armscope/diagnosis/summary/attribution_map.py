@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cholesky, solve_triangular
 
-from armscope.fitting.column_blocks import conditioned, explained, weigh_blocks
-from armscope.fitting.linearisation import accumulate
+from armscope.fitting.column_blocks import rss_reduction, schur_complement, weigh_blocks
+from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.fitting.model_space import Pool
-from armscope.inference.normal_equations import Gram
+from armscope.inference.normal_equations import NormalEquations
 from armscope.measurement.row_weights import RowWeights
 from armscope.physics.effect import AXES, ONE, Direction, Driver, Term, motor, term
 from armscope.physics.elastic import has_load
@@ -44,7 +44,7 @@ def atlas(pool: Pool, model: FittedModel, recordings: Recordings, weights: RowWe
     table, w = recordings.rows(rows), weights.take(rows, share)
     # columns and response must stand at one and the same point and on the same rows, or what the frames absorb does not
     # cancel
-    fitted = accumulate(pool, model, table, w, np.zeros(len(rows), dtype=np.intp))[0]
+    fitted = normal_equations_by_block(pool, model, table, w, np.zeros(len(rows), dtype=np.intp))[0]
     drivers = _drivers(model, recordings)
     names = tuple(name for name, _ in drivers)
     whole = _whole_effects(model, recordings, names)
@@ -61,8 +61,8 @@ def atlas(pool: Pool, model: FittedModel, recordings: Recordings, weights: RowWe
             G = fitted.G[np.ix_(inside, inside)]
             ridge = 1e-9 * np.diag(G) + 1e-12
             factor = cholesky(G + np.diag(ridge), lower=True)
-            half = solve_triangular(factor, fitted.b[inside], lower=True)
-            gain = explained(*conditioned(sums, factor, half), np.einsum("mcc->mc", sums.own))
+            whitened_rhs = solve_triangular(factor, fitted.b[inside], lower=True)
+            gain = rss_reduction(*schur_complement(sums, factor, whitened_rhs), np.einsum("mcc->mc", sums.own))
             for (at, _), value in zip(cells, gain, strict=True):
                 target[at] = value / max(total, 1e-30)
     return Atlas(locations, DIRECTIONS, names, np.clip(before, 0, 1), np.clip(left, 0, 1))
@@ -89,7 +89,7 @@ def _locations(model: FittedModel, whole: list[tuple[str, str, tuple[Term, ...]]
     return (*along, *(place for place in there if place not in along))
 
 
-def _left_after(gram: Gram, inside: NDArray[np.intp]) -> float:
+def _left_after(gram: NormalEquations, inside: NDArray[np.intp]) -> float:
     G = gram.G[np.ix_(inside, inside)]
     return float(gram.yy - gram.b[inside] @ np.linalg.lstsq(G, gram.b[inside], rcond=1e-12)[0])
 

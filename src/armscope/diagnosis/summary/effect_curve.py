@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.physics.drivers import cubic_spline
+from armscope.physics.drivers import KINDS, cubic_spline
 from armscope.physics.effect import ONE, Driver, Placed
 from armscope.physics.scene import Scene
 from armscope.verdict.schema import Curve
@@ -15,7 +15,6 @@ from armscope.verdict.schema import Curve
 GRID = 361
 TELLING = 0.7
 """Share of a curve's variation that a simple shape must explain to be named."""
-UNITS = {"angle": "rad", "torque": "N m", "hours": "h", "warmth": "K above 20 C"}
 
 
 def source_of(placed: Placed) -> Driver | None:
@@ -30,7 +29,7 @@ def _root(driver: Driver) -> Driver | None:
         return Driver("angle", (driver.arguments[0],))
     if driver.kind == "spline":
         return _root(driver.arguments[0]) if isinstance(driver.arguments[0], Driver) else None
-    return driver if driver.kind in UNITS else None
+    return driver if KINDS[driver.kind].unit else None
 
 
 def curve_of(placed: Placed, values: Array, covariance: Array, scene: Scene) -> Curve | None:
@@ -38,14 +37,14 @@ def curve_of(placed: Placed, values: Array, covariance: Array, scene: Scene) -> 
     source = source_of(placed)
     if source is None:
         return None
-    recorded = scene.driver(source)
+    recorded, unit = scene.driver(source), KINDS[source.kind].unit
     at = np.linspace(recorded.min(), recorded.max(), GRID)
     directions = {term.products[0].direction for term in placed.terms}
     best: tuple[float, Array, Array, str] | None = None
     for direction in sorted(directions, key=lambda d: (d.location, d.axis)):
         inside = [n for n, term in enumerate(placed.terms) if term.products[0].direction == direction]
         basis = _basis(placed, inside, at)
-        if placed.reading == "curve":
+        if placed.parametrisation == "curve":
             # a constant is the base's or the joint's zero: only the shape about the mean is the curve's own
             basis = basis - _basis(placed, inside, recorded).mean(axis=0)
         value = basis @ values[inside]
@@ -58,13 +57,13 @@ def curve_of(placed: Placed, values: Array, covariance: Array, scene: Scene) -> 
     periods = _periods(placed, values) if source.kind == "angle" else ()
     return Curve(
         placed.driver,
-        UNITS[source.kind],
+        unit,
         at,
         value,
         band,
         best[3],
         periods,
-        describe(at, value, recorded, periods, UNITS[source.kind]),
+        describe(at, value, recorded, periods, unit),
     )
 
 

@@ -10,14 +10,14 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.diagnosis.promotion import worth
 from armscope.diagnosis.scans.scanning import when_stderr
-from armscope.diagnosis.state import Evidence
+from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary import alternatives as certainty
 from armscope.diagnosis.summary.effect_curve import curve_of
 from armscope.diagnosis.summary.parameters import parameters
 from armscope.fitting.discrepancy import ModelError
-from armscope.fitting.joint_scatter import levers
-from armscope.inference.evidence import Chosen, Hypothesis
-from armscope.inference.normal_equations import Gram, contribution
+from armscope.fitting.joint_scatter import motor_jacobians
+from armscope.inference.evidence import Hypothesis, SelectedEffect
+from armscope.inference.normal_equations import NormalEquations, projected_rms
 from armscope.inference.search import Search
 from armscope.physics.effect import Placed
 from armscope.physics.scene import Part, Scene
@@ -32,26 +32,28 @@ NOTHING = "nothing in the table"
 
 
 def found_effect(
-    evidence: Evidence,
+    state: DiagnosisState,
     search: Search,
-    chosen: Chosen,
+    chosen: SelectedEffect,
     part: Part,
     rivals: Sequence[tuple[float, Placed, Hypothesis]],
     often: dict[int, float],
     scene: Scene,
-    gram: Gram,
+    gram: NormalEquations,
     share: float,
     wrong: ModelError,
 ) -> FoundEffect:
     """One effect with everything that is known about it."""
-    fit, placed = evidence.fit, part.placed
+    fit, placed = state.fit, part.placed
     at = fit.pool.of(placed)
     coefficients = np.zeros(len(fit.pool.terms))
-    coefficients[at] = _sized(evidence, chosen, part.values, fit.covariance_of(placed))
+    coefficients[at] = _sized(state, chosen, part.values, fit.covariance_of(placed))
     covariance = wrong.covariance[np.ix_(at, at)]
-    rms = contribution(gram, fit.pool.frames, coefficients)
-    apart = [certainty.apart(evidence.best, other, placed, rival) for _, rival, other in rivals]
-    close = [rival for nats, (_, rival, _) in zip(apart, rivals, strict=True) if nats < certainty.TELLS_APART_NATS]
+    rms = projected_rms(gram, fit.pool.frames, coefficients)
+    apart = [certainty.discriminability(state.best, other, placed, rival) for _, rival, other in rivals]
+    close = [
+        rival for nats, (_, rival, _) in zip(apart, rivals, strict=True) if nats < certainty.INDISTINGUISHABLE_NATS
+    ]
     named_as, title = certainty.name(placed, close)
     return FoundEffect(
         effect=placed.name,
@@ -61,10 +63,10 @@ def found_effect(
         named_as=named_as,
         title=title,
         minor=False,
-        parameters=_with_moment(evidence, search, chosen, placed, parameters(placed, part.values, covariance)),
+        parameters=_with_moment(state, search, chosen, placed, parameters(placed, part.values, covariance)),
         rms_at_tool_mm=rms,
         share=share,
-        evidence_nats=float(_worth(evidence, search, chosen)),
+        evidence_nats=float(_worth(state, search, chosen)),
         alternatives=certainty.listed(rivals),
         inclusion=often.get(chosen.candidate),
         curve=curve_of(placed, part.values, covariance, scene),
@@ -74,38 +76,42 @@ def found_effect(
     )
 
 
-def _sized(evidence: Evidence, chosen: Chosen, values: Array, covariance: Array) -> Array:
+def _sized(state: DiagnosisState, chosen: SelectedEffect, values: Array, covariance: Array) -> Array:
     """An effect's values for its size at the tool: what its rows leave open counts as its prior has it.
 
     The refit holds named values by a prior so wide that it does not pull; two of them that only show together (offsets
     along parallel axes) are then told with their wide intervals, but could stand for any size at the tool.
     """
-    problem = evidence.problem
+    problem = state.problem
     placed = problem.pool.candidates[chosen.candidate]
-    if placed.reading == "curve":
+    if placed.parametrisation == "curve":
         return values  # its prior is that already
-    scale = problem.sizes[chosen.size] * np.array(placed.shape) / problem.scale[problem.pool.columns[chosen.candidate]]
+    scale = (
+        problem.sizes[chosen.size]
+        * np.array(placed.prior_scale)
+        / problem.scale[problem.pool.columns[chosen.candidate]]
+    )
     # the posterior with this prior in place of a flat one
     scaled = covariance / np.outer(scale, scale)
     return np.asarray(scale * (np.linalg.solve(np.eye(len(scale)) + scaled, values / scale)))
 
 
 def _with_moment(
-    evidence: Evidence, search: Search, chosen: Chosen, placed: Placed, told: tuple[Parameter, ...]
+    state: DiagnosisState, search: Search, chosen: SelectedEffect, placed: Placed, told: tuple[Parameter, ...]
 ) -> tuple[Parameter, ...]:
     """Parameters with the standard error of a jump's moment."""
     if placed.family != "drift" or not placed.scanned:
         return told
-    without = search.without(evidence.best, [chosen.candidate])
-    stderr = when_stderr(placed, evidence.problem, without, evidence.point, evidence.recordings, evidence.fit.weights)
+    without = search.without(state.best, [chosen.candidate])
+    stderr = when_stderr(placed, state.problem, without, state.point, state.recordings, state.fit.weights)
     return (*told[:-1], replace(told[-1], stderr=stderr))
 
 
-def _worth(evidence: Evidence, search: Search, chosen: Chosen) -> float:
+def _worth(state: DiagnosisState, search: Search, chosen: SelectedEffect) -> float:
     """Evidence for a name, nats."""
-    if chosen.within:
-        return worth(evidence.problem, evidence.best, chosen)
-    return search.worth(evidence.best, chosen.candidate)
+    if chosen.nested:
+        return worth(state.problem, state.best, chosen)
+    return search.log_odds(state.best, chosen.candidate)
 
 
 def with_weight(found: FoundEffect, background: Sequence[Background]) -> FoundEffect:
@@ -115,10 +121,10 @@ def with_weight(found: FoundEffect, background: Sequence[Background]) -> FoundEf
     return replace(found, minor=small)
 
 
-def scattered_effects(evidence: Evidence, variance: float) -> Iterator[FoundEffect]:
+def scattered_effects(state: DiagnosisState, variance: float) -> Iterator[FoundEffect]:
     """Scatter that has a place but follows nothing in the table."""
-    moved = levers(evidence.fit.model, evidence.recordings)
-    for scattered in evidence.scatter:
+    moved = motor_jacobians(state.fit.model, state.recordings)
+    for scattered in state.scatter:
         rms = scattered.size * float(np.sqrt(np.mean(moved[scattered.motor - 1] ** 2)))
         location = f"joint {scattered.motor}"
         yield FoundEffect(

@@ -9,9 +9,9 @@ from scipy.stats import chi2
 
 from armscope.core.types import Indices
 from armscope.diagnosis.held_out import FEWEST_ROWS_PER_RUN, Blocks
-from armscope.fitting.linearisation import accumulate
-from armscope.inference.evidence import Hypothesis, Problem, weigh
-from armscope.inference.normal_equations import Gram, total
+from armscope.fitting.linearisation import normal_equations_by_block
+from armscope.inference.evidence import Hypothesis, Problem, evaluate
+from armscope.inference.normal_equations import NormalEquations, total
 from armscope.measurement.row_weights import RowWeights
 from armscope.physics.freeform import REST_OF_LOAD
 from armscope.physics.model import FittedModel
@@ -23,9 +23,9 @@ MOST_ROWS = 3000
 """Rows on which payloads and halves of the workspace are compared, spread evenly over a longer table."""
 
 
-def carry_over(
+def subset_consistency(
     problem: Problem,
-    blocks: Sequence[Gram],
+    blocks: Sequence[NormalEquations],
     split: Blocks,
     best: Hypothesis,
     point: FittedModel,
@@ -48,12 +48,12 @@ def carry_over(
 
 def _divisions(
     problem: Problem,
-    blocks: Sequence[Gram],
+    blocks: Sequence[NormalEquations],
     split: Blocks,
     point: FittedModel,
     recordings: Recordings,
     weights: RowWeights,
-) -> Iterator[tuple[list[Gram], str]]:
+) -> Iterator[tuple[list[NormalEquations], str]]:
     """Sums over the rows of each run; of each payload; of the near and of the far half of the workspace."""
     if split.grouped_by == "run":
         runs = [np.flatnonzero(split.fold == run) for run in np.unique(split.fold)]
@@ -64,7 +64,10 @@ def _divisions(
         counts = np.bincount(of_row[of_row >= 0])
         if len(counts) > 1 and counts.min() >= FEWEST_ROWS_PER_RUN:
             known = np.flatnonzero(of_row >= 0)
-            yield accumulate(problem.pool, point, table.rows(known), some.take(known), of_row[known]), kind
+            yield (
+                normal_equations_by_block(problem.pool, point, table.rows(known), some.take(known), of_row[known]),
+                kind,
+            )
 
 
 def _payloads(recordings: Recordings) -> Indices:
@@ -86,15 +89,15 @@ def _halves(recordings: Recordings, point: FittedModel) -> Indices:
     return (reach > np.median(reach)).astype(np.intp)
 
 
-def _agreements(problem: Problem, best: Hypothesis, parts: Sequence[Gram]) -> dict[int, bool]:
+def _agreements(problem: Problem, best: Hypothesis, parts: Sequence[NormalEquations]) -> dict[int, bool]:
     """Whether the parts' own posteriors under the chosen hypothesis scatter within chance (one in a hundred)."""
     # a line alone, without what is left of its curve: that could be another's line in each part
     lines = tuple(c for c in best.chosen if problem.pool.candidates[c.candidate].variant != REST_OF_LOAD)
-    alone = [weigh(problem.with_gram(gram), lines, best.background, best.noise) for gram in parts]
+    alone = [evaluate(problem.with_equations(gram), lines, best.background, best.noise) for gram in parts]
     agree = {}
     for c in lines:
         placed = problem.pool.candidates[c.candidate]
-        if placed.reading != "plain" or placed.family == "drift":
+        if placed.parametrisation != "plain" or placed.family == "drift":
             continue
         at = [np.searchsorted(h.columns, problem.pool.columns[c.candidate]) for h in alone]
         values = np.array([h.mean[a] for h, a in zip(alone, at, strict=True)])

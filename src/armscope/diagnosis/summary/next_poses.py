@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.design.separation import nats_apart, separating
-from armscope.diagnosis.summary.alternatives import TELLS_APART_NATS, apart
+from armscope.diagnosis.summary.alternatives import INDISTINGUISHABLE_NATS, discriminability
 from armscope.fitting.design_matrix import columns
 from armscope.fitting.refit import Refit
 from armscope.inference.evidence import FRAME_PRIOR_MM, Hypothesis
@@ -47,14 +47,14 @@ def next_poses(
     adapt to (its posterior covariance, updated after each choice) and the noise.
     """
     pairs = [
-        (apart(best, other, search.placed(c), placed), c, placed, other)
+        (discriminability(best, other, search.placed(c), placed), c, placed, other)
         for c, found in rivals.items()
         for _, placed, other in found
     ]
     if not pairs:
         return None
     nats, candidate, placed, other = min(pairs, key=lambda pair: pair[0])
-    if nats > TELLS_APART_NATS:
+    if nats > INDISTINGUISHABLE_NATS:
         return None
     table = _reachable(fit, recordings, rng)
     scene = Scene(fit.model.arm, table)

@@ -30,11 +30,11 @@ def parameters(placed: Placed, values: Array, covariance: Array) -> tuple[Parame
 
 
 def _reading(placed: Placed) -> tuple[list[str], list[str], Reading]:
-    if placed.reading == "sine" and len(placed.terms) == 2:
+    if placed.parametrisation == "sine" and len(placed.terms) == 2:
         return ["amplitude", "phase"], ["rad", "rad"], _wave
-    if placed.reading == "sine":
+    if placed.parametrisation == "sine":
         return ["amplitude", "phase", "direction"], ["rad"] * 3, _turning_wave
-    if placed.reading == "curve":
+    if placed.parametrisation == "curve":
         return [], [], lambda v: np.empty(0)  # a curve is told as a curve
     si = np.array([term.si for term in placed.terms])
     return [t.name for t in placed.terms], [t.unit for t in placed.terms], lambda v: v / si

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from armscope.diagnosis.state import Evidence
-from armscope.inference.detection import Presence
+from armscope.diagnosis.state import DiagnosisState
+from armscope.inference.detection import Detection
 from armscope.inference.evidence import background_sizes
-from armscope.inference.normal_equations import Gram, contribution
+from armscope.inference.normal_equations import NormalEquations, projected_rms
 from armscope.inference.search import Search
-from armscope.measurement.row_weights import COUNTS
+from armscope.measurement.row_weights import INLIER_WEIGHT
 from armscope.physics.backgrounds import FAMILIES
 from armscope.verdict.schema import Background, FoundEffect, Unexplained
 
@@ -22,20 +22,20 @@ MOST_BAD_SHOTS = 0.1
 """A larger share of rows that fit nothing is no matter of bad shots."""
 
 
-def told_backgrounds(
-    evidence: Evidence, search: Search, gram: Gram, of_families: Sequence[float]
+def background_summaries(
+    state: DiagnosisState, search: Search, gram: NormalEquations, of_families: Sequence[float]
 ) -> tuple[Background, ...]:
     """What each family's background amounts to, and whether the evidence asks for it."""
-    fit, best = evidence.fit, evidence.best
-    sizes = background_sizes(evidence.problem, best)
+    fit, best = state.fit, state.best
+    sizes = background_sizes(state.problem, best)
     values = {t: v for part in fit.model.background for t, v in zip(part.placed.terms, part.values, strict=True)}
     told = []
     for number, (family, columns) in enumerate(zip(FAMILIES, fit.pool.background, strict=True)):
         coefficients = np.zeros(len(fit.pool.terms))
         coefficients[columns] = [values[fit.pool.terms[column]] for column in columns]
-        rms = contribution(gram, fit.pool.frames, coefficients)
-        without = search.resized(best, (*best.background[:number], 0, *best.background[number + 1 :]))
-        present = best.background[number] > 0 and best.value - without.value > BACKGROUND_SEEN_NATS
+        rms = projected_rms(gram, fit.pool.frames, coefficients)
+        without = search.with_background(best, (*best.background[:number], 0, *best.background[number + 1 :]))
+        present = best.background[number] > 0 and best.log_posterior - without.log_posterior > BACKGROUND_SEEN_NATS
         told.append(Background(family, present, sizes[number], rms, of_families[number]))
     return tuple(told)
 
@@ -47,42 +47,42 @@ def together(families: Sequence[Background]) -> Background:
     return Background("all", bool(present), float("nan"), rms, sum(family.share for family in present))
 
 
-def unexplained_part(effects: Sequence[FoundEffect], evidence: Evidence) -> Unexplained:
+def unexplained_part(effects: Sequence[FoundEffect], state: DiagnosisState) -> Unexplained:
     """The largest free curve; or noise far above what was stated."""
     curves = [effect for effect in effects if effect.effect == "unknown"]
     if curves:
         largest = curves[0]
         words = largest.curve.description if largest.curve else largest.title
         return Unexplained(True, largest.location, largest.driver, largest.rms_at_tool_mm, words)
-    stated = evidence.noise.stated_mm
-    if stated and evidence.fit.noise > NOISE_EXCESS * stated and _significant(evidence):
-        extra = float(np.sqrt(evidence.fit.noise**2 - stated**2))
+    stated = state.noise.stated_mm
+    if stated and state.fit.noise > NOISE_EXCESS * stated and _significant(state):
+        extra = float(np.sqrt(state.fit.noise**2 - stated**2))
         return Unexplained(True, None, None, extra, "residual above the stated noise that follows nothing in the table")
     return Unexplained(False)
 
 
-def rows_apart(evidence: Evidence) -> Unexplained:
+def rows_apart(state: DiagnosisState) -> Unexplained:
     """Rows that fit nothing, where they are too many to be bad shots: another unit, another frame, another arm."""
-    apart = evidence.fit.weights.trust < COUNTS
+    apart = state.fit.weights.robust_weight < INLIER_WEIGHT
     if np.mean(apart) < MOST_BAD_SHOTS:
         return Unexplained(False)
-    size = float(np.sqrt(np.mean(evidence.fit.residuals[apart] ** 2)))
-    runs = np.unique(evidence.recordings.run[apart])
-    whole = [str(run) for run in runs if run and np.mean(apart[evidence.recordings.run == run]) > COUNTS]
+    size = float(np.sqrt(np.mean(state.fit.residuals[apart] ** 2)))
+    runs = np.unique(state.recordings.run[apart])
+    whole = [str(run) for run in runs if run and np.mean(apart[state.recordings.run == run]) > INLIER_WEIGHT]
     words = f"{np.count_nonzero(apart)} of {len(apart)} rows fit neither the nominal arm nor any effect"
     return Unexplained(True, None, None, size, words + (f": most of run {', '.join(whole)}" if whole else ""))
 
 
-def too_faint(found: Presence) -> Unexplained:
+def too_faint(found: Detection) -> Unexplained:
     """Something that is there although no single name is sure."""
-    if not found.something:
+    if not found.detected:
         return Unexplained(False)
     names = ", ".join(f"{placed.name.replace('_', ' ')} at {placed.location}" for placed in found.likeliest)
     words = f"something is missing, but it is too faint for a name; likeliest: {names}"
     return Unexplained(True, found.location, None, found.size_mm, words)
 
 
-def _significant(evidence: Evidence) -> bool:
+def _significant(state: DiagnosisState) -> bool:
     """Whether the residual's excess over the stated noise is beyond chance (five standard errors of an RMS)."""
-    freedom = max(evidence.fit.gram.n - evidence.fit.spent, 1.0)
-    return evidence.fit.noise > evidence.noise.stated_mm * (1 + 5 / np.sqrt(2 * freedom))
+    freedom = max(state.fit.gram.n - state.fit.spent, 1.0)
+    return state.fit.noise > state.noise.stated_mm * (1 + 5 / np.sqrt(2 * freedom))

@@ -48,7 +48,7 @@ class Converter:
             numbers = piece.beside[identity.row_of].row_numbers(numbers)
         elif identity is not None and identity.column is not None:
             return piece.words(identity.column)
-        return numbers.astype(str).tolist()
+        return list(numbers.astype(str).tolist())
 
     def _check_ids(self, piece: Piece, ids: list[str], targets: list[str]) -> None:
         assert self.columns.id is not None

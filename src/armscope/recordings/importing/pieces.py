@@ -199,7 +199,7 @@ class Filter:
         assert rule.equal is not None
         if isinstance(rule.equal.value, str):
             return np.array([word == rule.equal.value for word in piece.words(rule.equal.column)])
-        return piece.numbers(rule.equal.column) == rule.equal.value
+        return np.asarray(piece.numbers(rule.equal.column) == rule.equal.value)
 
     def _is_new(self, key: tuple[str, ...]) -> bool:
         if key in self.seen:

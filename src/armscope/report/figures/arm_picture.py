@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 from scipy.spatial import ConvexHull
 
+from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.report.figures.arm_shape import ArmShape, View, arm_shape, typical_pose
 from armscope.report.style import BLACK, GREY, styled
@@ -309,8 +310,7 @@ def _halfway(line: Array) -> Array:
 
 
 def _number(location: str) -> float:
-    last = location.split()[-1]
-    return float(last) if last.isdigit() else 0.0
+    return float(Location.of(location).number)
 
 
 def _shaded(colour: Any) -> Array:

@@ -22,7 +22,7 @@ from armscope.report.figures.waterfall import draw_waterfall
 from armscope.report.style import save_figure
 from armscope.report.text.wording import plain, shown_unit
 from armscope.robot import Arm, chain, position_jacobian
-from armscope.verdict.schema import INTERVAL, Atlas, FoundEffect, Verdict, WaterfallStep
+from armscope.verdict.schema import INTERVAL, Atlas, Diagnosis, FoundEffect, Verdict, WaterfallStep
 from armscope.verdict.schema import Curve as FoundCurve
 
 FORMATS = ("png", "svg")
@@ -39,7 +39,7 @@ class SavedFigure:
 
 
 def save_all(
-    verdict: Verdict, arm: Arm, recordings: Recordings, folder: Path, references: Sequence[tuple[str, float]]
+    verdict: Diagnosis, arm: Arm, recordings: Recordings, folder: Path, references: Sequence[tuple[str, float]]
 ) -> dict[str, SavedFigure]:
     """Draw and save all figures that this verdict has something for, by name.
 

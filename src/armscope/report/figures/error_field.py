@@ -17,6 +17,7 @@ from markupsafe import Markup
 from matplotlib.colors import LinearSegmentedColormap, Normalize, to_hex, to_rgb
 from numpy.typing import ArrayLike
 
+from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.report.figures.arm_picture import UNTOUCHED, round_up, share_colours, shares_by_place
 from armscope.report.figures.arm_shape import arm_shape, typical_pose, upright
@@ -150,7 +151,7 @@ def _arm_data(arm: Arm, motor_angles: Array, shares: Mapping[str, float]) -> dic
         body = body_of(arm, location)
         rotation, origin = bodies[body]
         local = (line @ base_axes.T - origin) @ rotation * 1e3
-        place = arm.n_joints + 1 if location == "tool" else 0 if location == "base" else int(location.split()[-1])
+        place = arm.n_joints + 1 if location == "tool" else Location.of(location).number
         parts.append(
             {
                 "body": body,
@@ -191,7 +192,7 @@ def body_of(arm: Arm, location: str) -> int:
         return 0
     if location == "tool":
         return arm.n_joints
-    number = int(location.split()[-1])
+    number = Location.of(location).number
     return number - 1 if arm.is_modified_dh else number
 
 

@@ -22,7 +22,7 @@ from armscope.report.sections.effect_cards import Card, card
 from armscope.report.text.headline import headline
 from armscope.report.text.wording import main_and_minor, millimetres, percent, rounded
 from armscope.robot import Arm
-from armscope.verdict.schema import FoundEffect, NextPoses, SuspectRow, Verdict
+from armscope.verdict.schema import Diagnosis, FoundEffect, NextPoses, SuspectRow
 
 MOST_SUSPECTS = 40
 ANSWERS = {
@@ -55,7 +55,7 @@ GLOSSARY = (
 )  # fmt: skip
 
 
-def write_report(verdict: Verdict, arm: Arm, recordings: Recordings, folder: Path | str) -> Path:
+def write_report(verdict: Diagnosis, arm: Arm, recordings: Recordings, folder: Path | str) -> Path:
     """Write ``report.html`` and ``figures/*`` (PNG and SVG) for a diagnosis; returns the page's path.
 
     Args:
@@ -75,7 +75,7 @@ def write_report(verdict: Verdict, arm: Arm, recordings: Recordings, folder: Pat
 
 
 def _content(
-    verdict: Verdict,
+    verdict: Diagnosis,
     arm: Arm,
     recordings: Recordings,
     figures: Mapping[str, SavedFigure],
@@ -129,7 +129,7 @@ def _content(
     }
 
 
-def _field(verdict: Verdict, recordings: Recordings) -> ErrorField:
+def _field(verdict: Diagnosis, recordings: Recordings) -> ErrorField:
     """The residuals in the workspace, to be turned."""
     rows = verdict.residuals
     bad = {(row.id, row.run): f"fits badly, {row.weight:.2g} of its weight kept" for row in verdict.suspects}
@@ -151,7 +151,7 @@ def _field(verdict: Verdict, recordings: Recordings) -> ErrorField:
     )
 
 
-def _tiles(verdict: Verdict) -> list[tuple[str, str, str]]:
+def _tiles(verdict: Diagnosis) -> list[tuple[str, str, str]]:
     """(number, what it is, details) for the strip under the headline."""
     held_out = math.isfinite(verdict.held_out.before) and math.isfinite(verdict.held_out.after)
     before = verdict.held_out.before if held_out else verdict.residual_before_mm
@@ -172,7 +172,7 @@ def _tiles(verdict: Verdict) -> list[tuple[str, str, str]]:
     ]
 
 
-def _turns_improved(verdict: Verdict) -> str:
+def _turns_improved(verdict: Diagnosis) -> str:
     """What becomes of the error of orientations, where they were measured."""
     before, after = verdict.held_out.turn_before, verdict.held_out.turn_after
     if not (math.isfinite(before) and math.isfinite(after)):
@@ -180,7 +180,7 @@ def _turns_improved(verdict: Verdict) -> str:
     return f" Of the orientations it goes from {rounded(before)} to {rounded(after)} mrad RMS per axis."
 
 
-def improvement(verdict: Verdict) -> str:
+def improvement(verdict: Diagnosis) -> str:
     """One sentence: how much smaller the error becomes on rows that took no part."""
     before, after = verdict.held_out.before, verdict.held_out.after
     if verdict.mismatch is None and not verdict.effects:
@@ -208,14 +208,14 @@ def improvement(verdict: Verdict) -> str:
     return f"{start}stays where it is: {millimetres(before)} before, {millimetres(after)} after."
 
 
-def _steps(verdict: Verdict, references: Sequence[tuple[str, float]]) -> pd.DataFrame:
+def _steps(verdict: Diagnosis, references: Sequence[tuple[str, float]]) -> pd.DataFrame:
     rows = [(step.label, step.held_out_mm, step.spread_mm, step.fitted_mm) for step in waterfall_steps(verdict)]
     rows += [(f"for comparison: {name}", rms, np.nan, np.nan) for name, rms in references]
     names = ["model", "held-out RMS (mm)", "its spread over the folds (mm)", "RMS on the fitted rows (mm)"]
     return pd.DataFrame(rows, columns=names)
 
 
-def _left_is_told(verdict: Verdict) -> str:
+def _left_is_told(verdict: Diagnosis) -> str:
     """The anchor of the card that already shows what is left unexplained; empty where there is none."""
     left = verdict.unexplained
     for number, effect in enumerate(verdict.effects, start=1):
@@ -256,7 +256,7 @@ def _next_poses(poses: NextPoses) -> pd.DataFrame:
     return table
 
 
-def assumptions(verdict: Verdict, arm: Arm, recordings: Recordings) -> list[str]:
+def assumptions(verdict: Diagnosis, arm: Arm, recordings: Recordings) -> list[str]:
     """What the verdict rests on, in sentences."""
     loads = (
         "Gravity loads come from the recorded joint torques."

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,6 +17,8 @@ from armscope.real.reference import Reference, ReferenceRun, load_reference
 from armscope.real.transfer import GEOMETRY_HERE, SPLITS, WITH_CURVES
 from armscope.report.html import significant
 from armscope.report.text.compliances import compliance_lines
+from armscope.verdict.files import VERDICT, read_verdict
+from armscope.verdict.schema import Verdict
 
 LEVELS = ("nominal", "offsets", "geometric", "compliance")
 TOLD = 3
@@ -104,7 +105,7 @@ def _head(arms: Sequence[RealArm], figures: str) -> str:
 def _section(arm: RealArm, figures: str) -> str:
     table, reference = _read(arm)
     run = next((each for each in reference.runs if (each.run, each.first_id) == arm.diagnosed), reference.runs[0])
-    verdict = json.loads((arm.folder / "verdict.json").read_text(encoding="utf-8"))
+    verdict = read_verdict(arm.folder / VERDICT)
     parts = [
         f"## {arm.title}",
         _what_is_wrong(verdict) + " " + _how_well(table, run),
@@ -148,18 +149,17 @@ def _spread(row: Any, splits: int | None = None) -> str:
     return f"{significant(row['mean_mm'])} ± {significant(row['std_mm'], 2)}{fewer}"
 
 
-def _what_is_wrong(verdict: dict[str, Any]) -> str:
+def _what_is_wrong(verdict: Verdict) -> str:
     """The largest effects of the verdict, in one sentence."""
-    main = [effect for effect in verdict["effects"] if not effect["minor"]]
+    main = [effect for effect in verdict.effects if not effect.minor]
     if not main:
-        return verdict["headline"].rstrip(".").capitalize() + "."
-    told = [f"{e['title']} ({e['rms_at_tool_mm']:.2g} mm, {100 * e['share']:.0f} %)" for e in main[:TOLD]]
+        return verdict.headline.rstrip(".").capitalize() + "."
+    told = [f"{e.title} ({e.rms_at_tool_mm:.2g} mm, {100 * e.share:.0f} %)" for e in main[:TOLD]]
     if len(main) > TOLD:
         told.append(f"{len(main) - TOLD} smaller effect{'s' if len(main) > TOLD + 1 else ''}")
-    if verdict["background"]["present"]:
-        share = 100 * verdict["background"]["share"]
-        told.append(f"small errors allowed for everywhere in the arm ({share:.0f} %)")
-    before = f"{verdict['fitted_rms_mm']['before']:.2g} mm per axis, base and tool fitted"
+    if verdict.background.present:
+        told.append(f"small errors allowed for everywhere in the arm ({100 * verdict.background.share:.0f} %)")
+    before = f"{verdict.residual_before_mm:.2g} mm per axis, base and tool fitted"
     return f"What the nominal arm misses ({before}) is, the largest first: {'; '.join(told)}."
 
 

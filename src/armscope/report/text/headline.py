@@ -16,7 +16,7 @@ from armscope.report.text.wording import (
     rounded,
     spelled,
 )
-from armscope.verdict.schema import FoundEffect, Parameter, Verdict
+from armscope.verdict.schema import Diagnosis, FoundEffect, Parameter
 
 MOST_TOLD = 3
 """More effects than this are counted, not told."""
@@ -25,7 +25,7 @@ FAINT = 0.7
 """Something unexplained that is smaller than this share of the residual is hidden in the noise."""
 
 
-def headline(verdict: Verdict) -> str:
+def headline(verdict: Diagnosis) -> str:
     """The answer in one sentence."""
     main, minor = main_and_minor(verdict.effects)
     if verdict.answer == "nothing missing":
@@ -47,7 +47,7 @@ def headline(verdict: Verdict) -> str:
     return capitalised("; ".join(parts)) + "."
 
 
-def background_in_words(verdict: Verdict) -> str:
+def background_in_words(verdict: Diagnosis) -> str:
     """ "small geometric and elastic errors everywhere in the arm"."""
     families = [family.family for family in verdict.background_families if family.present] or ["geometric"]
     *first, last = families
@@ -75,7 +75,7 @@ def _of_what(position: int) -> str:
     return " of the mismatch" if position == 0 else ""
 
 
-def _cannot_tell(verdict: Verdict) -> str:
+def _cannot_tell(verdict: Diagnosis) -> str:
     left, after = verdict.unexplained, verdict.residual_after_mm
     # larger than all that is left: it is of rows that fit nothing
     if verdict.mismatch and left.description and not FAINT * after <= left.rms_mm <= after:

@@ -1,0 +1,184 @@
+"""verdict.json: its names, its version, its JSON schema; the one place that writes and reads them.
+
+Keys of the contract stay; more may come. A reader takes no offence at a key that it does not know.
+"""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import Any, Literal, TypeVar
+
+import numpy as np
+from pydantic import AliasChoices, BaseModel, ConfigDict, Field
+from pydantic.json_schema import GenerateJsonSchema
+
+from armscope.core.inputs import InputError, validate
+from armscope.verdict.schema import (
+    Alternative,
+    Answer,
+    Background,
+    FoundEffect,
+    HeldOut,
+    Notice,
+    Number,
+    Orientations,
+    Parameter,
+    Specific,
+    SuspectRow,
+    Unexplained,
+    Verdict,
+    WaterfallStep,
+)
+
+Format = Literal["armscope verdict 2"]
+FORMAT: Format = "armscope verdict 2"
+Made = TypeVar("Made")
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(from_attributes=True)
+
+
+class ParameterFile(_Part):
+    """A fitted number in its unit, with its standard error (null: found by trying values) and 95 % interval."""
+
+    name: str
+    unit: str
+    value: Number
+    stderr: Number
+    interval_95: tuple[Number, Number] = Field(validation_alias=AliasChoices("interval_95", "interval"))
+
+
+class EffectFile(_Part):
+    """An effect that the evidence asks for; the attributes of `armscope.verdict.schema.FoundEffect`."""
+
+    effect: str
+    location: str
+    family: str
+    driver: str
+    named_as: Specific
+    title: str
+    minor: bool
+    parameters: tuple[ParameterFile, ...]
+    rms_at_tool_mm: Number
+    share: Number
+    evidence_nats: Number
+    alternatives: tuple[Alternative, ...]
+    inclusion: float | None
+    description: str
+    carries_over: str
+
+
+class BeforeAfter(_Part):
+    """RMS per axis, with the frames only and with the model."""
+
+    before: Number
+    after: Number
+
+
+class HeldOutFile(BeforeAfter):
+    """RMS per axis (mm) on rows that took no part; null where it was not possible."""
+
+    before_all_rows: Number
+    after_all_rows: Number
+    spread: Number
+    folds: int
+    grouped_by: str
+
+
+class OrientationFile(_Part):
+    """What measured orientations say; RMS per axis, mrad."""
+
+    rows: int
+    noise_mrad: Number
+    lever_mm: Number
+    before_mrad: Number
+    held_out_rms_mrad: BeforeAfter
+
+
+class VerdictFile(_Part):
+    """The content of verdict.json; the attributes of `armscope.verdict.schema.Verdict`."""
+
+    format: Format = FORMAT
+    mismatch: bool | None
+    answer: Answer
+    headline: str
+    noise_mm: Number
+    noise_source: str
+    effects: tuple[EffectFile, ...]
+    unexplained: Unexplained
+    background: Background
+    background_families: tuple[Background, ...]
+    held_out_rms_mm: HeldOutFile
+    orientation: OrientationFile | None
+    fitted_rms_mm: BeforeAfter
+    waterfall: tuple[WaterfallStep, ...]
+    suspects: tuple[SuspectRow, ...]
+    notices: tuple[Notice, ...]
+    rows: int
+    runs: tuple[str, ...]
+    settings: dict[str, Any]
+
+
+_SAME = (
+    "mismatch", "answer", "headline", "noise_mm", "noise_source", "effects", "unexplained", "background",
+    "background_families", "waterfall", "suspects", "notices", "rows", "runs", "settings",
+)  # fmt: skip
+"""Keys that a verdict's attributes are called by, too."""
+
+
+class _Written(GenerateJsonSchema):
+    """Every key is always there: the defaults are those of the classes in memory."""
+
+    def field_is_required(self, *_: Any, **__: Any) -> bool:
+        return True
+
+    def default_schema(self, schema: Any) -> Any:
+        return self.generate_inner(schema["schema"])
+
+
+def schema() -> dict[str, Any]:
+    """The JSON schema of verdict.json."""
+    return VerdictFile.model_json_schema(mode="serialization", schema_generator=_Written)
+
+
+def to_json(verdict: Verdict) -> dict[str, Any]:
+    """The content of verdict.json."""
+    held_out, seen = verdict.held_out, verdict.orientations
+    turned = BeforeAfter(before=held_out.turn_before, after=held_out.turn_after)
+    file = VerdictFile(
+        **{name: getattr(verdict, name) for name in _SAME},
+        held_out_rms_mm=HeldOutFile.model_validate(held_out),
+        orientation=None if seen is None else OrientationFile(**vars(seen), held_out_rms_mrad=turned),
+        fitted_rms_mm=BeforeAfter(before=verdict.residual_before_mm, after=verdict.residual_after_mm),
+    )
+    return file.model_dump()
+
+
+def from_json(content: Any, source: object) -> Verdict:
+    """A verdict from the content of verdict.json; see `Verdict.from_json`."""
+    if not isinstance(content, dict) or content.get("format") != FORMAT:
+        found = content.get("format", "no key format") if isinstance(content, dict) else "no mapping"
+        rule = f'a verdict of this version says "format": "{FORMAT}"'
+        raise InputError(source, "format", found, rule, "`armscope diagnose` writes one.")
+    file = validate(VerdictFile, content, source)
+    seen = file.orientation
+    turned = seen.held_out_rms_mrad if seen else BeforeAfter(before=np.nan, after=np.nan)
+    return Verdict(
+        **{name: getattr(file, name) for name in _SAME if name != "effects"},
+        effects=tuple(_effect(effect) for effect in file.effects),
+        held_out=_as(HeldOut, file.held_out_rms_mm, turn_before=turned.before, turn_after=turned.after),
+        residual_before_mm=file.fitted_rms_mm.before,
+        residual_after_mm=file.fitted_rms_mm.after,
+        orientations=_as(Orientations, seen) if seen else None,
+    )
+
+
+def _effect(effect: EffectFile) -> FoundEffect:
+    return _as(FoundEffect, effect, parameters=tuple(_as(Parameter, each) for each in effect.parameters))
+
+
+def _as(kind: type[Made], part: BaseModel, **changes: Any) -> Made:
+    """A part of the file as what it is in memory, without what is said twice."""
+    known = {field.name for field in fields(kind)}  # type: ignore[arg-type]
+    return kind(**{**{name: value for name, value in part if name in known}, **changes})
