@@ -25,6 +25,8 @@ rule closed_loop:
         code=code("armscope.cli.outlook:closed_loop"),
     log:
         f"{RESULTS}/logs/closed_loop.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/closed_loop.tsv"
     conda:
         "../envs/armscope.yaml"
     shell:
@@ -45,6 +47,8 @@ rule regions:
         code=code("armscope.cli.outlook:regions_"),
     log:
         f"{RESULTS}/logs/regions.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/regions.tsv"
     conda:
         "../envs/armscope.yaml"
     shell:
@@ -63,6 +67,8 @@ rule products:
         code=code("armscope.cli.outlook:products_"),
     log:
         f"{RESULTS}/logs/products.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/products.tsv"
     conda:
         "../envs/armscope.yaml"
     shell:
@@ -84,6 +90,8 @@ rule full_pose:
         code=code("armscope.cli.outlook:full_pose"),
     log:
         f"{RESULTS}/logs/full_pose.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/full_pose.tsv"
     conda:
         "../envs/armscope.yaml"
     shell:

@@ -25,6 +25,8 @@ rule measure:
         code=code("armscope.cli.paper:measure"),
     log:
         f"{RESULTS}/logs/measure.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/measure.tsv"
     conda:
         "../envs/armscope.yaml"
     shell:
@@ -43,6 +45,8 @@ rule fit:
         code=code("armscope.cli.paper:fit"),
     log:
         f"{RESULTS}/logs/{{study}}/fit.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/{{study}}/fit.tsv"
     conda:
         "../envs/armscope.yaml"
     shell:
@@ -60,6 +64,8 @@ use rule fit as fit_ensemble with:
         code=code("armscope.cli.paper:fit"),
     log:
         f"{RESULTS}/logs/fit_ensemble.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/fit_ensemble.tsv"
 
 
 use rule fit as fit_as_printed with:
@@ -74,6 +80,8 @@ use rule fit as fit_as_printed with:
         code=code("armscope.cli.paper:fit"),
     log:
         f"{RESULTS}/logs/fit_as_printed.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/fit_as_printed.tsv"
 
 
 rule residuals:
@@ -253,6 +261,8 @@ rule convergence:
         code=code("armscope.cli.paper:convergence"),
     log:
         f"{RESULTS}/logs/convergence.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/convergence.tsv"
     conda:
         "../envs/armscope.yaml"
     shell:

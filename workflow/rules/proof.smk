@@ -41,6 +41,8 @@ rule proof_worlds:
         code=code("armscope.cli.proof:worlds"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/worlds-{{half}}-{{part}}.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/proof/{{size}}/worlds-{{half}}-{{part}}.tsv"
     conda:
         "../envs/armscope.yaml"
     shell:
@@ -62,6 +64,8 @@ rule proof_diagnose:
         code=code("armscope.cli.proof:diagnose"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/diagnose-{{batch}}.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/proof/{{size}}/diagnose-{{batch}}.tsv"
     conda:
         "../envs/armscope.yaml"
     shadow:
@@ -88,6 +92,8 @@ rule proof_score:
         code=code("armscope.cli.proof:score"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/score.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/proof/{{size}}/score.tsv"
     conda:
         "../envs/armscope.yaml"
     shell:

@@ -30,6 +30,8 @@ rule proof_real_original:
         part_real="original|withheld",
     log:
         f"{RESULTS}/logs/proof_real/plant-{{set}}-{{part_real}}.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/proof_real/plant-{{set}}-{{part_real}}.tsv"
     conda:
         "../envs/armscope.yaml"
     shell:
@@ -52,6 +54,8 @@ rule proof_real_plant:
         code=code("armscope.cli.real:plant"),
     log:
         f"{RESULTS}/logs/proof_real/plant-{{set}}-{{half_real}}.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/proof_real/plant-{{set}}-{{half_real}}.tsv"
     conda:
         "../envs/armscope.yaml"
     shell:
@@ -69,6 +73,8 @@ use rule proof_diagnose as proof_real_diagnose with:
         seen=f"{PROOF_REAL}/seen/{{set}}-{{part_real}}.txt",
     log:
         f"{RESULTS}/logs/proof_real/diagnose-{{set}}-{{part_real}}.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/proof_real/diagnose-{{set}}-{{part_real}}.tsv"
 
 
 rule proof_real_score:
@@ -85,6 +91,8 @@ rule proof_real_score:
         code=code("armscope.cli.real:score"),
     log:
         f"{RESULTS}/logs/proof_real/score.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/proof_real/score.tsv"
     conda:
         "../envs/armscope.yaml"
     shell:

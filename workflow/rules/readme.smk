@@ -14,6 +14,8 @@ rule example:
         code=code("armscope.cli.diagnosis:diagnose"),
     log:
         f"{RESULTS}/logs/examples/{{example}}.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/examples/{{example}}.tsv"
     conda:
         "../envs/armscope.yaml"
     shell:

@@ -20,6 +20,8 @@ rule measure_real:
         code=code("armscope.cli.paper:measure_real"),
     log:
         f"{RESULTS}/logs/real/{{set}}/measure.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/real/{{set}}/measure.tsv"
     conda:
         "../envs/armscope.yaml"
     shell:
@@ -43,6 +45,8 @@ rule diagnose_real:
         code=code("armscope.cli.diagnosis:diagnose"),
     log:
         f"{RESULTS}/logs/real/{{set}}/diagnose.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/real/{{set}}/diagnose.tsv"
     conda:
         "../envs/armscope.yaml"
     shell:
@@ -68,6 +72,8 @@ rule protocol_real:
         code=code("armscope.cli.real:protocol"),
     log:
         f"{RESULTS}/logs/real/{{set}}/protocol.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/real/{{set}}/protocol.tsv"
     conda:
         "../envs/armscope.yaml"
     shell:
@@ -89,6 +95,8 @@ rule compliances_real:
         code=code("armscope.cli.real:compliances"),
     log:
         f"{RESULTS}/logs/real/{{set}}/compliances.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/real/{{set}}/compliances.tsv"
     conda:
         "../envs/armscope.yaml"
     shell:

@@ -39,6 +39,8 @@ rule import_raw:
         code=code("armscope.cli.recordings:import_"),
     log:
         f"{RESULTS}/logs/recordings/{{public_set}}/import.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/recordings/{{public_set}}/import.tsv"
     conda:
         "../envs/armscope.yaml"
     shell:

@@ -25,6 +25,8 @@ rule sweep_variant:
         code=code("armscope.cli.sweep:run"),
     log:
         f"{RESULTS}/logs/sweep/{{variant}}.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/sweep/{{variant}}.tsv"
     conda:
         "../envs/armscope.yaml"
     shell:

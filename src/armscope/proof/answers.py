@@ -12,7 +12,7 @@ from armscope.proof.definitions import Name
 from armscope.verdict.files import VERDICT, read_verdict
 from armscope.verdict.schema import FoundEffect
 
-PREDICTED, FAILURE, TIMES = "test_predicted.csv", "failed.txt", "times.csv"
+PREDICTED, FAILURE = "test_predicted.csv", "failed.txt"
 
 
 @dataclass(frozen=True)
