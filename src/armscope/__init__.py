@@ -25,6 +25,9 @@ def diagnose(
         recordings: a recordings table, a data frame with its columns, or the path of one.
         settings: see `armscope.diagnosis.Settings`.
 
+    Returns:
+        The verdict.
+
     Raises:
         InputError: something that can't be used; it says what, where, and how to mend it.
     """

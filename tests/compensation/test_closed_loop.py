@@ -12,8 +12,8 @@ from armscope.compensation.closed_loop import (
     MeasuredPath,
     black_box_candidate,
     cross_table,
-    left_over,
     physical_candidate,
+    remaining_errors,
 )
 from armscope.diagnosis import Settings, diagnose
 from armscope.errormodels import FDP_CI, SDP_AI, FitProblem, fit_swarms
@@ -119,7 +119,9 @@ def paper_table():
     commands = follow_path(arm, points, angles.mean(axis=0), {4: 0.0, 5: 0.0}).require_all("path")
     path = MeasuredPath(commands, points * 1e3, measured(ours, commands) - points * 1e3)
     ident = MeasuredPath(angles, nominal * 1e3, measured(ours, angles) - nominal * 1e3)
-    table = cross_table(left_over(arm, candidates, ident, {"curve": path}, lambda at: truth.positions(at, ours)[0]))
+    table = cross_table(
+        remaining_errors(arm, candidates, ident, {"curve": path}, lambda at: truth.positions(at, ours)[0])
+    )
     return table[table["axis"] == "3D"].set_index(["model", "stage"])["rms_mm"], table
 
 

@@ -12,7 +12,6 @@ from armscope.diagnosis.held_out import Rows, left_over, split
 from armscope.diagnosis.selection_loop import SelectionLoop
 from armscope.fitting.linearisation import residuals
 from armscope.fitting.registration import fit_frames
-from armscope.inference.evidence import PERFECT
 from armscope.measurement.noise import Noise
 from armscope.physics.frames import free_frames
 
@@ -56,11 +55,11 @@ def test_readings_are_told_at_the_point_where_their_columns_were_taken() -> None
     off = replace(near, tools=tuple(replace(part, values=part.values + 5e-4) for part in near.tools))
     blocks = np.arange(100) % 5
     round_ = SelectionLoop(off, table, Noise(0.0, 0.0, ""), free_frames(table, False), blocks, lambda text, share: None)
-    round_.round((PERFECT,))
+    round_.round([(0, 0, 0)])
     found = round_.selected()
     values = found.best.coefficients(len(found.problem.scale)) / found.problem.scale
-    rows = Rows(found.point, table, found.fit.weights.weight)
-    left = left_over(rows, found.problem.pool, values[None])[0]
+    rows = Rows(found.point, table, found.fit.weights, found.space.layout)
+    left = left_over(rows, values[None])[0]
     np.testing.assert_allclose(left, found.fit.residuals, atol=0.004)
     assert np.abs(residuals(off, table) - residuals(found.fit.model, table)).max() > 0.2
 

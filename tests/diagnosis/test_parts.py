@@ -9,8 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from armscope.diagnosis import Settings, diagnose
-from armscope.diagnosis import selection_loop as rounds
+from armscope.diagnosis import Settings, diagnose, selection
 from armscope.diagnosis.held_out import split
 from armscope.diagnosis.summary.effect_curve import describe
 from armscope.diagnosis.summary.parameters import parameters
@@ -217,7 +216,7 @@ def test_a_faint_jump_has_a_wide_interval() -> None:
 
 def test_a_long_table_is_sampled_and_then_weighed_whole(monkeypatch: pytest.MonkeyPatch) -> None:
     arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [5e-7]}, 400, 0.02, seed=15)
-    monkeypatch.setattr(rounds, "SAMPLE_ROWS", 120)
+    monkeypatch.setattr(selection, "SAMPLE_ROWS", 120)
     verdict = diagnose(arm, table, QUICK)
     (found,) = verdict.effects
     assert (found.effect, found.location) == ("joint_compliance", "joint 2")

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import diagnose
+from armscope.diagnosis.model_space import build_model_space
 from armscope.fitting.design_matrix import columns
 from armscope.fitting.linearisation import normal_equations_by_block
-from armscope.fitting.model_space import pool
 from armscope.fitting.registration import fit_frames
-from armscope.inference import evidence
 from armscope.inference.detection import DETECTED_NATS, averaged_log_odds
-from armscope.inference.evidence import PERFECT, SURE_NATS, Problem, SelectedEffect, evaluate
+from armscope.inference.evidence import evaluate
 from armscope.inference.normal_equations import total
+from armscope.inference.problem import SURE_NATS, Problem, SelectedEffect, build_problem
 from armscope.inference.search import Search
 from armscope.measurement.row_weights import RowWeights
 from armscope.physics.backgrounds import backgrounds
@@ -27,6 +27,7 @@ from ..diagnosis.test_diagnose import QUICK
 
 ROWS, NOISE_MM = 80, 0.03
 DRAWS = 150
+PERFECT = (0, 0, 0)
 
 
 @pytest.fixture(scope="module")
@@ -34,10 +35,10 @@ def setting() -> tuple[Problem, np.ndarray]:
     """An arm's library at random poses, and its columns, scaled."""
     arm, table = planted("six-axis", {}, ROWS, NOISE_MM, seed=5)
     model = fit_frames(arm, table)
-    parts = pool(free_frames(table, False), list(backgrounds(arm, table).values()), library(arm, table))
-    gram = total(normal_equations_by_block(parts, model, table, RowWeights(np.ones(ROWS)), np.arange(ROWS) % 5))
-    problem = evidence.problem(parts, gram, 0.97 * NOISE_MM)
-    return problem, columns(model.posture(model.scene(table)), parts.terms) / problem.scale
+    parts = build_model_space(free_frames(table, False), list(backgrounds(arm, table).values()), library(arm, table))
+    gram = total(normal_equations_by_block(parts.layout, model, table, RowWeights(np.ones(ROWS)), np.arange(ROWS) % 5))
+    problem = build_problem(parts, gram, 0.97 * NOISE_MM)
+    return problem, columns(model.posture(model.scene(table)), parts.layout.terms) / problem.scale
 
 
 def read(problem: Problem, X: np.ndarray, y: np.ndarray) -> Problem:
@@ -61,8 +62,8 @@ def test_noise_alone_seldom_looks_like_something(setting: tuple[Problem, np.ndar
 
 def test_something_is_known_to_be_there_before_it_can_be_named(setting: tuple[Problem, np.ndarray]) -> None:
     problem, X = setting
-    offset = next(n for n, p in enumerate(problem.pool.candidates) if p.key == ("gear_ratio", "joint 3"))
-    column = X[:, problem.pool.columns[offset][0]]
+    offset = next(n for n, p in enumerate(problem.space.candidates) if p.key == ("gear_ratio", "joint 3"))
+    column = X[:, problem.space.candidates[offset].columns[0]]
     rng = np.random.default_rng(9)
     seen = named = 0
     for _ in range(40):
@@ -77,9 +78,9 @@ def test_something_is_known_to_be_there_before_it_can_be_named(setting: tuple[Pr
 def test_a_name_that_is_not_worth_its_price_goes(setting: tuple[Problem, np.ndarray]) -> None:
     problem, X = setting
     rng = np.random.default_rng(10)
-    strong = next(n for n, p in enumerate(problem.pool.candidates) if p.key == ("joint_compliance", "joint 2"))
-    weak = next(n for n, p in enumerate(problem.pool.candidates) if p.key == ("servo_lag", "joint 4"))
-    y = 10 * NOISE_MM * X[:, problem.pool.columns[strong][0]] + rng.normal(0, NOISE_MM, len(X))
+    strong = next(n for n, p in enumerate(problem.space.candidates) if p.key == ("joint_compliance", "joint 2"))
+    weak = next(n for n, p in enumerate(problem.space.candidates) if p.key == ("servo_lag", "joint 4"))
+    y = 10 * NOISE_MM * X[:, problem.space.candidates[strong].columns[0]] + rng.normal(0, NOISE_MM, len(X))
     search = Search.on(read(problem, X, y))
     both = evaluate(search.problem, (SelectedEffect(strong, 4), SelectedEffect(weak, 0)), PERFECT, NOISE_MM)
     assert search.log_odds(both, weak) < SURE_NATS < search.log_odds(both, strong)

@@ -6,21 +6,15 @@ import numpy as np
 import pytest
 from scipy.stats import multivariate_normal, norm
 
+from armscope.diagnosis.model_space import build_model_space
 from armscope.fitting.design_matrix import columns
 from armscope.fitting.linearisation import normal_equations_by_block, residuals
-from armscope.fitting.model_space import Pool, pool
 from armscope.fitting.registration import fit_frames
-from armscope.inference import evidence
-from armscope.inference.evidence import (
-    PERFECT,
-    Problem,
-    SelectedEffect,
-    evaluate,
-    removal_log_bayes_factors,
-    savage_dickey,
-)
+from armscope.inference.additions import best_additions, group_candidates
+from armscope.inference.evidence import evaluate, removal_log_bayes_factors, savage_dickey
+from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.normal_equations import total
-from armscope.inference.updates import best_additions, group_candidates
+from armscope.inference.problem import Problem, SelectedEffect, build_problem, prior_costs, prior_variances
 from armscope.measurement.row_weights import RowWeights
 from armscope.physics.backgrounds import backgrounds
 from armscope.physics.frames import free_frames
@@ -29,6 +23,7 @@ from armscope.physics.registry import library
 from ..diagnosis.planted import planted
 
 ROWS = 40
+PERFECT = (0, 0, 0)
 
 
 @pytest.fixture(scope="module")
@@ -36,15 +31,15 @@ def setting() -> tuple[Problem, np.ndarray, np.ndarray]:
     """A problem with its columns (scaled) and response written out, mm."""
     arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [2e-7]}, ROWS, 0.03, seed=1)
     model = fit_frames(arm, table)
-    parts: Pool = pool(free_frames(table, False), list(backgrounds(arm, table).values()), library(arm, table))
-    blocks = normal_equations_by_block(parts, model, table, RowWeights(np.ones(ROWS)), np.arange(ROWS) % 5)
-    problem = evidence.problem(parts, total(blocks), 0.0)
-    X = columns(model.posture(model.scene(table)), parts.terms) / problem.scale
+    parts = build_model_space(free_frames(table, False), list(backgrounds(arm, table).values()), library(arm, table))
+    blocks = normal_equations_by_block(parts.layout, model, table, RowWeights(np.ones(ROWS)), np.arange(ROWS) % 5)
+    problem = build_problem(parts, total(blocks), 0.0)
+    X = columns(model.posture(model.scene(table)), parts.layout.terms) / problem.scale
     return problem, X, residuals(model, table).reshape(-1)
 
 
 def numbers(problem: Problem, *keys: tuple[str, str]) -> tuple[SelectedEffect, ...]:
-    at = {(*p.key, p.variant): n for n, p in reversed(list(enumerate(problem.pool.candidates)))}
+    at = {(*p.key, p.variant): n for n, p in reversed(list(enumerate(problem.space.candidates)))}
     return tuple(SelectedEffect(at[(*key, "")], 3) for key in keys)
 
 
@@ -58,7 +53,7 @@ def test_blocks_add_up_to_the_sums_over_all_rows(setting: tuple[Problem, np.ndar
 
 @pytest.mark.parametrize("background", [PERFECT, (4, 0, 0), (3, 2, 1)])
 def test_evidence_is_the_density_of_the_data(
-    setting: tuple[Problem, np.ndarray, np.ndarray], background: evidence.Background
+    setting: tuple[Problem, np.ndarray, np.ndarray], background: BackgroundSizes
 ) -> None:
     """Differences of evidence are differences of log N(y; 0, X P X' + noise^2 I), prices taken off.
 
@@ -67,13 +62,13 @@ def test_evidence_is_the_density_of_the_data(
     problem, X, y = setting
 
     def brute(chosen: tuple[SelectedEffect, ...], noise: float) -> float:
-        prior = evidence.prior_variances(problem, chosen, background)
+        prior = prior_variances(problem, chosen, background)
         covariance = (X * prior) @ X.T + noise**2 * np.eye(len(y))
         return float(multivariate_normal(np.zeros(len(y)), covariance, allow_singular=False).logpdf(y))
 
     def upper_half(chosen: tuple[SelectedEffect, ...], noise: float) -> float:
-        prior = evidence.prior_variances(problem, chosen, background)
-        at = problem.pool.columns[chosen[0].candidate][0]
+        prior = prior_variances(problem, chosen, background)
+        at = problem.space.candidates[chosen[0].candidate].columns[0]
         covariance = (X * prior) @ X.T + noise**2 * np.eye(len(y))
         towards = prior[at] * np.linalg.solve(covariance, X[:, at])
         variance = prior[at] - prior[at] * X[:, at] @ towards
@@ -90,7 +85,7 @@ def test_evidence_is_the_density_of_the_data(
 def test_a_predicted_gain_is_the_gain(setting: tuple[Problem, np.ndarray, np.ndarray]) -> None:
     problem, *_ = setting
     parent = evaluate(problem, numbers(problem, ("joint_compliance", "joint 2")), PERFECT, 0.03)
-    gain, size = best_additions(problem, group_candidates(problem.pool), parent)
+    gain, size = best_additions(problem, group_candidates(problem.space), parent)
     for candidate in (0, 9, 40, 70):
         child = evaluate(
             problem, (*parent.chosen, SelectedEffect(candidate, int(size[candidate]))), PERFECT, parent.noise
@@ -104,7 +99,7 @@ def test_a_predicted_loss_is_the_loss(setting: tuple[Problem, np.ndarray, np.nda
     chosen = numbers(problem, ("joint_offset", "joint 3"), ("gear_ratio", "joint 4"), ("link_geometry", "link 2"))
     for background in (PERFECT, (4, 2, 1)):
         whole = evaluate(problem, chosen, background, 0.05)
-        fixed = evidence.Problem(**{**vars(problem), "least_noise": whole.noise * 1.5})
+        fixed = Problem(**{**vars(problem), "least_noise": whole.noise * 1.5})
         whole = evaluate(fixed, chosen, background, fixed.least_noise)
         lost = removal_log_bayes_factors(fixed, whole)
         for number in range(len(chosen)):
@@ -118,7 +113,7 @@ def test_pinning_an_effect_is_removing_it_where_nothing_else_holds_it(
     problem, *_ = setting
     chosen = numbers(problem, ("gear_ratio", "joint 3"), ("joint_compliance", "joint 2"))
     whole = evaluate(problem, chosen, PERFECT, 0.05)
-    pinned = savage_dickey(problem, whole, [problem.pool.columns[c.candidate] for c in chosen])
+    pinned = np.array([savage_dickey(whole, problem.space.candidates[c.candidate].columns) for c in chosen])
     prices = [problem.prior_costs[c.candidate] + np.log(len(problem.sizes)) for c in chosen]
     np.testing.assert_allclose(pinned - prices, removal_log_bayes_factors(problem, whole), atol=1e-6)
 
@@ -126,7 +121,7 @@ def test_pinning_an_effect_is_removing_it_where_nothing_else_holds_it(
 def test_a_larger_library_makes_a_name_dearer() -> None:
     arm, table = planted("six-axis", {}, ROWS, 0.03, seed=1)
     frames = free_frames(table, False)
-    few = pool(frames, [[], [], []], [p for p in library(arm, table) if p.name == "joint_offset"])
-    many = pool(frames, [[], [], []], library(arm, table))
-    cheap, dear = evidence.prior_costs(few)[0], evidence.prior_costs(many)[0]
+    few = build_model_space(frames, [[], [], []], [p for p in library(arm, table) if p.name == "joint_offset"])
+    many = build_model_space(frames, [[], [], []], library(arm, table))
+    cheap, dear = prior_costs(few)[0], prior_costs(many)[0]
     assert dear > cheap + 2

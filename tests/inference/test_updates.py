@@ -5,13 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from armscope.diagnosis.model_space import build_model_space
 from armscope.fitting.linearisation import normal_equations_by_block
-from armscope.fitting.model_space import pool
 from armscope.fitting.registration import fit_frames
-from armscope.inference import evidence, updates
-from armscope.inference.evidence import Hypothesis, Problem, SelectedEffect, evaluate
+from armscope.inference import linear_algebra
+from armscope.inference.additions import addition_scores, group_candidates
+from armscope.inference.conditioning import condition_on, low_rank_update
+from armscope.inference.evidence import Hypothesis, evaluate
+from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.normal_equations import total
-from armscope.inference.updates import addition_scores, condition_on, group_candidates, low_rank_update
+from armscope.inference.problem import Problem, SelectedEffect, build_problem
 from armscope.measurement.row_weights import RowWeights
 from armscope.physics.backgrounds import backgrounds
 from armscope.physics.frames import free_frames
@@ -26,13 +29,13 @@ ROWS, NOISE = 40, 0.2
 def setting() -> Problem:
     arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [2e-7]}, ROWS, 0.03, seed=1)
     model = fit_frames(arm, table)
-    parts = pool(free_frames(table, False), list(backgrounds(arm, table).values()), library(arm, table))
-    gram = total(normal_equations_by_block(parts, model, table, RowWeights(np.ones(ROWS)), np.arange(ROWS) % 5))
-    return replace(evidence.problem(parts, gram, 0.0), least_noise=NOISE)
+    parts = build_model_space(free_frames(table, False), list(backgrounds(arm, table).values()), library(arm, table))
+    gram = total(normal_equations_by_block(parts.layout, model, table, RowWeights(np.ones(ROWS)), np.arange(ROWS) % 5))
+    return replace(build_problem(parts, gram, 0.0), least_noise=NOISE)
 
 
-def whole(problem: Problem, background: evidence.Background) -> Hypothesis:
-    at = {(*p.key, p.variant): n for n, p in reversed(list(enumerate(problem.pool.candidates)))}
+def whole(problem: Problem, background: BackgroundSizes) -> Hypothesis:
+    at = {(*p.key, p.variant): n for n, p in reversed(list(enumerate(problem.space.candidates)))}
     names = [("joint_compliance", "joint 2"), ("gear_ratio", "joint 4"), ("link_geometry", "link 2")]
     hypothesis = evaluate(problem, tuple(SelectedEffect(at[(*key, "")], 3) for key in names), background, NOISE)
     assert hypothesis.noise == NOISE
@@ -41,9 +44,7 @@ def whole(problem: Problem, background: evidence.Background) -> Hypothesis:
 
 @pytest.mark.parametrize("background", [(0, 0, 0), (4, 2, 1)])
 @pytest.mark.parametrize("removed", [0, 1, 2])
-def test_a_removal_is_what_is_weighed_without_it(
-    setting: Problem, background: evidence.Background, removed: int
-) -> None:
+def test_a_removal_is_what_is_weighed_without_it(setting: Problem, background: BackgroundSizes, removed: int) -> None:
     """Alone or, where a background holds the same columns, with that."""
     hypothesis = whole(setting, background)
     kept = tuple(c for n, c in enumerate(hypothesis.chosen) if n != removed)
@@ -51,7 +52,7 @@ def test_a_removal_is_what_is_weighed_without_it(
     assert smaller is not None
     assert smaller.log_posterior == pytest.approx(anew.log_posterior, abs=1e-6)
     assert smaller.rss == pytest.approx(anew.rss, rel=1e-9)
-    groups = group_candidates(setting.pool)
+    groups = group_candidates(setting.space)
     told = smaller.conditioned(condition_on(setting, groups.competing, hypothesis))
     expected = condition_on(setting, groups.competing, anew)
     np.testing.assert_allclose(told.b, expected.b, atol=1e-7 * np.abs(setting.equations.b).max())
@@ -76,7 +77,7 @@ def test_another_size_is_what_is_weighed_with_it(setting: Problem, number: int, 
 
 
 @pytest.mark.parametrize("background", [(2, 0, 0), (4, 1, 0), (0, 1, 0)])
-def test_another_background_is_what_is_weighed_with_it(setting: Problem, background: evidence.Background) -> None:
+def test_another_background_is_what_is_weighed_with_it(setting: Problem, background: BackgroundSizes) -> None:
     hypothesis = whole(setting, (2, 1, 0))
     other = low_rank_update(setting, hypothesis, hypothesis.chosen, background)
     assert other is not None
@@ -91,7 +92,7 @@ def test_what_needs_further_columns_must_be_weighed(setting: Problem) -> None:
 
 
 def test_only_what_is_asked_is_answered(setting: Problem) -> None:
-    hypothesis, groups = whole(setting, (2, 0, 0)), group_candidates(setting.pool)
+    hypothesis, groups = whole(setting, (2, 0, 0)), group_candidates(setting.space)
     asked = np.arange(len(setting.prior_costs)) % 3 == 0
     everything = addition_scores(setting, groups, hypothesis)
     some = addition_scores(setting, groups, hypothesis, asked)
@@ -102,8 +103,8 @@ def test_only_what_is_asked_is_answered(setting: Problem) -> None:
 def test_sets_of_many_columns_gain_the_same_by_factors_as_by_eigenvalues(
     setting: Problem, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    hypothesis, groups = whole(setting, (2, 0, 0)), group_candidates(setting.pool)
-    assert max(columns.shape[1] for columns in groups.columns) > updates.MANY_COLUMNS
+    hypothesis, groups = whole(setting, (2, 0, 0)), group_candidates(setting.space)
+    assert max(columns.shape[1] for columns in groups.columns) > linear_algebra.MANY_COLUMNS
     by_factors = addition_scores(setting, groups, hypothesis)
-    monkeypatch.setattr(updates, "MANY_COLUMNS", 1000)
+    monkeypatch.setattr(linear_algebra, "MANY_COLUMNS", 1000)
     np.testing.assert_allclose(by_factors, addition_scores(setting, groups, hypothesis), rtol=1e-8, atol=1e-7)

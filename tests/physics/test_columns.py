@@ -94,7 +94,7 @@ def test_columns_of_turns_are_the_slope_of_the_exact_orientation(name: str) -> N
 
 def test_every_effect_says_what_happens_how_to_confirm_and_how_to_cure() -> None:
     for effect in EFFECTS:
-        for sentence in (effect.physics, effect.confirm, effect.cure):
+        for sentence in (effect.physics, effect.confirm, effect.cure.words):
             assert sentence.endswith("."), effect.name
             assert len(sentence) > 30, effect.name
 

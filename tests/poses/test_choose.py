@@ -6,7 +6,7 @@ import pytest
 from armscope.core.inputs import InputError
 from armscope.poses.candidates import candidates, ranges
 from armscope.poses.choose import choose, grid_choice, short_way
-from armscope.poses.compare import compare, predicted_errors, share_won
+from armscope.poses.compare import compare_sets, predicted_errors, share_won
 from armscope.poses.obstacles import Surroundings, refusals
 from armscope.poses.shown import shown
 from armscope.robot import load_arm
@@ -66,7 +66,7 @@ def test_every_kept_parameter_is_told_apart_and_moves_the_tool_by_a_millimetre(c
 
 
 def test_chosen_poses_beat_random_ones_and_a_grid(choice):
-    table = compare(choice, 5e-5, 30)
+    table = compare_sets(choice, 5e-5, 30)
     for other in ("random", "grid"):
         assert share_won(table, "parameter_rms_mm", other) > 0.6
     medians = table.groupby("set")[["O1", "parameter_rms_mm"]].median()
@@ -75,13 +75,13 @@ def test_chosen_poses_beat_random_ones_and_a_grid(choice):
 
 
 def test_without_noise_every_set_finds_the_parameters(choice):
-    assert compare(choice, 0.0, 2)["parameter_worst_mm"].max() < 1e-5
+    assert compare_sets(choice, 0.0, 2)["parameter_worst_mm"].max() < 1e-5
 
 
 def test_linear_theory_predicts_the_simulated_scatter(choice):
     noise = 5e-5
     theory = predicted_errors(choice, noise, {"chosen": choice.table})
-    scatter = compare(choice, noise, 60).query("set == 'chosen'")["parameter_rms_mm"]
+    scatter = compare_sets(choice, noise, 60).query("set == 'chosen'")["parameter_rms_mm"]
     p = choice.shown
     sizes = np.array([size / term.si for size, (_, term) in zip(p.sizes, p.terms, strict=True)])[~p.is_frame]
     expected = np.sqrt(np.mean((theory["sd_chosen"] / sizes) ** 2))

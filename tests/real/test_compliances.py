@@ -10,8 +10,15 @@ from typer.testing import CliRunner
 
 from armscope.cli import app
 from armscope.core.files import write_yaml
-from armscope.real.compliance_tables import compare_runs, in_words
-from armscope.real.compliances import PRIOR, Give, as_heavy_as_recorded, compare, fit_give, gravity_as_recorded
+from armscope.real.compliance_tables import agreement_in_words, compare_runs
+from armscope.real.compliances import (
+    PRIOR,
+    Give,
+    as_heavy_as_recorded,
+    compare_compliances,
+    fit_give,
+    gravity_as_recorded,
+)
 from armscope.real.reference import ReferenceCompliances
 from armscope.real.rehearsal import draw, record, rehearse
 from armscope.recordings import Recordings
@@ -77,7 +84,7 @@ def test_a_run_of_two_joints_knows_that_it_cannot_tell_drives_apart(runs):
     assert other.stderr[3] > 0.5 * PRIOR
     # joint 1 turns about gravity's line: no load, nothing learned
     assert other.stderr[0] == pytest.approx(PRIOR)
-    together = compare(one, other)
+    together = compare_compliances(one, other)
     assert len(together.directions) >= 1
     assert together.stderr[0] < 0.1 * PRIOR
 
@@ -98,7 +105,7 @@ def test_probabilities_are_what_they_say_where_everything_is_known():
         truth = PRIOR * rng.normal(size=4)
         one = measured(rng, truth, rng.normal(size=(3, 4)), 3e-5)
         other = measured(rng, truth, rng.normal(size=(2, 4)), 1e-5)
-        probabilities.append(compare(one, other).probability)
+        probabilities.append(compare_compliances(one, other).probability)
     told = np.array(probabilities)[np.isfinite(probabilities)]
     assert len(told) > 300
     # the F distribution of so many blocks is a little wider than the chi-square that holds here
@@ -106,18 +113,18 @@ def test_probabilities_are_what_they_say_where_everything_is_known():
     assert 0.42 < np.mean(told < 0.5) < 0.55
     one = measured(rng, np.array([PRIOR, 0.0]), np.eye(2), 1e-5)
     other = measured(rng, np.array([0.2 * PRIOR, 0.0]), np.eye(2), 1e-5)
-    assert compare(one, other).probability < 1e-4
+    assert compare_compliances(one, other).probability < 1e-4
 
 
 def test_runs_that_determine_nothing_in_common_are_not_said_to_agree():
     rng = np.random.default_rng(0)
     one, other = (measured(rng, np.zeros(2), row[None], 1e-6) for row in np.eye(2))
-    assert np.isnan(compare(one, other).probability)
+    assert np.isnan(compare_compliances(one, other).probability)
 
 
 def test_a_combination_is_told_by_its_largest_weights():
     direction = -np.array([0.0, 0.5, 0.02, 0.0, -1.0, 0.0])
-    assert in_words(direction, 3) == "bearing 2 - 0.5 drive 2"
+    assert agreement_in_words(direction, 3) == "bearing 2 - 0.5 drive 2"
 
 
 def test_tables_hold_every_run_and_every_pair(runs):

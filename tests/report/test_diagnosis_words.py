@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from armscope.core.numerals import UNITS, rounded, shown_unit, size_of
 from armscope.physics.registry import EFFECTS
 from armscope.report.figures.diagnosis import location_shares
 from armscope.report.html import unbroken
@@ -13,14 +14,10 @@ from armscope.report.reference_models import held_out_rms
 from armscope.report.sections.effect_cards import card, chosen_how_often, title_of, told_parameters
 from armscope.report.text.headline import exact_phrase, headline
 from armscope.report.text.wording import (
-    UNITS,
     evidence_in_words,
-    number_of,
     percent,
     reach,
     read_parameter,
-    rounded,
-    shown_unit,
     spelled,
 )
 from armscope.robot import forward_kinematics
@@ -179,9 +176,8 @@ def test_two_digits_are_kept_when_rounding_for_a_sentence(value):
 
 
 def test_a_sign_stands_only_where_it_means_something():
-    offset = Parameter("offset", "rad", -2e-3, 1e-5)
-    assert number_of(offset, sign=True) == "−2.0 mrad"
-    assert number_of(offset) == "2.0 mrad"
+    assert size_of(-2e-3, "rad", sign=True) == "−2.0 mrad"
+    assert size_of(-2e-3, "rad") == "2.0 mrad"
 
 
 @pytest.mark.parametrize(

@@ -100,6 +100,7 @@ def case(
 def found(effect: str, location: str, *parameters: Parameter, **changes: object) -> FoundEffect:
     """An effect with its definition's sentences."""
     definition = effect_named(effect)
+    assert definition is not None
     plain = FoundEffect(
         effect=effect,
         location=location,
@@ -117,7 +118,7 @@ def found(effect: str, location: str, *parameters: Parameter, **changes: object)
         curve=None,
         physics=definition.physics,
         confirm=definition.confirm,
-        cure=definition.cure,
+        cure=definition.cure.words,
     )
     return replace(plain, **changes)  # type: ignore[arg-type]
 

@@ -53,7 +53,7 @@ def poses(
     from armscope.core.outputs import is_stream
     from armscope.design.indices import SOURCES
     from armscope.poses.choose import by_other_criteria, choose
-    from armscope.poses.compare import compare
+    from armscope.poses.compare import compare_sets
     from armscope.poses.output import write_choice
     from armscope.report.figures.pose_choice import choice_figure
     from armscope.report.style import save_figure
@@ -69,7 +69,7 @@ def poses(
     choice = choose(arm, count, around, names, criterion, candidates, payload_kg, seed, starts)
     noise, source = _noise(noise_mm, arm.sigma)
     others = by_other_criteria(choice, seed, starts) if all_criteria and seeds else {}
-    compared = compare(choice, noise, seeds, seed, payload_kg, others) if seeds else None
+    compared = compare_sets(choice, noise, seeds, seed, payload_kg, others) if seeds else None
     write_choice(output, choice, compared, noise, source)
     if compared is not None and not is_stream(output):
         write_table(output.with_name(f"{output.stem}_compared.csv"), compared)

@@ -58,7 +58,19 @@ def read_measurements(poses: Path, *errors: Path) -> Measurements:
 def read_tables(
     paths: Sequence[Path], columns: Sequence[str] = (), what: str = "a table of a study (CSV)"
 ) -> pd.DataFrame:
-    """Tables of the same columns, one after the other."""
+    """Tables of the same columns, one after the other.
+
+    Args:
+        paths: the files.
+        columns: what each must have.
+        what: what they are, for the error.
+
+    Returns:
+        One table.
+
+    Raises:
+        InputError: as `read_table`.
+    """
     import pandas as pd
 
     from armscope.core.files import read_table

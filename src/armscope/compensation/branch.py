@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.stats import qmc
 
 from armscope.compensation.forward import NominalArm
-from armscope.compensation.newton import POLE, Wanted, solve
+from armscope.compensation.newton import POLE, Wanted, solve_commands
 from armscope.core.types import Array
 from armscope.robot import Arm
 from armscope.robot.inverse import BEYOND_REACH, LARGEST_STEP_RAD, PathSolution, follow_path
@@ -68,7 +68,7 @@ def _between(
     """All rows' angles from those at the knots; None where a row does not converge."""
     rows = np.arange(len(wanted))
     start = np.column_stack([np.interp(rows, knots, column) for column in at_knots.T])
-    solution = solve(NominalArm(arm), wanted, start, _free(arm, held))
+    solution = solve_commands(NominalArm(arm), wanted, start, _free(arm, held))
     return solution.angles if solution.converged.all() else None
 
 
@@ -106,7 +106,7 @@ def _follow_poses(
 def _one_pose(nominal: NominalArm, target: Wanted, start: Array, free: NDArray[np.bool_]) -> tuple[Array | None, str]:
     if np.linalg.norm(target.points[0]) > nominal.arm.reach:
         return None, BEYOND_REACH
-    solution = solve(nominal, target, start[None], free)
+    solution = solve_commands(nominal, target, start[None], free)
     if solution.converged[0]:
         return (solution.angles[0], "") if solution.singular[0] >= POLE else (None, "pole")
     return None, f"limit of joint {solution.limit[0]}" if solution.limit[0] else BEYOND_REACH
@@ -122,7 +122,7 @@ def _from_many_starts(
     starts = qmc.scale(qmc.Halton(nominal.arm.n_motors, scramble=False).random(STARTS), *limits.T)
     starts = np.where(free, starts, near)
     every = target.rows(np.zeros(STARTS, dtype=np.intp))
-    solution = solve(nominal, every, starts, free)
+    solution = solve_commands(nominal, every, starts, free)
     good = solution.converged & (solution.singular >= POLE)
     if not good.any():
         broken = solution.limit[solution.limit > 0]

@@ -25,7 +25,7 @@ NO_MODEL = "Uncompensated"
 
 
 @dataclass(frozen=True, eq=False)
-class Candidate:
+class Corrector:
     """A model that predicts and compensates.
 
     Attributes:
@@ -52,17 +52,17 @@ class MeasuredPath:
     errors_mm: Array
 
 
-def black_box_candidate(model: ErrorModel) -> Candidate:
+def black_box_candidate(model: ErrorModel) -> Corrector:
     """A black-box error model; measurements stand in the arm's base frame."""
 
     def points(angles: Array) -> Array:
         nominal = chain(model.arm, angles).tool
         return nominal + model.error_and_slope(angles, nominal)[0]
 
-    return Candidate(points, lambda path: compensate_black_box(model, path))
+    return Corrector(points, lambda path: compensate_black_box(model, path))
 
 
-def physical_candidate(model: FittedModel, identified: Identified) -> Candidate:
+def physical_candidate(model: FittedModel, identified: Identified) -> Corrector:
     """Diagnosed physics; measurements stand in the measurement frame that it was diagnosed in."""
     motors = [f"q{motor}_rad" for motor in range(1, model.arm.n_motors + 1)]
     run, options = list(model.bases)[-1], Options(frame="measurement")
@@ -71,12 +71,12 @@ def physical_candidate(model: FittedModel, identified: Identified) -> Candidate:
         rows = as_recordings(pd.DataFrame(angles, columns=motors), measured=False)
         return predict(model, replace(rows, run=np.full(len(rows), run)))
 
-    return Candidate(points, lambda path: compensate_physical(model, identified, path, options))
+    return Corrector(points, lambda path: compensate_physical(model, identified, path, options))
 
 
-def left_over(
+def remaining_errors(
     arm: Arm,
-    candidates: Mapping[str, Candidate],
+    candidates: Mapping[str, Corrector],
     identification: MeasuredPath,
     trajectories: Mapping[str, MeasuredPath],
     true_points: Callable[[Array], Array],
@@ -115,7 +115,7 @@ def cross_table(left: pd.DataFrame) -> pd.DataFrame:
     """Model by trajectory by stage: the RMS of what is left of the error.
 
     Args:
-        left: see `left_over`.
+        left: see `remaining_errors`.
 
     Returns:
         Columns model, trajectory, stage, axis ("x", "y", "z", "3D"), points, refused, rms_mm, rss_mm; points without a
@@ -134,12 +134,12 @@ def _as_wanted(arm: Arm, path: MeasuredPath, name: str) -> WantedPath:
     return as_path(pd.DataFrame(columns), f"trajectory {name}", arm)
 
 
-def _left(candidate: Candidate, path: MeasuredPath) -> Array:
+def _left(candidate: Corrector, path: MeasuredPath) -> Array:
     return path.wanted_mm + path.errors_mm - candidate.predict(path.motor_angles) * 1e3
 
 
 def vectors(model: str, trajectory: str, stage: str, error_mm: Array) -> pd.DataFrame:
-    """One part of `left_over`'s table.
+    """One part of `remaining_errors`'s table.
 
     Args:
         model: the model's name.

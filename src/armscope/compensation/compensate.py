@@ -13,7 +13,7 @@ from armscope.compensation.black_box import ErrorModel, domain_inputs
 from armscope.compensation.branch import nominal_branch
 from armscope.compensation.domain import ALLOWED, Domain
 from armscope.compensation.forward import BlackBoxArm, Forward, NominalArm, PhysicalArm
-from armscope.compensation.newton import POLE, Solution, Wanted, lever, solve, weakest
+from armscope.compensation.newton import POLE, Solution, Wanted, lever, solve_commands, weakest
 from armscope.compensation.path import Frame, WantedPath, unit_doubt
 from armscope.compensation.physical import Identified, beyond_time, missing_context, with_empty_context, with_torques
 from armscope.compensation.result import Compensated
@@ -178,7 +178,7 @@ class _Task:
             before = real.at(nominal[known], known)
             uncorrected[known] = np.linalg.norm(wanted.points[known] - before.points, axis=1)
             uncorrected_turn[known] = np.linalg.norm(wanted.rows(known).turn(before), axis=1)
-            solution = solve(real, wanted.rows(known), nominal[known], free, known)
+            solution = solve_commands(real, wanted.rows(known), nominal[known], free, known)
             commands[known], iterations = solution.angles, solution.iterations
             moved = np.abs(solution.angles - nominal[known])
             at_start = weakest(wanted.rows(known), before, free, lever(real))
@@ -272,7 +272,7 @@ class _Task:
         rows = np.flatnonzero(np.isfinite(wanted.points.sum(axis=1)) & np.equal(refused, ""))
         if not len(rows):
             return angles
-        solution = solve(NominalArm(self.arm), wanted.rows(rows), angles[rows], free, rows)
+        solution = solve_commands(NominalArm(self.arm), wanted.rows(rows), angles[rows], free, rows)
         angles[rows] = solution.angles
         for motor in np.unique(solution.limit[solution.limit > 0]):
             _refuse(refused, rows[solution.limit == motor], f"limit of joint {motor}")

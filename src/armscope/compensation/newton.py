@@ -105,7 +105,7 @@ def lever(forward: Forward) -> float:
     return 0.25 * forward.arm.reach
 
 
-def solve(
+def solve_commands(
     forward: Forward, wanted: Wanted, start: Array, free: NDArray[np.bool_], rows: Rows | None = None
 ) -> Solution:
     """The commands nearest to ``start`` (N, m) rad that bring the tool to ``wanted``, within the joint limits.

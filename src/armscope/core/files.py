@@ -21,7 +21,7 @@ import pandas as pd
 import yaml
 
 from armscope.core import outputs
-from armscope.core.inputs import InputError, nearest, reading
+from armscope.core.inputs import InputError, nearest, note_read
 from armscope.core.locks import alive
 
 LARGEST_UNPACKED_SHARE = 200
@@ -66,7 +66,7 @@ def read_table(path: Path | str, columns: Iterable[str] = (), what: str = "a tab
     Raises:
         InputError: no such file, no table, a column is missing.
     """
-    reading(path)
+    note_read(path)
     try:
         table = pd.read_csv(path)
     except OSError as error:
@@ -92,7 +92,7 @@ def read_json(path: Path | str, what: str) -> Any:
         InputError: no such file, no JSON.
     """
     path = Path(path)
-    reading(path)
+    note_read(path)
     try:
         content = path.read_bytes()
         text = _unpacked(path, content, what) if content.startswith(b"\x1f\x8b") else content
@@ -201,7 +201,7 @@ def new_folder(folder: Path | str) -> None:
 
 def copy_file(source: Path | str, path: Path | str) -> None:
     """Copy a file, whole or not at all."""
-    reading(source)
+    note_read(source)
     with replacing(path) as beside:
         shutil.copyfile(outputs.readable(source), beside)
 

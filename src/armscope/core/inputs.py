@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 import pydantic
 import yaml
 
-from armscope.core.plainyaml import CONTROL, NotPlain, plain
+from armscope.core.plainyaml import CONTROL, NotPlain, plain_yaml
 
 Model = TypeVar("Model", bound=pydantic.BaseModel)
 
@@ -21,7 +21,7 @@ FILES_READ: ContextVar[set[tuple[int, int]] | None] = ContextVar("files read", d
 """Identities of the files that the command that runs has read: what it must not overwrite."""
 
 
-def reading(path: Path | str) -> None:
+def note_read(path: Path | str) -> None:
     """Note that a file is read."""
     read, found = FILES_READ.get(), identity(path)
     if read is not None and found is not None:
@@ -89,12 +89,12 @@ def read_yaml(path: Path | str) -> Any:
         InputError: it can't be read; line and column are named.
     """
     path = Path(path)
-    reading(path)
+    note_read(path)
     try:
         content = path.read_bytes()
         if b"\0" in content:  # UTF-16 and binary files, which PyYAML would try to guess
             raise InputError(path, f"byte {content.index(0)}", "no UTF-8 text", "YAML files are UTF-8")
-        return plain(content.decode("utf-8-sig"))
+        return plain_yaml(content.decode("utf-8-sig"))
     except OSError as error:
         raise InputError(path, "", "no readable file", "a YAML file is needed here", error.strerror or "") from error
     except (yaml.YAMLError, NotPlain) as error:

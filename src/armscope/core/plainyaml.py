@@ -49,7 +49,7 @@ class _Open:
     merged: list[Any] = field(default_factory=list)
 
 
-def plain(text: str | bytes) -> Any:
+def plain_yaml(text: str | bytes) -> Any:
     """The one document in a YAML text; None where there is none.
 
     Raises:

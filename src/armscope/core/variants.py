@@ -9,7 +9,7 @@ from typing import Literal
 import pydantic
 from pydantic import Field
 
-from armscope.core.inputs import InputError, Strict, nearest, reading
+from armscope.core.inputs import InputError, Strict, nearest, note_read
 
 VARIED = {"particles": "particles", "iterations": "iterations", "update": "update", "harmonics": "order"}
 """What is on the horizontal axis of a sweep, by the first word of its name; all others vary the model's order."""
@@ -62,7 +62,7 @@ def read_variants(path: Path | str) -> list[Variant]:
 
 def _lines(path: Path) -> list[list[str]]:
     """The rows of a CSV file, its header first."""
-    reading(path)
+    note_read(path)
     try:
         with path.open(encoding="utf-8-sig", newline="") as stream:
             rows = list(csv.reader(stream, strict=True))

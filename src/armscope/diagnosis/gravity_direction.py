@@ -15,18 +15,11 @@ from scipy.spatial.transform import Rotation
 from scipy.special import log_ndtr
 
 from armscope.core.types import Array
+from armscope.diagnosis.model_space import build_model_space
 from armscope.fitting.linearisation import normal_equations_by_block, residuals
-from armscope.fitting.model_space import pool
-from armscope.inference.evidence import (
-    BACKGROUND_SIZES,
-    FAMILY_SIZES,
-    SURE_NATS,
-    Hypothesis,
-    Problem,
-    evaluate,
-    problem,
-)
+from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.normal_equations import total
+from armscope.inference.problem import SURE_NATS, Problem, build_problem
 from armscope.measurement import robust
 from armscope.measurement.noise import Noise
 from armscope.measurement.row_weights import RowWeights
@@ -121,24 +114,24 @@ class _Valley:
 
     def _depth(self, tilt: Array) -> float:
         arm = turned(self.start.arm, tilt)
-        parts = pool(self.frames, list(backgrounds(arm, self.recordings).values()), [])
+        space = build_model_space(self.frames, list(backgrounds(arm, self.recordings).values()), [])
         model = FittedModel(arm, self.start.bases, self.start.tools)
         blocks = np.zeros(len(self.recordings), dtype=np.intp)
-        made = problem(
-            parts, total(normal_equations_by_block(parts, model, self.recordings, self.weights, blocks)), 0.0
+        made = build_problem(
+            space, total(normal_equations_by_block(space.layout, model, self.recordings, self.weights, blocks)), 0.0
         )
         start = max(made.mismatch, 1e-4)
-        geometric = (0, len(BACKGROUND_SIZES) - 1)
-        sizes = [(g, e, 0) for g in geometric for e in range(1, FAMILY_SIZES)]
+        geometric, elastic, _ = (range(family.sizes) for family in space.families)
+        sizes = [(g, e, 0) for g in (0, geometric[-1]) for e in elastic[1:]]
         weighed = (evaluate(made, (), size, start) for size in sizes)
         return -max(each.log_posterior + _gives_along(made, each) for each in weighed)
 
 
 def _gives_along(made: Problem, hypothesis: Hypothesis) -> float:
     """Nats for what gives way along its load, not against it: gravity turned round turns all of it round."""
-    at = np.searchsorted(hypothesis.columns, made.pool.background[FAMILIES.index("elastic")])
-    stderr = hypothesis.noise * np.sqrt(np.sum(hypothesis.inverse[:, at] ** 2, axis=0))
-    return float(np.sum(np.log(2) + log_ndtr(hypothesis.mean[at] / stderr)))
+    columns = made.space.families[FAMILIES.index("elastic")].columns
+    away = hypothesis.means(columns) / np.sqrt(hypothesis.variances(columns))
+    return float(np.sum(np.log(2) + log_ndtr(away)))
 
 
 def _curvature(valley: _Valley, at: Array) -> Array:

@@ -11,10 +11,12 @@ from numpy.typing import NDArray
 from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import columns, structured_design
 from armscope.fitting.linearisation import chunks, current_parameters, response
-from armscope.fitting.model_space import Pool
-from armscope.inference.evidence import PERFECT, Hypothesis, Problem, SelectedEffect, evaluate
+from armscope.fitting.parameter_layout import ParameterLayout
+from armscope.inference.edits import LARGE
+from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.normal_equations import NormalEquations, total
-from armscope.inference.search import LARGE, STARTS, Search
+from armscope.inference.problem import Problem, SelectedEffect
+from armscope.inference.search import Search
 from armscope.measurement.row_weights import INLIER_WEIGHT, RowWeights
 from armscope.physics.effect import Term
 from armscope.physics.lens import Lens
@@ -90,7 +92,7 @@ def cross_validate(
         readings = [*_readings(trained, sets, best, noise), chosen]
         values[fold] = np.array([h.coefficients(len(problem.scale)) / problem.scale for h in readings])
     errors = _held_out_errors(problem, blocks, split, rows, values)
-    own = left_over(rows, problem.pool, np.array([h.coefficients(len(problem.scale)) / problem.scale for h in fitted]))
+    own = left_over(rows, np.array([h.coefficients(len(problem.scale)) / problem.scale for h in fitted]))
     fold_of = split.fold[split.of_row]
     told = np.isin(fold_of, folds) & rows.trusted
     per_fold = np.array(
@@ -99,7 +101,7 @@ def cross_validate(
     held, held_all = _rms(errors[:, told]), _rms(errors[:, np.isin(fold_of, folds)])
     turns = _rms(errors[:, told], TURNS)
     spread = per_fold.std(axis=0, ddof=1) if len(per_fold) > 1 else np.full(len(held), np.nan)
-    labels = ["free frames", *[str(problem.pool.candidates[c]) for c in order], "tolerances everywhere"]
+    labels = ["free frames", *[problem.space.candidates[c].label for c in order], "tolerances everywhere"]
     waterfall = tuple(
         WaterfallStep(label, float(f), float(h), float(s))
         for label, f, h, s in zip(labels, _rms(own[:, rows.trusted]), held[:-1], spread[:-1], strict=True)
@@ -125,7 +127,7 @@ def _chosen_again(trained: Problem, best: Hypothesis) -> Hypothesis:
     if len(best.columns) > LARGE:
         search, starts = Search.on(trained, beam=1, branches=2), {best.background}
     else:
-        search, starts = Search.on(trained), {best.background, *STARTS}
+        search, starts = Search.on(trained), {best.background, *trained.space.starts}
     return search.refined(search.best(starts=tuple(sorted(starts))))
 
 
@@ -134,7 +136,7 @@ def _readings(
 ) -> list[Hypothesis]:
     """The waterfall's hypotheses: nothing, growing sets of effects, all of them with the background."""
     noises = [first_noise, *[best.noise] * (len(sets) - 1)]
-    backgrounds = [*[PERFECT] * (len(sets) - 1), best.background]
+    backgrounds = [*[problem.space.no_background] * (len(sets) - 1), best.background]
     return [evaluate(problem, *each) for each in zip(sets, backgrounds, noises, strict=True)]
 
 
@@ -146,11 +148,13 @@ class Rows:
         point: the model at which columns were taken.
         recordings: the rows.
         weights: of the fit.
+        layout: of the columns.
     """
 
     point: FittedModel
     recordings: Recordings
     weights: RowWeights
+    layout: ParameterLayout
 
     @property
     def trusted(self) -> NDArray[np.bool_]:
@@ -158,16 +162,16 @@ class Rows:
         return np.asarray(self.weights.robust_weight > INLIER_WEIGHT)
 
 
-def left_over(rows: Rows, pool: Pool, values: Array, number: Indices | None = None) -> Array:
+def left_over(rows: Rows, values: Array, number: Indices | None = None) -> Array:
     """(K, N, 3) what K readings leave of every row, base axes, mm; (K, N, 6) with turns, mrad, where measured.
 
     Args:
-        values: (K, p) values of the pool's terms, SI units; or (F, K, p): each row takes those of its ``number``.
+        values: (K, p) values of the layout's terms, SI units; or (F, K, p): each row takes those of its ``number``.
         number: (N,) 0 ... F - 1.
     """
     values = values if number is not None else values[None]
     number = np.zeros(len(rows.recordings), dtype=np.intp) if number is None else number
-    column_order, current = pool.column_order, current_parameters(pool, rows.point)
+    column_order, current = rows.layout.column_order, current_parameters(rows.layout, rows.point)
     added = (values - current)[:, :, column_order.order]
     left = np.empty((values.shape[1], len(rows.recordings), 3 if rows.recordings.orientation is None else 6))
     for part, posture in chunks(rows.point, rows.recordings):
@@ -199,18 +203,18 @@ def _held_out_errors(
     folds = sorted(values)
     fold_of = split.fold[split.of_row]
     number = np.searchsorted(folds, np.where(np.isin(fold_of, folds), fold_of, folds[0]))
-    errors = left_over(rows, problem.pool, np.array([values[f] for f in folds]), number)
+    errors = left_over(rows, np.array([values[f] for f in folds]), number)
     if split.grouped_by != "run":
         return errors
     whole = total(blocks)
     for fold in folds:
         held = total([blocks[int(k)] for k in np.flatnonzero(split.fold == fold)])
-        frames = problem.pool.frames
+        frames = problem.space.frames
         seen = np.diag(whole.G)[frames]
         own = frames[seen - np.diag(held.G)[frames] < 1e-9 * np.maximum(seen, 1e-12)]
         if len(own):
             at = np.flatnonzero(fold_of == fold)
-            errors[:, at] = _refitted(rows, [problem.pool.terms[k] for k in own], at, errors[:, at])
+            errors[:, at] = _refitted(rows, [rows.layout.terms[k] for k in own], at, errors[:, at])
     return errors
 
 

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from armscope.core.types import Array, Progress
 from armscope.diagnosis.held_out import Rows, cross_validate
@@ -61,10 +60,10 @@ def judge(
     search = Search.on(problem)
     tell("weighing alternatives", 0.55)
     rivals = {c.candidate: certainty.alternatives(search, best, c.candidate) for c in best.chosen}
-    often = certainty.inclusion_frequency(problem, state.blocks, best, state.found, resamples, rng) if resamples else {}
+    often = certainty.inclusion_frequency(state, resamples, rng)
     scene = fit.model.scene(state.recordings)
     gram = _plain_gram(state)
-    variance = _variance_after_frames(gram, fit.pool.frames)
+    variance = gram.least_rss(fit.pool.frames) / max(gram.n, 1.0)
     shared, of_families = _shares(fit, gram)
     wrong = model_error(fit, state.recordings, state.noise.least_mm)
     found = {
@@ -76,14 +75,14 @@ def judge(
     waterfall: tuple[WaterfallStep, ...] = ()
     if cross_validation:
         tell("validating on held-out rows", 0.75)
-        rows = Rows(state.point, state.recordings, fit.weights)
+        rows = Rows(state.point, state.recordings, fit.weights, state.space.layout)
         held_out, waterfall = cross_validate(problem, state.blocks, state.layout, best, order, rows)
     tell("drawing the atlas", 0.9)
     background = background_summaries(state, search, gram, of_families)
     named = [with_weight(found[c], background) for c in order]
     waterfall = _with_weights(waterfall, named)
     scattered = [s for s in scattered_effects(state, variance) if not rest_of_a_curve(s, named)]
-    over = subset_consistency(problem, state.blocks, state.layout, best, state.point, state.recordings, fit.weights)
+    over = subset_consistency(state)
     named = [replace(e, carries_over=over.get(c, "")) for c, e in zip(order, named, strict=True)]
     effects = tuple(sorted([*named, *scattered], key=lambda effect: -effect.rms_at_tool_mm))
     named_or_spread = bool(effects) or any(family.present for family in background)
@@ -93,7 +92,7 @@ def judge(
     if not named_or_spread and not unexplained.present:
         unexplained = too_faint(averaged_log_odds(search))
     answer, mismatch = _answer(effects, background, unexplained)
-    separating = next_poses(search, best, rivals, fit, state.recordings, rng)
+    separating = next_poses(state, rivals, rng)
     draft = Diagnosis(
         arm=fit.model.arm.name,
         source=state.recordings.source,
@@ -141,14 +140,6 @@ def _plain_gram(state: DiagnosisState) -> NormalEquations:
         return fit.gram
     one_block = np.zeros(len(state.recordings), dtype=np.intp)
     return normal_equations_by_block(fit.pool, fit.model, state.recordings, fit.weights.of_points, one_block)[0]
-
-
-def _variance_after_frames(gram: NormalEquations, frames: NDArray[np.intp]) -> float:
-    """Residual variance per axis after the free frames only, mm^2."""
-    G = gram.G[np.ix_(frames, frames)]
-    explained = gram.b[frames] @ np.linalg.lstsq(G, gram.b[frames], rcond=1e-12)[0]
-    left = float(gram.yy - explained)
-    return max(left, 0.0) / max(gram.n, 1.0)
 
 
 def _weighted_rms(fit: Refit) -> float:

@@ -13,7 +13,7 @@ from armscope.core.types import Progress
 from armscope.diagnosis.gravity_direction import lean
 from armscope.diagnosis.held_out import split
 from armscope.diagnosis.judgement import judge, undecided
-from armscope.diagnosis.selection_loop import select
+from armscope.diagnosis.selection import select
 from armscope.diagnosis.state import DiagnosisState
 from armscope.fitting.linearisation import missed
 from armscope.fitting.registration import fit_frames, other_tools

@@ -29,13 +29,14 @@ from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import component_rows
 from armscope.fitting.linearisation import chunks, response
 from armscope.fitting.refit import Refit
-from armscope.inference.evidence import SURE_NATS, lower_cholesky, solve_lower
+from armscope.inference.linear_algebra import lower_cholesky, quadratic_and_logdet, solve_lower
+from armscope.inference.problem import SURE_NATS
 from armscope.physics.effect import AXES, ONE, Direction, motor, term
 from armscope.physics.placing import moving_joints
 from armscope.recordings import Recordings
 from armscope.verdict.schema import Notice
 
-SIZES = 2.0 ** np.arange(-4, 3)
+SIZES = np.exp2(np.arange(-4.0, 3.0))
 """Sizes of a process that compete, RMS at the tool in multiples of the noise; those of all processes together are as
 likely as none at all."""
 SLOW_WAVES, ROWS_PER_WAVE = 40, 6
@@ -234,10 +235,8 @@ def _weigh(own: Array, pull: Array, chi2: float, freedom: float, least: float, o
 
     nothing, _ = likelihood(0.0, 0.0)
     nats, squares = [], []
-    for size in SIZES:
-        factor = lower_cholesky(size**2 * own, np.ones(len(pull)))
-        quadratic = size**2 * float(np.sum(solve_lower(factor, pull) ** 2))
-        value, left = likelihood(quadratic, 2 * float(np.log(np.diag(factor)).sum()))
+    for quadratic, logdet in zip(*quadratic_and_logdet(own[None], pull[None], SIZES**2), strict=True):
+        value, left = likelihood(float(quadratic[0]), float(logdet[0]))
         nats.append(value - nothing)
         squares.append(left)
     most = max(0.0, *nats)

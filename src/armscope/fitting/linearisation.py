@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import structured_design
-from armscope.fitting.model_space import Pool
+from armscope.fitting.parameter_layout import ParameterLayout
 from armscope.inference.normal_equations import NormalEquations
 from armscope.measurement.row_weights import Missed, RowWeights
 from armscope.physics.lens import Lens
@@ -116,7 +116,7 @@ def response(model: FittedModel, posture: Posture, lens: Lens) -> Array:
 
 
 def normal_equations_by_block(
-    pool: Pool, model: FittedModel, recordings: Recordings, weights: RowWeights, blocks: Indices
+    pool: ParameterLayout, model: FittedModel, recordings: Recordings, weights: RowWeights, blocks: Indices
 ) -> list[NormalEquations]:
     """Gram matrices per block of rows.
 
@@ -156,7 +156,7 @@ def _where(inside: NDArray[np.bool_]) -> slice | Indices:
     return slice(int(at[0]), int(at[-1]) + 1) if at[-1] - at[0] + 1 == len(at) else at
 
 
-def current_parameters(pool: Pool, model: FittedModel) -> Array:
+def current_parameters(pool: ParameterLayout, model: FittedModel) -> Array:
     """(p,) the model's values of the pool's terms (frames count as zero: they are part of the linearisation point)."""
     values = np.zeros(len(pool.terms))
     for part in (*model.background, *model.parts):

@@ -11,12 +11,13 @@ from scipy.spatial.transform import Rotation
 
 from armscope.core.types import Array
 from armscope.fitting.linearisation import current_parameters, missed, normal_equations_by_block
-from armscope.fitting.model_space import Pool, pool
+from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
 from armscope.fitting.registration import moved_base
-from armscope.inference.evidence import FRAME_PRIOR_MM, TOLERANCE
 from armscope.inference.normal_equations import NormalEquations, column_scales
+from armscope.inference.problem import FRAME_PRIOR_MM
 from armscope.measurement import robust
 from armscope.measurement.row_weights import Missed, RowNoise, RowWeights
+from armscope.physics.backgrounds import TOLERANCE
 from armscope.physics.effect import AXES, Placed, Term
 from armscope.physics.frames import ToolKey, tool_key
 from armscope.physics.model import FittedModel
@@ -49,7 +50,7 @@ class Refit:
     """
 
     model: FittedModel
-    pool: Pool
+    pool: ParameterLayout
     gram: NormalEquations
     precision: Array
     covariance: Array
@@ -92,7 +93,7 @@ def refit(
     named = {term for placed, _ in effects for term in placed.terms}
     kept = [[b for placed in family if size and (b := _without(placed, named))] for family, size in backgrounds]
     background = [placed for family in kept for placed in family]
-    parts = pool(frames, kept, [placed for placed, _ in effects])
+    parts = parameter_layout(frames, kept, [placed for placed, _ in effects])
     model = _start(model, background, effects)
     blocks = np.zeros(len(recordings), dtype=np.intp)
     noise = least_noise
@@ -157,12 +158,12 @@ def _start(model: FittedModel, background: Sequence[Placed], effects: Sequence[t
 
 
 def _precision(
-    parts: Pool, gram: NormalEquations, sizes: Sequence[float], effects: Sequence[tuple[Placed, float]]
+    parts: ParameterLayout, gram: NormalEquations, sizes: Sequence[float], effects: Sequence[tuple[Placed, float]]
 ) -> Array:
     """(p,) prior precisions in SI units."""
     scale = column_scales(gram, parts.frames)
     variance = np.full(len(parts.terms), np.inf)
-    for number, (columns, shape, size) in enumerate(zip(parts.background, parts.background_shape, sizes, strict=True)):
+    for number, (columns, shape, size) in enumerate(zip(parts.background, parts.background_scale, sizes, strict=True)):
         variance[columns] = (size * TOLERANCE) ** 2 if number == 0 else (size * shape / scale[columns]) ** 2
     for (placed, size), at in zip(effects, parts.columns, strict=True):
         wide = 1.0 if placed.partly_unseen else FREE
@@ -182,7 +183,7 @@ def _solve(A: Array, b: Array) -> tuple[Array, Array]:
 
 def _updated(
     model: FittedModel,
-    parts: Pool,
+    parts: ParameterLayout,
     background: Sequence[Placed],
     effects: Sequence[tuple[Placed, float]],
     values: Array,

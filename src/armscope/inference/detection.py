@@ -1,8 +1,8 @@
 """Is anything missing at all? All that could be wrong together against a perfect arm, before anything gets a name.
 
-A name must stand out from nothing by itself. That something is missing is known earlier: every effect of the library,
-at every place and size, adds its share of the odds (the evidence averaged over the library, Kass & Raftery 1995), and
-so does each family's background.
+A name must stand out from nothing by itself. That something is missing is known earlier: every candidate, at every
+place and size, adds its share of the odds (the evidence averaged over the space, Kass & Raftery 1995), and so does each
+family's background.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ import numpy as np
 from scipy.special import logsumexp
 
 from armscope.core.types import Array
-from armscope.inference.evidence import BACKGROUND_SIZES, FAMILY_SIZES, SURE_NATS, kinds
-from armscope.inference.search import Search
-from armscope.inference.updates import addition_scores
-from armscope.physics.effect import Placed, region
+from armscope.inference.additions import addition_scores
+from armscope.inference.edits import Edits
+from armscope.inference.model_space import Candidate
+from armscope.inference.problem import SURE_NATS
 
 DETECTED_NATS = 2.0
 """Log odds from which something is said to be missing: no false alarm in 600 simulated clean arms. (Where nothing is
@@ -32,14 +32,14 @@ class Detection:
     Attributes:
         log_odds: that anything is missing, nats.
         size_mm: of the likeliest single effect at the tool.
-        location: the place that holds nearly all of the odds, if one does.
-        likeliest: effects in order of their odds.
+        region: the one that holds nearly all of the odds, if one does.
+        likeliest: candidates in order of their odds, each kind at each location once.
     """
 
     log_odds: float
     size_mm: float
-    location: str | None
-    likeliest: tuple[Placed, ...]
+    region: str | None
+    likeliest: tuple[Candidate, ...]
 
     @property
     def detected(self) -> bool:
@@ -47,49 +47,43 @@ class Detection:
         return self.log_odds > DETECTED_NATS
 
 
-def averaged_log_odds(search: Search) -> Detection:
+def averaged_log_odds(edits: Edits) -> Detection:
     """The odds that anything is missing, against a perfect arm."""
-    problem = search.problem
-    nothing = search.perfect()
-    by_size = addition_scores(problem, search.groups, nothing) + SURE_NATS
-    by_size[:, list(problem.pool.requires)] = -np.inf
+    problem, space = edits.problem, edits.space
+    by_size = addition_scores(problem, edits.groups, edits.perfect()) + SURE_NATS
+    by_size[:, list(space.requires)] = -np.inf
     effects = logsumexp(by_size, axis=0)
-    backgrounds = _background_odds(search)
+    backgrounds = _background_odds(edits)
     # a background is one more kind of error
-    shares = np.log(kinds(problem.pool) / (kinds(problem.pool) + len(backgrounds)))
+    shares = np.log(space.kinds / (space.kinds + len(backgrounds)))
     everything = np.concatenate([effects, backgrounds]) + shares
     order = np.argsort(-effects)
     size = float(problem.sizes[int(np.argmax(by_size[:, order[0]]))])
-    likeliest = {problem.pool.candidates[c].key: problem.pool.candidates[c] for c in order[: 3 * LISTED]}
+    likeliest = {space.candidates[c].key: space.candidates[c] for c in order[: 3 * LISTED]}
     return Detection(
-        float(logsumexp(everything)), size, _place(search, effects), tuple(list(likeliest.values())[:LISTED])
+        float(logsumexp(everything)), size, _region(space.candidates, effects), tuple(list(likeliest.values())[:LISTED])
     )
 
 
-def _background_odds(search: Search) -> Array:
+def _background_odds(edits: Edits) -> Array:
     """(families,) log odds of each family's background alone, averaged over its sizes."""
-    nothing = search.perfect()
+    nothing = edits.perfect()
     odds = []
-    for family, columns in enumerate(search.problem.pool.background):
-        if not len(columns):
+    for number, family in enumerate(edits.space.families):
+        if not len(family.columns):
             continue
-        sizes = range(1, len(BACKGROUND_SIZES) if family == 0 else FAMILY_SIZES)
-        alone = [tuple(size if n == family else 0 for n in range(len(nothing.background))) for size in sizes]
-        values = [
-            search.with_background(nothing, background).log_posterior - nothing.log_posterior for background in alone
-        ]
-        # the geometric one is free in a hypothesis; here it pays like every kind
-        paid = 0.0 if family else np.log(kinds(search.problem.pool)) + np.log(len(values))
+        alone = [edits.with_background(nothing, number, size) for size in range(1, family.sizes)]
+        values = [each.log_posterior - nothing.log_posterior for each in alone]
+        # one that is free in a hypothesis here pays like every kind
+        paid = 0.0 if family.is_priced else np.log(edits.space.kinds) + np.log(len(values))
         odds.append(float(logsumexp(values)) - paid)
     return np.array(odds)
 
 
-def _place(search: Search, effects: Array) -> str | None:
-    places: dict[str, list[float]] = {}
-    for placed, odds in zip(search.problem.pool.candidates, effects, strict=True):
-        places.setdefault(region(placed), []).append(float(odds))
-    totals = {place: float(logsumexp(odds)) for place, odds in places.items()}
-    best = max(totals, key=lambda place: totals[place])
-    if totals[best] - logsumexp(list(totals.values())) < np.log(SURE_OF_PLACE):
-        return None
-    return f"joint {best}" if best.isdigit() else best
+def _region(candidates: tuple[Candidate, ...], effects: Array) -> str | None:
+    regions: dict[str, list[float]] = {}
+    for candidate, odds in zip(candidates, effects, strict=True):
+        regions.setdefault(candidate.region, []).append(float(odds))
+    totals = {region: float(logsumexp(odds)) for region, odds in regions.items()}
+    best = max(totals, key=lambda region: totals[region])
+    return best if totals[best] - logsumexp(list(totals.values())) >= np.log(SURE_OF_PLACE) else None

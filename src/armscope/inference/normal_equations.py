@@ -36,6 +36,13 @@ class NormalEquations:
         """Residual sum of squares with these coefficients of all columns."""
         return float(self.yy - 2 * self.b @ coefficients + coefficients @ self.G @ coefficients)
 
+    def least_rss(self, columns: Indices) -> float:
+        """Residual sum of squares of least squares on some columns, which may depend on each other."""
+        if not len(columns):
+            return self.yy
+        G, b = self.G[np.ix_(columns, columns)], self.b[columns]
+        return max(float(self.yy - b @ np.linalg.lstsq(G, b, rcond=1e-12)[0]), 0.0)
+
 
 def total(blocks: Sequence[NormalEquations]) -> NormalEquations:
     """The sum of blocks."""
@@ -43,6 +50,17 @@ def total(blocks: Sequence[NormalEquations]) -> NormalEquations:
     for block in blocks[1:]:
         whole = whole + block
     return whole
+
+
+def weighted_total(blocks: Sequence[NormalEquations], times: Indices) -> NormalEquations:
+    """The sum of blocks, each counted so many times."""
+    drawn = [int(k) for k in np.flatnonzero(times)]
+    return NormalEquations(
+        np.asarray(sum(times[k] * blocks[k].G for k in drawn)),
+        np.asarray(sum(times[k] * blocks[k].b for k in drawn)),
+        float(sum(times[k] * blocks[k].yy for k in drawn)),
+        float(sum(times[k] * blocks[k].n for k in drawn)),
+    )
 
 
 def column_scales(equations: NormalEquations, frames: Indices) -> Array:
@@ -53,13 +71,16 @@ def column_scales(equations: NormalEquations, frames: Indices) -> Array:
     raw = np.diag(equations.G)
     seen = np.maximum(raw - absorbed, LEAST_SEEN**2 * raw)
     seen[frames] = raw[frames]
-    return np.sqrt(np.maximum(seen / max(equations.n, 1.0), 1e-24))
+    return np.asarray(np.sqrt(np.maximum(seen / max(equations.n, 1.0), 1e-24)))
+
+
+def as_response(G: Array, coefficients: Array, n: float) -> NormalEquations:
+    """The normal equations of a combination of the columns as the response."""
+    b = G @ coefficients
+    return NormalEquations(G, b, float(coefficients @ b), n)
 
 
 def projected_rms(equations: NormalEquations, frames: Indices, coefficients: Array) -> float:
     """RMS per axis at the tool, beyond the free frames, of a combination of columns (p,), mm."""
-    Gc = equations.G @ coefficients
-    Gf = equations.G[np.ix_(frames, frames)]
-    absorbed = Gc[frames] @ np.linalg.lstsq(Gf, Gc[frames], rcond=1e-12)[0]
-    left = float(coefficients @ Gc - absorbed)
-    return float(np.sqrt(max(left, 0.0) / max(equations.n, 1.0)))
+    left = as_response(equations.G, coefficients, equations.n).least_rss(frames)
+    return float(np.sqrt(left / max(equations.n, 1.0)))

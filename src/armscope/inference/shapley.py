@@ -14,7 +14,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from armscope.core.types import Array, Indices
-from armscope.inference.evidence import lower_cholesky, solve_lower
+from armscope.inference.linear_algebra import lower_cholesky, solve_lower
 from armscope.inference.normal_equations import NormalEquations
 
 MOST_ORDERS = 120

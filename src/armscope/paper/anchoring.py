@@ -79,6 +79,9 @@ def anchor(
         ensemble: how many robots to draw beside the most likely one.
         rng: draws them.
 
+    Returns:
+        The robots' errors, in sigmas and natural units, and how far their equations are from the printed ones.
+
     Raises:
         RuntimeError: a robot that can't be made to agree (tolerances far too large for the linear step).
     """

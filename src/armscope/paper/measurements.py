@@ -94,7 +94,16 @@ class Measurements:
 
 
 def pose_table(name: str, motor_angles: Array, nominal_mm: Array) -> pd.DataFrame:
-    """Poses as a table: trajectory, point (from 1), q1_rad, ..., x_mm, y_mm, z_mm (nominal, base frame)."""
+    """Poses as a table: trajectory, point (from 1), q1_rad, ..., x_mm, y_mm, z_mm (nominal, base frame).
+
+    Args:
+        name: of the trajectory.
+        motor_angles: (N, m) rad.
+        nominal_mm: (N, 3) tool points in the base frame.
+
+    Returns:
+        The table.
+    """
     columns = {f"q{motor}_rad": angles for motor, angles in enumerate(motor_angles.T, start=1)}
     columns |= dict(zip(POSITION_COLUMNS, nominal_mm.T, strict=True))
     return pd.DataFrame({"trajectory": name, "point": np.arange(1, len(motor_angles) + 1), **columns})

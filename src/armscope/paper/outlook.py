@@ -19,6 +19,12 @@ def paper_regions(
 ) -> pd.DataFrame:
     """Error against the number of blended regions, for the first robot of a study.
 
+    Args:
+        measurements: of a study.
+        specs: which models.
+        seed: of the folds.
+        most_halvings: the most that are tried.
+
     Returns:
         Columns model, regions, fit_rms_mm, held_out_rms_mm, stderr_mm, chosen (see `compare_regions`), and one per test
         path: the RMS of the error vector that the blended model leaves there, mm.
@@ -49,6 +55,11 @@ def _length(left: Array) -> float:
 
 def paper_products(measurements: Measurements, specs: Sequence[ModelSpec], seed: int = 0) -> pd.DataFrame:
     """Sums of one-input terms against a sparse choice of their products, for the first robot of a study.
+
+    Args:
+        measurements: of a study.
+        specs: which models.
+        seed: of the folds.
 
     Returns:
         Columns model, kind ("sums", "products"), candidates, terms, fit_rms_mm, held_out_rms_mm, stderr_mm

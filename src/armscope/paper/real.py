@@ -52,6 +52,14 @@ class RealStudy:
 def select_rows(recordings: Recordings, run: str | None = None, first_id: int | None = None) -> Recordings:
     """The rows of one run, from an id on (numbers), in their order.
 
+    Args:
+        recordings: all runs of a set.
+        run: which; None takes all.
+        first_id: the first row's id; None takes all.
+
+    Returns:
+        The rows.
+
     Raises:
         InputError: a run that the recordings don't have; nothing left.
     """
@@ -77,6 +85,9 @@ def real_measurements(arm: Arm, recordings: Recordings, seed: int, count: int = 
         recordings: measured positions; several targets of one configuration stay together.
         seed: of the candidates, where there are more configurations than can be compared.
         count: identification rows (85); fewer where the recordings are few, so that some are held out.
+
+    Returns:
+        Errors (mm) at identification and held-out rows, the choice of rows, and the fitted frames.
 
     Raises:
         InputError: an arm with another number of motors, or too few rows to fit frames and models.

@@ -80,6 +80,9 @@ def typical(residuals: pd.DataFrame, method: str = "swarm", value: str = "rms_mm
         residuals: see `residual_table`.
         method: whose fits; the uncompensated errors are always in.
         value: "rms_mm" or "rss_mm".
+
+    Returns:
+        The table of medians, mm.
     """
     chosen = residuals[residuals["method"].isin(["none", method])]
     medians = chosen.groupby(["robot", "model", "trajectory", "axis"], sort=False)[value].median()

@@ -14,6 +14,13 @@ from armscope.swarm import SwarmSettings
 def run_variant(measurements: Measurements, variant: Variant, first_seed: int, basis: str, engine: str) -> pd.DataFrame:
     """What a variant leaves of the first robot's errors.
 
+    Args:
+        measurements: of a study; the first robot counts.
+        variant: of the swarm or the model.
+        first_seed: of as many as the variant asks for.
+        basis: the coordinates that are searched.
+        engine: see `minimise_least_squares`.
+
     Returns:
         Columns id, sweep, varied, model, trajectory, seed, rms_mm (3D), least_squares_mm (3D, of the same model),
         excess_percent (of the fit's RMS over least squares on the identification rows, the worst axis).

@@ -51,6 +51,9 @@ def paper_paths_mm(
         turns_pi: phi runs from 0 to this many times pi, 5.
         spiral_points: 200.
         rise_mm: change of the third coordinate (z of II, x of III) along the whole spiral.
+
+    Returns:
+        Points by the trajectory's name.
     """
     second, third = np.asarray(spiral_starts_mm, dtype=float)
     return {
@@ -119,6 +122,9 @@ def measure_virtual(
         tracker: measures each set of poses in a session of its own, with the same errors for every robot.
         ensemble: robots besides the anchored one.
         seed: of the tracker's errors and of the ensemble.
+
+    Returns:
+        The robots and what was measured of them.
     """
     names = [IDENTIFICATION, *(name for name in TEST_TRAJECTORIES if name in set(poses["trajectory"]))]
     arrays = {name: pose_arrays(poses[poses["trajectory"] == name]) for name in names}

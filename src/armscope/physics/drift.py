@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from armscope.core.numerals import rounded
+from armscope.physics.clause import Told
+from armscope.physics.cure import Cure
 from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term, term
 from armscope.physics.placing import varies
 from armscope.recordings import Recordings
@@ -17,7 +21,17 @@ FEWEST_ORDERED_ROWS = 20
 
 
 def six_terms(location: str, driver: Driver, per: str = "", axes: tuple[str, ...] = AXES) -> tuple[Term, ...]:
-    """One term per direction of a frame, named x, y, z, rx, ry, rz, mm and rad."""
+    """One term per direction of a frame, named x, y, z, rx, ry, rz, mm and rad.
+
+    Args:
+        location: a frame of the chain.
+        driver: what each term follows.
+        per: what stands below the fraction of the unit, such as "/h".
+        axes: which directions.
+
+    Returns:
+        One term per direction.
+    """
     return tuple(
         term(
             axis.removeprefix("t"),
@@ -81,13 +95,33 @@ def pauses_of(placed: Placed) -> list[Pause]:
     return [Pause(p.driver.number(0), str(p.driver.arguments[1]), p.factor * 1e3) for p in steps]
 
 
+def _length(told: Told) -> str:
+    return rounded(math.hypot(told.numbers["x"].value, *(told.numbers[a].value for a in "yz" if a in told.numbers)))
+
+
+def _drifts(told: Told) -> str:
+    in_rows = any("rows" in number.unit for number in told.numbers.values())
+    _, comma, paused = told.driver.partition(", ")
+    return f"the base drifts by {_length(told)} mm per {'1000 rows' if in_rows else 'hour'}{comma}{paused}"
+
+
+def _jumped(told: Told) -> str:
+    when = f" at {told.numbers['time'].value:.0f} s" if "time" in told.numbers else ""
+    when = f" at row {told.numbers['row'].value:.0f}" if "row" in told.numbers else when
+    return f"the {told.location} jumped by {_length(told)} mm{when}"
+
+
 BASE_DRIFT = Effect(
     "base_drift",
     "drift",
     _place_drift,
     "The base (or the instrument) moves steadily during the recording.",
     "Measure fixed reference points on the base at the start and the end.",
-    "Let the set-up settle and warm up; measure references in between and correct.",
+    Cure(
+        "Let the set-up settle and warm up; measure references in between and correct. Until then the base frame is, "
+        "at each time, stated frame + drift x time: command what the corrected model's inverse kinematics asks for."
+    ),
+    clauses=(_drifts, "the base drifts"),
     needs=("time_s, or rows in order",),
     contained_in=("time",),
 )
@@ -110,12 +144,30 @@ def _axes_of_tool(recordings: Recordings) -> tuple[str, ...]:
 
 
 def base_shift(recordings: Recordings, row: int, multiplicity: int) -> Placed:
-    """The base jumps before a row (0-based) and stays so until the end of the row's run."""
+    """The base jumps before a row (0-based) and stays so until the end of the row's run.
+
+    Args:
+        recordings: the table.
+        row: the first after the jump.
+        multiplicity: how many moments compete.
+
+    Returns:
+        The effect in place.
+    """
     return _shift(BASE_SHIFT, "base", AXES, recordings, row, multiplicity)
 
 
 def tool_shift(recordings: Recordings, row: int, multiplicity: int) -> Placed:
-    """The tool jumps before a row (0-based) and stays so until the end of the row's run."""
+    """The tool jumps before a row (0-based) and stays so until the end of the row's run.
+
+    Args:
+        recordings: the table.
+        row: the first after the jump.
+        multiplicity: how many moments compete.
+
+    Returns:
+        The effect in place.
+    """
     return _shift(TOOL_SHIFT, "tool", _axes_of_tool(recordings), recordings, row, multiplicity)
 
 
@@ -157,7 +209,11 @@ BASE_SHIFT = Effect(
     lambda arm, recordings: iter(()),  # its time is scanned by the diagnosis
     "The base or the instrument jumped during the recording.",
     "Look into the log for what happened at that time; measure reference points on the base.",
-    "Fasten the base and the instrument; register again after each change.",
+    Cure(
+        "Fasten the base and the instrument and register again; or move the base frame by the jump for all that "
+        "comes after it (base = stated base + jump) and command what the corrected model's inverse kinematics asks for."
+    ),
+    clauses=(_jumped, "the {location} jumped"),
     several=True,
 )
 
@@ -167,7 +223,11 @@ TOOL_SHIFT = Effect(
     _place_tool_of_run,  # within a run its time is scanned by the diagnosis
     "The tool or its reflector moved on the flange during the recording or between runs.",
     "Look into the log for what happened at that time; measure the tool point again.",
-    "Fasten the tool; calibrate the tool point again after each change.",
+    Cure(
+        "Fasten the tool and calibrate the tool point again; or move the tool point by the jump for all that comes "
+        "after it (tool = stated tool + jump) and command what the corrected model's inverse kinematics asks for."
+    ),
+    clauses=(_jumped, "the {location} jumped"),
     several=True,
 )
 

@@ -39,6 +39,14 @@ def evaluate(scene: Scene, driver: Driver) -> Array:
 def recorded(scene: Scene, context: str, motor: int = 0) -> Array:
     """A context field of the scene's recordings ("temperature", ...), or one motor's column of it, NaN where unknown.
 
+    Args:
+        scene: N rows.
+        context: name of the field.
+        motor: from 0, where the field has a column per motor.
+
+    Returns:
+        (N,) in the field's unit.
+
     Raises:
         InputError: it was not recorded.
     """
@@ -212,7 +220,16 @@ def _spline(scene: Scene, source: Driver, centre: float, width: float) -> Array:
 
 
 def cubic_spline(at: Array, centre: float, width: float) -> Array:
-    """Cubic B-spline: a smooth bump about ``centre``, zero beyond two widths."""
+    """Cubic B-spline: a smooth bump about ``centre``, zero beyond two widths.
+
+    Args:
+        at: (N,) values.
+        centre: of the bump, same unit.
+        width: between knots, same unit.
+
+    Returns:
+        (N,) 0 ... 2/3.
+    """
     u = np.abs(at - centre) / width
     inner = 2 / 3 - u**2 + u**3 / 2
     outer = np.clip(2 - u, 0, None) ** 3 / 6

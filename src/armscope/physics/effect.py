@@ -7,7 +7,7 @@ diagnosis multiplies the same drivers with the frames' Jacobians (`armscope.phys
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from numbers import Real
 from typing import TYPE_CHECKING, Literal
@@ -16,6 +16,9 @@ from armscope.core.location import Location
 
 if TYPE_CHECKING:
     from armscope.core.types import Array
+    from armscope.physics.clause import Clause
+    from armscope.physics.cure import Cure
+    from armscope.physics.drivers import DriverKind
     from armscope.physics.scene import Part, Scene
     from armscope.recordings import Recordings
     from armscope.robot import Arm
@@ -84,7 +87,17 @@ class Term:
 
 
 def term(name: str, unit: str, *products: Product | tuple[Direction, Driver], si: float = 1.0) -> Term:
-    """A term from products or (direction, driver) pairs."""
+    """A term from products or (direction, driver) pairs.
+
+    Args:
+        name: of the parameter.
+        unit: of the parameter in files.
+        products: products of directions and drivers.
+        si: SI units per file unit.
+
+    Returns:
+        The term.
+    """
     return Term(name, unit, si, tuple(p if isinstance(p, Product) else Product(*p) for p in products))
 
 
@@ -154,7 +167,11 @@ class Effect:
         place: the effect at every location of an arm where the recordings can show it.
         physics: one sentence: what happens.
         confirm: one sentence: how to confirm it on the real arm.
-        cure: one sentence: how to cure it.
+        cure: how to take it out, in words and as code (`armscope.physics.cure`).
+        clauses: what a headline says of it (`armscope.physics.clause`); the first whose numbers are told is said.
+        labels: its parameters' names on a card, where their own don't say it.
+        atlas: the atlas' column in which it is weighed as a whole; "" where the cells of its place show it.
+        drivers: kinds of drivers that it brings along, by name (`armscope.physics.drivers`).
         needs: context columns without which it can't be seen.
         requires: family without which it does nothing: a payload's error shows through what gives way.
         nonnegative: its one value is not negative: what gives way does so along its load.
@@ -168,7 +185,11 @@ class Effect:
     place: Callable[[Arm, Recordings], Iterable[Placed]] = field(repr=False, compare=False)
     physics: str = field(compare=False)
     confirm: str = field(compare=False)
-    cure: str = field(compare=False)
+    cure: Cure = field(compare=False)
+    clauses: tuple[Clause, ...] = field(default=(), repr=False, compare=False)
+    labels: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
+    atlas: str = ""
+    drivers: Mapping[str, DriverKind] = field(default_factory=dict, repr=False, compare=False)
     needs: tuple[str, ...] = ()
     requires: str = ""
     nonnegative: bool = False

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.physics.cure import Cure, command
 from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.placing import varies
 from armscope.physics.scene import Scene
@@ -96,7 +97,11 @@ JOINT_COMPLIANCE = Effect(
     _place_joints,
     "The joint's drive gives way about its axis in proportion to the load that gravity puts on the motor.",
     "Hang a known weight on the tool in the same pose and measure how far this joint turns.",
-    "Add torque x compliance to the commanded angle, or have the controller's elastic model do it.",
+    command(
+        "Let the controller's elastic model hold against it, or command it away: "
+        "commanded = wanted - compliance x load (load: gravity's torque on this motor, positive along its pull)."
+    ),
+    clauses=("{location} gives way by {compliance} under gravity", "{location} gives way under gravity"),
     nonnegative=True,
     contained_in=("load",),
 )
@@ -123,7 +128,14 @@ BEARING_COMPLIANCE = Effect(
     _place_bearings,
     "The joint's bearing tilts across its axis under the moment that everything beyond puts on it.",
     "Hang a known weight on the outstretched arm and measure the tilt on both sides of the bearing.",
-    "Preload or replace the bearing, or compensate by moment x compliance.",
+    Cure(
+        "Preload or replace the bearing. No motor turns across its axis: otherwise command what the inverse kinematics "
+        "of the corrected model asks for (axis tilted by + compliance x moment; `armscope compensate`)."
+    ),
+    clauses=(
+        "the bearing of {location} tilts by {compliance} under gravity",
+        "the bearing of {location} tilts under gravity",
+    ),
     nonnegative=True,
 )
 
@@ -139,7 +151,11 @@ BASE_COMPLIANCE = Effect(
     _place_base,
     "The base (pedestal, floor, bolts) tilts under the arm's moment.",
     "Put a reflector or an inclinometer on the base and swing the outstretched arm around.",
-    "Stiffen the mounting, or compensate by moment x compliance.",
+    Cure(
+        "Stiffen the mounting. No motor turns the base: otherwise command what the inverse kinematics of the corrected "
+        "model asks for (base tilted by + compliance x moment; `armscope compensate`)."
+    ),
+    clauses=("the base tilts by {compliance} under the arm's moment", "the base tilts under the arm's moment"),
     nonnegative=True,
 )
 
@@ -166,7 +182,13 @@ LINK_BENDING = Effect(
     _place_beams,
     "The link bends like a beam under the load at its end.",
     "Put reflectors on both ends of the link and load the arm.",
-    "Compensate by the beam's model, or stiffen the link.",
+    Cure(
+        "Stiffen the link. No motor bends it back: otherwise command what the inverse kinematics of the corrected "
+        "model asks for (link's end moved by + flexibility x the beam's shape; `armscope compensate`)."
+    ),
+    clauses=("{location} bends under its load",),
+    labels={"flexibility": "flexibility 1/(E·I)"},
+    atlas="gravity load",
     nonnegative=True,
 )
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from armscope.physics.cure import Cure
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import AXES, Driver, Effect, Placed
 from armscope.recordings import Recordings
@@ -16,7 +17,7 @@ BASE_FRAME = Effect(
     lambda arm, recordings: iter(()),
     "Where the arm's base stands in the measurement frame.",
     "It is fitted anew for every recording.",
-    "Nothing to cure.",
+    Cure("Nothing to cure."),
 )
 TOOL_FRAME = Effect(
     "tool_frame",
@@ -24,7 +25,7 @@ TOOL_FRAME = Effect(
     lambda arm, recordings: iter(()),
     "Where the measured point sits in the arm's last frame.",
     "It is fitted anew for every target.",
-    "Nothing to cure.",
+    Cure("Nothing to cure."),
 )
 
 
@@ -34,7 +35,7 @@ TOOL_TURN = Effect(
     lambda arm, recordings: iter(()),
     "How the measured tool frame is turned against the arm's last frame.",
     "It is fitted anew for every target whose orientation was measured.",
-    "Nothing to cure.",
+    Cure("Nothing to cure."),
 )
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from armscope.core.location import Location
 from armscope.core.types import Array
+from armscope.physics.cure import command
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.elastic import has_load, loaded_joints
@@ -38,7 +39,16 @@ def waves(recordings: Recordings) -> int:
 
 
 def refined(arm: Arm, recordings: Recordings, curve: Placed) -> Placed | None:
-    """A free curve of a joint's own angle with the finest waves that a long table carries; None for other curves."""
+    """A free curve of a joint's own angle with the finest waves that a long table carries; None for other curves.
+
+    Args:
+        arm: the nominal arm.
+        recordings: the table.
+        curve: a curve in place.
+
+    Returns:
+        The finer curve in place.
+    """
     count = min(len(recordings) // ROWS_PER_FINE_WAVE, MOST_FINE_WAVES)
     if curve.effect is not UNKNOWN or curve.variant != "angle" or curve.refinement or count <= MOST_WAVES:
         return None
@@ -175,7 +185,18 @@ def _curve(
 def spline_terms(
     source: Driver, values: Array, direction: Direction, unit: str, count: int = KNOTS
 ) -> tuple[Term, ...]:
-    """Cubic B-splines over the range of a driver's values, each a term in one direction."""
+    """Cubic B-splines over the range of a driver's values, each a term in one direction.
+
+    Args:
+        source: the driver.
+        values: (N,) its values in the table.
+        direction: which way it moves the tool.
+        unit: of the parameters.
+        count: how many splines.
+
+    Returns:
+        One term per spline.
+    """
     return tuple(
         term(f"at_{n}", unit, (direction, Driver("spline", (source, centre, width))))
         for n, (centre, width) in enumerate(_knots(values, count))
@@ -195,7 +216,13 @@ UNKNOWN = Effect(
     _place,
     "Something here follows its driver in a way that none of the library's effects explains.",
     "Measure this joint alone in fine steps over the driver's range.",
-    "Correct by the fitted curve until its cause is found.",
+    command("Correct by the fitted curve until its cause is found: commanded = wanted - curve."),
+    clauses=(
+        "{location} scatters by {scatter} for a reason that the table does not record",
+        "something unexplained at {location} follows the {driver}, by up to {reaches}",
+        "something unexplained at {location} follows the {driver}",
+    ),
+    labels={"scatter": "scatter (1 sigma)"},
     several=True,
 )
 

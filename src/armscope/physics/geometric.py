@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.physics.clause import Told, swings
+from armscope.physics.cure import Cure, command
 from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.placing import STANDS_STILL_RAD, moving_joints
 from armscope.physics.scene import LINKAGE_JOINT, Part, Scene
@@ -58,7 +61,12 @@ JOINT_OFFSET = Effect(
     _place_offsets,
     "The encoder's zero is off, so the joint always stands at an angle other than the commanded one.",
     "Bring the joint to its calibration mark or level its link with an inclinometer at zero and read the angle.",
-    "Correct the encoder's zero (mastering) by the angle found.",
+    command(
+        "Correct the encoder's zero (mastering) by the angle found, or command it away: commanded = wanted - offset. "
+        "In the controller's model: theta = stated theta + offset."
+    ),
+    clauses=("the zero of {location} is off by {offset:+}",),
+    labels={"offset": "zero is off by"},
     contained_in=("angle", "load", "time", "temperature"),
 )
 
@@ -69,13 +77,32 @@ def _place_links(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
         yield Placed(LINK_GEOMETRY, f"link {j}", terms, (1.0,) * len(terms), "constant")
 
 
+_ROW = {"a": "length a", "d": "length d", "alpha": "twist α", "theta": "turn θ", "beta": "twist β"}
+
+
+def _differs(told: Told) -> str:
+    """The parameter that stands out most from its uncertainty, and the next."""
+    if not told.numbers:
+        return f"{told.location} differs from its drawing"
+    first = sorted(told.numbers.items(), key=lambda p: -abs(p[1].value) / (p[1].stderr or math.inf))[:2]
+    clear = [(name, p) for name, p in first if p.stderr and abs(p.value) > 3 * p.stderr] or first[:1]
+    errors = " and ".join(f"{_ROW.get(name, name)} by {number:+}" for name, number in clear)
+    return f"{told.location} differs from its drawing: {errors}"
+
+
 LINK_GEOMETRY = Effect(
     "link_geometry",
     "geometric",
     _place_links,
     "The link is longer, shorter or more twisted than its D-H row says.",
     "Measure the two neighbouring joint axes with the tracker by turning one joint at a time (circle-point analysis).",
-    "Put the corrected D-H row into the controller's model.",
+    Cure(
+        "No command of one joint undoes it: put the corrected D-H row into the controller's model (a = stated a + a, "
+        "and so on for every number told), whose inverse kinematics then reaches the wanted point."
+    ),
+    clauses=(_differs,),
+    labels=_ROW,
+    atlas="constant",
 )
 
 
@@ -102,7 +129,7 @@ BACKGROUND = Effect(
     lambda arm, recordings: iter(()),
     "Geometric errors of tolerance size, as every arm has them.",
     "Compare with the maker's tolerances.",
-    "A geometric calibration takes them out.",
+    Cure("A geometric calibration takes them out."),
 )
 
 
@@ -139,7 +166,11 @@ AXIS_WOBBLE = Effect(
     _place_wobbles,
     "The joint's axis does not keep its direction while the joint turns (bearing run-out).",
     "Turn the joint alone through a full turn with a dial gauge against a ground surface near its bearing.",
-    "Replace or re-seat the bearing; until then compensate by the fitted tilt.",
+    Cure(
+        "Replace or re-seat the bearing. No motor turns across its axis: until then command what the inverse "
+        "kinematics of the corrected model asks for (nominal axis + fitted tilt; `armscope compensate`)."
+    ),
+    clauses=(swings("the axis of {location} tilts"),),
 )
 
 
@@ -166,7 +197,12 @@ PARALLELOGRAM_GEOMETRY = Effect(
     _place_linkage,
     "The linkage's opposite bars differ in length, so the forearm does not keep parallel to its crank.",
     "Turn motor 2 alone and watch the forearm's inclination: in a true parallelogram it does not change.",
-    "Adjust the rod's length, or put the measured lengths into the controller's model.",
+    Cure(
+        "Adjust the rod by minus its error, or put the true lengths into the controller's model (rod = stated rod + "
+        "rod, rocker = stated rocker + rocker), whose inverse kinematics then reaches the wanted point."
+    ),
+    clauses=("the parallelogram's bars differ: rod by {rod:+} and rocker by {rocker:+}",),
+    atlas="constant",
     exact=_closed_loop,
 )
 

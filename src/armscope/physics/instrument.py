@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from armscope.physics.clause import Told
+from armscope.physics.cure import Cure
 from armscope.physics.effect import ONE, Direction, Effect, Placed, term
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -14,13 +16,24 @@ def _place_scale(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     yield Placed(INSTRUMENT_SCALE, "instrument", (scale,), (1.0,), "distance")
 
 
+def _measures(told: Told) -> str:
+    scale = told.numbers["scale"]
+    return f"the instrument measures {scale} too {'long' if scale.value > 0 else 'short'}"
+
+
 INSTRUMENT_SCALE = Effect(
     "instrument_scale",
     "instrument",
     _place_scale,
     "The instrument measures all lengths too long or too short by the same share.",
     "Measure a calibrated scale bar, or correct the air's refractive index by temperature and pressure.",
-    "Correct the instrument's scale.",
+    Cure(
+        "Correct the instrument's scale, not the arm: reading = measured / (1 + scale).",
+        readings=lambda measured, part: measured / (1 + float(part.values[0])),
+    ),
+    clauses=(_measures,),
+    labels={"scale": "lengths too long by"},
+    atlas="constant",
 )
 
 EFFECTS = [INSTRUMENT_SCALE]

@@ -5,10 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+import numpy as np
+
+from armscope.physics.clause import Told
+from armscope.physics.cure import Cure
 from armscope.physics.drivers import follows
 from armscope.physics.effect import Driver, Effect, Placed, Product, Term
 from armscope.physics.elastic import UNKNOWN_MASSES
-from armscope.physics.scene import Part
+from armscope.physics.scene import Part, Scene
 from armscope.recordings import Recordings
 
 
@@ -58,13 +62,31 @@ def _term(name: str, unit: str, si: float, givings: Sequence[Product], change: A
     return Term(name, unit, si, tuple(Product(g.direction, change(g.driver), g.factor) for g in givings))
 
 
+def _restated(scene: Scene, part: Part) -> Scene:
+    """The scene with the payload as it is."""
+    values = {term.name: float(value) for term, value in zip(part.placed.terms, part.values, strict=True)}
+    offset = np.array([values.get(f"com_{axis}", 0.0) for axis in "xyz"])
+    return scene.with_payload(values.get("mass", 0.0), offset)
+
+
+def _not_as_stated(told: Told) -> str:
+    errors = " and ".join(f"{name.replace('_', ' ')} by {number:+}" for name, number in told.numbers.items())
+    return "the payload is not as stated" + (f": {errors}" if errors else "")
+
+
 PAYLOAD_ERROR = Effect(
     "payload_error",
     "elastic",
     lambda arm, recordings: iter(()),  # it needs a model that gives way
     "The payload's mass or centre of mass is other than stated, so everything that gives way is loaded differently.",
     "Weigh the tool and its load, and find its centre of mass by hanging it from two points.",
-    "Correct the payload's data in the controller.",
+    Cure(
+        "Correct the payload's data in the controller: mass = stated mass + mass, centre = stated centre + com. What "
+        "gives way is then commanded away with the right load.",
+        statement=_restated,
+    ),
+    clauses=(_not_as_stated,),
+    atlas="gravity load",
     needs=("payload_kg",),
     requires="elastic",
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from armscope.physics.cure import Cure
 from armscope.physics.effect import Direction, Driver, Effect, Placed, Product, term
 from armscope.physics.placing import varies
 from armscope.recordings import Recordings
@@ -40,7 +41,13 @@ THERMAL_EXPANSION = Effect(
     _place_links,
     "The link grows with temperature (steel 11-12, aluminium 23-24 millionths per K).",
     "Measure one pose cold and warm, with a thermometer on the link.",
-    "Warm up before measuring, or correct the link's length by its temperature.",
+    Cure(
+        "Warm up before measuring, or correct the link's length in the controller's model: length = stated length x "
+        "(1 + coefficient x (temperature - 20 C)); its inverse kinematics then reaches the wanted point."
+    ),
+    clauses=("{location} grows by {coefficient} with temperature",),
+    labels={"coefficient": "expansion coefficient"},
+    atlas="temperature",
     needs=("temperature_c",),
 )
 

@@ -6,6 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from armscope.core.numerals import rounded
+from armscope.physics.clause import Told, swings
+from armscope.physics.cure import command
 from armscope.physics.effect import Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.placing import moving_joints, varying_columns
 from armscope.physics.scene import Scene
@@ -32,13 +35,23 @@ def _place_ratios(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
         yield Placed(GEAR_RATIO, f"joint {j}", (ratio,), (1.0,), f"angle of joint {j}")
 
 
+def _turns(told: Told) -> str:
+    ratio = told.numbers["ratio"].value
+    return f"{told.location} turns {rounded(100 * abs(ratio))} % too {'far' if ratio > 0 else 'little'}"
+
+
 GEAR_RATIO = Effect(
     "gear_ratio",
     "transmission",
     _place_ratios,
     "The joint turns by a little more or less than commanded, in proportion to the angle.",
     "Turn the joint alone by a large angle and back and measure the angle turned with the tracker.",
-    "Correct the gear ratio (or the belt's or encoder's scale) in the controller.",
+    command(
+        "Correct the gear ratio (or the belt's or encoder's scale) in the controller, or command it away: "
+        "commanded = wanted - ratio x wanted."
+    ),
+    clauses=(_turns,),
+    labels={"ratio": "turns further by"},
     contained_in=("angle",),
 )
 
@@ -69,7 +82,11 @@ GEAR_ECCENTRICITY = Effect(
     _place_eccentricities,
     "A gear or the encoder's disc sits off its centre, so the angle error repeats once or twice per joint turn.",
     "Turn the joint alone in steps of 10 degrees over a full turn and look for one or two waves.",
-    "Re-centre the encoder disc or gear, or store the fitted wave as a correction table.",
+    command(
+        "Re-centre the encoder disc or gear, or store the wave as a correction table: "
+        "commanded = wanted - amplitude x cos(per_turn x wanted - phase)."
+    ),
+    clauses=(swings("the angle of {location} swings"),),
     contained_in=("angle",),
 )
 
@@ -85,7 +102,11 @@ GEAR_MESH = Effect(
     lambda arm, recordings: iter(()),  # its counts are scanned by the diagnosis
     "The teeth of a gear stage engage unevenly, so the angle error repeats many times per joint turn.",
     "Turn the joint alone in steps much finer than the period found and look for the wave.",
-    "Compare the period with the gear stages' tooth counts; replace the stage, or store the wave as a correction.",
+    command(
+        "Compare the period with the gear stages' tooth counts; replace the stage, or store the wave as a correction: "
+        "commanded = wanted - amplitude x cos(per_turn x wanted - phase)."
+    ),
+    clauses=(swings("the angle of {location} swings"),),
     several=True,
     contained_in=("angle",),
 )
@@ -113,7 +134,13 @@ BACKLASH = Effect(
     _place_backlash,
     "The gear has play: the joint rests on one flank or the other, by the side it came from or gravity pushes it to.",
     "Approach one pose from both sides of this joint and compare.",
-    "Adjust or preload the gear; until then always approach from the same side.",
+    command(
+        "Adjust or preload the gear; until then approach from one side, or command the play away: where the motion "
+        "decides, commanded = wanted + approach x gap / 2 (approach: +1 after a positive motion); where gravity does, "
+        "commanded = wanted - side x gap / 2 (side: sign of the load along gravity's pull)."
+    ),
+    clauses=("{location} has {gap} of play", "{location} has play"),
+    labels={"gap": "play"},
     contained_in=("load", "approach"),
 )
 
@@ -130,7 +157,12 @@ SERVO_LAG = Effect(
     _place_lags,
     "The joint runs behind its command in proportion to its speed.",
     "Measure one point at several speeds, or at standstill: the error must vanish there.",
-    "Add velocity feed-forward, or give the instrument the right time stamp.",
+    command(
+        "Add velocity feed-forward, or give the instrument the right time stamp. By command: "
+        "commanded = wanted + delay x speed."
+    ),
+    clauses=("{location} runs behind by {delay}",),
+    labels={"delay": "runs behind by"},
     needs=("dq_rad_s",),
 )
 
@@ -151,7 +183,11 @@ JOINT_COUPLING = Effect(
     _place_couplings,
     "The joint turns a little whenever another motor does (shared wrist gears, hoses, cables).",
     "Turn the other motor alone over its range and watch this joint.",
-    "Put the coupling coefficient into the controller's wrist coupling table.",
+    command(
+        "Put minus the coefficient into the controller's wrist coupling table: "
+        "commanded = wanted - coupling x other (other: the angle of the motor it follows)."
+    ),
+    clauses=("{joint} turns by {coupling} of {source}",),
 )
 
 EFFECTS = [GEAR_RATIO, GEAR_ECCENTRICITY, GEAR_MESH, BACKLASH, SERVO_LAG, JOINT_COUPLING]

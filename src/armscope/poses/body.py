@@ -25,7 +25,7 @@ SHORTEST_SHARE = 0.5
 
 
 @dataclass(frozen=True, eq=False)
-class Piece:
+class Capsule:
     """A capsule at N poses: what it belongs to, its axis' ends (N, 3), m, and its radius, m.
 
     Pieces of one link, and pieces whose places differ by one, are neighbours.
@@ -48,7 +48,7 @@ class Shape:
     radius: float
 
 
-def pieces(arm: Arm, frames: Chain, shapes: list[Shape], radius: float) -> list[Piece]:
+def pieces(arm: Arm, frames: Chain, shapes: list[Shape], radius: float) -> list[Capsule]:
     """The body at some poses: the shapes and the tool, or the centre line where there are no shapes.
 
     Args:
@@ -67,18 +67,18 @@ def pieces(arm: Arm, frames: Chain, shapes: list[Shape], radius: float) -> list[
     placed = []
     for shape in shapes:
         start, end = (_placed(point, shape.joint, frames, turns) for point in (shape.start, shape.end))
-        placed.append(Piece(shape.joint, shape.joint, start, end, shape.radius))
-    tool = [Piece(each.link, arm.n_joints + 1, each.start, each.end, radius) for each in _along(lines[-1:], radius)]
+        placed.append(Capsule(shape.joint, shape.joint, start, end, shape.radius))
+    tool = [Capsule(each.link, arm.n_joints + 1, each.start, each.end, radius) for each in _along(lines[-1:], radius)]
     return [*placed, *tool]
 
 
-def _along(lines: list[tuple[str, Array]], radius: float) -> list[Piece]:
-    found: list[Piece] = []
+def _along(lines: list[tuple[str, Array]], radius: float) -> list[Capsule]:
+    found: list[Capsule] = []
     for link, (_, line) in enumerate(lines):
         for k, after in pairwise(range(line.shape[1])):
             length = np.linalg.norm(line[0, after] - line[0, k])  # the same in all poses
             if length > SHORTEST_SHARE * radius:
-                found.append(Piece(link, len(found), line[:, k], line[:, after], radius))
+                found.append(Capsule(link, len(found), line[:, k], line[:, after], radius))
     return found
 
 

@@ -21,7 +21,7 @@ STEPS = 4
 RIVALS = ("random", "grid")
 
 
-def compare(
+def compare_sets(
     choice: Choice,
     noise: float,
     seeds: int,
@@ -85,7 +85,7 @@ def _always(table: Recordings) -> Callable[[np.random.Generator], Recordings]:
 
 
 def summary(table: pd.DataFrame) -> dict[str, dict[str, float]]:
-    """By set: medians over the seeds of everything that `compare` tabulates."""
+    """By set: medians over the seeds of everything that `compare_sets` tabulates."""
     medians = table.drop(columns="seed").groupby("set", sort=False).median()
     return {str(kind): {str(name): float(value) for name, value in row.items()} for kind, row in medians.iterrows()}
 

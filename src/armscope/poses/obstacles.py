@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.stats import qmc
 
 from armscope.core.types import Array
-from armscope.poses.body import Piece, Shape, collision_shapes, pieces
+from armscope.poses.body import Capsule, Shape, collision_shapes, pieces
 from armscope.robot import Arm, chain
 
 RADIUS_SHARE = 0.04
@@ -89,7 +89,7 @@ def refusals(arm: Arm, motor_angles: Array, around: Surroundings) -> NDArray[np.
     return reasons[PROBES:]
 
 
-def _touches_itself(body: list[Piece]) -> NDArray[np.bool_]:
+def _touches_itself(body: list[Capsule]) -> NDArray[np.bool_]:
     """(N,) poses in which two pieces that are no neighbours come closer than their radii."""
     touches = np.zeros(len(body[0].start), dtype=bool)
     for one, other in combinations(body, 2):
@@ -101,7 +101,7 @@ def _touches_itself(body: list[Piece]) -> NDArray[np.bool_]:
     return touches
 
 
-def _below(body: list[Piece], floor: float) -> NDArray[np.bool_]:
+def _below(body: list[Capsule], floor: float) -> NDArray[np.bool_]:
     """(N,) poses with a moving piece nearer to the floor than its radius; what never moves stands on it."""
     lowest = np.full(len(body[0].start), np.inf)
     for piece in body:
@@ -111,7 +111,7 @@ def _below(body: list[Piece], floor: float) -> NDArray[np.bool_]:
     return np.asarray(lowest < floor)
 
 
-def _hidden(body: list[Piece], tool: Array, tracker: Array, radius: float) -> NDArray[np.bool_]:
+def _hidden(body: list[Capsule], tool: Array, tracker: Array, radius: float) -> NDArray[np.bool_]:
     """(N,) poses in which a piece of the arm stands between tracker and tool."""
     away = tracker - tool
     distance = np.linalg.norm(away, axis=1, keepdims=True)

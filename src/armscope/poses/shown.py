@@ -17,7 +17,8 @@ from armscope.physics.drift import six_terms
 from armscope.physics.effect import AXES, ONE, Placed, Term
 from armscope.physics.frames import BASE_FRAME, TOOL_FRAME
 from armscope.physics.geometric import background
-from armscope.physics.registry import EFFECTS, library
+from armscope.physics.registry import effects as all_effects
+from armscope.physics.registry import library
 from armscope.physics.scene import Part, Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -110,7 +111,7 @@ def shown(arm: Arm, table: Recordings, effects: Sequence[str] = (GEOMETRY,)) -> 
 
 
 def _placed(arm: Arm, table: Recordings, effects: Sequence[str]) -> list[Placed]:
-    known = {effect.name: effect for effect in EFFECTS}
+    known = {effect.name: effect for effect in all_effects()}
     found, everywhere = list[Placed](), library(arm, table)
     for name in dict.fromkeys(effects):
         if name == GEOMETRY:

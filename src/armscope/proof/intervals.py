@@ -28,7 +28,7 @@ class Compared:
     right: bool | None
 
 
-def compare(truth: Concealed, claims: Sequence[Claim], times: pd.Series | None) -> list[Compared]:
+def compare_numbers(truth: Concealed, claims: Sequence[Claim], times: pd.Series | None) -> list[Compared]:
     """The numbers of a concealed effect beside those of the claims under its own name.
 
     Args:

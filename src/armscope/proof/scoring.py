@@ -10,7 +10,7 @@ import pandas as pd
 
 from armscope.proof.answers import Answer, Claim
 from armscope.proof.definitions import AXES_MM, HELD_OUT_TOLERANCE, Name, place
-from armscope.proof.intervals import compare
+from armscope.proof.intervals import compare_numbers
 from armscope.proof.matching import UNKNOWN, Match, among_all, distinct, match
 from armscope.proof.oracle import power, size_in_thresholds
 from armscope.proof.truth import Concealed, Truth
@@ -233,7 +233,7 @@ def _numbers(world: World, found: Match) -> list[dict[str, object]]:
         {"effect": found.truth.effect, "location": found.truth.location, "minor": found.truth.minor}
         | {"strength": found.truth.strength}
         | vars(number)
-        for number in compare(found.truth, claims, world.times)
+        for number in compare_numbers(found.truth, claims, world.times)
     ]
 
 

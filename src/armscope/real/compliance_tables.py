@@ -12,7 +12,7 @@ from scipy.stats import t as t_distribution
 
 from armscope.core.location import Location
 from armscope.core.types import Array
-from armscope.real.compliances import BLOCKS, Agreement, Give, compare, fit_give
+from armscope.real.compliances import BLOCKS, Agreement, Give, compare_compliances, fit_give
 from armscope.real.reference import ReferenceCompliances, rows_of_run
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -28,7 +28,7 @@ def half_width(stderr: float) -> float:
     return stderr * float(t_distribution.ppf((1 + SURE) / 2, BLOCKS - 1))
 
 
-def in_words(direction: Array, n_motors: int) -> str:
+def agreement_in_words(direction: Array, n_motors: int) -> str:
     """A combination as "bearing 1 + 0.9 drive 2 + ...", its largest weight 1; what hardly counts is left out."""
     weights = direction / direction[np.argmax(np.abs(direction))]
     order = np.argsort(-np.abs(weights), kind="stable")
@@ -75,7 +75,7 @@ def compare_runs(
             f"compliances from {learned}: "
             + ", ".join(f"{name} {each.noise_mm:.3f} mm" for name, each in found.items())
         )
-        agreed = [compare(found[a], found[b]) for a, b in _pairs(reference)]
+        agreed = [compare_compliances(found[a], found[b]) for a, b in _pairs(reference)]
         best = agreed[-1].directions[0] if best is None else best
         values += [{"learned": learned, **row} for row in _value_rows(found, best, reference, arm.n_motors)]
         pairs += [{"learned": learned, **row} for each in agreed for row in _agreement_rows(each, found, arm.n_motors)]
@@ -97,7 +97,7 @@ def _value_rows(
     unit = np.eye(len(best))
     of: dict[str, Array] = {f"joint {joint}": unit[joint - 1] for joint in reference.microrad_per_nm}
     best = best / best[np.argmax(np.abs(best))]
-    for name, direction in (of | {in_words(best, n_motors): best}).items():
+    for name, direction in (of | {agreement_in_words(best, n_motors): best}).items():
         for run, each in found.items():
             value, stderr = _along(each, direction)
             known = reference.microrad_per_nm.get(Location.of(name).number) if name in of else None
@@ -126,7 +126,7 @@ def _agreement_rows(each: Agreement, found: Mapping[str, Give], n_motors: int) -
         yield {
             "one": each.one,
             "other": each.other,
-            "of": in_words(direction, n_motors),
+            "of": agreement_in_words(direction, n_motors),
             "one_value": _along(found[each.one], direction / largest)[0],
             "other_value": _along(found[each.other], direction / largest)[0],
             "difference": 1e6 * difference / largest,

@@ -26,14 +26,14 @@ from armscope.check.preconditions import check_table, with_orientations
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.fitting.linearisation import missed, normal_equations_by_block
-from armscope.fitting.model_space import Pool, pool
+from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
 from armscope.fitting.refit import moved_frames
 from armscope.fitting.registration import fit_frames
-from armscope.inference.evidence import TOLERANCE
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.measurement import robust
 from armscope.measurement.row_weights import RowNoise
 from armscope.physics import elastic, geometric
+from armscope.physics.backgrounds import TOLERANCE
 from armscope.physics.effect import Placed
 from armscope.physics.frames import free_frames
 from armscope.physics.model import FittedModel
@@ -111,7 +111,8 @@ def fit_give(arm: Arm, recordings: Recordings, run: str) -> Give:
     bearings = list(elastic.BEARING_COMPLIANCE.place(arm, table))
     waves = [mesh(j, per_turn) for j in moving_joints(table) for per_turn in WAVES]
     families = [geometric.background(arm), [*drives, *bearings], [*waves, *geometric.AXIS_WOBBLE.place(arm, table)]]
-    parts, small = pool(free_frames(table, tool_per_run), families, []), [p for family in families for p in family]
+    parts = parameter_layout(free_frames(table, tool_per_run), families, [])
+    small = [p for family in families for p in family]
     precision = _precision(parts)
     blocks, noise = _settled(parts, model, small, table, precision)
     mean, posterior, covariance = _jackknifed(blocks, noise, precision)
@@ -160,7 +161,7 @@ def gravity_as_recorded(arm: Arm, table: Recordings) -> Array:
     return smooth
 
 
-def _precision(parts: Pool) -> Array:
+def _precision(parts: ParameterLayout) -> Array:
     """(p,) prior precisions, SI units; frames are free."""
     precision = np.zeros(len(parts.terms))
     for columns, size in zip(parts.background, (TOLERANCE, PRIOR, WAVE), strict=True):
@@ -169,7 +170,7 @@ def _precision(parts: Pool) -> Array:
 
 
 def _settled(
-    parts: Pool, model: FittedModel, small: Sequence[Placed], table: Recordings, precision: Array
+    parts: ParameterLayout, model: FittedModel, small: Sequence[Placed], table: Recordings, precision: Array
 ) -> tuple[list[NormalEquations], float]:
     """Sums over each block of rows where the exact fit settles, and the noise there (mm): Gauss-Newton, robust."""
     rows = RowNoise(np.ones(len(table)), np.ones(len(table)))
@@ -192,7 +193,7 @@ def _settled(
     return normal_equations_by_block(parts, model, table, rows.weights(left, 0.0), block), noise
 
 
-def _at(parts: Pool, model: FittedModel, values: Array) -> FittedModel:
+def _at(parts: ParameterLayout, model: FittedModel, values: Array) -> FittedModel:
     moved = moved_frames(model, dict(zip(parts.terms, values, strict=True)))
     return replace(moved, background=tuple(Part(p.placed, values[parts.of(p.placed)]) for p in model.background))
 
@@ -241,7 +242,7 @@ class Agreement:
     probability: float
 
 
-def compare(one: Give, other: Give) -> Agreement:
+def compare_compliances(one: Give, other: Give) -> Agreement:
     """Whether two runs agree about the compliances, in what both determine.
 
     Both means lean to the same prior, so their errors have a part in common:

@@ -89,7 +89,7 @@ def measure_run(
         tell(f"{reference.name}: split {seed}, {model} {left['rms_mm']:.3f} mm in {verdict.seconds:.0f} s")
         sizes = {"train": len(train), "test": len(test)}
         rows.append({"run": reference.name, "model": model, "split": seed, **left, **sizes})
-        names += [{"run": reference.name, "model": model, "split": seed, **effect} for effect in named(verdict)]
+        names += [{"run": reference.name, "model": model, "split": seed, **effect} for effect in effects_named(verdict)]
     rows += [{"run": reference.name, **row} for row in paper_models(arm, table)]
     columns = ["run", "model", "split", "effect", "location", "named_as", "minor", "rms_at_tool_mm", "title", "row"]
     return Measured(pd.DataFrame(rows), pd.DataFrame(names, columns=columns))
@@ -109,7 +109,7 @@ def rms_turn_mrad(verdict: Diagnosis, recordings: Recordings) -> float:
     return 1e3 * float(np.sqrt(np.nanmean(np.sum(turns**2, axis=1))))
 
 
-def named(verdict: Diagnosis) -> list[dict[str, object]]:
+def effects_named(verdict: Diagnosis) -> list[dict[str, object]]:
     """The effects of a verdict as rows."""
     return [
         {

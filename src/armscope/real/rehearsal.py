@@ -21,7 +21,7 @@ from armscope.physics import elastic, geometric, transmission
 from armscope.physics.model import Base, FittedModel, predict, predict_orientation
 from armscope.physics.scene import Part
 from armscope.real.compliance_tables import ORIENTATIONS, POINTS, half_width
-from armscope.real.compliances import as_heavy_as_recorded, compare, fit_give, gravity_as_recorded
+from armscope.real.compliances import as_heavy_as_recorded, compare_compliances, fit_give, gravity_as_recorded
 from armscope.real.reference import ReferenceCompliances, rows_of_run
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -138,7 +138,7 @@ def rehearse(arm: Arm, one: Recordings, other: Recordings, joints: Sequence[int]
             drawn = draw(arm, one, rng)
             first = fit_give(arm, record(arm, one, drawn, 1.0, rng), "one")
             second = fit_give(arm, record(arm, other, drawn, softer, rng), "other")
-            agree.append(compare(first, second).probability > AGREES)
+            agree.append(compare_compliances(first, second).probability > AGREES)
             for give, factor in ((first, 1.0), (second, softer)):
                 held += [
                     abs(give.mean[j - 1] - factor * drawn.drives[j - 1]) < half_width(give.stderr[j - 1])

@@ -38,7 +38,7 @@ from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.proof.answers import Answer, Claim, read_answer
 from armscope.proof.definitions import AXES_MM, Name, place
-from armscope.proof.intervals import Compared, compare
+from armscope.proof.intervals import Compared, compare_numbers
 from armscope.proof.matching import UNKNOWN
 from armscope.proof.reading import check_seal
 from armscope.proof.truth import Concealed, unsealed
@@ -216,7 +216,7 @@ def _numbers(
                 expected[name] = (value + same[0].parameters[name][0], unit)
     elif same:
         expected = _waves_together(expected, same[0])
-    return compare(replace(truth, parameters=expected), claims, None)
+    return compare_numbers(replace(truth, parameters=expected), claims, None)
 
 
 def _waves_together(planted: dict[str, tuple[float, str]], own: Claim) -> dict[str, tuple[float, str]]:

@@ -9,7 +9,7 @@ import zlib
 from pathlib import Path
 from typing import IO, cast
 
-from armscope.core.inputs import InputError, reading
+from armscope.core.inputs import InputError, note_read
 
 GZIP = b"\x1f\x8b"
 OTHER_THAN_TEXT: tuple[tuple[bytes, str, str], ...] = (
@@ -33,7 +33,7 @@ def start_of(path: Path, what: str) -> bytes:
     Raises:
         InputError: no readable file.
     """
-    reading(path)
+    note_read(path)
     try:
         with path.open("rb") as stream:
             start = stream.read(LONGEST_SIGNATURE)

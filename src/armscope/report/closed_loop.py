@@ -11,11 +11,11 @@ import pandas as pd
 from armscope.compensation.black_box import ErrorModel, domain_of, error_model
 from armscope.compensation.closed_loop import (
     NO_MODEL,
-    Candidate,
+    Corrector,
     MeasuredPath,
     black_box_candidate,
-    left_over,
     physical_candidate,
+    remaining_errors,
     vectors,
 )
 from armscope.compensation.physical import identified_on
@@ -42,7 +42,7 @@ def paper_closed_loop(
     regions: Sequence[tuple[ModelSpec, int]] = (),
     diagnosed: bool = True,
 ) -> pd.DataFrame:
-    """What is left at every point by model, trajectory and stage, for the first robot of a study; see `left_over`.
+    """What is left at every point by model, trajectory and stage, for a study's first robot; see `remaining_errors`.
 
     Args:
         arm: the nominal arm.
@@ -55,7 +55,7 @@ def paper_closed_loop(
     """
     truth = geometric_errors(arm)
     identification = measurements.identification
-    candidates: dict[str, Candidate] = {
+    candidates: dict[str, Corrector] = {
         fit.name: black_box_candidate(error_model(arm, fit, identification.motor_angles))
         for fit in fits
         if fit.label == measurements.robots[0]
@@ -69,7 +69,7 @@ def paper_closed_loop(
         )
     if diagnosed:
         candidates[DIAGNOSED] = _diagnosed(arm, identification)
-    return left_over(
+    return remaining_errors(
         arm,
         candidates,
         _measured(identification),
@@ -113,7 +113,7 @@ def real_left_over(
     order.
 
     Returns:
-        As `left_over`, with the stages "fit" and "prediction" only.
+        As `remaining_errors`, with the stages "fit" and "prediction" only.
     """
     rows = measurements.identification
     found: dict[str, Callable[[PoseSet], Array]] = {NO_MODEL: lambda each: np.zeros_like(each.errors_mm[0])}
@@ -156,7 +156,7 @@ def _predictor(
     return predict
 
 
-def _diagnosed(arm: Arm, identification: PoseSet) -> Candidate:
+def _diagnosed(arm: Arm, identification: PoseSet) -> Corrector:
     columns = {f"q{motor}_rad": angles for motor, angles in enumerate(identification.motor_angles.T, start=1)}
     measured = identification.nominal_mm + identification.errors_mm[0]
     columns |= {f"{axis}_mm": measured[:, n] for n, axis in enumerate("xyz")}

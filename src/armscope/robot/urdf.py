@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pinocchio as pin
 
-from armscope.core.inputs import InputError, nearest, reading
+from armscope.core.inputs import InputError, nearest, note_read
 from armscope.core.types import Array
 from armscope.robot.description import RobotDescription
 
@@ -27,7 +27,7 @@ BEYOND_LIMITS = 0.01
 """A joint may be held beyond its limits by this share of its range: recorded positions are not exact."""
 
 
-class Cut(NamedTuple):
+class SerialPart(NamedTuple):
     """How a whole robot becomes one arm: joints to lock, in which configuration, and what its tip is called then."""
 
     locked: list[int]
@@ -68,7 +68,7 @@ def _errors_kept(said: list[str]) -> Iterator[None]:
             said += [line.removeprefix("Error:").strip() for line in lines[:3] if line.strip()]
 
 
-def cut(description: RobotDescription, full: pin.Model) -> Cut:
+def cut(description: RobotDescription, full: pin.Model) -> SerialPart:
     """What is locked, and where, so that the chain from the root to the tip is left without the joints that are held.
 
     Raises:
@@ -94,7 +94,7 @@ def cut(description: RobotDescription, full: pin.Model) -> Cut:
         raise InputError(file, "hold_joints", ", ".join(description.hold_joints), "every joint of the chain is held")
     _refuse_followers(description, full, sorted(left))
     _tell_frames_apart(full)
-    return Cut([joint for joint in range(1, full.njoints) if joint not in left], configuration, frame.name)
+    return SerialPart([joint for joint in range(1, full.njoints) if joint not in left], configuration, frame.name)
 
 
 def frame_named(model: pin.Model, name: str) -> pin.Frame:
@@ -128,7 +128,7 @@ def refuse_other_than_turning(file: str, model: pin.Model) -> None:
 
 
 def _root(path: str) -> ET.Element:
-    reading(path)
+    note_read(path)
     try:
         root = ET.parse(path).getroot()
     except OSError as error:

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
-from armscope.diagnosis.promotion import named, rest_of
-from armscope.inference.evidence import Hypothesis, Problem
-from armscope.inference.normal_equations import NormalEquations
-from armscope.inference.search import LARGE, SLACK_NATS, Search
-from armscope.physics.effect import Placed, region
-from armscope.physics.elastic import JOINT_COMPLIANCE
+from armscope.diagnosis.promotion import DRIVE, named, rest_of
+from armscope.diagnosis.state import DiagnosisState
+from armscope.inference.edits import LARGE, SLACK_NATS
+from armscope.inference.evidence import Hypothesis
+from armscope.inference.model_space import Candidate
+from armscope.inference.normal_equations import weighted_total
+from armscope.inference.search import Search
 from armscope.verdict.schema import Alternative, Specific
 
 LISTED_NATS = 10.0
@@ -26,76 +28,79 @@ COARSELY = 0.25
 """Where taking an effect out costs much, the noise is another one without it: predictions miss less than this share."""
 
 
-def alternatives(search: Search, best: Hypothesis, candidate: int) -> list[tuple[float, Placed, Hypothesis]]:
-    """(gap in nats, effect, hypothesis) of what could replace one effect, nearest first, each name once.
+class Rival(NamedTuple):
+    """What could stand in an effect's place: nats by which it falls short, and the hypothesis with it."""
+
+    gap: float
+    candidate: Candidate
+    hypothesis: Hypothesis
+
+
+def alternatives(search: Search, best: Hypothesis, number: int) -> list[Rival]:
+    """What could replace one effect, nearest first, each name once.
 
     None where a background holds the effect, too: without the name, the background explains the same. A line taken from
     a curve of load is rivalled by what rivals the curve; a curve of another drive's load is told as its compliance.
     """
-    rest = rest_of(search.problem, best, candidate)
-    if search.in_background(best, candidate) and not rest:
+    candidate, rest = search.candidate(number), rest_of(search.problem, best, number)
+    if search.in_background(best, number) and not rest:
         return []
-    base = search.without(best, [candidate, *rest])
-    taken = {search.placed(c).key for c in best.candidates}
-    nearest: dict[tuple[str, str], tuple[float, Placed, Hypothesis]] = {}
+    base = search.without(best, [number, *rest])
+    taken = {search.candidate(c).key for c in best.candidates}
+    nearest: dict[tuple[str, str], Rival] = {}
     paid = _price_of_curve(search, candidate) if rest else 0.0
-    lines = {p.location: p for p in search.problem.pool.candidates if p.effect is JOINT_COMPLIANCE and not p.variant}
+    lines = {c.location: c for c in search.space.candidates if c.kind == DRIVE and not c.variant}
     # what a coarse prediction puts far behind is not weighed
-    listed_nats = LISTED_NATS_OF_SPECIAL_CASES if search.placed(candidate).parametrisation == "curve" else LISTED_NATS
+    listed_nats = LISTED_NATS_OF_SPECIAL_CASES if candidate.is_curve else LISTED_NATS
     lost = best.log_posterior - base.log_posterior
     least = lost - paid - listed_nats - COARSELY * max(lost, 0.0) - SLACK_NATS
-    for other in search.additions(base, LOOKED_AT, [candidate], least):
-        placed = search.placed(other.chosen[-1].candidate)
-        gap = best.log_posterior - other.log_posterior - paid
-        curve = search.placed(candidate).parametrisation == "curve"
-        special = curve and other.chosen[-1].candidate in search.problem.pool.excludes[candidate]
-        same = bool(rest) and other.chosen[-1].candidate in search.problem.pool.excludes[candidate]
-        if same or placed.key in taken or gap > (LISTED_NATS_OF_SPECIAL_CASES if special else LISTED_NATS):
+    for other in search.additions(base, LOOKED_AT, [number], least):
+        rival, gap = search.candidate(other.chosen[-1].candidate), best.log_posterior - other.log_posterior - paid
+        excluded = other.chosen[-1].candidate in candidate.excludes
+        far = LISTED_NATS_OF_SPECIAL_CASES if candidate.is_curve and excluded else LISTED_NATS
+        if (rest and excluded) or rival.key in taken or gap > far:
             continue
-        if rest and placed.variant == "load" and placed.parametrisation == "curve":
-            placed = lines.get(placed.location, placed)
-        if placed.key not in nearest or gap < nearest[placed.key][0]:
-            nearest[placed.key] = (gap, placed, other)
-    return sorted(nearest.values(), key=lambda entry: entry[0])
+        if rest and rival.variant == "load" and rival.is_curve:
+            rival = lines.get(rival.location, rival)
+        if rival.key not in nearest or gap < nearest[rival.key].gap:
+            nearest[rival.key] = Rival(gap, rival, other)
+    return sorted(nearest.values(), key=lambda rival: rival.gap)
 
 
-def _price_of_curve(search: Search, line: int) -> float:
+def _price_of_curve(search: Search, line: Candidate) -> float:
     """What the curve that a line was taken from cost, nats: its names were free."""
-    problem = search.problem
-    curves = [n for n in problem.pool.excludes[line] if problem.pool.candidates[n].parametrisation == "curve"]
-    return float(problem.prior_costs[curves[0]] + np.log(len(problem.sizes))) if curves else 0.0
+    curves = [n for n in line.excludes if search.candidate(n).is_curve]
+    return search.problem.cost(curves[0]) if curves else 0.0
 
 
-def discriminability(best: Hypothesis, other: Hypothesis, effect: Placed, rival: Placed) -> float:
+def discriminability(best: Hypothesis, other: Hypothesis, effect: Candidate, rival: Candidate) -> float:
     """Nats by which the data tell an effect and its rival apart.
 
     The evidence also holds what a rival of one parameter more (a wave of free phase) pays for it; where the two fit
     alike, that is no measurement: such a rival counts by its fit alone. Larger ones fit anything and count in full.
     """
     gap = best.log_posterior - other.log_posterior
-    if len(rival.terms) > len(effect.terms) + 1:
+    if len(rival.columns) > len(effect.columns) + 1:
         return gap
     return min(gap, max((other.rss - best.rss) / (2 * best.noise**2), 0.0))
 
 
-def listed(found: Sequence[tuple[float, Placed, Hypothesis]]) -> tuple[Alternative, ...]:
+def listed(found: Sequence[Rival]) -> tuple[Alternative, ...]:
     """Alternatives as a verdict lists them."""
-    return tuple(
-        Alternative(placed.name, placed.location, placed.family, float(gap), placed.driver) for gap, placed, _ in found
-    )
+    return tuple(Alternative(c.kind, c.location, c.family, float(gap), c.driver) for gap, c, _ in found)
 
 
-def name(placed: Placed, rivals: Sequence[Placed]) -> tuple[Specific, str]:
+def name(effect: Candidate, rivals: Sequence[Candidate]) -> tuple[Specific, str]:
     """How specific the name may be, and the name in words, given the rivals that cannot be told apart from it."""
-    if not rivals and placed.parametrisation == "curve":
-        return "effect", f"an unknown error at {placed.location} that follows the {placed.driver}"
+    if not rivals and effect.is_curve:
+        return "effect", f"an unknown error at {effect.location} that follows the {effect.driver}"
     if not rivals:
-        return "effect", f"{_words(placed.name)} at {placed.location}"
-    together = [placed, *rivals]
-    regions = sorted({region(p) for p in together})
-    families = sorted({p.family for p in together})
+        return "effect", f"{_words(effect.kind)} at {effect.location}"
+    together = [effect, *rivals]
+    regions = sorted({c.region for c in together})
+    families = sorted({c.family for c in together})
     if len(families) > 1:
-        return "region", " or ".join(f"{_words(p.name)} at {p.location}" for p in together[:3])
+        return "region", " or ".join(f"{_words(c.kind)} at {c.location}" for c in together[:3])
     if len(regions) == 1 or _adjacent(regions):
         return "region", f"{families[0]}, around {_places(regions)}"
     return "family", f"{families[0]}, somewhere around {_places(regions)}"
@@ -115,48 +120,21 @@ def _words(effect: str) -> str:
     return effect.replace("_", " ")
 
 
-def inclusion_frequency(
-    problem: Problem,
-    blocks: Sequence[NormalEquations],
-    best: Hypothesis,
-    found: Hypothesis,
-    draws: int,
-    rng: np.random.Generator,
-) -> dict[int, float]:
+def inclusion_frequency(state: DiagnosisState, draws: int, rng: np.random.Generator) -> dict[int, float]:
     """How often each chosen effect's place is chosen again when blocks of rows are drawn with replacement.
 
-    Hypotheses of many columns (several free curves) are looked for with coarse curves, and their ends not polished.
-
-    Args:
-        found: the best hypothesis before names were given within its backgrounds and curves.
+    Hypotheses of many columns (several free curves) are looked for with coarse curves, and without a local search.
     """
-    if not blocks or not best.chosen:
+    best, blocks = state.best, state.blocks
+    if not blocks or not best.chosen or not draws:
         return {}
-    places = {c: _place(problem.pool.candidates[c]) for c in best.candidates}
+    places = {c: state.space.candidates[c].key for c in best.candidates}
     hits = dict.fromkeys(best.candidates, 0)
-    large = len(best.columns) > LARGE
     for _ in range(draws):
         times = np.bincount(rng.integers(0, len(blocks), len(blocks)), minlength=len(blocks))
-        gram = _weighted(blocks, times)
-        search = Search.on(problem.with_equations(gram), beam=1, branches=2)
-        again = named(search, search.best(starts=(best.background,), also=search.coarsened(found), polished=not large))
-        places_again = {_place(problem.pool.candidates[c]) for c in again.candidates}
+        search = Search.on(state.problem.with_equations(weighted_total(blocks, times)), beam=1, branches=2)
+        found = search.best((best.background,), search.coarsened(state.found), local=len(best.columns) <= LARGE)
+        again = {state.space.candidates[c].key for c in named(search, state.space, found).candidates}
         for candidate, place in places.items():
-            hits[candidate] += place in places_again
+            hits[candidate] += place in again
     return {candidate: count / draws for candidate, count in hits.items()}
-
-
-def _place(placed: Placed) -> tuple[str, str]:
-    return placed.key
-
-
-def _weighted(blocks: Sequence[NormalEquations], times: np.ndarray) -> NormalEquations:
-    drawn = [int(k) for k in np.flatnonzero(times)]
-    G = sum(times[k] * blocks[k].G for k in drawn)
-    b = sum(times[k] * blocks[k].b for k in drawn)
-    return NormalEquations(
-        np.asarray(G),
-        np.asarray(b),
-        float(sum(times[k] * blocks[k].yy for k in drawn)),
-        float(sum(times[k] * blocks[k].n for k in drawn)),
-    )

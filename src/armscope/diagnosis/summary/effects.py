@@ -8,16 +8,17 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.diagnosis.promotion import worth
-from armscope.diagnosis.scans.scanning import when_stderr
+from armscope.diagnosis.promotion import nested_log_odds
+from armscope.diagnosis.scans.change_points import when_stderr
+from armscope.diagnosis.scans.context import ScanContext
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary import alternatives as certainty
 from armscope.diagnosis.summary.effect_curve import curve_of
 from armscope.diagnosis.summary.parameters import parameters
 from armscope.fitting.discrepancy import ModelError
 from armscope.fitting.joint_scatter import motor_jacobians
-from armscope.inference.evidence import Hypothesis, SelectedEffect
 from armscope.inference.normal_equations import NormalEquations, projected_rms
+from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
 from armscope.physics.effect import Placed
 from armscope.physics.scene import Part, Scene
@@ -36,7 +37,7 @@ def found_effect(
     search: Search,
     chosen: SelectedEffect,
     part: Part,
-    rivals: Sequence[tuple[float, Placed, Hypothesis]],
+    rivals: Sequence[certainty.Rival],
     often: dict[int, float],
     scene: Scene,
     gram: NormalEquations,
@@ -44,17 +45,17 @@ def found_effect(
     wrong: ModelError,
 ) -> FoundEffect:
     """One effect with everything that is known about it."""
-    fit, placed = state.fit, part.placed
+    fit, placed, candidate = state.fit, part.placed, search.candidate(chosen.candidate)
     at = fit.pool.of(placed)
     coefficients = np.zeros(len(fit.pool.terms))
     coefficients[at] = _sized(state, chosen, part.values, fit.covariance_of(placed))
     covariance = wrong.covariance[np.ix_(at, at)]
     rms = projected_rms(gram, fit.pool.frames, coefficients)
-    apart = [certainty.discriminability(state.best, other, placed, rival) for _, rival, other in rivals]
+    apart = [certainty.discriminability(state.best, other, candidate, rival) for _, rival, other in rivals]
     close = [
         rival for nats, (_, rival, _) in zip(apart, rivals, strict=True) if nats < certainty.INDISTINGUISHABLE_NATS
     ]
-    named_as, title = certainty.name(placed, close)
+    named_as, title = certainty.name(candidate, close)
     return FoundEffect(
         effect=placed.name,
         location=placed.location,
@@ -72,7 +73,7 @@ def found_effect(
         curve=curve_of(placed, part.values, covariance, scene),
         physics=placed.effect.physics,
         confirm=placed.effect.confirm,
-        cure=placed.effect.cure,
+        cure=placed.effect.cure.words,
     )
 
 
@@ -82,15 +83,10 @@ def _sized(state: DiagnosisState, chosen: SelectedEffect, values: Array, covaria
     The refit holds named values by a prior so wide that it does not pull; two of them that only show together (offsets
     along parallel axes) are then told with their wide intervals, but could stand for any size at the tool.
     """
-    problem = state.problem
-    placed = problem.pool.candidates[chosen.candidate]
-    if placed.parametrisation == "curve":
+    problem, candidate = state.problem, state.space.candidates[chosen.candidate]
+    if candidate.is_curve:
         return values  # its prior is that already
-    scale = (
-        problem.sizes[chosen.size]
-        * np.array(placed.prior_scale)
-        / problem.scale[problem.pool.columns[chosen.candidate]]
-    )
+    scale = problem.prior_scale(chosen) / problem.scale[candidate.columns]
     # the posterior with this prior in place of a flat one
     scaled = covariance / np.outer(scale, scale)
     return np.asarray(scale * (np.linalg.solve(np.eye(len(scale)) + scaled, values / scale)))
@@ -103,14 +99,15 @@ def _with_moment(
     if placed.family != "drift" or not placed.scanned:
         return told
     without = search.without(state.best, [chosen.candidate])
-    stderr = when_stderr(placed, state.problem, without, state.point, state.recordings, state.fit.weights)
+    context = ScanContext(state.problem, state.space, state.point, state.recordings, state.fit.weights)
+    stderr = when_stderr(placed, context, without)
     return (*told[:-1], replace(told[-1], stderr=stderr))
 
 
 def _worth(state: DiagnosisState, search: Search, chosen: SelectedEffect) -> float:
     """Evidence for a name, nats."""
     if chosen.nested:
-        return worth(state.problem, state.best, chosen)
+        return nested_log_odds(state.problem, state.best, chosen)
     return search.log_odds(state.best, chosen.candidate)
 
 

@@ -8,11 +8,12 @@ import numpy as np
 from scipy.stats import chi2
 
 from armscope.core.types import Indices
-from armscope.diagnosis.held_out import FEWEST_ROWS_PER_RUN, Blocks
+from armscope.diagnosis.held_out import FEWEST_ROWS_PER_RUN
+from armscope.diagnosis.state import DiagnosisState
 from armscope.fitting.linearisation import normal_equations_by_block
-from armscope.inference.evidence import Hypothesis, Problem, evaluate
+from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.normal_equations import NormalEquations, total
-from armscope.measurement.row_weights import RowWeights
+from armscope.inference.problem import Problem
 from armscope.physics.freeform import REST_OF_LOAD
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
@@ -23,49 +24,36 @@ MOST_ROWS = 3000
 """Rows on which payloads and halves of the workspace are compared, spread evenly over a longer table."""
 
 
-def subset_consistency(
-    problem: Problem,
-    blocks: Sequence[NormalEquations],
-    split: Blocks,
-    best: Hypothesis,
-    point: FittedModel,
-    recordings: Recordings,
-    weights: RowWeights,
-) -> dict[int, str]:
-    """For effects with plain parameters: whether every run, payload and half of the workspace alone gives the same.
-
-    Args:
-        blocks: sums over the rows, folds of which are whole runs where runs are compared.
-        point: where they were linearised.
-        weights: of the rows.
-    """
-    said: dict[int, list[str]] = {}
-    for parts, kind in _divisions(problem, blocks, split, point, recordings, weights):
-        for candidate, agrees in _agreements(problem, best, parts).items():
-            said.setdefault(candidate, []).append(_sentence(len(parts), kind, agrees))
-    return {candidate: " ".join(sentences) for candidate, sentences in said.items()}
+def subset_consistency(state: DiagnosisState) -> dict[int, str]:
+    """For effects with plain parameters: whether every run, payload and half of the workspace alone gives the same."""
+    told: dict[int, list[str]] = {}
+    plain = [
+        c.candidate
+        for c in state.best.chosen
+        if (placed := state.space.placed[c.candidate]).parametrisation == "plain" and placed.family != "drift"
+    ]
+    for parts, kind in _divisions(state):
+        for candidate, agrees in _agreements(state.problem, state.best, plain, parts).items():
+            told.setdefault(candidate, []).append(_sentence(len(parts), kind, agrees))
+    return {candidate: " ".join(sentences) for candidate, sentences in told.items()}
 
 
-def _divisions(
-    problem: Problem,
-    blocks: Sequence[NormalEquations],
-    split: Blocks,
-    point: FittedModel,
-    recordings: Recordings,
-    weights: RowWeights,
-) -> Iterator[tuple[list[NormalEquations], str]]:
+def _divisions(state: DiagnosisState) -> Iterator[tuple[list[NormalEquations], str]]:
     """Sums over the rows of each run; of each payload; of the near and of the far half of the workspace."""
+    split, recordings, point = state.layout, state.recordings, state.point
     if split.grouped_by == "run":
         runs = [np.flatnonzero(split.fold == run) for run in np.unique(split.fold)]
-        yield [total([blocks[int(k)] for k in inside]) for inside in runs], "runs"
+        yield [total([state.blocks[int(k)] for k in inside]) for inside in runs], "runs"
     rows = np.unique(np.linspace(0, len(recordings) - 1, min(len(recordings), MOST_ROWS)).astype(np.intp))
-    table, some = recordings.rows(rows), weights.take(rows)
+    table, some = recordings.rows(rows), state.fit.weights.take(rows)
     for of_row, kind in ((_payloads(table), "payloads"), (_halves(table, point), "halves of the workspace")):
         counts = np.bincount(of_row[of_row >= 0])
         if len(counts) > 1 and counts.min() >= FEWEST_ROWS_PER_RUN:
             known = np.flatnonzero(of_row >= 0)
             yield (
-                normal_equations_by_block(problem.pool, point, table.rows(known), some.take(known), of_row[known]),
+                normal_equations_by_block(
+                    state.space.layout, point, table.rows(known), some.take(known), of_row[known]
+                ),
                 kind,
             )
 
@@ -89,24 +77,21 @@ def _halves(recordings: Recordings, point: FittedModel) -> Indices:
     return (reach > np.median(reach)).astype(np.intp)
 
 
-def _agreements(problem: Problem, best: Hypothesis, parts: Sequence[NormalEquations]) -> dict[int, bool]:
+def _agreements(
+    problem: Problem, best: Hypothesis, asked: Sequence[int], parts: Sequence[NormalEquations]
+) -> dict[int, bool]:
     """Whether the parts' own posteriors under the chosen hypothesis scatter within chance (one in a hundred)."""
     # a line alone, without what is left of its curve: that could be another's line in each part
-    lines = tuple(c for c in best.chosen if problem.pool.candidates[c.candidate].variant != REST_OF_LOAD)
-    alone = [evaluate(problem.with_equations(gram), lines, best.background, best.noise) for gram in parts]
+    lines = tuple(c for c in best.chosen if problem.space.candidates[c.candidate].variant != REST_OF_LOAD)
+    alone = [evaluate(problem.with_equations(part), lines, best.background, best.noise) for part in parts]
     agree = {}
-    for c in lines:
-        placed = problem.pool.candidates[c.candidate]
-        if placed.parametrisation != "plain" or placed.family == "drift":
-            continue
-        at = [np.searchsorted(h.columns, problem.pool.columns[c.candidate]) for h in alone]
-        values = np.array([h.mean[a] for h, a in zip(alone, at, strict=True)])
-        variances = np.array(
-            [h.noise**2 * np.sum(h.inverse[:, a] ** 2, axis=0) for h, a in zip(alone, at, strict=True)]
-        )
+    for candidate in asked:
+        columns = problem.space.candidates[candidate].columns
+        values = np.array([h.means(columns) for h in alone])
+        variances = np.array([h.variances(columns) for h in alone])
         mean = np.sum(values / variances, axis=0) / np.sum(1 / variances, axis=0)
         misfit = float(np.sum((values - mean) ** 2 / variances))
-        agree[c.candidate] = misfit < chi2.ppf(CHANCE, values.size - values.shape[1])
+        agree[candidate] = misfit < chi2.ppf(CHANCE, values.size - values.shape[1])
     return agree
 
 

@@ -8,19 +8,17 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.design.separation import nats_apart, separating
-from armscope.diagnosis.summary.alternatives import INDISTINGUISHABLE_NATS, discriminability
+from armscope.diagnosis.state import DiagnosisState
+from armscope.diagnosis.summary.alternatives import INDISTINGUISHABLE_NATS, Rival, discriminability
 from armscope.fitting.design_matrix import columns
-from armscope.fitting.refit import Refit
-from armscope.inference.evidence import FRAME_PRIOR_MM, Hypothesis
-from armscope.inference.search import Search
+from armscope.inference.problem import FRAME_PRIOR_MM
 from armscope.physics.drift import six_terms
-from armscope.physics.effect import ONE, Placed
+from armscope.physics.effect import ONE
 from armscope.physics.scene import Scene
 from armscope.poses.obstacles import Surroundings, refusals
 from armscope.recordings import Recordings
+from armscope.robot import Arm
 from armscope.verdict.schema import NextPoses
-
-Rivals = Mapping[int, Sequence[tuple[float, Placed, Hypothesis]]]
 
 TRIED = 400
 ASKED = 12
@@ -34,32 +32,29 @@ PAYLOAD_KG = 10.0
 
 
 def next_poses(
-    search: Search,
-    best: Hypothesis,
-    rivals: Rivals,
-    fit: Refit,
-    recordings: Recordings,
-    rng: np.random.Generator,
+    state: DiagnosisState, rivals: Mapping[int, Sequence[Rival]], rng: np.random.Generator
 ) -> NextPoses | None:
     """Poses that separate the closest pair of readings; None where no two are close.
 
     Greedy: each next pose is the one where the two predictions differ most, measured against what the rival could still
     adapt to (its posterior covariance, updated after each choice) and the noise.
     """
+    best, candidates = state.best, state.space.candidates
     pairs = [
-        (discriminability(best, other, search.placed(c), placed), c, placed, other)
+        (discriminability(best, other, candidates[c], rival), candidates[c], rival, other)
         for c, found in rivals.items()
-        for _, placed, other in found
+        for _, rival, other in found
     ]
     if not pairs:
         return None
-    nats, candidate, placed, other = min(pairs, key=lambda pair: pair[0])
+    nats, effect, rival, other = min(pairs, key=lambda pair: pair[0])
     if nats > INDISTINGUISHABLE_NATS:
         return None
-    table = _reachable(fit, recordings, rng)
-    scene = Scene(fit.model.arm, table)
+    arm = state.fit.model.arm
+    table = _reachable(arm, state.recordings, rng)
+    scene = Scene(arm, table)
     posture = scene.posture()
-    X = columns(posture, search.problem.pool.terms).reshape(len(table), 3, -1) / search.problem.scale
+    X = columns(posture, state.space.layout.terms).reshape(len(table), 3, -1) / state.problem.scale
     # the poses will be a run of their own, with a base that is fitted anew
     new_base = columns(posture, six_terms("base", ONE)).reshape(len(table), 3, 6)
     p = X.shape[2]
@@ -80,16 +75,14 @@ def next_poses(
         float("inf"),
     )
     payload = np.zeros(len(chosen)) if table.payload is None else table.payload[chosen]
-    first = str(search.placed(candidate))
-    return NextPoses(table.motor_angles[chosen], payload, separation, first, str(placed), repeats)
+    return NextPoses(table.motor_angles[chosen], payload, separation, effect.label, rival.label, repeats)
 
 
-def _reachable(fit: Refit, recordings: Recordings, rng: np.random.Generator) -> Recordings:
+def _reachable(arm: Arm, recordings: Recordings, rng: np.random.Generator) -> Recordings:
     """Random poses within the joint limits (where none are stated: the recorded range), with and without payload.
 
     Poses in which the arm would hit itself are left out, as far as its body is known (`armscope.poses.obstacles`).
     """
-    arm = fit.model.arm
     low, high = recordings.motor_angles.min(axis=0), recordings.motor_angles.max(axis=0)
     stated = np.isfinite(arm.limits).all(axis=1)
     low, high = np.where(stated, arm.limits[:, 0], low), np.where(stated, arm.limits[:, 1], high)

@@ -8,9 +8,9 @@ import numpy as np
 
 from armscope.diagnosis.state import DiagnosisState
 from armscope.inference.detection import Detection
-from armscope.inference.evidence import background_sizes
+from armscope.inference.edits import Edits
 from armscope.inference.normal_equations import NormalEquations, projected_rms
-from armscope.inference.search import Search
+from armscope.inference.problem import background_sizes
 from armscope.measurement.row_weights import INLIER_WEIGHT
 from armscope.physics.backgrounds import FAMILIES
 from armscope.verdict.schema import Background, FoundEffect, Unexplained
@@ -23,18 +23,18 @@ MOST_BAD_SHOTS = 0.1
 
 
 def background_summaries(
-    state: DiagnosisState, search: Search, gram: NormalEquations, of_families: Sequence[float]
+    state: DiagnosisState, edits: Edits, gram: NormalEquations, of_families: Sequence[float]
 ) -> tuple[Background, ...]:
     """What each family's background amounts to, and whether the evidence asks for it."""
     fit, best = state.fit, state.best
-    sizes = background_sizes(state.problem, best)
+    sizes = background_sizes(state.problem, best.background)
     values = {t: v for part in fit.model.background for t, v in zip(part.placed.terms, part.values, strict=True)}
     told = []
     for number, (family, columns) in enumerate(zip(FAMILIES, fit.pool.background, strict=True)):
         coefficients = np.zeros(len(fit.pool.terms))
         coefficients[columns] = [values[fit.pool.terms[column]] for column in columns]
         rms = projected_rms(gram, fit.pool.frames, coefficients)
-        without = search.with_background(best, (*best.background[:number], 0, *best.background[number + 1 :]))
+        without = edits.with_background(best, number, 0)
         present = best.background[number] > 0 and best.log_posterior - without.log_posterior > BACKGROUND_SEEN_NATS
         told.append(Background(family, present, sizes[number], rms, of_families[number]))
     return tuple(told)
@@ -77,9 +77,10 @@ def too_faint(found: Detection) -> Unexplained:
     """Something that is there although no single name is sure."""
     if not found.detected:
         return Unexplained(False)
-    names = ", ".join(f"{placed.name.replace('_', ' ')} at {placed.location}" for placed in found.likeliest)
+    names = ", ".join(f"{candidate.kind.replace('_', ' ')} at {candidate.location}" for candidate in found.likeliest)
     words = f"something is missing, but it is too faint for a name; likeliest: {names}"
-    return Unexplained(True, found.location, None, found.size_mm, words)
+    joint = found.region is not None and found.region.isdigit()
+    return Unexplained(True, f"joint {found.region}" if joint else found.region, None, found.size_mm, words)
 
 
 def _significant(state: DiagnosisState) -> bool:

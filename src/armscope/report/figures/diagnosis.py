@@ -12,6 +12,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from armscope.core.numerals import shown_unit
 from armscope.recordings import Recordings
 from armscope.report.figures.arm_picture import draw_arm
 from armscope.report.figures.atlas import draw_atlas
@@ -20,7 +21,7 @@ from armscope.report.figures.next_poses import draw_poses
 from armscope.report.figures.residual_vectors import draw_along_joints, draw_vectors, evenly
 from armscope.report.figures.waterfall import draw_waterfall
 from armscope.report.style import save_figure
-from armscope.report.text.wording import plain, shown_unit
+from armscope.report.text.wording import plain
 from armscope.robot import Arm, chain, position_jacobian
 from armscope.verdict.schema import INTERVAL, Atlas, Diagnosis, FoundEffect, Verdict, WaterfallStep
 from armscope.verdict.schema import Curve as FoundCurve

@@ -13,6 +13,7 @@ import pandas as pd
 
 from armscope.check.preconditions import check_table
 from armscope.core.files import write_text
+from armscope.core.numerals import rounded
 from armscope.recordings import Recordings
 from armscope.report.figures.diagnosis import SavedFigure, location_shares, save_all, waterfall_steps
 from armscope.report.figures.error_field import MOST_ROWS, ErrorField, turnable
@@ -20,7 +21,7 @@ from armscope.report.html import render_page
 from armscope.report.reference_models import held_out_rms
 from armscope.report.sections.effect_cards import Card, card
 from armscope.report.text.headline import headline
-from armscope.report.text.wording import main_and_minor, millimetres, percent, rounded
+from armscope.report.text.wording import main_and_minor, millimetres, percent
 from armscope.robot import Arm
 from armscope.verdict.schema import Diagnosis, FoundEffect, NextPoses, SuspectRow
 

@@ -127,7 +127,7 @@ def reading_of(parameter: Parameter, effect: FoundEffect) -> Reading:
     A length or an angle whose uncertainty would move the tool many times as far as the whole effect does must be
     cancelled by others in these poses (d of neighbouring parallel axes, for instance).
     """
-    reading = read_parameter(parameter)
+    reading = read_parameter(parameter, effect.effect)
     lever_mm = {"mm": 1.0, "rad": 1e3}.get(parameter.unit)  # an angle acts at about a metre
     open_mm = parameter.stderr * lever_mm if lever_mm is not None and math.isfinite(parameter.stderr) else 0.0
     if len(effect.parameters) < 2 or open_mm < LEFT_OPEN * effect.rms_at_tool_mm or effect.effect == "unknown":

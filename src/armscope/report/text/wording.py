@@ -8,50 +8,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from armscope.core.numerals import shown_unit
+from armscope.physics.registry import effect_named
 from armscope.verdict.schema import INTERVAL, Curve, FoundEffect, Parameter
-
-UNITS: dict[str, tuple[tuple[float, float, str], ...]] = {
-    # file unit: (from this size on, shown per file unit, shown unit), largest first
-    "rad": ((5e-4, 1e3, "mrad"), (0.0, 1e6, "µrad")),
-    "rad/(N m)": ((1e-3, 1e3, "mrad per N m"), (0.0, 1e6, "µrad per N m")),
-    "rad/(m/s^2)": ((1e-3, 1e3, "mrad per m/s²"), (0.0, 1e6, "µrad per m/s²")),
-    "rad/rad": ((1e-3, 1e3, "mrad per rad"), (0.0, 1e6, "µrad per rad")),
-    "rad/h": ((1e-3, 1e3, "mrad per hour"), (0.0, 1e6, "µrad per hour")),
-    "mm/h": ((0.1, 1.0, "mm per hour"), (0.0, 1e3, "µm per hour")),
-    "m/m": ((0.0, 1e6, "millionths (ppm)"),),
-    "1/K": ((0.0, 1e6, "millionths per K"),),
-    "1/(N m^2)": ((0.0, 1e6, "per MN m²"),),
-    "mm": ((0.1, 1.0, "mm"), (0.0, 1e3, "µm")),
-    "s": ((1.0, 1.0, "s"), (0.0, 1e3, "ms")),
-    "1/turn": ((0.0, 1.0, "per turn"),),
-    "kg": ((0.0, 1.0, "kg"),),
-    "deg": ((0.0, 1.0, "°"),),
-    "m": ((1e-4, 1e3, "mm"), (0.0, 1e6, "µm")),
-}
-"""Units of the files, and what they become in a text."""
 
 LABELS = {
     "amplitude": "swing (± about the mean)",
-    "coefficient": "expansion coefficient",
-    "delay": "runs behind by",
     "direction": "about a direction in the joint's x-y plane at",
-    "flexibility": "flexibility 1/(E·I)",
-    "gap": "play",
-    "offset": "zero is off by",
     "per_turn": "waves",
     "phase": "largest at",
-    "ratio": "turns further by",
     "reaches": "reaches",
-    "scale": "lengths too long by",
-    "scatter": "scatter (1 sigma)",
-    "a": "length a",
-    "d": "length d",
-    "alpha": "twist α",
-    "beta": "twist β",
-    "theta": "turn θ",
     "time": "at time",
     "row": "at row",
 }
+"""What parameters of several effects are called; an effect has labels of its own (`armscope.physics.effect`)."""
 
 
 @dataclass(frozen=True)
@@ -64,9 +34,11 @@ class Reading:
     also: str = ""
 
 
-def read_parameter(parameter: Parameter) -> Reading:
-    """A parameter in the field's units, with as many digits as its uncertainty leaves meaning."""
-    label = LABELS.get(parameter.name, parameter.name.replace("_", " "))
+def read_parameter(parameter: Parameter, effect: str = "") -> Reading:
+    """A parameter (of an effect) in the field's units, with as many digits as its uncertainty leaves meaning."""
+    definition = effect_named(effect)
+    labels = {**LABELS, **(definition.labels if definition else {})}
+    label = labels.get(parameter.name, parameter.name.replace("_", " "))
     if parameter.name in ("phase", "direction"):
         parameter = Parameter(parameter.name, "deg", math.degrees(parameter.value), math.degrees(parameter.stderr))
     factor, unit = shown_unit(parameter.unit, abs(parameter.value))
@@ -78,21 +50,6 @@ def read_parameter(parameter: Parameter) -> Reading:
     return Reading(label, value, interval.replace(" °", "°"), _said_otherwise(parameter))
 
 
-def number_of(parameter: Parameter, sign: bool = False) -> str:
-    """A parameter's size in the field's unit with two digits, for a sentence; its sign only where asked."""
-    factor, unit = shown_unit(parameter.unit, abs(parameter.value))
-    plus = ("+" if parameter.value > 0 else "−") if sign else ""
-    return f"{plus}{rounded(factor * abs(parameter.value))} {unit}"
-
-
-def rounded(value: float) -> str:
-    """Two significant digits without an exponent; whole numbers from 10 on."""
-    if not math.isfinite(value) or value == 0:
-        return "0" if value == 0 else "–"
-    decimals = max(0, 1 - math.floor(math.log10(abs(value))))
-    return f"{value:.{min(decimals, 6)}f}"
-
-
 def spelled(count: int) -> str:
     """Small numbers as words."""
     words = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
@@ -102,14 +59,6 @@ def spelled(count: int) -> str:
 def capitalised(text: str) -> str:
     """With a capital first letter, the rest untouched."""
     return text[:1].upper() + text[1:]
-
-
-def shown_unit(unit: str, size: float) -> tuple[float, str]:
-    """(factor, unit) in which a number of that size, given in a file unit, is shown."""
-    for least, factor, shown in UNITS.get(unit, ()):
-        if size >= least:
-            return factor, shown
-    return 1.0, unit
 
 
 def decimals_for(uncertainty: float) -> int:

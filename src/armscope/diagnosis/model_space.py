@@ -1,0 +1,142 @@
+"""The library as the inference sees it: effects as sets of columns, and what excludes, requires or contains what.
+
+All that is known of physics when names compete is decided here, once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
+from armscope.inference.model_space import (
+    BackgroundFamily,
+    BackgroundSizes,
+    Candidate,
+    Exchange,
+    ModelSpace,
+    SizedFamily,
+    ToleranceFamily,
+)
+from armscope.physics.backgrounds import FAMILIES, TOLERANCE
+from armscope.physics.drift import BASE_DRIFT
+from armscope.physics.effect import Placed, clash, region
+from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
+
+TOLERANCE_SHARES = (0.0, 0.03, 0.1, 0.3, 1.0)
+"""Shares of the tolerance that the geometric background may have: from a perfect arm to an ordinary one. None at all
+is among them: two dozen free values, however small, would take up any single one that is barely large enough to be
+seen."""
+FAMILY_SIZES = 4
+"""Sizes of an elastic or transmission background: none, then the smallest of the effects' sizes."""
+STARTS: tuple[BackgroundSizes, ...] = ((0, 0, 0), (2, 0, 0), (4, 0, 0), (3, 2, 2))
+"""Backgrounds to start from: a perfect arm, two with geometric tolerances, one with a little of everything."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class EffectSpace(ModelSpace):
+    """A model space of which it is known what the candidates are.
+
+    Attributes:
+        placed: the effect behind each candidate.
+        layout: the terms behind the columns.
+    """
+
+    placed: tuple[Placed, ...]
+    layout: ParameterLayout
+
+
+def build_model_space(
+    frames: Sequence[Placed], backgrounds: Sequence[Sequence[Placed]], placed: Sequence[Placed]
+) -> EffectSpace:
+    """What may take part in a diagnosis.
+
+    Args:
+        frames: always free.
+        backgrounds: of each family, in the order of `armscope.physics.backgrounds.FAMILIES`.
+        placed: effects that compete.
+    """
+    layout = parameter_layout(frames, backgrounds, placed)
+    return EffectSpace(
+        frames=layout.frames,
+        families=_families(layout),
+        candidates=_candidates(layout, placed),
+        starts=STARTS,
+        exchanges=_trusting_stated_masses(placed),
+        placed=tuple(placed),
+        layout=layout,
+    )
+
+
+def _families(layout: ParameterLayout) -> tuple[BackgroundFamily, ...]:
+    """Geometric values are measured against the makers' tolerance, the others by what they do at the tool."""
+    (first, *others), (columns, *of_others) = FAMILIES, layout.background
+    sized = zip(others, of_others, layout.background_scale[1:], strict=True)
+    return (
+        ToleranceFamily(first, columns, TOLERANCE, TOLERANCE_SHARES),
+        *(SizedFamily(name, at, scale, FAMILY_SIZES) for name, at, scale in sized),
+    )
+
+
+def _candidates(layout: ParameterLayout, placed: Sequence[Placed]) -> tuple[Candidate, ...]:
+    by_location: dict[str, list[int]] = {}
+    for number, effect in enumerate(placed):
+        by_location.setdefault(effect.location, []).append(number)
+    coarse = {p.key: n for n, p in enumerate(placed) if p.variant == "angle" and not p.refinement}
+    removed_with = _removed_with_drifts(placed, frozenset(by_location.get("base", ())))
+    candidates = []
+    for number, p in enumerate(placed):
+        beside = (other for other in by_location[p.location] if other != number)
+        excludes = frozenset(other for other in beside if clash(p, placed[other]))
+        curve = p.parametrisation == "curve"
+        candidates.append(
+            Candidate(
+                kind=p.name,
+                location=p.location,
+                columns=layout.columns[number],
+                prior_scale=np.array(p.prior_scale),
+                variant=p.variant,
+                driver=p.driver,
+                label=str(p),
+                family=p.family,
+                region=region(p),
+                multiplicity=p.multiplicity,
+                nonnegative=p.effect.nonnegative and len(p.terms) == 1,
+                is_curve=curve,
+                competes=not p.refinement,
+                excludes=excludes,
+                requires=_requires(p, placed),
+                special_cases=frozenset(n for n in excludes if curve and placed[n].parametrisation != "curve"),
+                # what follows a joint's own angle is one, as a rule; an offset and a compliance are a common pair
+                side_by_side=1 if p.variant == "angle" else 2,
+                refines=coarse.get(p.key) if p.refinement and p.variant == "angle" else None,
+                removed_with=removed_with.get(number, frozenset()),
+            )
+        )
+    return tuple(candidates)
+
+
+def _requires(p: Placed, placed: Sequence[Placed]) -> frozenset[int] | None:
+    """What an effect shows through: a wrong payload does nothing to an arm that does not give way."""
+    if not p.effect.requires:
+        return None
+    through = (n for n, other in enumerate(placed) if other.family == p.effect.requires and not other.effect.requires)
+    return frozenset(through)
+
+
+def _removed_with_drifts(placed: Sequence[Placed], base: frozenset[int]) -> dict[int, frozenset[int]]:
+    """A drift goes with one more effect of the base, which a drift with other pauses may hold, where there are such."""
+    drifts = [n for n, p in enumerate(placed) if p.effect is BASE_DRIFT]
+    if not any(placed[n].multiplicity > 1 for n in drifts):
+        return {}
+    return {n: base - {n} for n in drifts}
+
+
+def _trusting_stated_masses(placed: Sequence[Placed]) -> tuple[Exchange, ...]:
+    """Stated masses and one wrong payload in place of masses that are unknown to every joint by itself."""
+    stated = {p.key: n for n, p in enumerate(placed) if p.effect is JOINT_COMPLIANCE and not p.variant}
+    twins = {n: stated.get(p.key) for n, p in enumerate(placed) if p.variant == UNKNOWN_MASSES}
+    payloads = tuple(n for n, p in enumerate(placed) if p.effect.requires)
+    return (Exchange(twins, payloads),) if twins and payloads else ()

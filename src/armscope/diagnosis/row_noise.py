@@ -1,0 +1,112 @@
+"""How noisy each row is, as the residuals tell it between rounds: its weight, its distance, scatter with a place."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.fitting.joint_scatter import Scattered, find_scatter, motor_jacobians, noise_between, whitening
+from armscope.measurement import robust
+from armscope.measurement.noise import (
+    Growth,
+    Noise,
+    distances,
+    growth,
+    independence_weights,
+    poses,
+    relative_uncertainty,
+)
+from armscope.measurement.row_weights import INLIER_WEIGHT, Missed, RowNoise
+from armscope.physics.model import FittedModel
+from armscope.recordings import Recordings
+
+SCATTER_ROWS = 4000
+"""Scatter is looked for on this many rows at most."""
+
+
+class NoiseOfRows:
+    """What is known of the rows' noise; it changes as the residuals do.
+
+    Args:
+        start: the arm with its frames fitted.
+        recordings: the rows.
+        noise: what is known of it beforehand.
+        residuals: what the model leaves of every row.
+
+    Attributes:
+        rows: relative uncertainty of the rows, and which are independent.
+        weights: of the rows.
+        scatter: of motors that stand elsewhere each time.
+        growth: with the distance, where there is such.
+    """
+
+    def __init__(self, start: FittedModel, recordings: Recordings, noise: Noise, residuals: Missed) -> None:
+        self.recordings, self.least_mm = recordings, noise.least_mm
+        self.moved, self.pose = motor_jacobians(start, recordings), poses(recordings)
+        self.residuals = residuals
+        self.scatter: list[Scattered] = []
+        self.growth: Growth | None = None
+        uncertainty = relative_uncertainty(recordings, robust.scale_of(residuals.shift))
+        near = np.ones(len(recordings), dtype=bool)
+        self.rows = RowNoise(uncertainty, independence_weights(residuals.shift, self.pose, near))
+        self.weights = self.rows.first_weights(residuals, self.least_mm)
+
+    def follow(self, other: NoiseOfRows, residuals: Missed, noise_mm: float) -> None:
+        """Go on from what other rows told."""
+        self.scatter, self.growth = other.scatter, other.growth
+        self.weigh(residuals, noise_mm, whitening(self.scatter, self.moved, noise_mm))
+
+    def weigh(self, residuals: Missed, noise_mm: float, white: Array | None) -> None:
+        """What the residuals tell about the rows' noise, and their weights by it."""
+        self.residuals = residuals
+        by_distance = None
+        if self.growth is not None:
+            by_distance = self.growth.at(np.linalg.norm(self.recordings.positions, axis=1))
+        uncertainty = relative_uncertainty(self.recordings, noise_mm, by_distance)
+        alone = RowNoise(uncertainty, np.ones(len(uncertainty))).weights(residuals, self.least_mm)
+        self.rows = RowNoise(
+            uncertainty, independence_weights(residuals.shift, self.pose, alone.robust_weight > INLIER_WEIGHT)
+        )
+        self.weights = self.rows.weights(residuals, self.least_mm, white)
+
+    def has_changed(self, model: FittedModel, noise_mm: float) -> bool:
+        """Look for noise that grows with the distance, or else for scatter; whether something new was found."""
+        return self._grows(model, noise_mm) or self.scatter_has_changed()
+
+    def scatter_has_changed(self) -> bool:
+        """Look for scatter in what is left; take its whitening into account where it is new."""
+        found = self._find_scatter()
+        if {s.motor for s in found} == {s.motor for s in self.scatter}:
+            return False
+        self._take(found)
+        return True
+
+    def look_for_scatter(self) -> None:
+        """Whiten the rows by what scatter is left."""
+        self._take(self._find_scatter())
+
+    def _grows(self, model: FittedModel, noise_mm: float) -> bool:
+        """Look for noise that grows with distance in what is left, where no row's own noise is stated."""
+        if self.recordings.sigma is not None or self.growth is not None or self.scatter:
+            return False
+        away = distances(model, self.recordings)
+        found = None if away is None else growth(self.residuals.shift, away, self.weights.robust_weight > INLIER_WEIGHT)
+        if found is None or found.evidence < sum(each.evidence for each in self._find_scatter()):
+            return False
+        self.growth = found
+        self.weigh(self.residuals, noise_mm, self.weights.whitening)
+        return True
+
+    def _find_scatter(self) -> list[Scattered]:
+        """Scatter in what is left, on as many rows as it takes."""
+        left = self.residuals.shift
+        rows = np.unique(np.linspace(0, len(left) - 1, min(len(left), SCATTER_ROWS)).astype(np.intp))
+        relative = self.rows.uncertainty[rows, None]
+        return find_scatter(left[rows] / relative, self.moved[:, rows] / relative, self.least_mm)
+
+    def _take(self, found: list[Scattered]) -> None:
+        """Whiten the rows by scatter of these places and sizes, and weigh them anew."""
+        self.scatter = found
+        between = noise_between(self.residuals.shift, self.moved, found, self.least_mm)
+        white = whitening(found, self.moved, between)
+        self.weights = self.rows.weights(self.residuals, self.least_mm, white)

@@ -1,0 +1,51 @@
+"""What a scan looks at: the rows at the point where the problem was linearised."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from armscope.core.types import Array, Indices
+from armscope.diagnosis.model_space import EffectSpace
+from armscope.inference.additions import block_scores
+from armscope.inference.evidence import Hypothesis
+from armscope.inference.linear_algebra import ColumnBlocks
+from armscope.inference.problem import Problem
+from armscope.measurement.row_weights import RowWeights
+from armscope.physics.model import FittedModel
+from armscope.recordings import Recordings
+
+WORTH_A_LOOK = 8.0
+"""Nats that a scanned number must promise before its price to go on to compete."""
+
+
+@dataclass(frozen=True, eq=False)
+class ScanContext:
+    """Rows, and the problem that was made of them.
+
+    Attributes:
+        problem: the normal equations and priors.
+        space: what their columns are.
+        model: where they were taken.
+        recordings: the rows.
+        weights: of the rows.
+    """
+
+    problem: Problem
+    space: EffectSpace
+    model: FittedModel
+    recordings: Recordings
+    weights: RowWeights
+
+
+def columns_of(given: Sequence[Hypothesis]) -> Indices:
+    """Columns that take part in any of some hypotheses."""
+    return np.unique(np.concatenate([hypothesis.columns for hypothesis in given]))
+
+
+def scores_given(problem: Problem, hypothesis: Hypothesis, blocks: ColumnBlocks, columns: Indices) -> Array:
+    """(m,) nats that blocks promise beside a hypothesis, from sums against ``columns``, which hold its own."""
+    inside = np.isin(columns, hypothesis.columns)
+    return block_scores(problem, hypothesis, ColumnBlocks(blocks.own, blocks.cross[:, inside], blocks.b))

@@ -1,0 +1,67 @@
+"""Where every effect's linear parameters stand among the columns."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from armscope.core.types import Array, Indices
+from armscope.fitting.design_matrix import ColumnOrder, grouped_columns
+from armscope.physics.effect import Placed, Term
+
+
+@dataclass(frozen=True, eq=False)
+class ParameterLayout:
+    """All distinct terms that take part, and where each effect's terms stand among them.
+
+    Attributes:
+        terms: the columns, in order.
+        frames: columns of the free frames.
+        background: columns of each family's background.
+        background_scale: relative size that each of these columns is expected to have.
+        columns: columns of each effect.
+    """
+
+    terms: tuple[Term, ...]
+    frames: Indices
+    background: tuple[Indices, ...]
+    background_scale: tuple[Array, ...]
+    columns: tuple[Indices, ...]
+
+    @functools.cached_property
+    def column_order(self) -> ColumnOrder:
+        """The columns sorted by how they are best multiplied."""
+        return grouped_columns(self.terms)
+
+    def of(self, placed: Placed) -> Indices:
+        """Columns of an effect whose terms are all in the layout."""
+        return np.array([self.index[term] for term in placed.terms])
+
+    @functools.cached_property
+    def index(self) -> dict[Term, int]:
+        """Where each term stands among the columns."""
+        return {term: number for number, term in enumerate(self.terms)}
+
+
+def parameter_layout(
+    frames: Sequence[Placed], backgrounds: Sequence[Sequence[Placed]], effects: Sequence[Placed]
+) -> ParameterLayout:
+    """Gather the terms of all effects, each once."""
+    index: dict[Term, int] = {}
+
+    def add(placed: Placed) -> Indices:
+        return np.array([index.setdefault(term, len(index)) for term in placed.terms], dtype=np.intp)
+
+    frame_columns = np.concatenate([add(p) for p in frames])
+    scales = [{int(n): s for p in family for n, s in zip(add(p), p.prior_scale, strict=True)} for family in backgrounds]
+    columns = tuple(add(p) for p in effects)
+    return ParameterLayout(
+        tuple(index),
+        frame_columns,
+        tuple(np.array(sorted(family), dtype=np.intp) for family in scales),
+        tuple(np.array([family[column] for column in sorted(family)], dtype=np.float64) for family in scales),
+        columns,
+    )

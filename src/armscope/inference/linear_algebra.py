@@ -1,0 +1,130 @@
+"""Factors of small symmetric matrices, what blocks of columns explain beside a model, and a noise that follows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg.lapack import dpotrf, dtrtrs
+
+from armscope.core.types import Array, Indices
+
+ROUNDING = 1e-11
+MANY_COLUMNS = 8
+"""Sets of at least this many columns are factorised size by size, which takes less time than their eigenvalues."""
+ABSORBED = 1e-6
+"""Directions of which less than this share is left explain nothing."""
+
+
+def lower_cholesky(G: Array, ridge: Array) -> Array:
+    """Cholesky factor (lower) of G + diag(ridge); a ridge below rounding is raised to it (few rows, fitted exactly).
+
+    Raises:
+        LinAlgError: the matrix is not positive definite.
+    """
+    A = G.copy()
+    A.reshape(-1)[:: len(A) + 1] += np.maximum(ridge, ROUNDING * np.diag(G))
+    # the transpose of a symmetric matrix: itself, in the order that LAPACK works in without another copy
+    factor, failed = dpotrf(A.T, lower=1, clean=1, overwrite_a=1)
+    if failed:
+        raise np.linalg.LinAlgError(f"the normal equations are not positive definite at column {failed}")
+    return np.asarray(factor)
+
+
+def solve_lower(factor: Array, right: Array) -> Array:
+    """factor^-1 right."""
+    return np.asarray(dtrtrs(factor, right, lower=1)[0])
+
+
+def schur_complement(G: Array, free: Indices, columns: Indices) -> Array:
+    """(c, c) products of some columns beyond what the free ones absorb; those may depend on each other."""
+    absorbed = np.linalg.lstsq(G[np.ix_(free, free)], G[np.ix_(free, columns)], rcond=1e-12)[0]
+    return np.asarray(G[np.ix_(columns, columns)] - G[np.ix_(columns, free)] @ absorbed)
+
+
+@dataclass(frozen=True, eq=False)
+class ColumnBlocks:
+    """m blocks of c columns beside k columns of a model.
+
+    Attributes:
+        own: (m, c, c) X'WX within each block.
+        cross: (m, k, c) model columns against the block's.
+        b: (m, c) X'Wy.
+    """
+
+    own: Array
+    cross: Array
+    b: Array
+
+    @property
+    def diagonal(self) -> Array:
+        """(m, c) sums of squares of the columns."""
+        return np.asarray(np.einsum("mcc->mc", self.own))
+
+    def conditioned(self, cholesky: Array, whitened_rhs: Array) -> tuple[Array, Array]:
+        """(own, b) of the blocks once the model's posterior is conditioned on.
+
+        Args:
+            cholesky: (k, k) factor of the model's penalised normal equations, in the blocks' units.
+            whitened_rhs: (k,) factor^-1 X'Wy of the model.
+        """
+        m, k, c = self.cross.shape
+        V = solve_lower(cholesky, self.cross.transpose(1, 0, 2).reshape(k, m * c))
+        V = V.reshape(k, m, c).transpose(1, 0, 2)
+        return self.own - np.swapaxes(V, 1, 2) @ V, self.b - np.einsum("mkc,k->mc", V, whitened_rhs)
+
+
+def rss_reduction(own: Array, b: Array, before: Array) -> Array:
+    """(m,) reduction of the sum of squares by each block; directions that the model absorbs already count nothing.
+
+    Args:
+        own: (m, c, c) products within each block once the model is conditioned on.
+        b: (m, c) their products with what is left.
+        before: (m, c) diagonal of the blocks' own matrices before conditioning: what "absorbed" is measured against.
+    """
+    norm = np.sqrt(np.maximum(before, 1e-300))
+    scaled = own / (norm[:, :, None] * norm[:, None, :])
+    values, vectors = np.linalg.eigh(scaled)
+    u = np.einsum("mij,mi->mj", vectors, b / norm)
+    return np.asarray(np.sum(np.where(values > ABSORBED, u**2 / np.maximum(values, ABSORBED), 0.0), axis=1))
+
+
+def quadratic_and_logdet(D: Array, r: Array, s2: Array) -> tuple[Array, Array]:
+    """(sizes, m) r' (D + 1 / s^2)^-1 r and log|1 + s^2 D| of m blocks (m, c, c) and (m, c), for each s^2."""
+    if D.shape[1] >= MANY_COLUMNS:
+        try:
+            return _factorised(D, r, s2)
+        except np.linalg.LinAlgError:
+            pass  # of a noise near nothing: rounding makes the smallest eigenvalues negative
+    if D.shape[1] == 1:
+        eigenvalues, u2 = np.maximum(D[:, :, 0], 0.0), r**2
+    else:
+        eigenvalues, vectors = np.linalg.eigh(D)
+        eigenvalues = np.maximum(eigenvalues, 0.0)
+        u2 = np.einsum("mij,mi->mj", vectors, r) ** 2
+    widened = 1 + s2[:, None, None] * eigenvalues
+    return np.sum(u2 * s2[:, None, None] / widened, axis=2), np.sum(np.log(widened), axis=2)
+
+
+def _factorised(D: Array, r: Array, s2: Array) -> tuple[Array, Array]:
+    """The same by a factorisation per size: with r as one more row, the factor holds factor^-1 r, too."""
+    m, c = r.shape
+    bordered = np.empty((len(s2), m, c + 1, c + 1))
+    bordered[:, :, :c, :c] = s2[:, None, None, None] * D + np.eye(c)
+    bordered[:, :, c, :c] = bordered[:, :, :c, c] = r
+    bordered[:, :, c, c] = 1 + 2 * np.sum(r**2, axis=1)  # any number that keeps it positive definite
+    factor = np.linalg.cholesky(bordered)
+    diagonal = np.diagonal(factor, axis1=2, axis2=3)[:, :, :c]
+    return s2[:, None] * np.sum(factor[:, :, c, :c] ** 2, axis=2), 2 * np.sum(np.log(diagonal), axis=2)
+
+
+def profiled_gain(quadratic: Array, chi2: float, n: float, noise: float, least: float) -> Array:
+    """Gain of log likelihood when chi2 falls by ``quadratic`` and the noise follows, not below its least value."""
+    remaining = np.maximum(chi2 - quadratic, 1e-9 * chi2)
+    ratio = np.maximum(np.sqrt(remaining / chi2), min(1.0, least / noise))
+    return np.asarray(-n * np.log(ratio) + 0.5 * chi2 - 0.5 * remaining / ratio**2)
+
+
+def profiled_loss(lost: float, n: float) -> float:
+    """What is lost when the noise grows to take up some of what n residuals lose at a noise that stays, nats."""
+    return n / 2 * float(np.log1p(2 * max(lost, 0.0) / n))

@@ -1,0 +1,221 @@
+"""What competes: candidates as sets of columns, and backgrounds of many small values; all of it data.
+
+The inference knows columns, how large each is expected to be, and which candidates exclude, require or contain which.
+What a candidate is in the world outside (an effect of a robot arm, say) is known to whoever builds the space.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.core.types import Array, Indices
+
+BackgroundSizes = tuple[int, ...]
+"""The size of each family's background: an index, 0 for none."""
+NONE: frozenset[int] = frozenset()
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """One or more columns that enter or leave a hypothesis together. Candidates are told by their numbers in the space.
+
+    Attributes:
+        kind: of effect; kinds are equally likely.
+        location: where; locations of one kind are equally likely.
+        columns: (c,) its columns.
+        prior_scale: (c,) relative size that each column's coefficient is expected to have.
+        variant: which of several forms of the kind at this location.
+        driver: what it follows, in words.
+        label: its name in words.
+        family: which background takes the place of several of its kind.
+        region: coarser than the location: what is taken out together when others are tried in its place.
+        multiplicity: how many values of a scanned number compete: the prior pays for them.
+        nonnegative: it has one coefficient, which can't be negative.
+        is_curve: a free curve, which contains special cases.
+        competes: it enters a search by itself; otherwise only in another's place.
+        excludes: candidates that can't stand beside it.
+        requires: it does nothing without one of these; None where it stands by itself.
+        special_cases: candidates that the curve contains.
+        side_by_side: how many special cases of the curve may well stand side by side.
+        refines: the candidate of which this is a finer form.
+        removed_with: candidates with which, one at a time, it is taken out, too.
+    """
+
+    kind: str
+    location: str
+    columns: Indices
+    prior_scale: Array
+    variant: str = ""
+    driver: str = ""
+    label: str = ""
+    family: str = ""
+    region: str = ""
+    multiplicity: int = 1
+    nonnegative: bool = False
+    is_curve: bool = False
+    competes: bool = True
+    excludes: frozenset[int] = NONE
+    requires: frozenset[int] | None = None
+    special_cases: frozenset[int] = NONE
+    side_by_side: int = 1
+    refines: int | None = None
+    removed_with: frozenset[int] = NONE
+
+    @property
+    def key(self) -> tuple[str, str]:
+        """(kind, location)."""
+        return self.kind, self.location
+
+    @property
+    def identity(self) -> tuple[str, str, str, str]:
+        """What is the same for one candidate in several spaces."""
+        return self.kind, self.location, self.driver, self.variant
+
+
+class BackgroundFamily(Protocol):
+    """Many small values that are allowed for without names."""
+
+    @property
+    def name(self) -> str:
+        """The family's name."""
+
+    @property
+    def columns(self) -> Indices:
+        """(c,) its columns."""
+
+    @property
+    def sizes(self) -> int:
+        """How many sizes compete, none among them."""
+
+    @property
+    def is_priced(self) -> bool:
+        """Whether it pays, as one kind of error among the others; one that everything real has is free."""
+
+    def prior_variance(self, size: int, effect_sizes: Array, scale: Array) -> Array:
+        """(c,) prior variances, mm^2, of the columns once they are divided by ``scale`` (p,)."""
+
+    def label(self, size: int, effect_sizes: Array) -> float:
+        """The size as a number: mm, or a share of what is stated."""
+
+
+@dataclass(frozen=True, eq=False)
+class ToleranceFamily:
+    """Values that have a stated tolerance each, in units of their own; the sizes are shares of it."""
+
+    name: str
+    columns: Indices
+    tolerance: float
+    shares: tuple[float, ...]
+    is_priced: bool = False
+
+    @property
+    def sizes(self) -> int:
+        """How many shares compete."""
+        return len(self.shares)
+
+    def prior_variance(self, size: int, effect_sizes: Array, scale: Array) -> Array:
+        """As of `BackgroundFamily`."""
+        return np.asarray((self.shares[size] * self.tolerance * scale[self.columns]) ** 2)
+
+    def label(self, size: int, effect_sizes: Array) -> float:
+        """Share of the tolerance."""
+        return self.shares[size]
+
+
+@dataclass(frozen=True, eq=False)
+class SizedFamily:
+    """Values that are measured by what they do; the sizes are none, then the smallest of the effects' sizes."""
+
+    name: str
+    columns: Indices
+    prior_scale: Array
+    sizes: int
+    is_priced: bool = True
+
+    def prior_variance(self, size: int, effect_sizes: Array, scale: Array) -> Array:
+        """As of `BackgroundFamily`."""
+        return np.asarray((self.label(size, effect_sizes) * self.prior_scale) ** 2)
+
+    def label(self, size: int, effect_sizes: Array) -> float:
+        """Size, mm."""
+        return float(effect_sizes[size - 1]) if size else 0.0
+
+
+@dataclass(frozen=True)
+class Exchange:
+    """Candidates that leave all at once, each for its twin where it has one, while one more candidate enters.
+
+    Attributes:
+        twins: of each candidate that leaves: what takes its place.
+        entering: the candidates of which one enters; others of them leave.
+    """
+
+    twins: Mapping[int, int | None]
+    entering: tuple[int, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class ModelSpace:
+    """Everything that may take part.
+
+    Attributes:
+        frames: columns that are always free.
+        families: the backgrounds.
+        candidates: what competes.
+        starts: backgrounds from which a search starts.
+        exchanges: moves of several candidates at once.
+    """
+
+    frames: Indices
+    families: tuple[BackgroundFamily, ...]
+    candidates: tuple[Candidate, ...]
+    starts: tuple[BackgroundSizes, ...] = ()
+    exchanges: tuple[Exchange, ...] = ()
+
+    @functools.cached_property
+    def kinds(self) -> int:
+        """How many kinds of candidates compete."""
+        return max(len({candidate.kind for candidate in self.candidates}), 1)
+
+    @property
+    def no_background(self) -> BackgroundSizes:
+        """No background at all."""
+        return (0,) * len(self.families)
+
+    @functools.cached_property
+    def nonnegative(self) -> NDArray[np.bool_]:
+        """Whether each candidate has one coefficient that can't be negative."""
+        return np.array([candidate.nonnegative for candidate in self.candidates], dtype=np.bool_)
+
+    @functools.cached_property
+    def requires(self) -> dict[int, frozenset[int]]:
+        """Candidates that do nothing by themselves, and those of which each of them needs one."""
+        return {n: c.requires for n, c in enumerate(self.candidates) if c.requires is not None}
+
+    def requirements_met(self, candidates: frozenset[int]) -> bool:
+        """Whether every one of some candidates has what it requires."""
+        return all(candidates & needed for number, needed in self.requires.items() if number in candidates)
+
+    @functools.cached_property
+    def _curves(self) -> tuple[Candidate, ...]:
+        return tuple(candidate for candidate in self.candidates if candidate.is_curve and candidate.competes)
+
+    def excess_special_cases(self, candidates: frozenset[int]) -> int:
+        """By how many candidates some curve's special cases exceed what is common side by side."""
+        return max((len(c.special_cases & candidates) - c.side_by_side for c in self._curves), default=0)
+
+    @functools.cached_property
+    def finer(self) -> dict[int, int]:
+        """The finer form of each candidate that has one."""
+        return {c.refines: n for n, c in enumerate(self.candidates) if c.refines is not None}
+
+    @functools.cached_property
+    def by_identity(self) -> dict[tuple[str, str, str, str], int]:
+        """Numbers of the candidates that compete, by what is the same in several spaces."""
+        return {c.identity: n for n, c in enumerate(self.candidates) if c.competes}

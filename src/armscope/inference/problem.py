@@ -1,0 +1,147 @@
+"""Normal equations made ready for evaluating hypotheses: scaled columns, sizes that compete, and what each name costs.
+
+A hypothesis is a set of candidates with a size each (mm at the tool), a size of each background, and the noise. Columns
+are scaled to 1 mm RMS at the tool.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.inference.model_space import BackgroundSizes, ModelSpace
+from armscope.inference.normal_equations import NormalEquations, column_scales
+
+FRAME_PRIOR_MM = 50.0
+"""Frames are free: their prior is wide, and the same in all hypotheses."""
+EXCESS_SPECIAL_CASE_NATS = 15.0
+"""What every further effect that follows one joint's own angle costs more: one unknown cause is likelier than several
+known ones. (In development worlds two names for one kink beat the free curve by at most 22 nats, half of them by less
+than 10; 38 of 40 true pairs beat it by more than 15.)"""
+SIZES = 5
+"""How many effect sizes compete, evenly in the logarithm between what is barely seen and the mismatch."""
+BARELY_SEEN = 4.0
+"""The smallest size: what all residuals together show at this many standard errors. A larger one pays for a prior that
+is wider than any effect near the threshold."""
+SURE_NATS = 3.0
+"""What any name costs on top of its share of the library: it must be 20 times as likely as nothing in its place."""
+
+
+@dataclass(frozen=True)
+class SelectedEffect:
+    """An effect in a hypothesis: which candidate, with which size (index into the problem's sizes).
+
+    One that is ``nested`` in a background or a curve is a name for a part of it, and pays nothing for itself.
+    """
+
+    candidate: int
+    size: int
+    nested: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """Normal equations with the priors under which hypotheses are evaluated.
+
+    Attributes:
+        space: what the columns are.
+        equations: with columns scaled to 1 mm RMS at the tool.
+        scale: (p,) what they were divided by, mm per SI unit.
+        least_noise: mm; the noise is never taken to be below (stated, or seen in repeats).
+        sizes: (SIZES,) effect sizes that compete, mm at the tool.
+        prior_costs: (candidates,) log prior odds against each candidate, nats.
+        family_costs: (families,) of each background: one kind of error among the others, of some size; nats.
+        mismatch: RMS per axis after the free frames, mm.
+    """
+
+    space: ModelSpace
+    equations: NormalEquations
+    scale: Array
+    least_noise: float
+    sizes: Array
+    prior_costs: Array
+    family_costs: Array
+    mismatch: float
+
+    @property
+    def n(self) -> float:
+        """Number of residuals."""
+        return self.equations.n
+
+    def with_equations(self, equations: NormalEquations) -> Problem:
+        """The same problem on other rows; ``equations`` is unscaled."""
+        return replace(self, equations=equations.scaled(self.scale))
+
+    def cost(self, candidate: int) -> float:
+        """What a candidate of any one size pays, nats."""
+        return float(self.prior_costs[candidate] + np.log(len(self.sizes)))
+
+    def prior_scale(self, effect: SelectedEffect) -> Array:
+        """(c,) prior standard deviations of an effect's scaled coefficients, mm."""
+        return np.asarray(self.sizes[effect.size] * self.space.candidates[effect.candidate].prior_scale)
+
+    def nearest_size(self, rms: float) -> int:
+        """Index of the size nearest to an RMS at the tool; the smallest for what is held at zero."""
+        within = np.clip(rms, self.sizes.min(), self.sizes.max())
+        return int(np.argmin(np.abs(np.log(self.sizes / within))))
+
+
+def build_problem(space: ModelSpace, equations: NormalEquations, least_noise: float) -> Problem:
+    """Scale normal equations and set prior sizes and costs.
+
+    Args:
+        space: what the columns are.
+        equations: mm per SI unit.
+        least_noise: mm; the noise is never taken to be below.
+    """
+    scale = column_scales(equations, space.frames)
+    scaled = equations.scaled(scale)
+    freedom = max(equations.n - len(space.frames), 1.0)
+    mismatch = float(np.sqrt(scaled.least_rss(space.frames) / freedom))
+    low = max(least_noise * min(BARELY_SEEN / np.sqrt(max(equations.n, 1.0)), 0.5), 0.01 * mismatch)
+    sizes = np.geomspace(low, max(2 * mismatch, 4 * low), SIZES)
+    family_costs = [
+        np.log(space.kinds) + np.log(family.sizes - 1) if family.is_priced else 0.0 for family in space.families
+    ]
+    costs = prior_costs(space)
+    return Problem(space, scaled, scale, least_noise, sizes, costs, np.array(family_costs), mismatch)
+
+
+def prior_costs(space: ModelSpace) -> Array:
+    """(candidates,) nats: each kind is as likely as any other, each of its locations, each scanned number, too."""
+    locations: dict[str, set[str]] = {}
+    variants: dict[tuple[str, str], int] = {}
+    for candidate in space.candidates:
+        locations.setdefault(candidate.kind, set()).add(candidate.location)
+        if candidate.multiplicity == 1 and candidate.competes:
+            variants[candidate.key] = variants.get(candidate.key, 0) + 1
+    return np.array(
+        [
+            SURE_NATS
+            + np.log(space.kinds)
+            + np.log(len(locations[candidate.kind]))
+            + np.log(candidate.multiplicity if candidate.multiplicity > 1 else variants.get(candidate.key, 1))
+            for candidate in space.candidates
+        ]
+    )
+
+
+def prior_variances(problem: Problem, chosen: Sequence[SelectedEffect], background: BackgroundSizes) -> Array:
+    """(p,) prior variances of the scaled columns, mm^2; zero where a column takes no part."""
+    prior, space = np.zeros(len(problem.scale)), problem.space
+    for family, size in zip(space.families, background, strict=True):
+        if size:
+            prior[family.columns] += family.prior_variance(size, problem.sizes, problem.scale)
+    prior[space.frames] = FRAME_PRIOR_MM**2
+    for effect in chosen:
+        prior[space.candidates[effect.candidate].columns] += problem.prior_scale(effect) ** 2
+    return prior
+
+
+def background_sizes(problem: Problem, background: BackgroundSizes) -> tuple[float, ...]:
+    """Size of each family's background as a number: share of what is stated, or mm at the tool."""
+    families = zip(problem.space.families, background, strict=True)
+    return tuple(family.label(size, problem.sizes) for family, size in families)

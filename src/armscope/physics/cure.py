@@ -1,0 +1,53 @@
+"""How an effect is taken out, once, with its sign: the words of a card and the same formula as code.
+
+Signs: actual = commanded + what the effect adds, so a cure is its opposite: commanded = wanted - offset -
+compliance x load, a load being positive along gravity's pull. What no motor can undo (a tilt across an axis, a bend, a
+base that moved) is cured in the model: the inverse kinematics of the corrected model reaches the wanted point.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from armscope.core.location import Location
+
+if TYPE_CHECKING:
+    from armscope.core.types import Array
+    from armscope.physics.scene import Part, Scene
+
+
+def from_commands(scene: Scene, part: Part) -> Array:
+    """(N, m) motor angles to command so that a part leaves nothing at the scene's wanted angles, rad; first order."""
+    angles = scene.recordings.motor_angles.copy()
+    for value, term in zip(part.values, part.placed.terms, strict=True):
+        for product in term.products:
+            motor = Location.of(product.direction.location)
+            if motor.kind == "motor":
+                angles[:, motor.index] -= value * product.factor * scene.driver(product.driver)
+    return angles
+
+
+@dataclass(frozen=True)
+class Cure:
+    """What to do about an effect.
+
+    Attributes:
+        words: for the card; names the formula with its sign.
+        commanded: (scene at the wanted angles, fitted part) -> (N, m) angles to command, rad.
+        statement: (scene, part) -> the scene with what was stated wrongly put right.
+        readings: ((N, 3) readings in base axes, part) -> corrected readings.
+
+    Where none of the three is given, the cure is the corrected model: command what its inverse kinematics asks for.
+    """
+
+    words: str
+    commanded: Callable[[Scene, Part], Array] | None = None
+    statement: Callable[[Scene, Part], Scene] | None = None
+    readings: Callable[[Array, Part], Array] | None = None
+
+
+def command(words: str) -> Cure:
+    """A cure by other commands: the motors' angles less what the effect adds to them."""
+    return Cure(words, commanded=from_commands)

@@ -1,0 +1,91 @@
+"""docs/add-an-effect.md, followed to the letter: its own code blocks, in a package of their own, add an effect."""
+
+from __future__ import annotations
+
+import re
+import sys
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from armscope.core.inputs import InputError
+from armscope.physics import registry
+from armscope.physics.drivers import KINDS
+from armscope.report.pages.diagnosis import write_report
+from armscope.report.text.headline import exact_phrase, headline
+
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "docs" / "add-an-effect.md").read_text(encoding="utf-8")
+MODULE, SCRIPT = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
+PROJECT = tomllib.loads(re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)[0])["project"]
+POINTS = PROJECT["entry-points"]["armscope.effects"]
+
+
+def installed(folder: Path, module: str, points: dict[str, str]) -> None:
+    """What `pip install` leaves of the page's package: its module, its name, its entry points."""
+    (folder / "hose_pull.py").write_text(module, encoding="utf-8")
+    info = folder / f"hose_pull-{PROJECT['version']}.dist-info"
+    info.mkdir()
+    metadata = f"Metadata-Version: 2.1\nName: {PROJECT['name']}\nVersion: {PROJECT['version']}\n"
+    (info / "METADATA").write_text(metadata, encoding="utf-8")
+    lines = [f"{name} = {value}" for name, value in points.items()]
+    (info / "entry_points.txt").write_text("\n".join(["[armscope.effects]", *lines, ""]), encoding="utf-8")
+
+
+@pytest.fixture
+def site(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A folder of packages; what armscope learnt from it is forgotten afterwards."""
+    monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.chdir(ROOT)
+    known = dict(KINDS)
+    registry.effects.cache_clear()
+    yield tmp_path
+    registry.effects.cache_clear()
+    KINDS.clear()
+    KINDS.update(known)
+    sys.modules.pop("hose_pull", None)
+
+
+def test_the_pages_effect_is_found_by_name_with_its_clause_its_atlas_column_and_its_card(
+    site: Path, tmp_path_factory: pytest.TempPathFactory, capsys: pytest.CaptureFixture[str]
+) -> None:
+    installed(site, MODULE, POINTS)
+    names: dict[str, object] = {}
+    exec(SCRIPT, names)
+    promised = re.findall(r"It prints `(.*)`", PAGE)[0]
+    assert capsys.readouterr().out.strip() == promised
+    verdict, arm, table = names["verdict"], names["arm"], names["table"]
+    assert [effect.effect for effect in verdict.effects] == ["hose_pull"]
+    found = verdict.effects[0]
+    pull = found.parameters[0]
+    assert abs(pull.value + 1e-3) < 4 * pull.stderr
+    assert exact_phrase(found) == "the hose pack pulls joint 3 by 0.0010 rad/rad^2"
+    assert headline(verdict).startswith("The hose pack pulls joint 3 by 0.0010 rad/rad^2 – ")
+    atlas = verdict.atlas
+    column = atlas.share[:, -1, atlas.drivers.index("hose pull")]
+    assert atlas.locations[column.argmax()] == "joint 3"
+    assert column.max() > 0.9
+    page = write_report(verdict, arm, table, tmp_path_factory.mktemp("report")).read_text(encoding="utf-8")
+    assert "pull of the hoses" in page
+    assert "commanded = wanted - pull x wanted x |wanted|" in page
+
+
+def test_a_name_that_is_taken_is_refused_with_the_packages_name(site: Path) -> None:
+    installed(site, MODULE.replace('"hose_pull"', '"joint_offset"'), POINTS)
+    with pytest.raises(InputError, match=r"hose-pull: entry point armscope.effects.*'joint_offset'.*need new names"):
+        registry.effects()
+
+
+def test_a_driver_that_is_taken_is_refused(site: Path) -> None:
+    installed(site, MODULE.replace('"hose pull"', '"angle"'), POINTS)
+    with pytest.raises(InputError, match=r"'angle'.*need new names"):
+        registry.effects()
+
+
+@pytest.mark.parametrize("value", ["hose_pull:NOTHING", "no_such_module:HOSE_PULL", "hose_pull:place"])
+def test_an_entry_point_that_leads_to_no_effect_is_refused(site: Path, value: str) -> None:
+    installed(site, MODULE, {"hose_pull": value})
+    with pytest.raises(InputError, match=r"hose-pull: entry point armscope\.effects: hose_pull = "):
+        registry.effects()

@@ -1,0 +1,155 @@
+"""The search on columns that are no robot's: what is data in a model space is kept to."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from armscope.inference.evidence import Hypothesis, evaluate
+from armscope.inference.model_space import Candidate, Exchange, ModelSpace, SizedFamily, ToleranceFamily
+from armscope.inference.neighbours import block_removals, neighbours
+from armscope.inference.normal_equations import NormalEquations
+from armscope.inference.problem import SelectedEffect, build_problem
+from armscope.inference.search import Search
+
+ROWS, FRAMES, SINGLE, NOISE = 300, 3, 8, 0.05
+CURVE = np.arange(FRAMES, FRAMES + 4)
+"""The curve's columns are those of the first four single candidates."""
+
+
+def single(number: int, **more: object) -> Candidate:
+    """A candidate of one column."""
+    candidate = Candidate(f"kind {number % 3}", f"place {number}", np.array([FRAMES + number]), np.ones(1))
+    return replace(candidate, label=f"effect {number}", region=f"place {number // 2}", **more)
+
+
+def space_of(candidates: list[Candidate], **more: object) -> ModelSpace:
+    everything = np.arange(FRAMES, FRAMES + SINGLE)
+    families = (
+        ToleranceFamily("tolerances", everything, 0.02, (0.0, 0.3, 1.0)),
+        SizedFamily("small", everything[:4], np.ones(4), 3),
+    )
+    return replace(ModelSpace(np.arange(FRAMES), families, tuple(candidates), ((0, 0), (2, 1))), **more)
+
+
+def search_on(space: ModelSpace, truth: dict[int, float], seed: int = 1) -> Search:
+    """Random columns, of which those of some single candidates made the response."""
+    rng = np.random.default_rng(seed)
+    X = rng.normal(size=(ROWS, FRAMES + SINGLE))
+    y = X[:, :FRAMES] @ rng.normal(size=FRAMES) + rng.normal(0, NOISE, ROWS)
+    for number, value in truth.items():
+        y += value * X[:, FRAMES + number]
+    equations = NormalEquations(X.T @ X, X.T @ y, float(y @ y), float(ROWS))
+    return Search.on(build_problem(space, equations, 0.5 * NOISE))
+
+
+@pytest.mark.parametrize("truth", [{}, {2: 0.3}, {1: 0.3, 6: -0.4}, {0: 0.2, 3: 0.3, 5: 0.5}])
+def test_what_made_the_response_is_found_and_nothing_else(truth: dict[int, float]) -> None:
+    best = search_on(space_of([single(n) for n in range(SINGLE)]), truth).best()
+    assert best.candidates == truth.keys()
+    assert best.noise == pytest.approx(NOISE, rel=0.1)
+    for number, value in truth.items():
+        assert best.means(np.array([FRAMES + number]))[0] == pytest.approx(value, rel=0.15)
+
+
+def test_the_frames_take_up_what_is_theirs() -> None:
+    search = search_on(space_of([single(n) for n in range(SINGLE)]), {})
+    assert search.problem.mismatch == pytest.approx(NOISE, rel=0.15)
+
+
+def test_what_excludes_each_other_never_stands_side_by_side() -> None:
+    candidates = [single(n) for n in range(SINGLE)]
+    candidates[1], candidates[6] = (replace(candidates[a], excludes=frozenset({b})) for a, b in ((1, 6), (6, 1)))
+    best = search_on(space_of(candidates), {1: 0.3, 6: -0.4}).best()
+    assert best.candidates & {1, 6} == {6}
+
+
+def test_what_requires_another_enters_only_beside_it_and_leaves_with_it() -> None:
+    candidates = [single(n) for n in range(SINGLE)]
+    candidates[5] = replace(candidates[5], requires=frozenset({2}))
+    assert search_on(space_of(candidates), {5: 0.4}).best().candidates == frozenset()
+    search = search_on(space_of(candidates), {2: 0.3, 5: 0.4})
+    best = search.best()
+    assert best.candidates == {2, 5}
+    assert search.without(best, [2]).candidates == frozenset()
+    alone = evaluate(search.problem, (SelectedEffect(5, 2),), (0, 0), NOISE)
+    assert alone.log_posterior == -np.inf
+
+
+def test_a_value_that_cannot_be_negative_is_not_found_where_it_would_be() -> None:
+    candidates = [single(n, nonnegative=True) for n in range(SINGLE)]
+    best = search_on(space_of(candidates), {1: -0.3, 4: 0.3}).best()
+    assert 1 not in best.candidates
+    assert 4 in best.candidates
+
+
+def with_curve() -> list[Candidate]:
+    curve = Candidate("curve", "place", CURVE, np.ones(4), is_curve=True, special_cases=frozenset(range(4)))
+    held = frozenset({SINGLE})
+    members = [single(n, excludes=held if n < 4 else frozenset()) for n in range(SINGLE)]
+    return [*members, replace(curve, excludes=frozenset(range(4)))]
+
+
+def test_a_curve_takes_the_place_of_many_special_cases_and_one_that_of_a_curve() -> None:
+    assert search_on(space_of(with_curve()), {0: 0.3, 1: -0.2, 2: 0.25, 3: 0.2}).best().candidates == {SINGLE}
+    assert search_on(space_of(with_curve()), {2: 0.3}).best().candidates == {2}
+
+
+def test_special_cases_beyond_what_is_common_cost_more() -> None:
+    search = search_on(space_of(with_curve()), {})
+    assert search.space.excess_special_cases(frozenset({0, 1, 6})) == 1
+    two, apart = (
+        evaluate(search.problem, tuple(SelectedEffect(n, 0) for n in numbers), (0, 0), NOISE)
+        for numbers in ((0, 1), (0, 6))
+    )
+    prices = [h.log_evidence - h.log_posterior for h in (two, apart)]
+    costs = [sum(search.problem.cost(n) for n in numbers) for numbers in ((0, 1), (0, 6))]
+    assert (prices[0] - costs[0]) - (prices[1] - costs[1]) == pytest.approx(15.0)
+
+
+def test_a_finer_form_competes_only_in_its_coarse_forms_place() -> None:
+    fine = replace(single(1), columns=np.array([FRAMES + 1, FRAMES + 7]), prior_scale=np.ones(2))
+    candidates = [*(single(n) for n in range(7)), replace(fine, competes=False, refines=1)]
+    search = search_on(space_of(candidates), {1: 0.3, 7: 0.4})
+    coarse = search.best()
+    assert coarse.candidates == {1}
+    finer = search.refined(coarse)
+    assert finer.candidates == {7}
+    assert search.coarsened(finer).candidates == {1}
+
+
+def test_a_hypothesis_is_told_in_another_space_by_what_its_candidates_are() -> None:
+    one = search_on(space_of([single(n) for n in range(SINGLE)]), {1: 0.3, 6: -0.4})
+    other = search_on(space_of([single(n) for n in (6, 3, 2)]), {6: -0.4})
+    assert other.transferred(one.best(), one.space).candidates == {0}
+
+
+def test_candidates_of_an_exchange_leave_at_once_for_their_twins() -> None:
+    space = space_of([single(n) for n in range(SINGLE)], exchanges=(Exchange({0: 4, 1: None}, (6,)),))
+    search = search_on(space, {})
+
+    def sets(numbers: tuple[int, ...]) -> list[Hypothesis]:
+        chosen = tuple(SelectedEffect(n, 1) for n in numbers)
+        return neighbours(search, evaluate(search.problem, chosen, (0, 0), NOISE))
+
+    exchanged = [h for h in sets((0, 1, 3)) if h.candidates == {3, 4, 6}]
+    assert {h.chosen[-1].size for h in exchanged} == {1, 2, 3}
+    assert not any(h.candidates == {3, 4, 6} for h in sets((2, 3)))
+
+
+def test_what_is_taken_out_together() -> None:
+    candidates = [single(n) for n in range(SINGLE)]
+    candidates[5] = replace(candidates[5], removed_with=frozenset({0, 7}))
+    assert block_removals(space_of(candidates), [0, 4, 5]) == [(0,), (4,), (5,), (4, 5), (5, 0)]
+
+
+def test_many_small_values_are_a_background_and_one_large_one_a_name() -> None:
+    rng = np.random.default_rng(5)
+    everywhere = dict(enumerate(rng.normal(0, 0.02, SINGLE)))
+    search = search_on(space_of([single(n) for n in range(SINGLE)]), everywhere | {3: 0.8})
+    best = search.best()
+    assert best.candidates == {3}
+    assert best.background[0] == 2
+    assert search.in_background(best, 3)
