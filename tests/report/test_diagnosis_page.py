@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from armscope.report.pages.diagnosis import assumptions, write_report
-from armscope.report.text.headline import headline
+from armscope.verdict.sentences import headline
 from tests.report import verdicts
 from tests.report.test_error_field import browsed
 from tests.report.verdicts import CASES
@@ -55,7 +55,7 @@ def pages(tmp_path_factory):
         path = folder / name / "report.html"
         if not path.exists():
             case = CASES[name]()
-            write_report(case.verdict, case.arm, case.recordings, path.parent)
+            write_report(case.verdict, path.parent)
         return path
 
     return page
@@ -162,7 +162,7 @@ def test_where_nothing_was_fitted_nothing_is_promised(pages):
 
 def test_the_same_verdict_gives_the_same_page(pages, tmp_path):
     case = CASES["cannot_tell"]()
-    again = write_report(case.verdict, case.arm, case.recordings, tmp_path)
+    again = write_report(case.verdict, tmp_path)
     assert again.read_bytes() == pages("cannot_tell").read_bytes()
 
 

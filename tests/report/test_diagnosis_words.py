@@ -12,16 +12,16 @@ from armscope.report.figures.diagnosis import location_shares
 from armscope.report.html import unbroken
 from armscope.report.reference_models import held_out_rms
 from armscope.report.sections.effect_cards import card, chosen_how_often, title_of, told_parameters
-from armscope.report.text.headline import exact_phrase, headline
-from armscope.report.text.wording import (
+from armscope.robot import forward_kinematics
+from armscope.verdict.schema import Alternative, Curve, Parameter
+from armscope.verdict.sentences import exact_phrase, headline
+from armscope.verdict.wording import (
     evidence_in_words,
     percent,
     reach,
     read_parameter,
     spelled,
 )
-from armscope.robot import forward_kinematics
-from armscope.verdict.schema import Curve, Parameter
 from tests.report import verdicts
 from tests.report.verdicts import compliance, found
 
@@ -218,13 +218,6 @@ def test_a_free_curve_is_told_by_how_far_it_reaches():
     assert told.stderr == pytest.approx(1.2e-5)
 
 
-def test_effects_that_cancel_each_other_are_told_as_such():
-    assert "nearly cancel" in card(compliance(share=53.0), 1).cancels
-    assert card(compliance(share=0.9), 1).cancels == ""
-    case = verdicts.case(effects=(compliance(share=53.0), compliance("joint 3", share=48.0)))
-    assert location_shares(case.verdict) == {"joint 2": 1.0, "joint 3": 1.0}
-
-
 def test_where_a_curve_is_not_known_its_height_is_not_quoted():
     at = np.linspace(0, 1, 5)
     curve = Curve("time", "h", at, np.array([0, 3.0, 9.0, 1.0, 0]), np.array([0.1, 0.1, 8.0, 0.1, 0.1]), "rad")
@@ -285,3 +278,18 @@ def test_a_jump_is_told_with_the_row_and_the_run_in_which_it_happened():
     assert title_of(shift) == "base shift at base, from row 163 of run monday"
     assert title_of(replace(shift, driver="order of rows")) == "base shift at base, from row 163"
     assert title_of(replace(shift, effect="base_drift")) == "base shift at base"
+
+
+def test_a_rival_that_fits_alike_is_too_close_although_its_size_costs_it_evidence():
+    """What made the title vague stands among the alternatives as the reason."""
+    wave = Alternative("gear_eccentricity", "joint 2", "transmission", 5.2, "angle of joint 2", 0.4)
+    far = Alternative("base_compliance", "base", "elastic", 5.2, "moment on the base", 5.2)
+    shown = card(compliance(named_as="region", alternatives=(wave, far)), 1).alternatives
+    assert [other.too_close for other in shown] == [True, False]
+    assert "only because it has one number more" in shown[0].gap
+    assert shown[1].gap == "5.2 nats worse"
+
+
+def test_no_place_has_more_than_all_of_the_mismatch():
+    case = verdicts.case(effects=(compliance(share=53.0), compliance("joint 3", share=48.0)))
+    assert location_shares(case.verdict) == {"joint 2": 1.0, "joint 3": 1.0}

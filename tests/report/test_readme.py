@@ -4,7 +4,7 @@ import pandas as pd
 import pytest
 
 from armscope.core.inputs import InputError
-from armscope.report.pages.readme import fill_readme
+from armscope.report.pages.readme import _percent, fill_readme
 
 TEXT = "# before\n<!-- results: begin (by a rule) -->\nold numbers\n<!-- results: end -->\nafter\n"
 
@@ -64,3 +64,9 @@ def test_a_readme_without_marks_is_left_alone(results):
     with pytest.raises(InputError, match="no marks"):
         fill_readme(readme, results, results)
     assert readme.read_text() == "nothing here"
+
+
+def test_rounding_does_not_hide_why_an_aim_is_not_met():
+    assert [_percent(share) for share in (1.0, 0.998, 0.99999, 0.95, 0.004, 0.0004, 0.0)] == [
+        "100", "99.8", "99.999", "95", "0.4", "0.04", "0",
+    ]  # fmt: skip

@@ -133,12 +133,14 @@ def fit_error_model(
 
 
 def _identified(model: Path, fitted: FittedModel, recordings: Path | None) -> Identified:
+    from armscope.check.preconditions import check_table
     from armscope.compensation import identified_on, load_identified
     from armscope.compensation.physical import FILE
     from armscope.recordings import read_recordings
 
     if recordings is not None:
-        return identified_on(fitted.arm, read_recordings(recordings, fitted.arm.n_motors))
+        table = read_recordings(recordings, fitted.arm.n_motors)
+        return identified_on(fitted.arm, check_table(fitted.arm, table).recordings)
     beside = model.parent / FILE
     if not beside.is_file():
         raise InputError(

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import sys
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -19,8 +18,6 @@ if TYPE_CHECKING:
 
     from armscope.physics.model import FittedModel
     from armscope.recordings import Recordings
-    from armscope.robot import Arm
-    from armscope.verdict.schema import Notice
 
 app = Commands()
 
@@ -49,7 +46,6 @@ def diagnose(
     from armscope.diagnosis import Settings, write_verdict
     from armscope.diagnosis import diagnose as diagnose_arm
     from armscope.recordings import read_recordings
-    from armscope.report.text.headline import headline
     from armscope.robot import load_arm
     from armscope.verdict.files import FILES
 
@@ -62,31 +58,21 @@ def diagnose(
         table = table.rows(_rows_of_runs(table, run))
     if first_id is not None:
         table = table.rows(_rows_from(table, first_id))
-    problems = _problems(arm, table)
     settings = Settings(seed, tool_per_run, resamples, cross_validation, estimate_gravity, orientation)
     with _progress("diagnosing") as tell:
         verdict = diagnose_arm(arm, table, settings, tell)
-        verdict = replace(verdict, notices=(*problems, *verdict.notices))
         write_verdict(verdict, output)
-        save_identified(output / DOMAIN, identified_on(arm, table))
+        save_identified(output / DOMAIN, identified_on(verdict.model.arm, verdict.recordings))
         if report:
             from armscope.report.pages.diagnosis import write_report
 
             tell("drawing the report", 0.95)
-            write_report(verdict, arm, table, output)
-    print(headline(verdict))
+            write_report(verdict, output)
+    for notice in verdict.notices:
+        if notice.kind == "check":
+            print(f"note: {notice.text}", file=sys.stderr)
+    print(verdict.headline)
     print(f"{output}/{'report.html' if report else 'verdict.json'}")
-
-
-def _problems(arm: Arm, table: Recordings) -> tuple[Notice, ...]:
-    """What looks wrong with units, signs, orders and frames, as `armscope check` finds it: told at once."""
-    from armscope.check import check
-    from armscope.verdict.schema import Notice
-
-    texts = [found.text() for found in check(table, arm).suspicions if found.weight == "problem"]
-    for text in texts:
-        print(f"note: {text}", file=sys.stderr)
-    return tuple(Notice("check", text[0].upper() + text[1:]) for text in texts)
 
 
 def _rows_of_runs(table: Recordings, runs: list[str]) -> NDArray[np.bool_]:

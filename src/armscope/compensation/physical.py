@@ -66,7 +66,7 @@ class Identified:
 
 
 def identified_on(arm: Arm, recordings: Recordings) -> Identified:
-    """What the recordings of a diagnosis say about where its model holds."""
+    """What the recordings of a diagnosis, as it used them, say about where its model holds."""
     if recordings.n_motors != arm.n_motors:
         raise InputError(
             recordings.source, "line 1", f"{recordings.n_motors} motor angles", f"{arm.name} has {arm.n_motors} motors"

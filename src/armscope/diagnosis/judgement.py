@@ -33,7 +33,6 @@ from armscope.measurement.noise import Noise
 from armscope.physics.freeform import held
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
-from armscope.verdict.headline import headline
 from armscope.verdict.schema import (
     Answer,
     Background,
@@ -47,6 +46,7 @@ from armscope.verdict.schema import (
     Unexplained,
     WaterfallStep,
 )
+from armscope.verdict.sentences import headline
 
 SUSPECT_WEIGHT = 0.5
 LISTED_SUSPECTS = 200
@@ -96,6 +96,7 @@ def judge(
     draft = Diagnosis(
         arm=fit.model.arm.name,
         source=state.recordings.source,
+        recordings=state.recordings,
         rows=len(state.recordings),
         runs=tuple(str(run) for run in np.unique(state.recordings.run)),
         answer=answer,
@@ -229,13 +230,14 @@ def undecided(
     rms = float(np.sqrt(np.mean(residuals**2)))
     points = start.to_base(recordings.positions, recordings.run) * 1e3
     count = len(recordings)
-    return Diagnosis(
+    draft = Diagnosis(
         arm=start.arm.name,
         source=recordings.source,
+        recordings=recordings,
         rows=count,
         runs=tuple(str(run) for run in np.unique(recordings.run)),
         answer="cannot tell",
-        headline="It cannot be told: " + notices[-1].text,
+        headline="",
         mismatch=None,
         noise_mm=noise.stated_mm or float("nan"),
         noise_source=noise.source,
@@ -255,3 +257,4 @@ def undecided(
         model=start,
         seconds=seconds,
     )
+    return replace(draft, headline=headline(draft))

@@ -162,4 +162,4 @@ def _diagnosed(arm: Arm, identification: PoseSet) -> Corrector:
     columns |= {f"{axis}_mm": measured[:, n] for n, axis in enumerate("xyz")}
     recordings = replace(as_recordings(pd.DataFrame(columns)), source="identification")
     verdict = diagnose(arm, recordings, Settings(0, False, 0, False))
-    return physical_candidate(verdict.model, identified_on(arm, recordings))
+    return physical_candidate(verdict.model, identified_on(arm, verdict.recordings))

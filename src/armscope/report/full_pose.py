@@ -172,7 +172,7 @@ def _black_box(model: ErrorModel) -> _Model:
 def _physics(arm: Arm, recordings: Recordings) -> _Model:
     """Diagnosed from positions; the orientation follows from what was found."""
     verdict = diagnose(arm, recordings, Settings(0, False, 0, False))
-    identified, model = identified_on(arm, recordings), verdict.model
+    identified, model = identified_on(arm, verdict.recordings), verdict.model
 
     def stand(angles: Array) -> tuple[Array, Array]:
         motors = [f"q{motor}_rad" for motor in range(1, arm.n_motors + 1)]

@@ -16,7 +16,7 @@ from pandas.io.formats.style import Styler
 
 from armscope.core.files import write_text
 from armscope.core.outputs import readable
-from armscope.report.text.wording import plain
+from armscope.verdict.wording import plain
 
 _TEMPLATES = jinja2.Environment(
     loader=jinja2.PackageLoader("armscope.report", "templates"),

@@ -16,6 +16,7 @@ from pydantic import BeforeValidator, WithJsonSchema
 
 from armscope.core.types import Array
 from armscope.physics.model import FittedModel
+from armscope.recordings import Recordings
 
 Specific = Literal["effect", "region", "family"]
 TOGETHER = "together"
@@ -26,6 +27,8 @@ Number = Annotated[
     WithJsonSchema({"anyOf": [{"type": "number"}, {"type": "null"}]}),
 ]
 """A number that may not be known: NaN, null in a file."""
+INDISTINGUISHABLE_NATS = 3.0
+"""Evidence of 20 to 1: two readings closer than this are not told apart."""
 INTERVAL = 1.959964
 """Half width of a 95 % interval in standard errors."""
 
@@ -47,13 +50,20 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Alternative:
-    """Another effect that explains the same: the evidence that would be lost by naming it instead."""
+    """Another effect that explains the same.
+
+    Attributes:
+        evidence_gap_nats: the evidence that would be lost by naming it instead.
+        discriminability_nats: by how much the data tell the two apart: a rival that fits alike and only pays for a
+            number more has a gap, but is not told apart.
+    """
 
     effect: str
     location: str
     family: str
     evidence_gap_nats: Number
     driver: str
+    discriminability_nats: Number
 
 
 @dataclass(frozen=True, eq=False)
@@ -320,6 +330,8 @@ class Diagnosis(Verdict):
     Attributes:
         arm: the arm's name.
         source: the table's file.
+        recordings: the table as it was used: without the rows that can't be measurements, and without orientations
+            that are not the arm's.
         atlas, residuals, next_poses: what a report draws (atlas.csv, predicted.csv and next_poses.csv hold most of it).
         model: the fitted model (model.yaml).
         seconds: how long it took.
@@ -327,6 +339,7 @@ class Diagnosis(Verdict):
 
     arm: str
     source: str
+    recordings: Recordings
     atlas: Atlas | None
     residuals: Residuals
     next_poses: NextPoses | None

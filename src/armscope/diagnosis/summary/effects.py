@@ -22,7 +22,7 @@ from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
 from armscope.physics.effect import Placed
 from armscope.physics.scene import Part, Scene
-from armscope.verdict.schema import Background, FoundEffect, Parameter
+from armscope.verdict.schema import INDISTINGUISHABLE_NATS, Background, FoundEffect, Parameter
 
 MINOR_SHARE, MINOR_SHARE_OF_PERFECT_ARM = 0.025, 0.001
 """Effects worth less of the residual variance are apart from the story: in an arm with small errors everywhere, and in
@@ -52,9 +52,7 @@ def found_effect(
     covariance = wrong.covariance[np.ix_(at, at)]
     rms = projected_rms(gram, fit.pool.frames, coefficients)
     apart = [certainty.discriminability(state.best, other, candidate, rival) for _, rival, other in rivals]
-    close = [
-        rival for nats, (_, rival, _) in zip(apart, rivals, strict=True) if nats < certainty.INDISTINGUISHABLE_NATS
-    ]
+    close = [rival for nats, (_, rival, _) in zip(apart, rivals, strict=True) if nats < INDISTINGUISHABLE_NATS]
     named_as, title = certainty.name(candidate, close)
     return FoundEffect(
         effect=placed.name,
@@ -68,7 +66,7 @@ def found_effect(
         rms_at_tool_mm=rms,
         share=share,
         evidence_nats=float(_worth(state, search, chosen)),
-        alternatives=certainty.listed(rivals),
+        alternatives=certainty.listed(rivals, apart),
         inclusion=often.get(chosen.candidate),
         curve=curve_of(placed, part.values, covariance, scene),
         physics=placed.effect.physics,

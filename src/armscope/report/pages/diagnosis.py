@@ -11,19 +11,18 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from armscope.check.preconditions import check_table
 from armscope.core.files import write_text
 from armscope.core.numerals import rounded
 from armscope.recordings import Recordings
+from armscope.recordings.motion import moving
 from armscope.report.figures.diagnosis import SavedFigure, location_shares, save_all, waterfall_steps
 from armscope.report.figures.error_field import MOST_ROWS, ErrorField, turnable
 from armscope.report.html import render_page
 from armscope.report.reference_models import held_out_rms
 from armscope.report.sections.effect_cards import Card, card
-from armscope.report.text.headline import headline
-from armscope.report.text.wording import main_and_minor, millimetres, percent
 from armscope.robot import Arm
 from armscope.verdict.schema import Diagnosis, FoundEffect, NextPoses, SuspectRow
+from armscope.verdict.wording import main_and_minor, millimetres, percent
 
 MOST_SUSPECTS = 40
 ANSWERS = {
@@ -41,8 +40,9 @@ GLOSSARY = (
     ("Held-out rows", "Rows that took no part in finding or fitting the effects. A model that merely memorises the "
      "rows it has seen fails on them."),
     ("Noise", "What remains when the model is right: instrument and repeatability together, 1 sigma per axis."),
-    ("Share of the mismatch", "How much of the squared residual after the free frames an effect accounts for alone. "
-     "Effects overlap or reinforce one another, so the shares need not add up to 100 %."),
+    ("Share of the mismatch", "How much of the squared residual after the free frames an effect explains, averaged "
+     "over the orders in which the effects can enter the model (Shapley's value). The shares of all effects and of the "
+     "small errors everywhere add up to what the whole model explains."),
     ("Driver", "What an effect follows: a joint's angle, the load of gravity on it, temperature, time, ..."),
     ("Evidence, nats", "How much more probable the recordings are with the effect than without it, as a natural "
      "logarithm, after paying for the size of the library searched. 1 nat is odds of 3 to 1, 5 nats 150 to 1."),
@@ -56,18 +56,15 @@ GLOSSARY = (
 )  # fmt: skip
 
 
-def write_report(verdict: Diagnosis, arm: Arm, recordings: Recordings, folder: Path | str) -> Path:
+def write_report(verdict: Diagnosis, folder: Path | str) -> Path:
     """Write ``report.html`` and ``figures/*`` (PNG and SVG) for a diagnosis; returns the page's path.
 
     Args:
         verdict: the diagnosis.
-        arm: the nominal arm that was diagnosed.
-        recordings: the table it was made from.
         folder: where the page goes.
     """
     folder = Path(folder)
-    if len(recordings) != verdict.rows:
-        recordings = check_table(arm, recordings).recordings  # the diagnosis left the same rows out
+    arm, recordings = verdict.model.arm, verdict.recordings
     references = held_out_rms(arm, recordings, verdict.residuals.before)
     figures = save_all(verdict, arm, recordings, folder / "figures", references)
     page = render_page("diagnosis.html.j2", **_content(verdict, arm, recordings, figures, references))
@@ -96,7 +93,7 @@ def _content(
         "verdict": verdict,
         "source": Path(verdict.source).name,
         "arm": arm,
-        "headline": headline(verdict),
+        "headline": verdict.headline,
         "tag": tag,
         "answer": answer,
         "tiles": _tiles(verdict),
@@ -116,7 +113,7 @@ def _content(
         "background_share": percent(verdict.background.share),
         "steps": _steps(verdict, references),
         "left_is_told": _left_is_told(verdict),
-        "notices": [notice for notice in verdict.notices if not _said(notice.text, headline(verdict))],
+        "notices": [notice for notice in verdict.notices if not _said(notice.text, verdict.headline)],
         "unexplained_rms": millimetres(verdict.unexplained.rms_mm),
         "suspects": _suspects(verdict.suspects),
         "suspects_left_out": max(0, len(verdict.suspects) - MOST_SUSPECTS),
@@ -275,7 +272,7 @@ def assumptions(verdict: Diagnosis, arm: Arm, recordings: Recordings) -> list[st
         "payload": recordings.payload,
     }
     missing = [name for name, values in context.items() if values is None]
-    still = [f"joint {j + 1}" for j in np.flatnonzero(np.ptp(recordings.motor_angles, axis=0) <= 1e-3)]
+    still = [f"joint {j + 1}" for j in np.flatnonzero(~moving(recordings.motor_angles))]
     sentences = [
         "The base's place in the measurement frame is free for each run, the tool point for each target; what they "
         "can absorb is not part of the mismatch.",

@@ -53,9 +53,20 @@ def _proof_lines(aims: pd.DataFrame, worlds: int) -> list[str]:
         if row["aim"].startswith("detection"):
             found = f"{row['estimate']:.1f} ({row['low']:.1f}–{row['high']:.1f})"
         else:
-            found = f"{100 * row['estimate']:.0f} % ({100 * row['low']:.0f}–{100 * row['high']:.0f})"
+            estimate, low, high = (_percent(row[name]) for name in ("estimate", "low", "high"))
+            found = f"{estimate} % ({low}–{high})"
         lines.append(f"| {row['aim']} | {row['cases']} | {found} | {row['verdict']} |")
     return lines
+
+
+def _percent(share: float) -> str:
+    """In whole percent; with decimals where these would turn nearly all into all, or hardly any into none."""
+    percent = 100 * share
+    for decimals in range(5):
+        text = f"{percent:.{decimals}f}"
+        if (percent >= 100 or float(text) < 100) and (percent <= 0 or float(text) > 0):
+            return text
+    return text
 
 
 def _claim_lines(claims: pd.DataFrame) -> list[str]:

@@ -153,7 +153,7 @@ def _what_is_wrong(verdict: Verdict) -> str:
     """The largest effects of the verdict, in one sentence."""
     main = [effect for effect in verdict.effects if not effect.minor]
     if not main:
-        return verdict.headline.rstrip(".").capitalize() + "."
+        return verdict.headline
     told = [f"{e.title} ({e.rms_at_tool_mm:.2g} mm, {100 * e.share:.0f} %)" for e in main[:TOLD]]
     if len(main) > TOLD:
         told.append(f"{len(main) - TOLD} smaller effect{'s' if len(main) > TOLD + 1 else ''}")

@@ -7,7 +7,9 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from armscope.report.text.wording import (
+from armscope.verdict.schema import INDISTINGUISHABLE_NATS, FoundEffect, Parameter
+from armscope.verdict.schema import Alternative as FoundAlternative
+from armscope.verdict.wording import (
     Reading,
     capitalised,
     effect_in_words,
@@ -18,17 +20,13 @@ from armscope.report.text.wording import (
     reach,
     read_parameter,
 )
-from armscope.verdict.schema import FoundEffect, Parameter
 
 MOST_PARAMETERS = 8
-CANCELS = 1.05
 UNKNOWN_MASSES = "compliance_times_moment"
 LEFT_OPEN = 10.0
 """A parameter whose standard error would move the tool so many times as far as its effect does is left open."""
 RELIABLE = 0.5
 """An effect chosen in fewer of the resampled data sets than this is not to be relied on."""
-TOO_CLOSE_NATS = 3.0
-"""Alternatives nearer than this can't be told apart (odds below 20 to 1)."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +57,6 @@ class Card:
     alternatives: tuple[Alternative, ...]
     chosen: str
     how_specific: str
-    cancels: str
     physics: str
     confirm: str
     cure: str
@@ -87,15 +84,13 @@ def card(effect: FoundEffect, number: int, figure: str = "") -> Card:
         alternatives=tuple(
             Alternative(
                 effect_in_words(other.effect, other.location) + _followed(other.effect, other.driver),
-                f"{other.evidence_gap_nats:.1f} nats worse" if other.evidence_gap_nats >= 0
-                else f"{-other.evidence_gap_nats:.1f} nats better",
-                other.evidence_gap_nats < TOO_CLOSE_NATS,
+                gap_in_words(other),
+                other.discriminability_nats < INDISTINGUISHABLE_NATS,
             )
             for other in effect.alternatives
         ),
         chosen=chosen_how_often(effect.inclusion),
         how_specific=how_specific(effect),
-        cancels=cancelling(effect),
         physics=effect.physics,
         confirm=effect.confirm,
         cure=effect.cure,
@@ -168,16 +163,6 @@ def remark_on(effect: FoundEffect, shown: int) -> str:
     return f"{left_out} further numbers stand in model.yaml." if left_out > 0 else ""
 
 
-def cancelling(effect: FoundEffect) -> str:
-    """A warning about an effect that is larger than the mismatch itself; empty for others."""
-    if effect.share <= CANCELS:
-        return ""
-    return (
-        "Alone it would be larger than the whole mismatch: it and another effect nearly cancel each other in these "
-        "poses. Take the two as one finding; their single values mean little."
-    )
-
-
 def chosen_how_often(inclusion: float | None) -> str:
     """How stable the choice is when rows are drawn anew."""
     if inclusion is None:
@@ -204,6 +189,15 @@ def how_specific(effect: FoundEffect) -> str:
         "These recordings show the kind of physics, not where it sits. "
         f"The single best reading is {effect_in_words(effect.effect, effect.location)}; its rivals stand below."
     )
+
+
+def gap_in_words(other: FoundAlternative) -> str:
+    """How much evidence it costs to name an alternative instead, and whether only its size does."""
+    gap = other.evidence_gap_nats
+    if gap < 0:
+        return f"{-gap:.1f} nats better"
+    alike = other.discriminability_nats < INDISTINGUISHABLE_NATS <= gap
+    return f"{gap:.1f} nats worse{', but only because it has one number more' if alike else ''}"
 
 
 def _followed(effect: str, driver: str) -> str:

@@ -1,10 +1,11 @@
-"""The first sentence of a report, in plain words: what gives, by how much, and what share of the mismatch that is."""
+"""A verdict in one sentence, the same in verdict.json, on the page and on the terminal; and one effect as a clause."""
 
 from __future__ import annotations
 
 from armscope.physics.clause import Number, Told, say
 from armscope.physics.registry import effect_named
-from armscope.report.text.wording import (
+from armscope.verdict.schema import Diagnosis, FoundEffect
+from armscope.verdict.wording import (
     capitalised,
     main_and_minor,
     millimetres,
@@ -13,7 +14,6 @@ from armscope.report.text.wording import (
     reach,
     spelled,
 )
-from armscope.verdict.schema import Diagnosis, FoundEffect
 
 MOST_TOLD = 3
 """More effects than this are counted, not told."""
@@ -85,7 +85,8 @@ def _cannot_tell(verdict: Diagnosis) -> str:
             "but they follow nothing that was recorded."
         )
     why = verdict.notices[-1].text.rstrip(".") if verdict.notices else "the recordings do not say"
-    settle = "; the measurements named below would settle it" if verdict.next_poses is not None else ""
+    poses = verdict.next_poses
+    settle = "" if poses is None else f"; {spelled(len(poses.motor_angles))} further poses would settle it"
     return f"Cannot tell: {why[:1].lower() if why[1:2].islower() else why[:1]}{why[1:]}{settle}."
 
 
