@@ -6,12 +6,13 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: help reproduce test benchmark proof clean
+.PHONY: help reproduce test benchmark proof fuzz clean
 help:
 	@echo "make reproduce   the paper, end to end: Table 2, Figs 1-11, claims, report"
 	@echo "make test        lint, types, unit tests, a small run of the whole workflow"
 	@echo "make benchmark   speed beside other packages, as ratios from one run"
 	@echo "make proof       the diagnosis on worlds with concealed effects"
+	@echo "make fuzz        an hour of bad files for every reader (SECONDS=60: a minute)"
 	@echo "make clean       remove .venv and results"
 
 reproduce: .venv/installed
@@ -37,6 +38,11 @@ benchmark: .venv/installed .venv-peers/installed .venv-figaroh/installed
 
 proof: .venv/installed
 	$(BIN)/snakemake -j2 proof
+
+# files that no reader may choke on: an hour of them; what fails is kept in tests/fuzz/cases and tested from then on
+SECONDS ?= 3600
+fuzz: .venv/installed-test
+	$(BIN)/python -m tests.fuzz --seconds $(SECONDS)
 
 .venv/bin/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "armscope needs python 3.11 or newer: make PYTHON=/path/to/python3.11"; exit 1; }

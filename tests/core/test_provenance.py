@@ -21,7 +21,7 @@ def test_the_digest_follows_the_sources(monkeypatch, tmp_path):
     monkeypatch.setattr(provenance, "PACKAGE", tmp_path)
 
     def digest():
-        provenance.sources.cache_clear()
+        provenance.forget()
         return provenance.digest("armscope.one")
 
     before = digest()
@@ -29,7 +29,7 @@ def test_the_digest_follows_the_sources(monkeypatch, tmp_path):
     assert digest() == before
     (tmp_path / "two.py").write_text("x = 2\n")
     assert digest() != before
-    provenance.sources.cache_clear()
+    provenance.forget()
 
 
 def test_an_unknown_module_is_an_error():
@@ -44,7 +44,7 @@ def test_a_command_depends_on_itself_what_it_calls_and_what_it_imports(monkeypat
     monkeypatch.setattr(provenance, "PACKAGE", tmp_path)
 
     def digest(text):
-        provenance.sources.cache_clear()
+        provenance.forget()
         (tmp_path / "one.py").write_text(text)
         return provenance.digest("armscope.one:one")
 
@@ -53,4 +53,4 @@ def test_a_command_depends_on_itself_what_it_calls_and_what_it_imports(monkeypat
     assert digest(module.format(1).replace("return x", "return -x")) != before
     (tmp_path / "two.py").write_text("x = 2\n")
     assert digest(module.format(1)) != before
-    provenance.sources.cache_clear()
+    provenance.forget()

@@ -72,4 +72,4 @@ def world(
         predicted=None if failed else READINGS + off,
         failed=failed,
     )
-    return World(truth, given, None, 2, 1.0)
+    return World(truth, given, None, 2)

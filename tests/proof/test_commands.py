@@ -56,16 +56,16 @@ def test_every_step_leaves_what_the_next_one_reads_and_a_report(proof):
 
 
 def test_a_batch_gives_a_world_the_verdict_that_armscope_diagnose_gives_it_alone(proof, tmp_path):
-    (world,) = (proof / "visible" / BATCH).iterdir()
+    (world,) = (proof / "visible" / BATCH).glob("[!.]*")
     options = ("--resamples", 0, "--no-cross-validation", "--no-report")
     run("diagnose", world / "recordings.csv", "--robot", world / "robot.yaml", "-o", tmp_path, *options)
     alone = json.loads((tmp_path / "verdict.json").read_text())
     batch = json.loads((proof / "verdicts" / BATCH / world.name / "verdict.json").read_text())
     assert alone == batch
-    run("predict", tmp_path / "model.yaml", world / "test_poses.csv", "-o", tmp_path / "predicted.csv")
+    run("predict", tmp_path / "model.yaml", world / "test_poses.csv", "-o", tmp_path / "test_predicted.csv")
     axes = ["x_mm", "y_mm", "z_mm"]
     theirs = pd.read_csv(proof / "verdicts" / BATCH / world.name / "test_predicted.csv")[axes]
-    pd.testing.assert_frame_equal(pd.read_csv(tmp_path / "predicted.csv")[axes], theirs)
+    pd.testing.assert_frame_equal(pd.read_csv(tmp_path / "test_predicted.csv")[axes], theirs)
 
 
 def test_a_drawn_seed_is_recorded_as_drawn(tmp_path):

@@ -56,9 +56,9 @@ def test_an_import_that_is_ended_midway_leaves_nothing(long_file, end):
     command = [sys.executable, "-c", "from armscope.cli import main; main()"]
     command += ["import", "raw.csv", "--mapping", "mapping.yaml", "-o", "ended/out.csv.gz"]
     running = subprocess.Popen(command, cwd=long_file, stderr=subprocess.DEVNULL)
-    while not list(long_file.glob("ended/.out*")):
+    while not list(long_file.glob("ended/.armscope/out*.new/*")):
         assert running.poll() is None
         time.sleep(0.02)
     running.send_signal(end)
     assert running.wait(timeout=20) != 0
-    assert list((long_file / "ended").iterdir()) == []
+    assert not (long_file / "ended").exists()  # nor the folder that was made for it

@@ -94,3 +94,24 @@ def test_the_sk120_says_where_its_numbers_come_from():
     assert "p. 957" in sources["tool_mm"]
     assert np.isclose(arm.tool[0], 0.20532)
     assert arm.actuation[2].tolist() == [0, -1, 1, 0, 0, 0]
+
+
+@pytest.mark.parametrize(
+    ("change", "place", "words"),
+    [
+        ({"gravity_m_s2": [0, 0, -9810]}, "gravity_m_s2", "9.81 m/s2 on Earth"),
+        ({"links": [{"mass_kg": 1e30, "com_mm": [0, 0, 0]}]}, "links[0].mass_kg", "20000"),
+        ({"links": [{"mass_kg": 10, "com_mm": [0, 0, 1e6]}]}, "links[0].com_mm[2]", "20000"),
+        ({"tool_mm": [0, 0, 1e6]}, "tool_mm[2]", "20000"),
+        ({"instrument": {"sigma_mm": 1e4}}, "instrument.sigma_mm", "100"),
+        ({"actuation": [{"q1": 1e9}]}, "actuation[0].q1", "1000"),
+    ],
+)
+def test_physics_that_no_arm_has_is_refused_where_it_stands(change, place, words, tmp_path):
+    row = {"a_mm": 100, "alpha_deg": 0, "d_mm": 0}
+    content = {"name": "arm", "dh": {"joints": [row]}} | change
+    (tmp_path / "robot.yaml").write_text(yaml.safe_dump(content))
+    with pytest.raises(InputError) as caught:
+        load_arm(tmp_path / "robot.yaml")
+    assert caught.value.place == place
+    assert words in str(caught.value)

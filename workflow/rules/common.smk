@@ -9,7 +9,6 @@ from armscope.core.config import Config
 from armscope.core.files import write_text
 from armscope.core.inputs import InputError, validate
 from armscope.core.provenance import digest
-from armscope.recordings.importing.fetching import load_source
 
 # `snakemake` may be called by its path, without the environment being activated
 shell.prefix(f"set -euo pipefail; export PATH={shlex.quote(str(Path(sys.executable).parent))}:$PATH; ")
@@ -126,6 +125,8 @@ def robot_of(wildcards):
 
 def raw_files(wildcards):
     """The raw files of a set; other files may lie beside them, such as one that was kept aside."""
+    from armscope.recordings.fetching import load_source
+
     source = load_source(f"config/recordings/{wildcards.public_set}/source.yaml")
     return [f"{RESULTS}/recordings/{wildcards.public_set}/raw/{file.name}" for file in source.files]
 

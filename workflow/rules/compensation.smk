@@ -25,6 +25,8 @@ rule closed_loop:
         code=code("armscope.cli.outlook:closed_loop"),
     log:
         f"{RESULTS}/logs/closed_loop.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/closed_loop.tsv"
     shell:
         "armscope closed-loop {input.robot} --poses {input.poses} --errors {input.errors} --robots {input.robots} "
         "--fits {input.fits} {params.extended} -o {output.table} --points {output.points} --figure {output.png} > {log} 2>&1"
@@ -43,6 +45,8 @@ rule regions:
         code=code("armscope.cli.outlook:regions_"),
     log:
         f"{RESULTS}/logs/regions.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/regions.tsv"
     shell:
         "armscope regions --poses {input.poses} --errors {input.errors} --seed {params.seed} -o {output.table} "
         "--figure {output.png} > {log} 2>&1"
@@ -59,6 +63,8 @@ rule products:
         code=code("armscope.cli.outlook:products_"),
     log:
         f"{RESULTS}/logs/products.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/products.tsv"
     shell:
         "armscope products --poses {input.poses} --errors {input.errors} --seed {params.seed} -o {output} > {log} 2>&1"
 
@@ -78,6 +84,8 @@ rule full_pose:
         code=code("armscope.cli.outlook:full_pose"),
     log:
         f"{RESULTS}/logs/full_pose.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/full_pose.tsv"
     shell:
         "armscope full-pose {input.robot} --poses {input.poses} --errors {input.errors} --robots {input.robots} "
         "{params.extended} --seed {params.seed} -o {output} > {log} 2>&1"
@@ -96,6 +104,8 @@ rule cross_table:
         code=code("armscope.cli.outlook:cross_table_"),
     log:
         f"{RESULTS}/logs/cross_table.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/cross_table.tsv"
     shell:
         "armscope cross-table {input.virtual} {params.folders} {params.extended} -o {output} > {log} 2>&1"
 

@@ -37,6 +37,8 @@ rule measure:
         code=code("armscope.cli.paper:measure"),
     log:
         f"{RESULTS}/logs/measure.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/measure.tsv"
     shell:
         "armscope paper measure {input.robot} --settings {input.settings} -o {params.folder} > {log} 2>&1"
 
@@ -54,6 +56,8 @@ rule fit:
         code=code("armscope.cli.paper:fit"),
     log:
         f"{RESULTS}/logs/{{study}}/fit.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/{{study}}/fit.tsv"
     shell:
         "armscope paper fit {input.poses} {input.errors} --settings {input.settings} {params.as_printed} -o {output} > {log} 2>&1"
 
@@ -67,6 +71,8 @@ use rule fit as fit_ensemble with:
         f"{PAPER}/ensemble_fits.json.gz",
     log:
         f"{RESULTS}/logs/fit_ensemble.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/fit_ensemble.tsv"
 
 
 use rule fit as fit_as_printed with:
@@ -83,6 +89,8 @@ use rule fit as fit_as_printed with:
         code=code("armscope.cli.paper:fit"),
     log:
         f"{RESULTS}/logs/{{study}}/fit_as_printed.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/{{study}}/fit_as_printed.tsv"
 
 
 use rule fit_ensemble as fit_ensemble_as_printed with:
@@ -97,6 +105,8 @@ use rule fit_ensemble as fit_ensemble_as_printed with:
         code=code("armscope.cli.paper:fit"),
     log:
         f"{RESULTS}/logs/fit_ensemble_as_printed.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/fit_ensemble_as_printed.tsv"
 
 
 rule residuals:
@@ -110,6 +120,8 @@ rule residuals:
         code=code("armscope.cli.paper:residuals"),
     log:
         f"{RESULTS}/logs/{{study}}/residuals.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/{{study}}/residuals.tsv"
     shell:
         "armscope paper residuals {input.poses} {input.errors} {input.fits} -o {output.table} > {log} 2>&1"
 
@@ -126,6 +138,8 @@ rule ensemble_residuals:
         code=code("armscope.cli.paper:residuals"),
     log:
         f"{RESULTS}/logs/ensemble_residuals.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/ensemble_residuals.tsv"
     shell:
         "armscope paper residuals {input.poses} {input.errors} {input.fits} --bands {output.bands} -o {output.table} > {log} 2>&1"
 
@@ -141,6 +155,8 @@ rule table2:
         code=code("armscope.cli.paper:table2_"),
     log:
         f"{RESULTS}/logs/{{study}}/table2.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/{{study}}/table2.tsv"
     shell:
         "armscope paper table2 {input.residuals} {input.ensemble} {params.beside} -o {output} > {log} 2>&1"
 
@@ -154,6 +170,8 @@ rule coefficients:
         code=code("armscope.cli.paper:coefficients"),
     log:
         f"{RESULTS}/logs/coefficients.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/coefficients.tsv"
     shell:
         "armscope paper coefficients {input} -o {output} > {log} 2>&1"
 
@@ -170,6 +188,8 @@ rule cross_check:
         code=code("armscope.cli.paper:cross_check_"),
     log:
         f"{RESULTS}/logs/cross_check.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/cross_check.tsv"
     shell:
         "armscope paper cross-check {input.residuals} {input.ensemble_residuals} --fits {input.fits} --fits {input.ensemble_fits} "
         "-o {output} > {log} 2>&1"
@@ -184,6 +204,8 @@ rule reading:
         code=code("armscope.cli.paper:reading_"),
     log:
         f"{RESULTS}/logs/reading.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/reading.tsv"
     shell:
         "armscope paper reading {input} -o {output} > {log} 2>&1"
 
@@ -199,5 +221,7 @@ rule convergence:
         code=code("armscope.cli.paper:convergence"),
     log:
         f"{RESULTS}/logs/convergence.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/convergence.tsv"
     shell:
         "armscope paper convergence {input.poses} {input.errors} --settings {input.settings} -o {output} > {log} 2>&1"

@@ -16,6 +16,8 @@ rule scenario:
         code=code("armscope.cli.paper_judging:scenario"),
     log:
         f"{RESULTS}/logs/sensitivity/{{part}}.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/sensitivity/{{part}}.tsv"
     shell:
         "armscope paper scenario {input.robot} --settings {input.settings} --part {wildcards.part} --parts {params.parts} "
         "-o {output} > {log} 2>&1"
@@ -30,6 +32,8 @@ rule sensitivity:
         code=code("armscope.cli.paper_judging:join_"),
     log:
         f"{RESULTS}/logs/sensitivity.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/sensitivity.tsv"
     shell:
         "armscope paper join {input} -o {output} > {log} 2>&1"
 
@@ -53,6 +57,8 @@ rule method:
         code=code("armscope.cli.paper_judging:method_"),
     log:
         f"{RESULTS}/logs/method.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/method.tsv"
     shell:
         "armscope paper method {input.poses} --errors {input.errors} --errors {input.ensemble} --settings {input.settings} "
         "-o {output.table} --claims {output.claims} > {log} 2>&1"
@@ -69,6 +75,8 @@ rule sub_volumes:
         code=code("armscope.cli.paper:sub_volumes_"),
     log:
         f"{RESULTS}/logs/sub_volumes.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/sub_volumes.tsv"
     shell:
         "armscope paper sub-volumes {input.poses} --errors {input.errors} --errors {input.ensemble} -o {output} > {log} 2>&1"
 
@@ -85,6 +93,8 @@ rule outlook:
         code=code("armscope.cli.paper:outlook_"),
     log:
         f"{RESULTS}/logs/outlook.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/outlook.tsv"
     shell:
         "armscope paper outlook {input.poses} --errors {input.errors} --errors {input.ensemble} --seed {params.seed} "
         "-o {output} > {log} 2>&1"
@@ -109,6 +119,8 @@ rule judge:
         code=code("armscope.cli.paper_judging:judge_"),
     log:
         f"{RESULTS}/logs/judge.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/judge.tsv"
     shell:
         "armscope paper judge {input.poses} {params.errors} {params.fits} {params.as_printed} --sub-volumes {input.sub_volumes} "
         "--outlook {input.outlook} --enough-poses {input.enough_poses} --per-robot {output.per_robot} -o {output.table} > {log} 2>&1"
@@ -124,6 +136,8 @@ rule claims:
         code=code("armscope.cli.paper_judging:claims_"),
     log:
         f"{RESULTS}/logs/claims.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/claims.tsv"
     shell:
         "armscope paper claims {input.judged} --sensitivity {input.sensitivity} -o {output} > {log} 2>&1"
 
@@ -139,6 +153,8 @@ rule why:
         code=code("armscope.cli.paper_judging:why_"),
     log:
         f"{RESULTS}/logs/why.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/why.tsv"
     shell:
         "armscope paper why {input.per_robot} --robots {input.robots} -o {output.table} --figure {output.figures[0]} > {log} 2>&1"
 
@@ -152,5 +168,7 @@ rule audit:
         code=code("armscope.cli.paper_judging:audit_"),
     log:
         f"{RESULTS}/logs/audit.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/audit.tsv"
     shell:
         "armscope paper audit --settings {input.settings} -o {output} > {log} 2>&1"

@@ -23,6 +23,8 @@ rule figure:
         code=code("armscope.cli.paper_pages:figures"),
     log:
         f"{RESULTS}/logs/figure.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/figure.tsv"
     shell:
         "armscope paper figures {input.poses} {input.errors} {input.fits} --robot {input.robot} --bands {input.bands} "
         "--settings {input.settings} -o {params.folder} > {log} 2>&1"
@@ -41,6 +43,8 @@ rule figure_real:
         code=code("armscope.cli.paper_pages:figure"),
     log:
         f"{RESULTS}/logs/real/{{set}}/{{figure}}.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/real/{{set}}/{{figure}}.tsv"
     shell:
         "armscope paper figure {wildcards.figure} {input.poses} {input.errors} {input.fits} -o {output.png} > {log} 2>&1"
 
@@ -56,6 +60,8 @@ rule convergence_figure:
         code=code("armscope.cli.paper_pages:convergence_figure"),
     log:
         f"{RESULTS}/logs/convergence_figure.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/convergence_figure.tsv"
     shell:
         "armscope paper convergence-figure {input} -o {output.png} > {log} 2>&1"
 
@@ -102,6 +108,8 @@ rule paper_report:
         code=code("armscope.cli.paper_pages:report"),
     log:
         f"{RESULTS}/logs/paper_report.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/paper_report.tsv"
     shell:
         "armscope paper report {params.folder} {params.proof} --robot {input.robot} --compensation {params.compensation} "
         "--settings {input.settings} -o {output.page} > {log} 2>&1"

@@ -19,6 +19,8 @@ rule choose_poses:
         code=code("armscope.cli.poses:poses"),
     log:
         f"{RESULTS}/logs/poses/{{arm}}.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/poses/{{arm}}.tsv"
     shell:
         "armscope poses --robot {input} {params.options} --all-criteria -o {output.poses} > {log} 2>&1"
 

@@ -22,6 +22,8 @@ rule proof_seed:
         code=code("armscope.cli.proof:diagnose"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/seed.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/proof/{{size}}/seed.tsv"
     shell:
         "armscope proof seed {params.fixed} -o {output} > {log} 2>&1"
 
@@ -39,6 +41,8 @@ rule proof_worlds:
         code=code("armscope.cli.proof:worlds"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/worlds-{{half}}-{{part}}.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/proof/{{size}}/worlds-{{half}}-{{part}}.tsv"
     shell:
         "armscope proof worlds {input.robots} --size {wildcards.size} --half {wildcards.half} "
         "--part {wildcards.part}/{params.parts} {params.seed} --visible {output.visible} --sealed {output.sealed} "
@@ -58,6 +62,8 @@ rule proof_diagnose:
         code=code("armscope.cli.proof:diagnose"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/diagnose-{{batch}}.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/proof/{{size}}/diagnose-{{batch}}.tsv"
     shadow:
         "minimal"
     shell:
@@ -80,6 +86,8 @@ rule proof_score:
         code=code("armscope.cli.proof:score"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/score.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/proof/{{size}}/score.tsv"
     shell:
         "armscope proof score {params.folder} -o {params.folder}/tables > {log} 2>&1"
 
@@ -94,6 +102,8 @@ rule proof_figures:
         code=code("armscope.cli.proof:figures"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/figures.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/proof/{{size}}/figures.tsv"
     shell:
         "armscope proof figures {params.folder}/tables -o {params.folder}/figures > {log} 2>&1"
 
@@ -110,6 +120,8 @@ rule proof_report:
         code=code("armscope.cli.proof:report"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/report.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/proof/{{size}}/report.tsv"
     shell:
         "armscope proof report {params.folder}/tables {params.folder}/figures {input.seed} --size {wildcards.size} "
         "-o {output} > {log} 2>&1"

@@ -13,6 +13,8 @@ use rule proof_seed as proof_real_seed with:
         f"{PROOF_REAL}/seed.json",
     log:
         f"{RESULTS}/logs/proof_real/seed.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/proof_real/seed.tsv"
 
 
 rule proof_real_original:
@@ -30,6 +32,8 @@ rule proof_real_original:
         part_real="original|withheld",
     log:
         f"{RESULTS}/logs/proof_real/plant-{{set}}-{{part_real}}.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/proof_real/plant-{{set}}-{{part_real}}.tsv"
     shell:
         "armscope real plant {input.recordings} {input.robot} --settings {input.settings} --part {wildcards.part_real} "
         "--visible {output.visible} --sealed {output.sealed} > {log} 2>&1"
@@ -50,6 +54,8 @@ rule proof_real_plant:
         code=code("armscope.cli.real:plant"),
     log:
         f"{RESULTS}/logs/proof_real/plant-{{set}}-{{half_real}}.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/proof_real/plant-{{set}}-{{half_real}}.tsv"
     shell:
         "armscope real plant {input.recordings} {input.robot} --settings {input.settings} --part {wildcards.half_real} "
         "--verdict {input.verdicts}/original/verdict.json {params.seed} "
@@ -65,6 +71,8 @@ use rule proof_diagnose as proof_real_diagnose with:
         seen=f"{PROOF_REAL}/seen/{{set}}-{{part_real}}.txt",
     log:
         f"{RESULTS}/logs/proof_real/diagnose-{{set}}-{{part_real}}.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/proof_real/diagnose-{{set}}-{{part_real}}.tsv"
 
 
 rule proof_real_score:
@@ -81,6 +89,8 @@ rule proof_real_score:
         code=code("armscope.cli.real:score"),
     log:
         f"{RESULTS}/logs/proof_real/score.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/proof_real/score.tsv"
     shell:
         "armscope real score {params.folder} -o {params.folder}/tables > {log} 2>&1"
 
@@ -100,6 +110,8 @@ rule proof_real_report:
         code=code("armscope.cli.real:report"),
     log:
         f"{RESULTS}/logs/proof_real/report.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/proof_real/report.tsv"
     shell:
         "armscope real report {params.folder}/tables {input.seed} --titles {params.titles:q} -o {params.folder} > {log} 2>&1"
 

@@ -14,6 +14,8 @@ rule example:
         code=code("armscope.cli.diagnosis:diagnose"),
     log:
         f"{RESULTS}/logs/examples/{{example}}.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/examples/{{example}}.tsv"
     shell:
         "armscope diagnose {input.recordings} --robot {input.robot} -o {params.folder} > {log} 2>&1"
 
@@ -33,5 +35,7 @@ rule readme:
         code=code("armscope.cli.paper_pages:readme_"),
     log:
         f"{RESULTS}/logs/readme.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/readme.tsv"
     shell:
         "(armscope paper readme README.md {params.folder} {params.proof} && cp {input.arm} docs/figures/five-effects.png) > {log} 2>&1"

@@ -21,6 +21,8 @@ rule measure_real:
         code=code("armscope.cli.paper:measure_real"),
     log:
         f"{RESULTS}/logs/real/{{set}}/measure.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/real/{{set}}/measure.tsv"
     shell:
         "armscope paper measure-real {input.recordings} {input.robot} --settings {input.settings} -o {params.folder} > {log} 2>&1"
 
@@ -42,6 +44,8 @@ rule diagnose_real:
         code=code("armscope.cli.diagnosis:diagnose"),
     log:
         f"{RESULTS}/logs/real/{{set}}/diagnose.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/real/{{set}}/diagnose.tsv"
     shell:
         "armscope diagnose {input.recordings} --robot {input.robot} {params.run} {params.first} -o {params.folder} > {log} 2>&1"
 
@@ -65,6 +69,8 @@ rule protocol_real:
         code=code("armscope.cli.real:protocol"),
     log:
         f"{RESULTS}/logs/real/{{set}}/protocol.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/real/{{set}}/protocol.tsv"
     shell:
         "armscope real protocol {input.recordings} {input.robot} {input.reference} {params.splits} -o {params.folder} "
         "> {log} 2>&1"
@@ -84,6 +90,8 @@ rule compliances_real:
         code=code("armscope.cli.real:compliances"),
     log:
         f"{RESULTS}/logs/real/{{set}}/compliances.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/real/{{set}}/compliances.tsv"
     shell:
         "armscope real compliances {input.recordings} {input.robot} {input.reference} --seed {params.seed} "
         "-o {params.folder} > {log} 2>&1"
@@ -121,6 +129,8 @@ rule real_arms:
         code=code("armscope.cli.real:page"),
     log:
         f"{RESULTS}/logs/real_arms.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/real_arms.tsv"
     shell:
         "armscope real page docs/real-arms.md --settings {input.settings} > {log} 2>&1"
 

@@ -20,6 +20,8 @@ rule fetch_raw:
         code=code("armscope.cli.recordings:fetch"),
     log:
         f"{RESULTS}/logs/recordings/{{public_set}}/fetch.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/recordings/{{public_set}}/fetch.tsv"
     shell:
         "armscope fetch {input.source} -o {params.folder}/raw {params.stand_in} > {output} 2> {log}"
 
@@ -37,6 +39,8 @@ rule import_raw:
         code=code("armscope.cli.recordings:import_"),
     log:
         f"{RESULTS}/logs/recordings/{{public_set}}/import.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/recordings/{{public_set}}/import.tsv"
     shell:
         "(armscope import {params.raw:q} --mapping {input.mapping} -o {output.recordings} && cp {input.robot} {output.robot}) "
         "> {log} 2>&1"

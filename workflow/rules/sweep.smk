@@ -27,6 +27,8 @@ rule sweep_variant:
         code=code("armscope.cli.sweep:run"),
     log:
         f"{RESULTS}/logs/sweep/{{variant}}.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/sweep/{{variant}}.tsv"
     shell:
         "armscope sweep run {input.poses} {input.errors} --settings {input.settings} -o {output} > {log} 2>&1"
 
@@ -41,5 +43,7 @@ rule sweep:
         code=code("armscope.cli.sweep:draw"),
     log:
         f"{RESULTS}/logs/sweep.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/sweep.tsv"
     shell:
         "armscope sweep draw {input} -o {output.table} > {log} 2>&1"

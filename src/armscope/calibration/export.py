@@ -17,6 +17,8 @@ from armscope.core.types import Array
 from armscope.robot import Arm
 
 TIP = "calibrated_flange"
+FILES = ("robot.yaml", "robot.urdf", "robot_urdf.yaml", "frames.yaml")
+"""All that `export` may write."""
 
 
 def export(calibration: Calibration, folder: Path | str, target: str | None = None) -> tuple[Path, ...]:

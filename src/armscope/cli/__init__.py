@@ -6,14 +6,13 @@ Each command imports what it needs when it runs, so that `armscope --help` and s
 from __future__ import annotations
 
 import os
-import sys
 from typing import Annotated, Literal
 
 import typer
 
 from armscope.cli import calibration, compensation, diagnosis, outlook, paper, poses, proof, real, recordings, sweep
+from armscope.cli.endings import endings
 from armscope.cli.panels import EXPERIMENTS
-from armscope.core.inputs import InputError
 
 app = typer.Typer(
     name="armscope",
@@ -74,17 +73,9 @@ def print_schema(
 
 
 def main() -> None:
-    """Run the command line; bad input ends it with one clear sentence and exit code 2."""
+    """Run the command line; whatever goes wrong ends it with one clear line and an exit code of its own."""
     # many small matrices: threads of BLAS would wait for each other and for other jobs; read when numpy is imported
     for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ.setdefault(variable, "1")
-    try:
+    with endings():
         app()
-    except InputError as error:
-        print(f"armscope: {error}", file=sys.stderr)
-        sys.exit(2)
-    except OSError as error:  # a disk that is full, a file that vanished
-        if error.filename is None:
-            raise
-        print(f"armscope: {error.filename}: {error.strerror}", file=sys.stderr)
-        sys.exit(2)

@@ -8,9 +8,12 @@ from typing import Annotated, Literal
 
 import typer
 
+from armscope.cli.commands import Commands
 from armscope.core.inputs import InputError
 
-app = typer.Typer()
+app = Commands()
+
+TABLES = ("calibration.csv", "held.csv", "covariance.csv", "misses.csv")
 
 
 @app.command()
@@ -64,7 +67,7 @@ def calibrate(
     from dataclasses import replace
 
     from armscope.calibration import calibrate as calibrated
-    from armscope.calibration.export import export
+    from armscope.calibration.export import FILES, export
     from armscope.check import check as check_table
     from armscope.core.files import writable, write_table
     from armscope.recordings import read_recordings
@@ -72,7 +75,7 @@ def calibrate(
 
     arm = load_arm(robot)
     table = read_recordings(recordings, arm.n_motors)
-    writable(output)
+    writable(output, *FILES, *TABLES)
     looked_through = check_table(table, arm)
     consistency = looked_through.consistency
     assert consistency is not None

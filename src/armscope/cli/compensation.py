@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
+from armscope.cli.commands import Commands
 from armscope.cli.studies import model_named
 from armscope.core.inputs import InputError
 
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from armscope.physics.model import FittedModel
     from armscope.robot import Arm
 
-app = typer.Typer()
+app = Commands()
 
 MOST_CAUSES = 10
 REFUSED = 3
@@ -56,10 +57,11 @@ def compensate(
         read_path,
     )
     from armscope.compensation.output import FORMATS, write_commands
+    from armscope.core.outputs import is_stream
     from armscope.physics.model_file import load_model
     from armscope.robot.inverse import LARGEST_STEP_RAD
 
-    if not str(output).endswith(FORMATS):
+    if not str(output).endswith(FORMATS) and not is_stream(output):
         raise InputError("--output", "", str(output), f"the file's ending says the format: {', '.join(FORMATS)}")
     step = np.inf if separate_points else LARGEST_STEP_RAD
     fitted: ErrorModel | FittedModel = load_error_model(model) if model.suffix == ".json" else load_model(model)
@@ -145,7 +147,12 @@ def _identified(model: Path, fitted: FittedModel, recordings: Path | None) -> Id
             model, "", f"no {FILE} beside it", "commands outside the identified range are refused: it must be known",
             "Give the recordings of the diagnosis with --recordings.",
         )  # fmt: skip
-    return load_identified(beside)
+    identified = load_identified(beside)
+    motors = sum(name.startswith("q") for name in identified.domain.names)
+    if motors != fitted.arm.n_motors:
+        rule = f"the model's arm has {fitted.arm.n_motors}"
+        raise InputError(beside, "domain.inputs", f"{motors} motors", rule, "Is it of another diagnosis?")
+    return identified
 
 
 def _check_robot(robot: Path | None, arm: Arm) -> None:

@@ -10,13 +10,16 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from armscope.cli.commands import Commands
+
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from armscope.physics.model import FittedModel
     from armscope.recordings import Recordings
 
-app = typer.Typer()
+app = Commands()
 
 
 @app.command()
@@ -44,10 +47,11 @@ def diagnose(
     from armscope.diagnosis import diagnose as diagnose_arm
     from armscope.recordings import read_recordings
     from armscope.robot import load_arm
+    from armscope.verdict.files import FILES
 
     arm = load_arm(robot)
     table = read_recordings(recordings, arm.n_motors)
-    writable(output)
+    writable(output, *FILES, DOMAIN, "report.html")
     for note in table.notes:
         print(f"note: {note}", file=sys.stderr)
     if run:
@@ -151,9 +155,34 @@ def _by_physics(
 
     fitted = load_model(model)
     rows = read_recordings(poses, fitted.arm.n_motors, measured=False)
+    _refuse_missing_context(model, fitted, rows)
     for run in fitted.unknown_runs(rows):
         print(f"run {run!r} is not in the model: its base is taken from run {list(fitted.bases)[-1]!r}")
     return predicted_points(fitted, rows), predict_orientation(fitted, rows) if pose else None, rows
+
+
+def _refuse_missing_context(model: Path, fitted: FittedModel, rows: Recordings) -> None:
+    """What an effect follows must be known in every row: nothing is taken for zero.
+
+    Raises:
+        InputError: it is not.
+    """
+    import numpy as np
+
+    from armscope.compensation.physical import FILE, drivers_of, load_identified, missing_context
+    from armscope.core.inputs import InputError
+    from armscope.physics.drivers import KINDS
+
+    beside = model.parent / FILE
+    if not beside.is_file():
+        if rows.payload is None and any("payload" in KINDS[kind].follows for kind in drivers_of(fitted)):
+            print(f"note: no payload_kg, and no {FILE} beside the model: the arm carries nothing", file=sys.stderr)
+        return
+    for column, missing in missing_context(fitted, load_identified(beside), rows).items():
+        place = "line 1" if missing.all() else f"row {int(np.argmax(missing)) + 2}, column {column}"
+        cure = "Write 0 where the arm carries nothing." if column == "payload_kg" else "Add it to the table."
+        rule = "an effect in the model follows it, so it must be known in every row"
+        raise InputError(rows.source, place, f"no column {column}" if missing.all() else "nothing", rule, cure)
 
 
 def _by_description(

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from armscope.cli.commands import Commands
 from armscope.cli.panels import EXPERIMENTS
 from armscope.cli.studies import model_named
 from armscope.core.inputs import InputError
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
     from armscope.paper.measurements import Measurements
     from armscope.robot import Arm
 
-app = typer.Typer()
+app = Commands()
 
 Robot = Annotated[Path, typer.Argument(help="robot.yaml")]
 Poses = Annotated[Path, typer.Option(help="poses.csv of `armscope paper measure`")]

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from armscope.cli import paper_judging, paper_pages
+from armscope.cli.commands import Commands
 from armscope.cli.studies import (
     Errors,
     Fits,
@@ -25,7 +26,7 @@ from armscope.cli.studies import (
     write_fits,
 )
 
-app = typer.Typer(no_args_is_help=True)
+app = Commands("paper", no_args_is_help=True)
 app.add_typer(paper_judging.app)
 app.add_typer(paper_pages.app)
 

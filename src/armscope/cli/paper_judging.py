@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from armscope.cli.commands import Commands
 from armscope.cli.studies import (
     ManyErrors,
     ManyFits,
@@ -20,7 +21,7 @@ from armscope.cli.studies import (
     tell,
 )
 
-app = typer.Typer()
+app = Commands("paper")
 
 Robot = Annotated[Path, typer.Argument(help="robot.yaml")]
 

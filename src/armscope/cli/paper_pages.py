@@ -7,10 +7,11 @@ from typing import Annotated
 
 import typer
 
+from armscope.cli.commands import Commands
 from armscope.cli.studies import Errors, Fits, Poses, Settings, parsed, read_fits, read_measurements, tell
 from armscope.core.inputs import InputError
 
-app = typer.Typer()
+app = Commands("paper")
 
 
 @app.command()

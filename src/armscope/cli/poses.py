@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from armscope.cli.commands import Commands
 from armscope.core.inputs import InputError
 
 if TYPE_CHECKING:
     from armscope.poses.choose import Choice
     from armscope.poses.obstacles import Surroundings
 
-app = typer.Typer()
+app = Commands()
 
 ASSUMED_NOISE_MM = 0.05
 """Tracker and repeatability of a good industrial arm together, 1-sigma per axis, where robot.yaml states none."""
@@ -49,6 +50,7 @@ def poses(
     """Choose the poses that show a set of effects best, and say what they are worth beside random ones and a grid."""
     from armscope.core.files import write_table
     from armscope.core.inputs import nearest
+    from armscope.core.outputs import is_stream
     from armscope.design.indices import SOURCES
     from armscope.poses.choose import by_other_criteria, choose
     from armscope.poses.compare import compare_sets
@@ -59,7 +61,7 @@ def poses(
 
     if criterion not in SOURCES:
         raise InputError("--criterion", "", criterion, "O1, O2, O3, O4 or O5", nearest(criterion, SOURCES))
-    if output.suffix != ".csv":
+    if output.suffix != ".csv" and not is_stream(output):
         raise InputError("--output", "", str(output), "a table that ends in .csv")
     arm = load_arm(robot)
     names = tuple(name.strip() for name in effects.split(",") if name.strip())
@@ -69,7 +71,7 @@ def poses(
     others = by_other_criteria(choice, seed, starts) if all_criteria and seeds else {}
     compared = compare_sets(choice, noise, seeds, seed, payload_kg, others) if seeds else None
     write_choice(output, choice, compared, noise, source)
-    if compared is not None:
+    if compared is not None and not is_stream(output):
         write_table(output.with_name(f"{output.stem}_compared.csv"), compared)
         title = f"{arm.name}: {count} poses for {', '.join(names)} by {criterion}"
         save_figure(choice_figure(compared, title), output.with_suffix(".png"), formats=("png", "svg"))

@@ -7,9 +7,10 @@ from typing import Annotated, Any, Literal
 
 import typer
 
+from armscope.cli.commands import Commands
 from armscope.core.inputs import InputError, folder_of, nearest
 
-app = typer.Typer(no_args_is_help=True)
+app = Commands("proof", no_args_is_help=True)
 
 Output = Annotated[Path, typer.Option("--output", "-o", help="where to write")]
 
@@ -63,7 +64,7 @@ def diagnose(
     from armscope.proof.diagnosing import diagnose_worlds
 
     settings = Settings(resamples=resamples, cross_validation=cross_validation)
-    found = sorted(path for path in folder_of(visible, "worlds").iterdir() if path.is_dir())
+    found = sorted(path for path in folder_of(visible, "worlds").iterdir() if path.is_dir() and path.name[0] != ".")
     diagnose_worlds(found, output, settings)
 
 

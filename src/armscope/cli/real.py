@@ -8,10 +8,11 @@ from typing import Annotated
 
 import typer
 
+from armscope.cli.commands import Commands
 from armscope.cli.studies import Settings, parsed
 from armscope.core.inputs import InputError, folder_of
 
-app = typer.Typer(no_args_is_help=True)
+app = Commands("real", no_args_is_help=True)
 
 Output = Annotated[Path, typer.Option("--output", "-o", help="where to write")]
 
@@ -173,10 +174,9 @@ def page(
     settings: Settings,
 ) -> None:
     """Write what is wrong with each real arm, from results, with one figure each."""
-    import shutil
-
     import pandas as pd
 
+    from armscope.core.files import copy_file
     from armscope.real.curves import shared
     from armscope.real.settings import PageSettings
     from armscope.report.figures.compliances import draw_compliances
@@ -189,7 +189,7 @@ def page(
     arms = [RealArm(a.name, a.title, Path(a.folder), Path(a.reference), (a.run, a.first_id)) for a in chosen.arms]
     figures = output.parent / "figures"
     for arm in arms:
-        shutil.copy(arm.folder / "figures" / "arm.png", figures / f"real-{arm.name}.png")
+        copy_file(arm.folder / "figures" / "arm.png", figures / f"real-{arm.name}.png")
         if curves := shared(pd.read_csv(arm.folder / "curves_by_run.csv")):
             save_figure(draw_shared_curves(curves), figures / f"real-{arm.name}-curves.png", formats=("png",))
         if (told := arm.folder / "compliances.csv").exists():

@@ -2,28 +2,15 @@
 
 from __future__ import annotations
 
-import contextlib
-import signal
-import sys
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from armscope.cli.commands import Commands
 from armscope.cli.panels import EXPERIMENTS
 
-app = typer.Typer()
-
-
-@contextlib.contextmanager
-def _tidy_when_ended() -> Iterator[None]:
-    """A request to end, as workflow engines send it, leaves no file half-written behind."""
-    before = signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
+app = Commands()
 
 
 @app.command("import")
@@ -35,8 +22,7 @@ def import_(
     """Convert raw files to a recordings table by a declarative mapping."""
     from armscope.recordings.importing.tables import import_recordings
 
-    with _tidy_when_ended():
-        print(import_recordings(files, mapping, output).text())
+    print(import_recordings(files, mapping, output).text())
 
 
 @app.command(rich_help_panel=EXPERIMENTS)
@@ -48,5 +34,4 @@ def fetch(
     """Fetch the raw files of a public data set and check their checksums."""
     from armscope.recordings.importing.fetching import fetch_recordings
 
-    with _tidy_when_ended():
-        print(fetch_recordings(source, output, recordings_dir).text())
+    print(fetch_recordings(source, output, recordings_dir).text())

@@ -7,9 +7,10 @@ from typing import Annotated
 
 import typer
 
+from armscope.cli.commands import Commands
 from armscope.cli.studies import Errors, Output, Poses, Settings, parsed, read_measurements, read_tables
 
-app = typer.Typer(no_args_is_help=True)
+app = Commands("sweep", no_args_is_help=True)
 
 
 @app.command()

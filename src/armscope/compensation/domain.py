@@ -136,6 +136,11 @@ class Domain:
         )
 
 
+def count_directions(moving: NDArray[np.bool_], units: Sequence[str]) -> int:
+    """In how many directions a domain of such inputs has an extent."""
+    return len(moving) + 2 * len(_pairs(moving, units))
+
+
 def _pairs(moving: NDArray[np.bool_], units: Sequence[str]) -> list[tuple[int, int]]:
     """Inputs of one kind: that the hall warmed up while joint 1 turned to the right need not hold on another day."""
     return [(i, j) for i, j in combinations(np.flatnonzero(moving).tolist(), 2) if units[i] == units[j]]

@@ -8,16 +8,17 @@ from typing import Any
 import numpy as np
 
 from armscope.compensation.black_box import ErrorModel, Turning
+from armscope.compensation.contents import ErrorModelContent, ProductsContent, SumsContent, TurningContent
 from armscope.compensation.domain import Domain
 from armscope.core.files import read_json, write_json
-from armscope.core.inputs import InputError, validate
+from armscope.core.inputs import InputError, nearest, validate
 from armscope.core.types import Array
 from armscope.errormodels import FeatureSet
 from armscope.errormodels.products import ProductFeatures
 from armscope.errormodels.regions import Cut, weights
 from armscope.physics.model import Base
+from armscope.robot import Arm
 from armscope.robot.arm import build_arm
-from armscope.robot.description import RobotDescription
 
 FORMAT = "armscope error model 1"
 
@@ -64,45 +65,59 @@ def load_error_model(path: Path | str) -> ErrorModel:
     if found != FORMAT:
         cure = "`armscope fit-error-model` writes one."
         raise InputError(path, "format", found, f"an error model says {FORMAT!r}", cure)
-    try:
-        return _from_content(content, path)
-    except KeyError as error:
-        raise InputError(path, str(error.args[0]), "nothing", "this key is missing", "Was the file edited?") from error
-    except InputError:
-        raise
-    except (ValueError, TypeError) as error:
-        raise InputError(path, "", str(error), "this must hold a fitted model", "Was the file edited?") from error
-
-
-def _from_content(content: dict[str, Any], path: Path | str) -> ErrorModel:
-    cut = Cut.from_dict(content["regions"])
-    features, coefficients = _terms(content, cut, path)
-    base, turning = content["base"], content.get("turning")
+    stated = validate(ErrorModelContent, content, path)
+    arm = build_arm(stated.robot)
+    cut = None if stated.regions is None else Cut.from_dict(stated.regions.model_dump())
+    features, coefficients = _terms(stated, stated.features, cut, arm, path)
+    _check_domain(stated, arm, path)
     return ErrorModel(
-        build_arm(validate(RobotDescription, content["robot"], path)),
+        arm,
         features,
         coefficients,
-        content["method"],
-        np.array(content["rms_mm"], dtype=float),
-        Base(np.array(base["rotation"], dtype=float), np.array(base["translation_m"], dtype=float)),
-        Domain.from_dict(content["domain"]),
+        stated.method,
+        np.array(stated.rms_mm),
+        Base(np.array(stated.base.rotation), np.array(stated.base.translation_m)),
+        Domain.from_dict(stated.domain.model_dump()),
         cut,
-        None if turning is None else _turning_in(turning, cut, path),
+        None if stated.turning is None else _turning_in(stated.turning, cut, arm, path),
     )
 
 
-def _turning_in(content: dict[str, Any], cut: Cut | None, path: Path | str) -> Turning:
-    features, coefficients = _terms(content, cut, path)
-    tool = np.array(content["tool"], dtype=float)
-    return Turning(features, coefficients, np.array(content["rms_mrad"], dtype=float), tool)
+def _turning_in(content: TurningContent, cut: Cut | None, arm: Arm, path: Path | str) -> Turning:
+    features, coefficients = _terms(content, content.features, cut, arm, path)
+    return Turning(features, coefficients, np.array(content.rms_mrad), np.array(content.tool))
 
 
-def _terms(content: dict[str, Any], cut: Cut | None, path: Path | str) -> tuple[FeatureSet | ProductFeatures, Array]:
-    kind = ProductFeatures if "products" in content["features"] else FeatureSet
-    features: FeatureSet | ProductFeatures = kind.from_dict(content["features"])
-    coefficients = np.array(content["coefficients"], dtype=float)
-    regions = weights(cut, np.zeros((1, len(features.inputs)))).shape[1]
-    if coefficients.shape != (regions, 3, features.coefficients_per_axis) or not np.isfinite(coefficients).all():
+def _terms(
+    content: ErrorModelContent | TurningContent,
+    stated: SumsContent | ProductsContent,
+    cut: Cut | None,
+    arm: Arm,
+    path: Path | str,
+) -> tuple[FeatureSet | ProductFeatures, Array]:
+    kind = ProductFeatures if isinstance(stated, ProductsContent) else FeatureSet
+    features: FeatureSet | ProductFeatures = kind.from_dict(stated.model_dump())
+    inputs = 3 if features.spec.space == "cartesian" else arm.n_motors
+    if len(features.inputs) != inputs:
+        raise InputError(path, "features", f"{len(features.inputs)} inputs", f"{arm.name} has {inputs} of this kind")
+    if cut is not None and any(axis >= inputs for axis in _axes(cut)):
+        raise InputError(path, "regions", "an axis too many", f"there are {inputs} inputs")
+    regions = weights(cut, np.zeros((1, inputs))).shape[1]
+    shapes = {len(numbers) for region in content.coefficients for numbers in region}
+    if len(content.coefficients) != regions or shapes != {features.coefficients_per_axis}:
         expected = f"{features.spec.name} has {regions} x 3 x {features.coefficients_per_axis} finite numbers"
-        raise InputError(path, "coefficients", f"shape {coefficients.shape}", expected, "Was the file edited?")
-    return features, coefficients
+        found = f"{len(content.coefficients)} x 3 x {sorted(shapes)}"
+        raise InputError(path, "coefficients", found, expected, "Was the file edited?")
+    return features, np.array(content.coefficients)
+
+
+def _axes(cut: Cut | None) -> set[int]:
+    return set() if cut is None else {cut.axis} | _axes(cut.below) | _axes(cut.above)
+
+
+def _check_domain(stated: ErrorModelContent, arm: Arm, path: Path | str) -> None:
+    """The domain's inputs are motor angles and nominal coordinates of this arm, in the order of their kinds."""
+    known = {*"xyz", *(f"q{motor}" for motor in range(1, arm.n_motors + 1))}
+    for name in stated.domain.inputs:
+        if name not in known:
+            raise InputError(path, "domain.inputs", name, "no input of this arm", nearest(name, known))

@@ -11,6 +11,7 @@ from armscope.compensation.rapid import write_rapid
 from armscope.compensation.result import Compensated
 from armscope.core.files import write_json, write_table
 from armscope.core.inputs import InputError
+from armscope.core.outputs import is_stream
 
 FORMATS = (".csv", ".csv.gz", ".json", ".mod")
 
@@ -18,11 +19,13 @@ FORMATS = (".csv", ".csv.gz", ".json", ".mod")
 def write_commands(path: Path | str, result: Compensated) -> None:
     """Write commands in the format that the file's name asks for: .csv (.gz), .json, or .mod (ABB RAPID).
 
+    A pipe, a device and standard output get CSV.
+
     Raises:
         InputError: another ending; for a job file: rows without a command.
     """
     name = str(path)
-    if name.endswith((".csv", ".csv.gz")):
+    if name.endswith((".csv", ".csv.gz")) or is_stream(path):
         write_table(path, result.to_table())
     elif name.endswith(".json"):
         write_json(path, to_dict(result))

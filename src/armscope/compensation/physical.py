@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -10,9 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.compensation.contents import IdentifiedContent
 from armscope.compensation.domain import Domain
-from armscope.core.files import write_json
-from armscope.core.inputs import InputError
+from armscope.core.files import read_json, write_json
+from armscope.core.inputs import InputError, mapping, validate
 from armscope.core.types import Array
 from armscope.physics.drivers import COLUMNS, KINDS, kinds_in
 from armscope.physics.model import FittedModel
@@ -22,6 +22,7 @@ from armscope.robot.gravity import gravity_torques, mass_moment_regressor
 
 FORMAT = "armscope domain 1"
 FILE = "domain.json"
+WHAT = "domain.json of `armscope diagnose`"
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,18 +102,15 @@ def load_identified(path: Path | str) -> Identified:
     Raises:
         InputError: it is none.
     """
-    try:
-        content = json.loads(Path(path).read_text(encoding="utf-8"))
-        payload, weights, time = content["payload_kg"], content["torque_weights"], content["time_s"]
-        return Identified(
-            content["robot"],
-            Domain.from_dict(content["domain"]),
-            None if payload is None else (float(payload[0]), float(payload[1])),
-            None if time is None else (float(time[0]), float(time[1])),
-            None if weights is None else np.array(weights, dtype=float),
-        )
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise InputError(path, "", "no readable domain", "`armscope diagnose` writes one", str(error)) from error
+    content = validate(IdentifiedContent, mapping(read_json(path, WHAT), path, WHAT), path)
+    weights = content.torque_weights
+    return Identified(
+        content.robot,
+        Domain.from_dict(content.domain.model_dump()),
+        content.payload_kg,
+        content.time_s,
+        None if weights is None else np.array(weights, dtype=float),
+    )
 
 
 def drivers_of(model: FittedModel) -> set[str]:

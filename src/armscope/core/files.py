@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import contextlib
+import glob
 import gzip
+import io
 import json
 import os
+import shutil
+import socket
 import tempfile
+import zlib
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
@@ -15,16 +20,29 @@ import numpy as np
 import pandas as pd
 import yaml
 
-from armscope.core.inputs import InputError, nearest
+from armscope.core import outputs
+from armscope.core.inputs import InputError, nearest, note_read
+from armscope.core.locks import alive
+
+LARGEST_UNPACKED_SHARE = 200
+"""Bytes for each packed one: recordings unpack to ten times their size, a bomb to a thousand times."""
+LONGEST_WHOLE = 18
+"""Digits of a whole number."""
 
 
-def writable(folder: Path | str) -> Path:
-    """A folder for output, made if need be; long work asks first, so that it does not end in vain.
+def writable(folder: Path | str, *names: str) -> Path:
+    """A folder for output; long work asks first, so that it does not end in vain.
+
+    Args:
+        folder: made if need be; what a command writes is made ready elsewhere, so there it may stay away till the end.
+        names: of the files that will be written there.
 
     Raises:
-        InputError: nothing can be written there.
+        InputError: nothing can be written there, or not under one of the names.
     """
     folder = Path(folder)
+    if (delivery := outputs.current()) is not None and delivery.expect(folder, names):
+        return folder
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
@@ -48,11 +66,12 @@ def read_table(path: Path | str, columns: Iterable[str] = (), what: str = "a tab
     Raises:
         InputError: no such file, no table, a column is missing.
     """
+    note_read(path)
     try:
         table = pd.read_csv(path)
     except OSError as error:
         raise _unreadable(path, what, error) from error
-    except (pd.errors.EmptyDataError, pd.errors.ParserError, UnicodeDecodeError, EOFError) as error:
+    except (ValueError, EOFError, zlib.error, OverflowError) as error:
         raise InputError(path, "", "no table", f"{what} is needed here", f"{error}") from error
     for column in columns:
         if column not in table:
@@ -73,13 +92,45 @@ def read_json(path: Path | str, what: str) -> Any:
         InputError: no such file, no JSON.
     """
     path = Path(path)
+    note_read(path)
     try:
         content = path.read_bytes()
-        return json.loads(gzip.decompress(content) if path.suffix == ".gz" else content)
+        text = _unpacked(path, content, what) if content.startswith(b"\x1f\x8b") else content
+        return json.loads(text, parse_constant=_no_number, parse_float=_finite, parse_int=_whole)
     except OSError as error:
         raise _unreadable(path, what, error) from error
-    except (ValueError, EOFError) as error:
+    except RecursionError as error:
+        raise InputError(path, "", "no readable JSON", f"{what} is needed here", "It is nested too deeply.") from error
+    except (ValueError, EOFError, zlib.error) as error:
         raise InputError(path, "", "no readable JSON", f"{what} is needed here", str(error)) from error
+
+
+def _unpacked(path: Path, content: bytes, what: str) -> bytes:
+    """What a gzipped file holds; not what swells a few bytes into all memory."""
+    most = LARGEST_UNPACKED_SHARE * len(content) + LARGEST_UNPACKED_SHARE
+    with gzip.open(io.BytesIO(content)) as packed:
+        text = packed.read(most + 1)
+    if len(text) > most:
+        found = f"more than {LARGEST_UNPACKED_SHARE} bytes for each packed one"
+        raise InputError(path, "", found, f"{what} is needed here", "No table or model packs so well.")
+    return text
+
+
+def _no_number(name: str) -> float:
+    raise ValueError(f"{name} is no number of JSON")
+
+
+def _finite(text: str) -> float:
+    number = float(text)
+    if not np.isfinite(number):
+        raise ValueError(f"{text[:40]} is too large a number")
+    return number
+
+
+def _whole(text: str) -> int:
+    if len(text) > LONGEST_WHOLE:
+        raise ValueError(f"a whole number of {len(text)} digits")
+    return int(text)
 
 
 def _unreadable(path: Path | str, what: str, error: OSError) -> InputError:
@@ -87,24 +138,72 @@ def _unreadable(path: Path | str, what: str, error: OSError) -> InputError:
 
 
 @contextlib.contextmanager
-def replacing(path: Path | str) -> Iterator[Path]:
-    """A temporary path beside ``path`` that takes its name when the block ends well, and vanishes when it doesn't.
+def replacing(path: Path | str, at_once: bool = False) -> Iterator[Path]:
+    """A temporary path whose content takes the place of ``path`` when the block ends well, and else vanishes.
 
-    Where the process is killed, a hidden ``.part`` stays behind, which nobody takes for a finished file.
+    Within a command the content waits until the command has ended well, see `armscope.core.outputs`. A device or a
+    pipe is written through, "-" is standard output, a link stays one: its target is written. Where the process is
+    killed, a hidden ``.part`` stays behind, which nobody takes for a finished file and the next writer removes.
+
+    Args:
+        path: what to write.
+        at_once: don't wait for the end of the command.
+
+    Raises:
+        InputError: the command may not write there.
     """
-    path = Path(path)
+    delivery = outputs.current()
+    if outputs.is_stream(path):
+        with tempfile.TemporaryDirectory() as folder:
+            made = Path(folder) / "content"
+            yield made
+            outputs.copy_into(made, path)
+        return
+    if delivery is not None and not at_once and (staged := delivery.stage(path)) is not None:
+        yield staged
+        delivery.keep(path)
+        return
+    path = Path(os.path.realpath(path))
     writable(path.parent)
-    handle, name = tempfile.mkstemp(prefix=f".{path.name}-", suffix=".part", dir=path.parent)
-    os.close(handle)
-    beside = Path(name)
-    try:
+    with _beside(path) as beside:
         yield beside
         umask = os.umask(0)
         os.umask(umask)
         beside.chmod(0o666 & ~umask)
         beside.replace(path)
+
+
+@contextlib.contextmanager
+def _beside(path: Path) -> Iterator[Path]:
+    """A new file beside a path, named after its process; those of dead processes are removed."""
+    start = f".{path.name}-{socket.gethostname()}-"
+    for left in path.parent.glob(f"{glob.escape(start)}*.part"):
+        pid = left.name.removeprefix(start).partition("-")[0]
+        if pid.isdecimal() and not alive(int(pid)):
+            left.unlink(missing_ok=True)
+    handle, name = tempfile.mkstemp(prefix=f"{start}{os.getpid()}-", suffix=".part", dir=path.parent)
+    os.close(handle)
+    try:
+        yield Path(name)
     finally:
-        beside.unlink(missing_ok=True)
+        Path(name).unlink(missing_ok=True)
+
+
+def new_folder(folder: Path | str) -> None:
+    """Make sure that a folder to be written holds nothing yet, unless a command looks after what is in it.
+
+    Raises:
+        InputError: there is something in it.
+    """
+    if outputs.current() is None and Path(folder).is_dir() and any(Path(folder).iterdir()):
+        raise InputError(folder, "", "a folder with files in it", "a new or empty folder is needed")
+
+
+def copy_file(source: Path | str, path: Path | str) -> None:
+    """Copy a file, whole or not at all."""
+    note_read(source)
+    with replacing(path) as beside:
+        shutil.copyfile(outputs.readable(source), beside)
 
 
 def write_text(path: Path | str, text: str) -> None:

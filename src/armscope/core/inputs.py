@@ -3,14 +3,38 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Hashable, Iterable
+import os
+import stat
+from collections.abc import Iterable
+from contextvars import ContextVar
 from pathlib import Path
 from typing import Any, TypeVar
 
 import pydantic
 import yaml
 
+from armscope.core.plainyaml import CONTROL, NotPlain, plain_yaml
+
 Model = TypeVar("Model", bound=pydantic.BaseModel)
+
+FILES_READ: ContextVar[set[tuple[int, int]] | None] = ContextVar("files read", default=None)
+"""Identities of the files that the command that runs has read: what it must not overwrite."""
+
+
+def note_read(path: Path | str) -> None:
+    """Note that a file is read."""
+    read, found = FILES_READ.get(), identity(path)
+    if read is not None and found is not None:
+        read.add(found)
+
+
+def identity(path: Path | str) -> tuple[int, int] | None:
+    """Device and number of a regular file, the same by whatever name; None where there is none."""
+    try:
+        about = os.stat(path)
+    except (OSError, ValueError):
+        return None
+    return (about.st_dev, about.st_ino) if stat.S_ISREG(about.st_mode) else None
 
 
 class InputError(ValueError):
@@ -27,7 +51,8 @@ class InputError(ValueError):
     def __init__(self, file: object, place: str, found: object, rule: str, cure: str = "") -> None:
         self.file, self.place, self.found, self.rule, self.cure = str(file), place, found, rule, cure
         where = f"{file}: {place}" if place else str(file)
-        super().__init__(f"{where}: found {_quote(found)}; {rule}." + (f" {cure}" if cure else ""))
+        text = f"{where}: found {_quote(found)}; {rule}." + (f" {cure}" if cure else "")
+        super().__init__(CONTROL.sub(lambda found: ascii(found.group())[1:-1], text))  # goes to a terminal
 
 
 def _quote(value: object) -> str:
@@ -37,12 +62,18 @@ def _quote(value: object) -> str:
     return text if len(text) <= 120 else text[:117] + "..."
 
 
+LONGEST_NAME, MOST_NAMES, MOST_TOLD = 100, 1000, 100
+"""Beyond these a name is no slip of the pen, and likeness takes too long to measure."""
+
+
 def nearest(name: str, known: Iterable[str]) -> str:
     """A sentence that names the known spelling closest to ``name``, or lists what is known."""
-    known = sorted(known)
+    known = sorted(each for each in known if len(each) <= LONGEST_NAME)[:MOST_NAMES]
+    if len(name) > LONGEST_NAME:
+        return ""
     in_small = [each for each in known if each.strip().lower() == name.strip().lower()]
     close = in_small or difflib.get_close_matches(name, known, n=1, cutoff=0.5)
-    return f"Did you mean {close[0]!r}?" if close else "Known: " + ", ".join(known) + "."
+    return f"Did you mean {close[0]!r}?" if close else "Known: " + ", ".join(known[:MOST_TOLD]) + "."
 
 
 class Strict(pydantic.BaseModel):
@@ -52,35 +83,27 @@ class Strict(pydantic.BaseModel):
 
 
 def read_yaml(path: Path | str) -> Any:
-    """The content of a YAML file; an unreadable one is an `InputError` that names line and column."""
+    """The content of a YAML file: plain values, see `armscope.core.plainyaml`.
+
+    Raises:
+        InputError: it can't be read; line and column are named.
+    """
     path = Path(path)
+    note_read(path)
     try:
-        with path.open(encoding="utf-8-sig") as stream:
-            return yaml.load(stream, Loader=_UniqueKeyLoader)
+        content = path.read_bytes()
+        if b"\0" in content:  # UTF-16 and binary files, which PyYAML would try to guess
+            raise InputError(path, f"byte {content.index(0)}", "no UTF-8 text", "YAML files are UTF-8")
+        return plain_yaml(content.decode("utf-8-sig"))
     except OSError as error:
         raise InputError(path, "", "no readable file", "a YAML file is needed here", error.strerror or "") from error
-    except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
+    except (yaml.YAMLError, NotPlain) as error:
+        mark = getattr(error, "problem_mark", None) or getattr(error, "mark", None)
         place = f"line {mark.line + 1}, column {mark.column + 1}" if mark else ""
         problem = getattr(error, "problem", None) or "it can't be parsed"
         raise InputError(path, place, problem, "this must be valid YAML", "Check indentation and colons.") from error
     except UnicodeDecodeError as error:
         raise InputError(path, f"byte {error.start}", "no UTF-8 text", "YAML files are UTF-8") from error
-
-
-class _UniqueKeyLoader(yaml.SafeLoader):
-    """YAML keeps the last of two equal keys silently; a configuration must not."""
-
-    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
-        seen = set()
-        for key_node, _ in node.value:
-            key = self.construct_object(key_node, deep=True)
-            if not isinstance(key, Hashable):
-                raise yaml.constructor.ConstructorError(None, None, f"the key {key!r}", key_node.start_mark)
-            if key in seen:
-                raise yaml.constructor.ConstructorError(None, None, f"the key {key!r} twice", key_node.start_mark)
-            seen.add(key)
-        return super().construct_mapping(node, deep)
 
 
 def validate(model: type[Model], content: Any, file: object) -> Model:
@@ -118,6 +141,25 @@ def load(model: type[Model], path: Path | str) -> Model:
     if not isinstance(content, dict):
         raise InputError(path, "", content or "nothing", "this file has lines of the form `key: value`")
     return validate(model, content, path)
+
+
+def mapping(content: Any, file: object, what: str) -> dict[str, Any]:
+    """What was read, which must be a mapping.
+
+    Args:
+        content: what was read.
+        file: where from, and
+        what: what that is, for the error.
+
+    Returns:
+        the same.
+
+    Raises:
+        InputError: it is something else.
+    """
+    if not isinstance(content, dict):
+        raise InputError(file, "", content, f"this is not {what}")
+    return content
 
 
 def folder_of(path: Path | str, what: str) -> Path:

@@ -9,7 +9,7 @@ from typing import Literal
 import pydantic
 from pydantic import Field
 
-from armscope.core.inputs import InputError, Strict, nearest
+from armscope.core.inputs import InputError, Strict, nearest, note_read
 
 VARIED = {
     "particles": "particles", "iterations": "iterations", "update": "update", "harmonics": "order", "basis": "basis",
@@ -25,7 +25,7 @@ class Variant(Strict):
     """One row of a sweep's table; basis and layout may be left out or empty: then they are the study's."""
 
     id: str = Field(pattern=r"^\w+$")
-    sweep: str
+    sweep: str = Field(pattern=r"\S")
     family: Literal["polynomial", "fourier"]
     order: int = Field(ge=1)
     space: Literal["cartesian", "angular"]
@@ -50,18 +50,41 @@ def read_variants(path: Path | str) -> list[Variant]:
     Raises:
         InputError: a column, value or id that can't be; it names row, column, rule.
     """
-    with Path(path).open(encoding="utf-8-sig", newline="") as stream:
-        table = csv.DictReader(stream)
-        for column in table.fieldnames or ():
-            if column not in Variant.model_fields:
-                raise InputError(path, "line 1", column, "no such column", nearest(column, Variant.model_fields))
-        variants = [_variant(path, number, row) for number, row in enumerate(table, start=2)]
+    header, *rows = _lines(Path(path))
+    for column in header:
+        if column not in Variant.model_fields:
+            raise InputError(path, "line 1", column, "no such column", nearest(column, Variant.model_fields))
+    variants = []
+    for number, row in enumerate(rows, start=2):
+        if len(row) != len(header):
+            found = f"{len(row)} values" if row else "nothing"
+            raise InputError(path, f"row {number}", found, f"every row has the {len(header)} values that line 1 names")
+        variants.append(_variant(path, number, dict(zip(header, row, strict=True))))
     seen: dict[str, int] = {}
     for number, variant in enumerate(variants, start=2):
         if variant.id in seen:
             raise InputError(path, f"row {number}, column id", variant.id, f"ids differ, row {seen[variant.id]} has it")
         seen[variant.id] = number
     return variants
+
+
+def _lines(path: Path) -> list[list[str]]:
+    """The rows of a CSV file, its header first."""
+    note_read(path)
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as stream:
+            rows = list(csv.reader(stream, strict=True))
+    except OSError as error:
+        raise InputError(
+            path, "", "no readable file", "a sweep's table is needed here", error.strerror or ""
+        ) from error
+    except UnicodeDecodeError as error:
+        raise InputError(path, "", "no UTF-8 text", "tables are UTF-8", "Save it as UTF-8.") from error
+    except csv.Error as error:
+        raise InputError(path, "", str(error), "this must be a comma-separated table") from error
+    if not rows or not rows[0]:
+        raise InputError(path, "line 1", "nothing", "the first line names the columns")
+    return rows
 
 
 def _variant(path: Path | str, number: int, row: dict[str, str]) -> Variant:
@@ -71,5 +94,5 @@ def _variant(path: Path | str, number: int, row: dict[str, str]) -> Variant:
         )
     except pydantic.ValidationError as error:
         problem = error.errors()[0]
-        place = f"row {number}, column {problem['loc'][0]}"
+        place = f"row {number}" + (f", column {problem['loc'][0]}" if problem["loc"] else "")
         raise InputError(path, place, problem["input"], problem["msg"].lower()) from error

@@ -8,11 +8,15 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.physics.frames import ToolKey
 from armscope.physics.scene import Part, Posture, Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
+
+FARTHEST_IN_REACHES, FARTHEST_TOOL_M = 3.0, 1.0
+"""An arm's tool is never as far from the base: what puts it there is no model of it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +62,10 @@ class FittedModel:
 
     def base_of(self, run: str) -> Base:
         """The base of a run; of the last known one for a run that the model does not know."""
+        if not self.bases:
+            raise InputError(
+                "model", "bases", "no base frame", "a model knows where the base stands in one run at least"
+            )
         return self.bases.get(run) or self.bases[list(self.bases)[-1]]
 
     def to_measurement(self, points: Array, runs: NDArray[np.str_]) -> Array:
@@ -99,9 +107,18 @@ def predict(model: FittedModel, recordings: Recordings) -> Array:
     """Tool points (N, 3) in the measurement frame, m, exact.
 
     Raises:
-        InputError: the table lacks a context column that an effect of the model follows.
+        InputError: the table lacks a context column that an effect of the model follows, or the model puts the tool
+            where no arm of this size can.
     """
-    return model.to_measurement(model.posture(model.scene(recordings)).tool, recordings.run)
+    tool = model.posture(model.scene(recordings)).tool
+    distance = np.linalg.norm(tool, axis=1)
+    near = distance <= FARTHEST_IN_REACHES * model.arm.reach + FARTHEST_TOOL_M
+    if not near.all():
+        row = int(np.argmin(near))
+        found, reach = f"a tool point {distance[row]:.3g} m from the base", f"{model.arm.reach:.3g} m"
+        rule = f"{model.arm.name} reaches {reach} at most"
+        raise InputError(recordings.source, f"row {row + 2}", found, rule, "Is the model's file as it was written?")
+    return model.to_measurement(tool, recordings.run)
 
 
 def predict_orientation(model: FittedModel, recordings: Recordings) -> Array:

@@ -2,28 +2,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import BaseModel, Field, WithJsonSchema
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
 from armscope.core.files import write_yaml
-from armscope.core.inputs import InputError, nearest, read_yaml, validate
-from armscope.physics.effect import Direction, Driver, Effect, Placed, Product, Term
-from armscope.physics.frames import BASE_FRAME, TOOL_FRAME
-from armscope.physics.geometric import BACKGROUND
+from armscope.core.inputs import InputError, Strict, read_yaml, validate
+from armscope.physics.effect import Driver
 from armscope.physics.model import Base, FittedModel
-from armscope.physics.registry import effects
+from armscope.physics.model_check import Reader
 from armscope.physics.scene import Part
 from armscope.robot.arm import build_arm
 from armscope.robot.description import RobotDescription
 
 Format = Literal["armscope model 1"]
 FORMAT: Format = "armscope model 1"
-Vector = tuple[float, float, float]
-Rotation = tuple[Vector, Vector, Vector]
+NOT_A_TURN = 1e-6
+"""By which the rows of a rotation may fail to be orthonormal: more than rounding, less than any error that matters."""
+LARGEST_VALUE = 1e6
+"""Of any parameter, SI: none of an arm's comes near it, and squares of larger ones overflow."""
+FARTHEST_M = 1e5
+
+
+def _turn(rows: tuple[Any, ...]) -> tuple[Any, ...]:
+    turn = np.array(rows, dtype=float)
+    if np.abs(turn @ turn.T - np.eye(3)).max() > NOT_A_TURN or np.linalg.det(turn) < 0:
+        raise ValueError("a rotation has three orthogonal rows of length 1 that form a right-handed frame")
+    return rows
+
+
+Word = Annotated[str, Field(max_length=500)]
+Name = Annotated[Word, BeforeValidator(lambda value: str(value) if isinstance(value, int) else value)]
+Metres = Annotated[float, Field(ge=-FARTHEST_M, le=FARTHEST_M)]
+Vector = tuple[Metres, Metres, Metres]
+Component = Annotated[float, Field(ge=-2, le=2)]
+Row = tuple[Component, Component, Component]
+Rotation = Annotated[tuple[Row, Row, Row], AfterValidator(_turn)]
 ProductFile = Annotated[
     list[Any],
     Field(min_length=4),
@@ -38,57 +54,57 @@ ProductFile = Annotated[
 ]
 
 
-class BaseFile(BaseModel):
+class BaseFile(Strict):
     """Measurement frame from base frame: measured = rotation @ tool + translation."""
 
     rotation: Rotation
     translation_m: Vector
 
 
-class ScannedFile(BaseModel):
+class ScannedFile(Strict):
     """A number that was found by trying values: waves per turn, the moment of a jump."""
 
-    name: str
-    unit: str
+    name: Word
+    unit: Word
     value: int | float
 
 
-class TermFile(BaseModel):
+class TermFile(Strict):
     """A linear parameter: its value in SI units, SI units per file unit, and what one SI unit of it does."""
 
-    name: str
-    unit: str
-    si: float
-    value: float
+    name: Word
+    unit: Word
+    si: Annotated[float, Field(gt=0, le=1e12)]
+    value: Annotated[float, Field(ge=-LARGEST_VALUE, le=LARGEST_VALUE)]
     products: tuple[ProductFile, ...]
 
 
-class PartFile(BaseModel):
+class PartFile(Strict):
     """An effect at its place."""
 
-    effect: str
-    location: str
-    driver: str
+    effect: Word
+    location: Word
+    driver: Word
     scanned: tuple[ScannedFile, ...]
     reading: Literal["plain", "sine", "curve"]
-    variant: str
+    variant: Name
     terms: tuple[TermFile, ...]
 
 
-class ToolTurnFile(BaseModel):
+class ToolTurnFile(Strict):
     """The arm's last frame from a measured tool frame; ``run`` null: in every run."""
 
-    target: str
-    run: str | None
+    target: Name
+    run: Name | None
     rotation: Rotation
 
 
-class ModelFile(BaseModel):
+class ModelFile(Strict):
     """The content of model.yaml; the attributes of `armscope.physics.model.FittedModel`."""
 
     format: Format
     robot: RobotDescription
-    bases: dict[str, BaseFile]
+    bases: dict[Name, BaseFile]
     tools: tuple[PartFile, ...]
     tool_turns: tuple[ToolTurnFile, ...] = ()
     effects: tuple[PartFile, ...]
@@ -135,12 +151,13 @@ def load_model(path: Path | str) -> FittedModel:
             path, "format", found, f"a model file says `format: {FORMAT}`", "`armscope diagnose` writes one."
         )
     file = validate(ModelFile, content, path)
+    reader = Reader(arm := build_arm(file.robot), path)
     return FittedModel(
-        arm=build_arm(file.robot),
+        arm=arm,
         bases={run: Base(np.array(base.rotation), np.array(base.translation_m)) for run, base in file.bases.items()},
-        tools=tuple(_part_in(part, path) for part in file.tools),
-        parts=tuple(_part_in(part, path) for part in file.effects),
-        background=tuple(_part_in(part, path) for part in file.background),
+        tools=reader.parts(file.tools, "tools"),
+        parts=reader.parts(file.effects, "effects"),
+        background=reader.parts(file.background, "background"),
         tool_turns={(turn.target, turn.run): np.array(turn.rotation) for turn in file.tool_turns},
     )
 
@@ -169,40 +186,5 @@ def _part_out(part: Part) -> PartFile:
     )
 
 
-def _part_in(file: PartFile, path: Path | str) -> Part:
-    terms = tuple(
-        Term(
-            term.name,
-            term.unit,
-            term.si,
-            tuple(Product(Direction(p[0], p[1]), _driver_in(p[3:]), float(p[2])) for p in term.products),
-        )
-        for term in file.terms
-    )
-    known = _definitions()
-    if file.effect not in known:
-        raise InputError(path, "effect", file.effect, "this effect is not known here", nearest(file.effect, known))
-    placed = Placed(
-        known[file.effect],
-        file.location,
-        terms,
-        (1.0,) * len(terms),
-        file.driver,
-        tuple((each.name, each.unit, float(each.value)) for each in file.scanned),
-        variant=file.variant,
-        parametrisation=file.reading,
-    )
-    return Part(placed, np.array([term.value for term in file.terms]))
-
-
 def _driver_out(driver: Driver) -> list[Any]:
     return [driver.kind, *[_driver_out(a) if isinstance(a, Driver) else a for a in driver.arguments]]
-
-
-def _driver_in(content: Iterable[Any]) -> Driver:
-    kind, *arguments = content
-    return Driver(kind, tuple(_driver_in(a) if isinstance(a, list) else a for a in arguments))
-
-
-def _definitions() -> Mapping[str, Effect]:
-    return {effect.name: effect for effect in (BASE_FRAME, TOOL_FRAME, BACKGROUND, *effects())}

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from armscope.core.files import write_json, write_table
+from armscope.core.outputs import is_stream
 from armscope.design.indices import SOURCES
 from armscope.physics.effect import Driver
 from armscope.poses.choose import Choice
@@ -31,7 +32,7 @@ def poses_table(choice: Choice) -> pd.DataFrame:
 
 
 def write_choice(path: Path, choice: Choice, compared: pd.DataFrame | None, noise: float, noise_source: str) -> None:
-    """Write poses.csv, and poses.json beside it.
+    """Write poses.csv, and poses.json beside it (a pipe gets the table alone).
 
     Args:
         path: of the table.
@@ -41,7 +42,8 @@ def write_choice(path: Path, choice: Choice, compared: pd.DataFrame | None, nois
         noise_source: "stated" or "assumed".
     """
     write_table(path, poses_table(choice))
-    write_json(path.with_suffix(".json"), _content(choice, compared, noise, noise_source))
+    if not is_stream(path):
+        write_json(path.with_suffix(".json"), _content(choice, compared, noise, noise_source))
 
 
 def _content(choice: Choice, compared: pd.DataFrame | None, noise: float, noise_source: str) -> dict[str, Any]:

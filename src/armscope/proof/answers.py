@@ -7,11 +7,12 @@ from pathlib import Path
 
 import pandas as pd
 
+from armscope.core.files import read_table
 from armscope.proof.definitions import Name
 from armscope.verdict.files import VERDICT, read_verdict
 from armscope.verdict.schema import FoundEffect
 
-PREDICTED, FAILURE, TIMES = "test_predicted.csv", "failed.txt", "times.csv"
+PREDICTED, FAILURE = "test_predicted.csv", "failed.txt"
 
 
 @dataclass(frozen=True)
@@ -66,7 +67,7 @@ def read_answer(folder: Path) -> Answer:
         noise_mm=verdict.noise_mm,
         headline=verdict.headline,
         background_mm=verdict.background.rms_at_tool_mm,
-        predicted=pd.read_csv(folder / PREDICTED),
+        predicted=read_table(folder / PREDICTED),
     )
 
 

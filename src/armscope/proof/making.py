@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import shutil
 import tempfile
 from pathlib import Path
 from typing import Literal
 
 import pandas as pd
 
-from armscope.core.files import write_table
+from armscope.core.files import copy_file, new_folder, write_table
 from armscope.proof.definitions import AXES_MM
 from armscope.proof.truth import seal
 from armscope.world.catalogue import WorldSpec, catalogue
@@ -44,11 +43,12 @@ def make(specs: list[WorldSpec], robots: Path, visible: Path, sealed: Path) -> N
         visible: new folder for robot.yaml, recordings.csv and test_poses.csv (poses without readings) of each world.
         sealed: archive for the truth.
     """
-    shutil.rmtree(visible, ignore_errors=True)
+    new_folder(visible)
     with tempfile.TemporaryDirectory() as made:
         for spec in specs:
             home = build(spec, Path(made), robots)
             test = pd.read_csv(home / "sealed" / "test.csv", dtype=str, keep_default_na=False)
             write_table(home / "visible" / TEST_POSES, test.drop(columns=AXES_MM))
-            shutil.copytree(home / "visible", visible / spec.id)
+            for file in sorted((home / "visible").iterdir()):
+                copy_file(file, visible / spec.id / file.name)
         seal(Path(made), sealed)

@@ -14,7 +14,7 @@ from pathlib import Path
 import pandas as pd
 
 from armscope.core.inputs import InputError
-from armscope.proof.answers import TIMES, read_answer
+from armscope.proof.answers import read_answer
 from armscope.proof.scoring import World
 from armscope.proof.truth import unseal
 
@@ -32,12 +32,11 @@ def read_worlds(folder: Path) -> Iterator[World]:
         batch = archive.name.removesuffix(".tar.gz")
         check_seal(folder / "seen" / f"{batch}.txt")
         verdicts = folder / "verdicts" / batch
-        seconds = pd.read_csv(verdicts / TIMES).set_index("world")["seconds"]
         for world, truth in unseal(archive).items():
             recorded = pd.read_csv(folder / "visible" / batch / world / "recordings.csv")
             times = recorded.get("time_s")
             runs = int(recorded["run"].nunique()) if "run" in recorded else 1
-            yield World(truth, read_answer(verdicts / world), times, runs, float(seconds[world]))
+            yield World(truth, read_answer(verdicts / world), times, runs)
 
 
 def check_seal(seen: Path) -> None:

@@ -21,7 +21,7 @@ COLUMNS: dict[str, tuple[str, ...]] = {
     "worlds": (
         *_COMMON, "arm", "rows", "sigma_mm", "masses", "noise", "left_out", "shape", "concealed", "said", "answer",
         "mismatch", "silent", "exact", "exact_story", "missed", "wrong_names", "outside", "outside_right",
-        "held_out_ratio", "price_of_fitting", "held_out_close", "noise_ratio", "seconds", "failed",
+        "held_out_ratio", "price_of_fitting", "held_out_close", "noise_ratio", "failed",
     ),
     "effects": (
         *_COMMON, "effect", "location", "shape", "driver", "minor", "strength", "noncentrality", "columns",
@@ -49,14 +49,12 @@ class World:
         truth, answer: the two.
         times: the recorded `time_s`, where there are any.
         runs: recorded runs, each with a base frame of its own.
-        seconds: how long the diagnosis took.
     """
 
     truth: Truth
     answer: Answer
     times: pd.Series | None = None
     runs: int = 1
-    seconds: float = float("nan")
 
     @property
     def price_of_fitting(self) -> float:
@@ -132,7 +130,6 @@ def _world(
         "price_of_fitting": world.price_of_fitting,
         "held_out_close": bool(ratio <= HELD_OUT_TOLERANCE),
         "noise_ratio": answer.noise_mm / truth.noise_rms_mm,
-        "seconds": world.seconds,
         "failed": answer.failed,
     }
 

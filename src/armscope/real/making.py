@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import contextlib
 import itertools
-import shutil
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -20,7 +19,7 @@ import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation
 
-from armscope.core.files import write_table, write_yaml
+from armscope.core.files import copy_file, new_folder, write_table, write_yaml
 from armscope.proof.making import TEST_POSES
 from armscope.proof.truth import seal
 from armscope.real.planting import CannotPlantError, Planted, Theatre, plant, truth_of
@@ -50,8 +49,7 @@ def _write_world(
 ) -> None:
     """One world: its visible files in the visible tree, its truth below ``home``."""
     visible = places.visible / home.name
-    visible.mkdir(parents=True)
-    shutil.copy(places.robot, visible / "robot.yaml")
+    copy_file(places.robot, visible / "robot.yaml")
     write_table(visible / "recordings.csv", table.iloc[stage.train])
     test = table.iloc[stage.test]
     write_table(visible / TEST_POSES, test.drop(columns=[*AXES_MM, *QUATERNION], errors="ignore"))
@@ -64,7 +62,7 @@ def _write_world(
 @contextlib.contextmanager
 def _sealing(places: Places) -> Iterator[Path]:
     """A folder whose sealed files go into the archive; the visible tree starts empty."""
-    shutil.rmtree(places.visible, ignore_errors=True)
+    new_folder(places.visible)
     with tempfile.TemporaryDirectory() as made:
         yield Path(made)
         seal(Path(made), places.sealed)

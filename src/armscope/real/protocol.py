@@ -37,8 +37,8 @@ class Measured:
     """What was found on a run.
 
     Attributes:
-        splits: one row per model and split: run, model, split, train, test (rows), rms_mm, seconds, turn_mrad (RMS of
-            the angle between predicted and measured orientation, where orientations were learned, too).
+        splits: one row per model and split: run, model, split, train, test (rows), rms_mm, turn_mrad (RMS of the
+            angle between predicted and measured orientation, where orientations were learned, too).
         names: one row per effect that a split's verdict names: run, model, split, effect, location, named_as, minor,
             rms_at_tool_mm, title, row (of a jump of base or tool: the first id after it).
     """
@@ -88,7 +88,7 @@ def measure_run(
             "turn_mrad": rms_turn_mrad(verdict, table.rows(test)),
         }
         tell(f"{reference.name}: split {seed}, {model} {left['rms_mm']:.3f} mm in {verdict.seconds:.0f} s")
-        sizes = {"train": len(train), "test": len(test), "seconds": verdict.seconds}
+        sizes = {"train": len(train), "test": len(test)}
         rows.append({"run": reference.name, "model": model, "split": seed, **left, **sizes})
         names += [{"run": reference.name, "model": model, "split": seed, **effect} for effect in effects_named(verdict)]
     rows += [{"run": reference.name, **row} for row in paper_models(arm, table)]

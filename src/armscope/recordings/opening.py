@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import codecs
 import gzip
+import os
 import zlib
 from pathlib import Path
 from typing import IO, cast
 
-from armscope.core.inputs import InputError
+from armscope.core.inputs import InputError, note_read
 
 GZIP = b"\x1f\x8b"
 OTHER_THAN_TEXT: tuple[tuple[bytes, str, str], ...] = (
@@ -22,6 +23,8 @@ PICKLES = (b"\x80\x02", b"\x80\x03", b"\x80\x04", b"\x80\x05", b"\x93NUMPY")
 PICKLE_SUFFIXES = {".pickle", ".pkl", ".joblib", ".npy", ".npz", ".pt"}
 UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 LONGEST_SIGNATURE = 16
+LARGEST_UNPACKED_SHARE = 100
+"""Bytes for each packed one: recordings unpack to ten times their size, a bomb to a thousand times."""
 
 
 def start_of(path: Path, what: str) -> bytes:
@@ -30,16 +33,30 @@ def start_of(path: Path, what: str) -> bytes:
     Raises:
         InputError: no readable file.
     """
+    note_read(path)
     try:
         with path.open("rb") as stream:
             start = stream.read(LONGEST_SIGNATURE)
         if start.startswith(GZIP):
+            _refuse_bombs(path, what)
             with gzip.open(path) as packed:
                 start = packed.read(LONGEST_SIGNATURE)
     except (OSError, EOFError, zlib.error) as error:
         cure = getattr(error, "strerror", None) or str(error)
         raise InputError(path, "", "no readable file", f"{what} is needed here", cure) from error
     return start
+
+
+def _refuse_bombs(path: Path, what: str) -> None:
+    """A few bytes that would swell into all memory, by the size that a gzipped file states at its end."""
+    packed = path.stat().st_size
+    with path.open("rb") as stream:
+        stream.seek(-min(4, packed), os.SEEK_END)
+        unpacked = int.from_bytes(stream.read(4), "little")
+    if unpacked > LARGEST_UNPACKED_SHARE * packed:
+        found = f"{unpacked} bytes packed into {packed}"
+        cure = "No table packs so well; if this one does, unpack it first."
+        raise InputError(path, "", found, f"{what} is needed here", cure)
 
 
 def refuse_pickles(path: Path, start: bytes) -> None:

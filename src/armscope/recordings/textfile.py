@@ -10,12 +10,14 @@ from pathlib import Path
 import pandas as pd
 
 from armscope.core.inputs import InputError
+from armscope.core.plainyaml import CONTROL
 from armscope.recordings.opening import open_text, refuse_other_than_text, start_of, undecodable
 
 WORDS = ("id", "run", "target")
 """Columns that are words, even where they look like numbers or like a name for no value."""
 
 ROWS_PER_PIECE = 50_000
+MOST_COLUMNS = 2000
 
 NO_VALUE = ("", "NaN", "nan", "NA", "N/A", "n/a", "#N/A", "null", "NULL", "None", "-nan", "-NaN", "<NA>")
 """What stands for no value in a column of numbers."""
@@ -33,6 +35,18 @@ def read_text_table(path: Path) -> pd.DataFrame:
         raise InputError(path, "line 1", "nothing", "the first line names the columns", "Is the file empty?")
     _check_header(path, header)
     _check_lengths(path, header, counts)
+    try:
+        table = _read(path, header)
+    except (ValueError, OverflowError) as error:  # pandas' words for it
+        cure = "Was the file cut off while it was written, or is a quotation mark never closed?"
+        raise InputError(path, "", str(error), "this must be a comma-separated table", cure) from error
+    if table.empty:
+        raise InputError(path, "row 2", "nothing", "at least one measured row is needed")
+    _check_words(path, table)
+    return table
+
+
+def _read(path: Path, header: list[str]) -> pd.DataFrame:
     with open_text(path, "utf-8") as stream:
         pieces = pd.read_csv(
             stream,
@@ -44,10 +58,18 @@ def read_text_table(path: Path) -> pd.DataFrame:
             na_values={name: list(NO_VALUE) for name in header if name not in WORDS},
             low_memory=False,
         )
-        table = pd.concat(pieces, ignore_index=True)  # in pieces, since text takes several times the memory of numbers
-    if table.empty:
-        raise InputError(path, "row 2", "nothing", "at least one measured row is needed")
-    return table
+        return pd.concat(pieces, ignore_index=True)  # in pieces, since text takes several times the memory of numbers
+
+
+def _check_words(path: Path, table: pd.DataFrame) -> None:
+    """Names are shown on terminals and pages: none of their characters may be a command."""
+    for name in WORDS:
+        if name in table:
+            wrong = table[name].str.contains(CONTROL.pattern, na=False).to_numpy()
+            if wrong.any():
+                row = int(wrong.argmax())
+                rule = "a name has no control characters"
+                raise InputError(path, f"row {row + 2}, column {name}", table[name].iloc[row], rule)
 
 
 def _shape(path: Path) -> tuple[list[str] | None, list[int]]:
@@ -94,8 +116,12 @@ def _check_header(path: Path, header: list[str]) -> None:
         raise InputError(
             path, "line 1", header[0], "columns are separated by commas", "Convert it with `armscope import`."
         )
+    if len(header) > MOST_COLUMNS:
+        raise InputError(path, "line 1", f"{len(header)} columns", f"a table has at most {MOST_COLUMNS} columns")
     seen: set[str] = set()
     for name in header:
+        if CONTROL.search(name):
+            raise InputError(path, "line 1", name, "a column's name has no control characters")
         if name in seen:
             raise InputError(
                 path, "line 1", name, "column names must differ, this one stands twice", "Rename one of them."

@@ -15,6 +15,7 @@ from markupsafe import Markup
 from pandas.io.formats.style import Styler
 
 from armscope.core.files import write_text
+from armscope.core.outputs import readable
 from armscope.verdict.wording import plain
 
 _TEMPLATES = jinja2.Environment(
@@ -54,12 +55,15 @@ def embed(figure: Path | str, alt: str = "") -> Markup:
     """An <img> that carries the picture in itself."""
     path = Path(figure)
     kind = {".svg": "image/svg+xml", ".png": "image/png"}[path.suffix]
-    data = base64.b64encode(path.read_bytes()).decode()
+    data = base64.b64encode(readable(path).read_bytes()).decode()
     return Markup('<img src="data:{};base64,{}" alt="{}">').format(kind, data, alt)
 
 
 def html_table(rows: pd.DataFrame, digits: int = 3) -> Markup:
-    """A table as HTML: numbers right, with ``digits`` significant digits, text left, a dash for nothing."""
+    """A table as HTML: numbers right, with ``digits`` significant digits, text left, a dash for nothing.
+
+    Names and words come from users' files: whatever they hold is shown, never obeyed.
+    """
     text = [name for name in rows.columns if not pd.api.types.is_numeric_dtype(rows[name])]
 
     def shown(value: Any) -> str:
@@ -67,7 +71,8 @@ def html_table(rows: pd.DataFrame, digits: int = 3) -> Markup:
 
     left: Any = {name: [{"selector": "th, td", "props": "text-align: left; white-space: normal"}] for name in text}
     same_for_same_rows = f"{zlib.crc32(rows.to_csv().encode()):08x}"
-    styler = Styler(rows, uuid=same_for_same_rows, cell_ids=False).hide(axis="index").format(shown, na_rep="–")
+    styler = Styler(rows, uuid=same_for_same_rows, cell_ids=False).hide(axis="index")
+    styler = styler.format(shown, na_rep="–", escape="html").format_index(axis="columns", escape="html")
     html = styler.set_table_styles(left, overwrite=False).to_html()
     return Markup('<div class="scroll">{}</div>').format(Markup(html))
 

@@ -13,6 +13,8 @@ mpl.use("Agg")
 
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
+from matplotlib.mathtext import MathTextParser
+from matplotlib.text import Text
 
 from armscope.core.files import replacing
 
@@ -63,6 +65,7 @@ def save_figure(figure: Figure, path: Path | str, formats: Sequence[str] = FORMA
         formats: which of the three are wanted.
     """
     written = []
+    _names_are_no_formulas(figure)
     with styled():
         for suffix in formats:
             target = Path(path).with_suffix(f".{suffix}")
@@ -72,6 +75,17 @@ def save_figure(figure: Figure, path: Path | str, formats: Sequence[str] = FORMA
             written.append(target)
     plt.close(figure)
     return written
+
+
+def _names_are_no_formulas(figure: Figure) -> None:
+    """A user's name that holds dollar signs but no formula is drawn as it is, instead of ending the drawing."""
+    parser = MathTextParser("path")
+    for text in figure.findobj(Text):
+        if isinstance(text, Text) and "$" in text.get_text():
+            try:
+                parser.parse(text.get_text())
+            except ValueError:
+                text.set_parse_math(False)
 
 
 def legend_above(figure: Figure, handles: Any = None, labels: Any = None, columns: int = 4) -> None:

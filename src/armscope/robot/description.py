@@ -7,13 +7,33 @@ from pathlib import Path
 from typing import Annotated, Literal, Self
 
 import pydantic
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from armscope.core.inputs import InputError, Strict, load
 
 Vector = Annotated[tuple[float, float, float], Field(description="x, y, z")]
 Degrees = Annotated[float, Field(ge=-720, le=720)]
 Millimetres = Annotated[float, Field(ge=-20_000, le=20_000)]
+Length = Annotated[float, Field(gt=0, le=20_000)]
+Point = tuple[Millimetres, Millimetres, Millimetres]
+
+HEAVIEST_KG = 20_000.0
+"""The heaviest robot arm that is sold weighs 11,000 kg and carries 2,300 kg (FANUC M-2000iA/2300, data sheet)."""
+STRONGEST_GRAVITY = 12.0
+"""m/s2; on Earth 9.76 to 9.84 (International Gravity Formula 1980 and altitude); less on the Moon, none in orbit."""
+COARSEST_MM = 100.0
+"""1-sigma per axis: what is coarser than 0.1 m measures no arm (indoor radio positioning is that coarse)."""
+LARGEST_RATIO = 1000.0
+"""Of an actuation: gears of arms reduce by 30 to 320 (harmonic and cycloidal drives, makers' catalogues)."""
+
+Ratio = Annotated[float, Field(ge=-LARGEST_RATIO, le=LARGEST_RATIO)]
+
+
+def _on_earth(gravity: tuple[float, float, float]) -> tuple[float, float, float]:
+    size = sum(value * value for value in gravity) ** 0.5
+    if size > STRONGEST_GRAVITY:
+        raise ValueError(f"gravity is 9.81 m/s2 on Earth, at most {STRONGEST_GRAVITY:g} anywhere, not {size:.4g}")
+    return gravity
 
 
 class DHRow(Strict):
@@ -40,14 +60,14 @@ class DH(Strict):
 class LinkMass(Strict):
     """Mass and centre of mass in the link's D-H frame (for ``tool_load``: in the last frame)."""
 
-    mass_kg: float = Field(ge=0)
-    com_mm: Vector
+    mass_kg: float = Field(ge=0, le=HEAVIEST_KG)
+    com_mm: Point
 
 
 class Instrument(Strict):
     """1-sigma per axis of the instrument and the robot's repeatability together."""
 
-    sigma_mm: float = Field(gt=0)
+    sigma_mm: float = Field(gt=0, le=COARSEST_MM)
 
 
 class Parallelogram(Strict):
@@ -57,10 +77,10 @@ class Parallelogram(Strict):
     ``crank_angle_deg`` is the angle from the forearm's x axis (D-H frame 3) to the crank.
     """
 
-    crank_mm: float = Field(gt=0)
-    rocker_mm: float = Field(gt=0)
-    rod_mm: float = Field(gt=0)
-    upper_arm_mm: float = Field(gt=0)
+    crank_mm: Length
+    rocker_mm: Length
+    rod_mm: Length
+    upper_arm_mm: Length
     crank_angle_deg: Degrees = 0.0
 
 
@@ -72,11 +92,11 @@ class RobotDescription(Strict):
     urdf: str | None = None
     tip: str | None = None
     hold_joints: dict[str, float] = Field(default_factory=dict)
-    actuation: tuple[dict[str, float], ...] | None = None
-    tool_mm: Vector = (0.0, 0.0, 0.0)
+    actuation: tuple[dict[str, Ratio], ...] | None = None
+    tool_mm: Point = (0.0, 0.0, 0.0)
     links: tuple[LinkMass, ...] | None = None
     tool_load: LinkMass | None = None
-    gravity_m_s2: Vector = (0.0, 0.0, -9.81)
+    gravity_m_s2: Annotated[Vector, AfterValidator(_on_earth)] = (0.0, 0.0, -9.81)
     joint_limits_deg: tuple[tuple[Degrees, Degrees], ...] | None = None
     instrument: Instrument | None = None
     parallelogram: Parallelogram | None = None
@@ -123,8 +143,8 @@ class RobotDescription(Strict):
             )
         for row, combination in enumerate(self.actuation or ()):
             for motor in combination:
-                if not re.fullmatch(r"q[1-9]\d*", motor):
-                    raise ValueError(f"`actuation[{row}]` names {motor!r}; motor angles are called q1, q2, ...")
+                if not re.fullmatch(r"q[1-9]\d?", motor):
+                    raise ValueError(f"`actuation[{row}]` names {motor!r}; motor angles are called q1, q2, ... q99")
         n_motors = self.n_motors(n_joints)
         turning = {motor for row in self.actuation or () for motor, coefficient in row.items() if coefficient != 0}
         if idle := [f"q{k + 1}" for k in range(n_motors) if self.actuation is not None and f"q{k + 1}" not in turning]:

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
+import sys
+import tempfile
 import xml.etree.ElementTree as ET
 from collections import Counter
 from collections.abc import Iterator
@@ -10,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pinocchio as pin
 
-from armscope.core.inputs import InputError, nearest
+from armscope.core.inputs import InputError, nearest, note_read
 from armscope.core.types import Array
 from armscope.robot.description import RobotDescription
 
@@ -18,6 +22,7 @@ JOINT_TYPES = ("revolute", "continuous", "prismatic", "fixed", "planar", "floati
 SLIDING = "a sliding joint"
 KINDS = {"P": SLIDING, "Planar": "a planar joint", "FreeFlyer": "a floating joint", "Translation": "a planar joint"}
 """What joints that do not turn are called, by how pinocchio's names of them begin (behind "JointModel")."""
+LONGEST_COMPLAINT = 300
 BEYOND_LIMITS = 0.01
 """A joint may be held beyond its limits by this share of its range: recorded positions are not exact."""
 
@@ -37,10 +42,30 @@ def read_urdf(path: str) -> pin.Model:
         InputError: it is no URDF, or one that contradicts itself.
     """
     _check(path, _root(path))
+    said: list[str] = []
     try:
-        return pin.buildModelFromUrdf(path)
+        with _errors_kept(said):
+            return pin.buildModelFromUrdf(path)
     except (ValueError, RuntimeError) as error:
-        raise InputError(path, "", "no valid URDF", str(error).rstrip("."), "`check_urdf` may say more.") from error
+        cure = " ".join(said)[:LONGEST_COMPLAINT] or "`check_urdf` may say more."
+        raise InputError(path, "", "no valid URDF", str(error).rstrip("."), cure) from error
+
+
+@contextlib.contextmanager
+def _errors_kept(said: list[str]) -> Iterator[None]:
+    """What the URDF library writes to standard error, past Python: the user gets one error, not two."""
+    sys.stderr.flush()
+    with tempfile.TemporaryFile() as kept:
+        before = os.dup(2)
+        os.dup2(kept.fileno(), 2)
+        try:
+            yield
+        finally:
+            os.dup2(before, 2)
+            os.close(before)
+            kept.seek(0)
+            lines = kept.read(100 * LONGEST_COMPLAINT).decode(errors="replace").splitlines()
+            said += [line.removeprefix("Error:").strip() for line in lines[:3] if line.strip()]
 
 
 def cut(description: RobotDescription, full: pin.Model) -> SerialPart:
@@ -103,6 +128,7 @@ def refuse_other_than_turning(file: str, model: pin.Model) -> None:
 
 
 def _root(path: str) -> ET.Element:
+    note_read(path)
     try:
         root = ET.parse(path).getroot()
     except OSError as error:

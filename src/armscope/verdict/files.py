@@ -13,6 +13,11 @@ from armscope.verdict.schema import Atlas, Diagnosis, Verdict
 
 VERDICT = "verdict.json"
 
+FILES = (
+    "verdict.json", "model.yaml", "predicted.csv", "suspects.csv", "next_poses.csv", "curves.csv", "atlas.csv",
+)  # fmt: skip
+"""All that `write_verdict` may write."""
+
 
 def read_verdict(path: Path | str) -> Verdict:
     """Read verdict.json.

@@ -9,7 +9,7 @@ import urllib.parse
 import urllib.request
 from dataclasses import dataclass
 from http.client import HTTPException
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Annotated
 
 from pydantic import Field
@@ -56,6 +56,11 @@ def load_source(path: Path | str) -> Source:
     if bool(source.files) == bool(source.not_importable):
         rule = "a source has `files`, or says in `not_importable` why it has none"
         raise InputError(path, "files", f"{len(source.files)} files", rule)
+    for number, file in enumerate(source.files):
+        parts = PurePosixPath(file.path).parts
+        if file.path.startswith("/") or ".." in parts or not parts or "\\" in file.path or "\0" in file.path:
+            rule = "a path within the repository: relative, with forward slashes, without `..`"
+            raise InputError(path, f"files[{number}].path", file.path, rule)
     names = [file.name for file in source.files]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
@@ -150,12 +155,12 @@ def _copy(stand_in: Path, file: SourceFile, target: Path) -> None:
     if actual != file.sha256:
         rule = f"its sha256 must be {file.sha256}"
         raise InputError(found, "sha256", actual, rule, "It was left where it is and not used.")
-    with replacing(target) as beside:
+    with replacing(target, at_once=True) as beside:
         shutil.copyfile(found, beside)
 
 
 def _download(url: str, file: SourceFile, target: Path) -> None:
-    with replacing(target) as beside:
+    with replacing(target, at_once=True) as beside:
         _receive(url, file, beside)
         actual = _sha256(beside)
         if actual != file.sha256:

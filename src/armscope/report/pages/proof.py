@@ -37,8 +37,6 @@ def write_proof_page(path: Path, tables: Path, figures: Path, seed: dict[str, An
         seed=seed,
         worlds=worlds,
         fresh=int(worlds["fresh"].sum()),
-        minutes=float(worlds["seconds"].sum()) / 60,
-        median_seconds=float(worlds["seconds"].median()),
         failed=worlds[worlds["failed"].notna()],
         aims=_aims(read["aims"]),
         tags=TAGS,

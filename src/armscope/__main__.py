@@ -1,0 +1,17 @@
+"""`python -m armscope` and the command `armscope`: even while it imports, Ctrl-C is answered in one line."""
+
+import sys
+
+
+def main() -> None:
+    """Run the command line."""
+    try:
+        from armscope.cli import main as run
+    except KeyboardInterrupt:
+        print("armscope: interrupted; nothing was left half-written", file=sys.stderr)
+        sys.exit(130)
+    run()
+
+
+if __name__ == "__main__":
+    main()

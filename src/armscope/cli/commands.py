@@ -1,0 +1,90 @@
+"""What all commands share: they tell their inputs from their outputs, and write all or nothing."""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import inspect
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Annotated, Any, get_type_hints
+
+import typer
+
+from armscope.cli.endings import told_to_end
+from armscope.core.outputs import Delivery, is_stream
+
+OUTPUTS = ("output", "figure", "points", "visible", "sealed")
+"""Parameters of this name are files or folders to write; all other paths are read."""
+
+Force = Annotated[bool, typer.Option("--force", help="overwrite files that armscope did not write (never an input)")]
+
+
+class Commands(typer.Typer):
+    """Commands whose outputs are put in place together, when the command has ended well; see `armscope.core.outputs`.
+
+    Args:
+        name: the words before the commands' own names.
+        options: as of `typer.Typer`.
+    """
+
+    def __init__(self, name: str = "", **options: Any) -> None:
+        super().__init__(**options)
+        self._words = f"{name} " if name else ""
+
+    def command(self, name: str | None = None, **options: Any) -> Callable[[Any], Any]:
+        """As of `typer.Typer`; a command with outputs gets ``--force``."""
+        register = super().command(name, **options)
+
+        def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
+            own = name or function.__name__.rstrip("_").replace("_", "-")
+            register(_delivering(function, self._words + own))
+            return function
+
+        return decorate
+
+
+def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any]:
+    """A command with its outputs looked after."""
+    hints = get_type_hints(function, include_extras=True)
+    signature = inspect.signature(function)
+    parameters = [each.replace(annotation=hints[each.name]) for each in signature.parameters.values()]
+    if not set(OUTPUTS) & set(signature.parameters):
+        return function
+    forced = inspect.Parameter("force", inspect.Parameter.KEYWORD_ONLY, default=False, annotation=Force)
+
+    @functools.wraps(function)
+    def run(*, force: bool = False, **values: Any) -> None:
+        reads, writes = _paths(values, reading=True), _paths(values, reading=False)
+        delivery = Delivery(command, reads, writes, force)
+        with told_to_end(), _stdout_kept_for_data(writes), delivery.running():
+            try:
+                function(**values)
+            except typer.Exit:  # an answer, not a failure
+                delivery.put()
+                raise
+            delivery.put()
+
+    run.__signature__ = signature.replace(parameters=[*parameters, forced])  # type: ignore[attr-defined]
+    run.__annotations__ = {each.name: each.annotation for each in [*parameters, forced]} | {"return": None}
+    return run
+
+
+def _paths(values: dict[str, Any], reading: bool) -> list[Path]:
+    found: list[Path] = []
+    for name, value in values.items():
+        if (name in OUTPUTS) != reading:
+            several = value if isinstance(value, list | tuple) else [value]
+            found += [each for each in several if isinstance(each, Path)]
+    return found
+
+
+@contextlib.contextmanager
+def _stdout_kept_for_data(writes: list[Path]) -> Iterator[None]:
+    """Where a table goes to standard output, words go to standard error."""
+    if any(is_stream(path) for path in writes):
+        with contextlib.redirect_stdout(sys.stderr):
+            yield
+    else:
+        yield

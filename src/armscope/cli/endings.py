@@ -1,0 +1,107 @@
+"""How the command line ends: one clear line for whatever goes wrong, and an exit code that says which kind it was."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from typing import Any, TextIO
+
+from armscope.core.inputs import InputError
+from armscope.core.locks import Busy
+
+UNUSABLE = 2
+"""An input or an option can't be used."""
+NO_MEMORY = 71
+"""Memory ran out (EX_OSERR of sysexits.h)."""
+NO_WRITING = 74
+"""A file could not be read or written: a full disk, say (EX_IOERR)."""
+BUSY = 75
+"""Another process writes to the same place; try again later (EX_TEMPFAIL)."""
+INTERRUPTED = 130
+"""Ctrl-C (128 + SIGINT)."""
+CLOSED = 141
+"""Nobody reads standard output any more (128 + SIGPIPE)."""
+
+
+@contextlib.contextmanager
+def endings() -> Iterator[None]:
+    """Around a whole command line."""
+    patient = sys.stdout = _Patient(sys.stdout)
+    try:
+        try:
+            yield
+        finally:
+            patient.flush()
+            if patient.closed_early:
+                raise BrokenPipeError
+    except InputError as error:
+        _end(str(error), UNUSABLE)
+    except Busy as error:
+        _end(str(error), BUSY)
+    except KeyboardInterrupt:
+        _end("interrupted; nothing was left half-written", INTERRUPTED)
+    except MemoryError as error:
+        _end(f"out of memory; nothing was written. {error}".rstrip(". ") + ".", NO_MEMORY)
+    except BrokenPipeError:
+        _silence_stdout()
+        _end("nobody reads standard output any more", CLOSED)
+    except OSError as error:
+        if error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EIO):
+            _silence_stdout()
+        where = f"{error.filename}: " if error.filename is not None else ""
+        _end(f"{where}{error.strerror or error}; nothing was written", NO_WRITING)
+
+
+class _Patient:
+    """Standard output that takes words even when nobody reads them any more: the command's files matter more."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream, self.closed_early = stream, False
+
+    def write(self, text: str) -> int:
+        self._try(lambda: self._stream.write(text))
+        return len(text)
+
+    def flush(self) -> None:
+        self._try(self._stream.flush)
+
+    def _try(self, action: Callable[[], object]) -> None:
+        try:
+            action()
+        except BrokenPipeError:
+            self.closed_early = True
+            _silence_stdout()
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+
+@contextlib.contextmanager
+def told_to_end() -> Iterator[None]:
+    """A request to end, by a workflow engine or by Ctrl-C, unwinds the command, which leaves nothing half-written."""
+    main = threading.current_thread() is threading.main_thread()
+    before = signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number)) if main else None
+    try:
+        yield
+    except KeyboardInterrupt:  # typer would end with the exit code of a finding
+        _end("interrupted; nothing was left half-written", INTERRUPTED)
+    finally:
+        if main:
+            signal.signal(signal.SIGTERM, before)
+
+
+def _end(text: str, code: int) -> None:
+    with contextlib.suppress(OSError):
+        print(f"armscope: {text}", file=sys.stderr, flush=True)
+    sys.exit(code)
+
+
+def _silence_stdout() -> None:
+    """What standard output still holds can't be written: the interpreter must not try again at its end."""
+    with contextlib.suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -1,0 +1,379 @@
+"""What a command writes appears together when it has ended well, or not at all; and it is never somebody else's.
+
+A command's files are made ready in a hidden folder ``.armscope`` beside the place they are for, and put there when the
+command has ended well. That folder also holds, by command, names and digests of what was put there, by which armscope
+knows its own: it replaces and tidies away what it wrote itself, and nothing else. What a killed run left behind is
+finished by the next run, if it had begun to put its files in place, and else removed.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import json
+import os
+import shutil
+import stat
+import sys
+from collections.abc import Iterable, Iterator
+from contextvars import ContextVar
+from pathlib import Path
+from typing import TextIO
+
+from armscope.core.inputs import FILES_READ, InputError, identity
+from armscope.core.locks import Lock
+
+HIDDEN = ".armscope"
+_CURRENT: ContextVar[Delivery | None] = ContextVar("delivery", default=None)
+
+
+def is_stream(path: Path | str) -> bool:
+    """Whether an output is no file to be replaced, but something to write into: "-", a device, a pipe."""
+    text = os.path.abspath(path)
+    if str(path) == "-" or text in ("/dev/stdout", "/dev/stderr") or text.startswith(("/dev/fd/", "/proc/")):
+        return True
+    with contextlib.suppress(OSError):
+        mode = os.stat(path).st_mode
+        return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
+    return False
+
+
+def current() -> Delivery | None:
+    """The delivery of the command that runs, if one does."""
+    return _CURRENT.get()
+
+
+def readable(path: Path | str) -> Path:
+    """Where a file can be read that the command that runs may have made ready a moment ago."""
+    delivery = current()
+    made = None if delivery is None else delivery.made(path)
+    return Path(path) if made is None else made
+
+
+class Result:
+    """The files of one output (a folder or a file and what stands beside it).
+
+    Args:
+        place: the folder or file that the user named.
+        command: which command writes it.
+    """
+
+    def __init__(self, place: Path, command: str) -> None:
+        self.place, self.command = place, command
+        self.is_new = not os.path.lexists(place)
+        self.home = place if place.is_dir() else place.parent
+        self.key = command.replace(" ", "-") if place.is_dir() else place.name
+        self.names: set[str] = set()
+        self._made_folders: list[Path] = []
+        self._lock = Lock(self._hidden(".lock"), f"{place}: armscope {command} cannot write there now")
+
+    def _hidden(self, ending: str) -> Path:
+        return self.home / HIDDEN / f"{self.key}{ending}"
+
+    def open(self) -> None:
+        """Take the place's lock, and tidy up after runs that were killed.
+
+        Raises:
+            Busy: another process writes there.
+            InputError: nothing can be written there.
+        """
+        try:
+            try:
+                self._make_folders()
+                self._lock.take()
+            except FileNotFoundError:  # another run has just tidied the hidden folder away
+                self._make_folders()
+                self._lock.take()
+        except OSError as error:
+            self._forget_folders()
+            rule = f"output goes into this folder ({error.strerror})"
+            raise InputError(self.home, "", "no folder that can be written to", rule) from error
+        tidy(self.home, self.key)
+
+    def name_of(self, path: Path) -> str | None:
+        """The name, seen from the result's home, under which a path belongs to this result; None if it doesn't."""
+        for candidate in (Path(os.path.realpath(path.parent), path.name), Path(os.path.realpath(path))):
+            if candidate == self.place or self.place in candidate.parents or candidate.parent == self.place.parent:
+                with contextlib.suppress(ValueError):
+                    return candidate.relative_to(self.home).as_posix()
+        return None
+
+    def staged(self, name: str) -> Path:
+        """Where a file of this name is made ready."""
+        return self._hidden(".new") / name
+
+    def own(self) -> dict[str, str]:
+        """What this command put here the last time: digest by name."""
+        return _record(self._hidden(".json"))
+
+    def check(self, name: str, inputs: set[tuple[int, int]], force: bool) -> None:
+        """Whether a name may be written.
+
+        Args:
+            name: seen from the result's home.
+            inputs: identities of the command's inputs.
+            force: overwrite files that armscope did not write.
+
+        Raises:
+            InputError: it is an input of the same command, or there is a file that this command did not write.
+        """
+        path = self.home / name
+        if not path.exists():
+            return
+        if identity(path) in inputs:
+            raise InputError(path, "", "an input of this command", "the output goes to a place of its own")
+        if path.is_dir():
+            raise InputError(path, "", "a folder", "a file is written under this name")
+        if force or is_stream(path):
+            return
+        made, digest = self.staged(name), _digest(path)
+        if digest == self.own().get(name) or (made.is_file() and digest == _digest(made)):
+            return
+        cure = "Choose another output, or give --force to overwrite it."
+        raise InputError(path, "", self._whose(name), "armscope overwrites only what it wrote itself", cure)
+
+    def _whose(self, name: str) -> str:
+        if name in self.own():
+            return "a file that was changed since armscope wrote it"
+        for record in (self.home / HIDDEN).glob("*.json"):
+            if name in _record(record):
+                return f"a file of another armscope result ({record.stem})"
+        return "a file that armscope did not write"
+
+    def put(self) -> None:
+        """Put what was made ready in its place, and take away what an earlier run of this command left there."""
+        stage = self._hidden(".new")
+        digests = {name: _digest(self.staged(name)) for name in sorted(self.names)}
+        inside = f"{self.place.name}/"
+        if self.is_new and all(name.startswith(inside) for name in digests):
+            # a new folder appears whole, in one step
+            record = {name.removeprefix(inside): digest for name, digest in digests.items()}
+            records = stage / self.place.name / HIDDEN
+            records.mkdir()
+            _write_record(records / f"{self.command.replace(' ', '-')}.json", {"files": record})
+            try:
+                os.rename(stage / self.place.name, self.place)
+            except OSError as error:
+                rule = f"the folder was not there when the command began ({error.strerror})"
+                raise InputError(self.place, "", "something that came meanwhile", rule) from error
+            return
+        drop = {name: digest for name, digest in self.own().items() if name not in digests}
+        _write_record(self._hidden(".plan"), {"files": digests, "drop": drop})
+        _carry_out(self.home, self.key)
+
+    def close(self) -> None:
+        """Leave nothing behind but what was put in place."""
+        if not self._hidden(".plan").exists():  # else the next run finishes what a full disk may have interrupted
+            shutil.rmtree(self._hidden(".new"), ignore_errors=True)
+        self._lock.give_back()
+        self._forget_folders()
+
+    def _make_folders(self) -> None:
+        for folder in reversed([self.home / HIDDEN, *(self.home / HIDDEN).parents]):
+            if not folder.exists():
+                folder.mkdir(exist_ok=True)
+                self._made_folders.append(folder)
+
+    def _forget_folders(self) -> None:
+        """Folders that were made for nothing go."""
+        for folder in (self.home / HIDDEN, *reversed(self._made_folders)):
+            with contextlib.suppress(OSError):
+                folder.rmdir()
+
+
+class Delivery:
+    """All that one command writes.
+
+    Args:
+        command: its name on the command line.
+        inputs: files that it reads; more are noted as it reads them.
+        outputs: the folders and files that it was asked to write.
+        force: overwrite files that armscope did not write; never an input.
+    """
+
+    def __init__(self, command: str, inputs: Iterable[Path], outputs: Iterable[Path], force: bool = False) -> None:
+        self.stdout = sys.stdout
+        self.force = force
+        self._inputs: set[tuple[int, int]] = set()
+        for path in inputs:
+            self.note_input(path)
+        places = dict.fromkeys(Path(os.path.realpath(path)) for path in outputs if not is_stream(path))
+        self.results = [Result(place, command) for place in places]
+
+    def note_input(self, path: Path | str) -> None:
+        """A file that must not be overwritten, known by its identity: other names and links count."""
+        if (found := identity(path)) is not None:
+            self._inputs.add(found)
+
+    @contextlib.contextmanager
+    def running(self) -> Iterator[Delivery]:
+        """Between opening and closing all results; what is put in place is up to `put`."""
+        opened: list[Result] = []
+        token, reading = _CURRENT.set(self), FILES_READ.set(self._inputs)
+        try:
+            for result in self.results:
+                result.open()
+                opened.append(result)
+                if not result.place.is_dir():
+                    result.check(result.place.relative_to(result.home).as_posix(), self._inputs, self.force)
+            yield self
+        finally:
+            _CURRENT.reset(token)
+            FILES_READ.reset(reading)
+            for result in opened:
+                result.close()
+
+    def expect(self, folder: Path, names: Iterable[str]) -> bool:
+        """Before long work: whether a folder is an output of the command.
+
+        Raises:
+            InputError: files of these names, or of those of the last time, may not be written there.
+        """
+        for result in self.results:
+            if result.place == Path(os.path.realpath(folder)):
+                if result.home == result.place:
+                    for name in sorted({*names, *result.own()}):
+                        result.check(name, self._inputs, self.force)
+                elif not result.is_new:
+                    raise InputError(folder, "", "no folder that can be written to", "output goes into this folder")
+                return True
+        return False
+
+    def stage(self, path: Path | str) -> Path | None:
+        """Where to make a file ready; None for one that belongs to no output of the command, as in a temporary folder.
+
+        Raises:
+            InputError: it may not be written.
+        """
+        if (found := self._of(path)) is None:
+            if identity(path) in self._inputs:
+                raise InputError(path, "", "an input of this command", "the output goes to a place of its own")
+            return None
+        result, name = found
+        result.check(name, self._inputs, self.force)
+        staged = result.staged(name)
+        staged.parent.mkdir(parents=True, exist_ok=True)
+        return staged
+
+    def keep(self, path: Path | str) -> None:
+        """What was made ready for this path is whole."""
+        if (found := self._of(path)) is not None:
+            found[0].names.add(found[1])
+
+    def made(self, path: Path | str) -> Path | None:
+        """The file made ready for a path, if there is one."""
+        found = self._of(path)
+        return found[0].staged(found[1]) if found is not None and found[1] in found[0].names else None
+
+    def put(self) -> None:
+        """Put all files in place.
+
+        Raises:
+            InputError: one of them may not be written; then none is.
+        """
+        for result in self.results:
+            for name in result.names:
+                result.check(name, self._inputs, self.force)
+        for result in self.results:
+            if result.names:
+                result.put()
+
+    def _of(self, path: Path | str) -> tuple[Result, str] | None:
+        real = Path(os.path.realpath(path))
+        # its own output first, then the folder that it lies in, then the file that it stands beside
+        ranked = sorted(self.results, key=lambda each: (each.place != real, each.place not in real.parents))
+        for result in ranked:
+            if (name := result.name_of(Path(path))) is not None:
+                return result, name
+        return None
+
+
+def tidy(home: Path, locked: str | None = None) -> None:
+    """Finish or remove what killed runs left in a folder.
+
+    Args:
+        home: the folder.
+        locked: the key of the result whose lock the caller holds.
+    """
+    for left in sorted((home / HIDDEN).glob("*")):
+        key = left.name.removesuffix(".part").removesuffix(".plan").removesuffix(".new").removesuffix(".lock")
+        if key == left.name:
+            continue
+        lock = Lock(home / HIDDEN / f"{key}.lock", key)
+        if key == locked or lock.free():
+            _carry_out(home, key)
+            lock.give_back()
+
+
+def _carry_out(home: Path, key: str) -> None:
+    """What a plan says, from wherever it was left; without one, only what was made ready is removed."""
+    hidden = home / HIDDEN
+    plan, stage, record = hidden / f"{key}.plan", hidden / f"{key}.new", hidden / f"{key}.json"
+    if plan.is_file():
+        files, drop = _record(plan), _record(plan, "drop")
+        for name in files:
+            if (stage / name).exists():
+                _move(stage / name, Path(os.path.realpath(home / name)))
+        for name, digest in drop.items():
+            path = home / name
+            if path.is_file() and not path.is_symlink() and _digest(path) == digest:  # changed: it is the user's now
+                path.unlink()
+                with contextlib.suppress(OSError):
+                    path.parent.rmdir()
+        _write_record(record, {"files": files})
+        plan.unlink()
+    for left in (plan, record):
+        _draft(left).unlink(missing_ok=True)
+    shutil.rmtree(stage, ignore_errors=True)
+
+
+def _move(source: Path, target: Path) -> None:
+    target.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        source.replace(target)
+    except OSError:  # a link to another file system
+        beside = target.with_name(f".{target.name}.part")
+        shutil.copyfile(source, beside)
+        beside.replace(target)
+
+
+def copy_into(source: Path, path: Path | str) -> None:
+    """Write a file's content into a device, a pipe or standard output ("-")."""
+    standard = {"-": "stdout", "/dev/stdout": "stdout", "/dev/stderr": "stderr"}.get(str(path))
+    with source.open("rb") as content:
+        if standard is None:
+            with open(path, "ab") as stream:  # what a shell has redirected to may hold something already
+                shutil.copyfileobj(content, stream)
+            return
+        delivery = current()
+        out: TextIO = delivery.stdout if delivery is not None and standard == "stdout" else getattr(sys, standard)
+        out.flush()
+        shutil.copyfileobj(content, out.buffer)
+        out.flush()
+
+
+def _digest(path: Path) -> str:
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
+
+
+def _record(path: Path, key: str = "files") -> dict[str, str]:
+    """Names below the folder that a record is of, with digests; nothing from what is no record."""
+    with contextlib.suppress(OSError, ValueError, AttributeError):
+        files = json.loads(path.read_text(encoding="utf-8")).get(key)
+        return {
+            name: digest
+            for name, digest in files.items()
+            if isinstance(digest, str) and not Path(name).is_absolute() and ".." not in Path(name).parts
+        }
+    return {}
+
+
+def _write_record(path: Path, content: dict[str, dict[str, str]]) -> None:
+    text = json.dumps({"written by": "armscope", **content}, indent=1) + "\n"
+    _draft(path).write_text(text, encoding="utf-8")
+    _draft(path).replace(path)
+
+
+def _draft(path: Path) -> Path:
+    return path.with_name(path.name + ".part")

@@ -1,0 +1,128 @@
+"""Every reader of a user's file, with files to begin from; whatever it is given, it answers or raises InputError."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from armscope.compensation import load_error_model, load_identified, read_path
+from armscope.core.config import Config
+from armscope.core.inputs import read_yaml, validate
+from armscope.core.variants import read_variants
+from armscope.physics.model import predict
+from armscope.physics.model_file import load_model
+from armscope.real.reference import load_reference
+from armscope.recordings import read_recordings
+from armscope.recordings.importing.fetching import load_source
+from armscope.recordings.importing.mapping import load_mapping
+from armscope.recordings.importing.tables import import_recordings
+from armscope.robot import chain, load_arm
+from armscope.verdict.files import read_verdict
+
+ROOT = Path(__file__).parents[2]
+CORPUS = Path(__file__).parent / "corpus"
+EXAMPLE = ROOT / "examples" / "five-effects"
+URDF = ROOT / "tests" / "robot" / "torso_arm.urdf"
+RAW, MAPPING = CORPUS / "raw" / "semicolons.csv", CORPUS / "raw" / "mapping.yaml"
+
+
+@dataclass(frozen=True)
+class Reader:
+    """How a file is read, and files of its kind.
+
+    Attributes:
+        read: reads a file (and uses what was read, where that is what can go wrong).
+        seeds: good files to begin from.
+    """
+
+    read: Callable[[Path], object]
+    seeds: tuple[Path, ...]
+
+    @property
+    def suffix(self) -> str:
+        """What its files' names end in."""
+        return "".join(self.seeds[0].suffixes)
+
+
+def _arm(path: Path) -> None:
+    arm = load_arm(path)
+    assert np.isfinite(chain(arm, np.zeros((1, arm.n_motors))).tool).all()
+
+
+def _arm_of_urdf(path: Path) -> None:
+    described = path.with_name("arm-of-urdf.yaml")
+    described.write_text(f"name: arm\nurdf: {path.name}\ntip: flange\nhold_joints: {{torso_lift: 0.1}}\n")
+    _arm(described)
+
+
+def _predicted(path: Path) -> None:
+    model = load_model(path)
+    angles = np.linspace(-1, 1, 3 * model.arm.n_motors).reshape(3, -1)
+    names = [*(f"q{m}_rad" for m in range(1, model.arm.n_motors + 1)), "time_s", "temperature_c", "payload_kg"]
+    names += [
+        f"{name}{m}{unit}" for name, unit in (("approach", ""), ("dq", "_rad_s")) for m in range(1, 1 + len(angles.T))
+    ]
+    table = path.with_name("poses.csv")
+    rows = np.column_stack([angles, [[0, 21, 5]] * 3, np.ones_like(angles), angles])
+    np.savetxt(table, rows, delimiter=",", header=",".join(names), comments="")
+    assert np.isfinite(predict(model, read_recordings(table, model.arm.n_motors, measured=False))).all()
+
+
+def _black_box(path: Path) -> None:
+    model = load_error_model(path)
+    angles = np.linspace(-1, 1, 3 * model.arm.n_motors).reshape(3, -1)
+    model.as_measured(angles)
+    model.domain.outside(np.zeros((1, len(model.domain.names))))
+
+
+def _converted(path: Path) -> None:
+    import_recordings([path], MAPPING, path.with_name("out.csv"))
+
+
+def _mapped(path: Path) -> None:
+    load_mapping(path)
+    import_recordings([RAW], path, path.with_name("out.csv"))
+
+
+def _recordings(path: Path) -> None:
+    read_recordings(path)
+
+
+def _poses(path: Path) -> None:
+    read_recordings(path, 6, measured=False)
+
+
+def _path(path: Path) -> None:
+    read_path(path, load_arm(EXAMPLE / "robot.yaml"))
+
+
+def _config(path: Path) -> None:
+    validate(Config, read_yaml(path), path)
+
+
+def _seeds(*patterns: str) -> tuple[Path, ...]:
+    found = tuple(path for pattern in patterns for path in sorted(ROOT.glob(pattern)))
+    assert found, patterns
+    return found
+
+
+READERS = {
+    "robot.yaml": Reader(_arm, _seeds("config/robots/*.yaml", "examples/*/robot.yaml")),
+    "urdf": Reader(_arm_of_urdf, (URDF,)),
+    "recordings.csv": Reader(_recordings, _seeds("tests/fuzz/corpus/recordings/*")),
+    "poses.csv": Reader(_poses, _seeds("tests/fuzz/corpus/path/*")),
+    "path.csv": Reader(_path, _seeds("tests/fuzz/corpus/path/*")),
+    "mapping.yaml": Reader(_mapped, _seeds("tests/fuzz/corpus/raw/*.yaml", "config/recordings/*/mapping.yaml")),
+    "raw.csv": Reader(_converted, (RAW,)),
+    "source.yaml": Reader(load_source, _seeds("config/recordings/*/source.yaml")),
+    "reference.yaml": Reader(load_reference, _seeds("config/recordings/*/reference.yaml")),
+    "model.yaml": Reader(_predicted, _seeds("tests/fuzz/corpus/model/*")),
+    "domain.json": Reader(load_identified, _seeds("tests/fuzz/corpus/domain/*")),
+    "errormodel.json": Reader(_black_box, _seeds("tests/fuzz/corpus/errormodel/*")),
+    "verdict.json": Reader(read_verdict, _seeds("tests/fuzz/corpus/verdict/*")),
+    "sweep.csv": Reader(read_variants, _seeds("config/sweeps/*")),
+    "config.yaml": Reader(_config, _seeds("config/*.yaml")),
+}

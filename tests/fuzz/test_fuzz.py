@@ -1,0 +1,112 @@
+"""No reader raises anything but InputError, whatever file it is given, within bounds of time and memory."""
+
+import gzip
+import subprocess
+import sys
+
+import hypothesis
+import pytest
+from hypothesis import strategies as st
+
+from tests.fuzz.__main__ import CASES, failure_of
+from tests.fuzz.mutation import ODD_VALUES, changed, places, text_of, tree_of
+from tests.fuzz.readers import READERS, ROOT
+
+SECONDS = 2
+MANY_PURPOSES = ("mapping.yaml", "config.yaml", "poses.csv")
+"""Some of their seeds are good for other raw files, a part of a whole, or paths of points."""
+TREES = [name for name, reader in READERS.items() if reader.suffix in (".yaml", ".json")]
+FOUND = sorted(CASES.glob("*/*"))
+
+
+@pytest.mark.parametrize("name", READERS)
+def test_the_files_to_begin_from_are_good(name, tmp_path):
+    for seed in READERS[name].seeds:
+        path = tmp_path / seed.name
+        path.write_bytes(seed.read_bytes())
+        if name not in MANY_PURPOSES:
+            READERS[name].read(path)
+        assert failure_of(name, path) == ""
+
+
+@pytest.mark.parametrize("name", READERS)
+def test_bytes_that_were_changed_are_an_answer_or_one_error(name, tmp_path):
+    command = [sys.executable, "-m", "tests.fuzz", name, "--seconds", SECONDS, "--seed", 1, "--keep", tmp_path]
+    done = subprocess.run([*map(str, command)], cwd=ROOT, capture_output=True, text=True, check=False, timeout=120)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert int(done.stdout.split()[1]) > 20
+
+
+@pytest.mark.parametrize("name", TREES)
+@hypothesis.settings(max_examples=60, deadline=None, derandomize=True, database=None)
+@hypothesis.given(data=st.data())
+def test_values_that_were_swapped_are_an_answer_or_one_error(name, data, tmp_path_factory):
+    reader = READERS[name]
+    tree = tree_of(data.draw(st.sampled_from(reader.seeds)))
+    for _ in range(data.draw(st.integers(1, 2))):
+        place = data.draw(st.sampled_from(places(tree)))
+        what = data.draw(st.sampled_from(["swap", "swap", "drop", "rename", "double"]))
+        tree = changed(tree, place, what, data.draw(st.sampled_from(ODD_VALUES)))
+    path = tmp_path_factory.mktemp("tree") / f"bad{reader.suffix}"
+    path.write_bytes(text_of(tree, reader.suffix))
+    assert failure_of(name, path) == ""
+
+
+@pytest.mark.parametrize("case", FOUND, ids=[f"{path.parent.name}-{path.stem}" for path in FOUND])
+def test_what_was_found_once_stays_mended(case, tmp_path):
+    path = tmp_path / case.name
+    path.write_bytes(case.read_bytes())
+    assert failure_of(case.parent.name, path) == ""
+
+
+def bomb(name):
+    """Small files that would take all time or memory."""
+    lists = "a: &a [1,2,3,4,5,6,7,8,9]\n"
+    lists += "".join(f"{chr(98 + i)}: &{chr(98 + i)} [{','.join(['*' + chr(97 + i)] * 9)}]\n" for i in range(9))
+    joints = "".join(
+        f'<link name="l{i}"/><joint name="j{i}" type="continuous"><parent link="l{i}"/><child link="l{i + 1}"/></joint>'
+        for i in range(3000)
+    )
+    return {
+        "aliases": lists.encode(),
+        "deep lists": b"[" * 900_000,
+        "deep mappings": b'{"a":' * 180_000,
+        "long number": b"a: " + b"9" * 900_000,
+        "many numbers": b"k: [" + b"1.5, " * 170_000 + b"1]",
+        "many keys": b"".join(b"k%d: 1\n" % i for i in range(80_000)),
+        "sixties": b"a: " + b":".join([b"1"] * 400_000),
+        "long word": b"a" * 900_000,
+        "commas": b"," * 900_000,
+        "many columns": b",".join(b"q%d_rad" % i for i in range(90_000)) + b"\n" + b",".join([b"0"] * 90_000),
+        "quotation mark": b'q1_rad,x_mm,y_mm,z_mm\n"' + b"1,2\n" * 200_000,
+        "long rows": b"q1_rad,x_mm,y_mm,z_mm\n" + b"1,2,3,4\n" * 100_000,
+        "nulls": bytes(900_000),
+        "many joints": f'<robot name="a">{joints}<link name="l3000"/></robot>'.encode(),
+        "deep elements": b"<robot>" + b"<a>" * 200_000,
+        "entities": b'<!DOCTYPE r [<!ENTITY a "aaaaaaaaaa">'
+        + b"".join(b'<!ENTITY %c "%s">' % (98 + i, b"&%c;" % (97 + i) * 10) for i in range(9))
+        + b']><robot name="&j;"/>',
+    }[name]
+
+
+BOMBS = [
+    *("aliases", "deep lists", "deep mappings", "long number", "many numbers", "many keys", "sixties", "long word"),
+    *("commas", "many columns", "quotation mark", "long rows", "nulls", "many joints", "deep elements", "entities"),
+]
+
+
+@pytest.mark.parametrize("kind", BOMBS)
+def test_a_file_below_a_megabyte_takes_bounded_time_and_memory(kind, tmp_path):
+    for name, reader in READERS.items():
+        path = tmp_path / f"{name}-bomb{reader.suffix}"
+        path.write_bytes(bomb(kind))
+        assert failure_of(name, path) == "", name
+
+
+def test_a_packed_bomb_is_refused(tmp_path):
+    packed = gzip.compress(b"1,2,3,4\n" * 20_000_000, mtime=0)
+    assert len(packed) < 1_000_000
+    for name in ("recordings.csv", "domain.json", "errormodel.json", "raw.csv"):
+        path = tmp_path / f"{name}.gz"
+        path.write_bytes(packed)
+        assert failure_of(name, path) == "", name
