@@ -34,6 +34,9 @@ def column_blocks(
         model: where columns are taken; the response is that before any effect, also of those that are not ``inside``.
         recordings: the rows.
         weights: of the rows.
+
+    Returns:
+        Sums of the blocks with themselves, with the columns, and with the response.
     """
     m, c = len(blocks), len(blocks[0])
     beside = grouped_columns([term for block in blocks for term in block])

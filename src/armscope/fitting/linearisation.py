@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
+from armscope.fitting.constants import STEPS
 from armscope.fitting.design_matrix import structured_design
 from armscope.fitting.parameter_layout import ParameterLayout
 from armscope.inference.normal_equations import NormalEquations
@@ -23,10 +24,6 @@ from armscope.physics.lens import Lens
 from armscope.physics.model import FittedModel
 from armscope.physics.scene import Posture, Scene
 from armscope.recordings import Recordings
-
-CHUNK_ROWS = 1500
-KEPT_ROWS = 15_000
-"""Drivers of tables up to this long are kept between passes: at most some 150 MB."""
 
 
 @dataclass(eq=False)
@@ -56,7 +53,7 @@ def keep_drivers(recordings: Recordings, order: Indices) -> Recordings:
         order: (N,) of the rows in which chunks take them: rows of one block side by side.
     """
     table = replace(recordings)
-    if len(table) <= KEPT_ROWS:
+    if len(table) <= STEPS.kept_rows:
         _KEPT[table] = Kept(order)
     return table
 
@@ -64,7 +61,16 @@ def keep_drivers(recordings: Recordings, order: Indices) -> Recordings:
 def chunks(
     model: FittedModel, recordings: Recordings, order: Indices | None = None
 ) -> Iterator[tuple[Indices, Posture]]:
-    """(rows, posture) of the model, chunk by chunk; in an order of rows, where one is given."""
+    """(rows, posture) of the model, chunk by chunk; in an order of rows, where one is given.
+
+    Args:
+        model: the point of linearisation.
+        recordings: N rows.
+        order: (N,) of the rows; None: as they stand.
+
+    Yields:
+        Numbers of rows, and the arm's posture in them.
+    """
     kept = _KEPT.get(recordings)
     if kept is None:
         order = np.arange(len(recordings)) if order is None else order
@@ -78,8 +84,8 @@ def chunks(
 
 
 def _scenes(model: FittedModel, recordings: Recordings, order: Indices) -> Iterator[tuple[Indices, Scene]]:
-    for start in range(0, len(recordings), CHUNK_ROWS):
-        rows = order[start : start + CHUNK_ROWS]
+    for start in range(0, len(recordings), STEPS.chunk_rows):
+        rows = order[start : start + STEPS.chunk_rows]
         yield rows, model.scene(recordings.rows(rows))
 
 
@@ -108,7 +114,16 @@ def _shift(model: FittedModel, posture: Posture) -> Array:
 
 
 def response(model: FittedModel, posture: Posture, lens: Lens) -> Array:
-    """(n, 3 or 6) what a model leaves of a posture's rows, as a lens shows it: W^1/2 y, mm."""
+    """(n, 3 or 6) what a model leaves of a posture's rows, as a lens shows it: W^1/2 y, mm.
+
+    Args:
+        model: whose residuals they are.
+        posture: the arm's, in n rows.
+        lens: how rows are whitened.
+
+    Returns:
+        (n, 3 or 6) mm.
+    """
     shift = _shift(model, posture)
     if lens.turn is None:
         return lens.through(shift, shift)
@@ -124,8 +139,14 @@ def normal_equations_by_block(
     starts from no effects while the linearisation stands where the model stands.
 
     Args:
+        pool: of the model's columns.
+        model: the point of linearisation.
+        recordings: N rows.
         weights: of the rows.
         blocks: (N,) number of each row's block, from 0.
+
+    Returns:
+        One per block, mm per SI unit.
     """
     column_order = pool.column_order
     current = current_parameters(pool, model)[column_order.order]
