@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array, Progress
+from armscope.diagnosis.constants import TELLING
 from armscope.diagnosis.held_out import Rows, cross_validate
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary import alternatives as certainty
@@ -47,9 +48,6 @@ from armscope.verdict.schema import (
     WaterfallStep,
 )
 from armscope.verdict.sentences import headline
-
-SUSPECT_WEIGHT = 0.5
-LISTED_SUSPECTS = 200
 
 
 def judge(
@@ -112,7 +110,7 @@ def judge(
         unexplained=unexplained,
         held_out=held_out,
         waterfall=waterfall,
-        atlas=atlas(fit.pool, fit.model, state.recordings, replace(fit.weights, turns=None)),
+        atlas=atlas(fit.pool, fit.model, state.recordings, fit.weights.of_reference),
         residuals=_residuals(state),
         suspects=_suspects(state),
         next_poses=separating,
@@ -137,14 +135,16 @@ def _held(model: FittedModel, recordings: Recordings) -> FittedModel:
 def _plain_gram(state: DiagnosisState) -> NormalEquations:
     """The fit's sums over the points as they were measured: without whitening and orientations."""
     fit = state.fit
-    if fit.weights.whitening is None and fit.weights.turns is None:
+    if fit.weights.is_plain:
         return fit.gram
     one_block = np.zeros(len(state.recordings), dtype=np.intp)
-    return normal_equations_by_block(fit.pool, fit.model, state.recordings, fit.weights.of_points, one_block)[0]
+    return normal_equations_by_block(
+        fit.pool, fit.model, state.recordings, fit.weights.of_reference.unwhitened, one_block
+    )[0]
 
 
 def _weighted_rms(fit: Refit) -> float:
-    trusted = fit.weights.robust_weight > SUSPECT_WEIGHT
+    trusted = fit.weights.robust_weight > TELLING.suspect_weight
     return float(np.sqrt(np.mean(fit.residuals[trusted] ** 2)))
 
 
@@ -170,7 +170,7 @@ def _residuals(state: DiagnosisState) -> Residuals:
     table, fit = state.recordings, state.fit
     return Residuals(
         points=fit.model.to_base(table.positions, table.run) * 1e3,
-        before=state.first.shift,
+        before=state.first.points_mm,
         after=fit.residuals,
         weight=fit.weights.robust_weight,
         id=table.id,
@@ -179,24 +179,25 @@ def _residuals(state: DiagnosisState) -> Residuals:
 
 
 def _orientations(state: DiagnosisState) -> Orientations | None:
-    fit, before = state.fit, state.first.turn
-    if fit.missed.turn is None or fit.weights.turns is None or before is None:
-        return None
-    trusted = fit.weights.turns.weight > SUSPECT_WEIGHT * np.asarray(fit.weights.turns.nominal_weight)
-    return Orientations(
-        rows=int(np.isfinite(fit.missed.turn).all(axis=1).sum()),
-        noise_mrad=1e3 * float(np.sqrt(np.mean(fit.missed.turn[trusted] ** 2))),
-        lever_mm=1e3 * fit.weights.lever,
-        before_mrad=1e3 * float(np.sqrt(np.mean(before[trusted] ** 2))),
-    )
+    """How well the channel of orientations is explained, where it took part."""
+    for weights in state.fit.weights.of_channels:
+        if weights.channel.name == "orientation":
+            left, before = state.fit.left["orientation"], state.first["orientation"]
+            return Orientations(
+                rows=int(np.isfinite(left).all(axis=1).sum()),
+                noise_mrad=1e3 * float(np.sqrt(np.mean(left[weights.counts] ** 2))),
+                lever_mm=1e3 * weights.scale,
+                before_mrad=1e3 * float(np.sqrt(np.mean(before[weights.counts] ** 2))),
+            )
+    return None
 
 
 def _suspects(state: DiagnosisState) -> tuple[SuspectRow, ...]:
     fit, table = state.fit, state.recordings
     relative = fit.weights.robust_weight
-    rows = np.flatnonzero(relative < SUSPECT_WEIGHT)
+    rows = np.flatnonzero(relative < TELLING.suspect_weight)
     size = np.linalg.norm(fit.residuals, axis=1)
-    worst = rows[np.argsort(-size[rows])][:LISTED_SUSPECTS]
+    worst = rows[np.argsort(-size[rows])][: TELLING.listed_suspects]
     return tuple(SuspectRow(str(table.id[r]), str(table.run[r]), float(size[r]), float(relative[r])) for r in worst)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Indices, Progress
+from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.row_noise import NoiseOfRows
@@ -17,15 +18,15 @@ from armscope.diagnosis.scans.context import ScanContext
 from armscope.diagnosis.scans.gear_mesh import mesh_lines
 from armscope.diagnosis.scans.pauses import pauses
 from armscope.fitting.joint_scatter import Scattered
-from armscope.fitting.linearisation import keep_drivers, missed, normal_equations_by_block
+from armscope.fitting.linearisation import LinearisedTable, Measured, linearised, normal_equations_by_block, residuals
 from armscope.fitting.refit import Refit, refit
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, background_sizes, build_problem
 from armscope.inference.search import Search
+from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.noise import Growth, Noise
-from armscope.measurement.row_weights import INLIER_WEIGHT
 from armscope.physics.backgrounds import backgrounds
 from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import Placed
@@ -37,13 +38,6 @@ from armscope.physics.scene import Part
 from armscope.recordings import Recordings
 
 State = tuple[frozenset[str], NDArray[np.bool_]]
-
-ROUNDS, FULL_ROUNDS, SCANNING_ROUNDS = 7, 2, 4
-"""Rounds at most; the first search from all starts, later ones from where the last one ended; the last do not scan."""
-FLICKERING = 0.002
-"""Share of the rows that may still come and go when the rounds end."""
-WITHIN = 0.3
-"""Names within a background are fitted freely, but not so freely that several could run against each other."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +72,7 @@ class SelectionLoop:
 
     Args:
         start: the arm with its frames fitted.
-        recordings: the rows.
+        rows: a table, or recordings.
         noise: what is known of it.
         frames: the free frames.
         block_of_row: (N,) which block of rows each row is in.
@@ -89,29 +83,33 @@ class SelectionLoop:
     def __init__(
         self,
         start: FittedModel,
-        recordings: Recordings,
+        rows: Measured,
         noise: Noise,
         frames: Sequence[Placed],
         block_of_row: Indices,
         tell: Progress,
         candidates: Sequence[Placed] | None = None,
     ) -> None:
-        self.recordings = keep_drivers(recordings, np.argsort(block_of_row, kind="stable"))
+        recordings = linearised(rows).recordings
+        self.table = LinearisedTable(recordings, linearised(rows).channels, np.argsort(block_of_row, kind="stable"))
+        self.recordings = recordings
         self.frames, self.tell = frames, tell
         self.block_of_row = block_of_row
         self.candidates = library(start.arm, recordings) if candidates is None else list(candidates)
         self.families = list(backgrounds(start.arm, recordings).values())
         self.model = start
-        self.noise = NoiseOfRows(start, self.recordings, noise, missed(start, self.recordings))
+        self.noise = NoiseOfRows(start, self.table, noise, residuals(start, self.table))
         self.last: tuple[Hypothesis, EffectSpace] | None = None
 
     def run(self, of_a_sample: bool = False) -> Selected:
         """Rounds until nothing changes; those on all rows still follow where these are a sample."""
         previous: State | None = None
         settled = False
-        for number in range(ROUNDS):
+        for number in range(LOOP.rounds):
             self.tell("looking for effects", 0.05 + 0.05 * number)
-            new = self.round(None if number < FULL_ROUNDS else self._where_it_ended(), number < SCANNING_ROUNDS)
+            new = self.round(
+                None if number < LOOP.full_rounds else self._where_it_ended(), number < LOOP.scanning_rounds
+            )
             state = self._state()
             same = previous is not None and self._alike(state, previous)
             may_end = not new and same and (settled or not self._depends())
@@ -138,7 +136,7 @@ class SelectionLoop:
     def follow(self, other: SelectionLoop) -> None:
         """Go on from where the rounds on a sample of the rows ended."""
         self.model, self.last = other.model, other.last
-        self.noise.follow(other.noise, missed(self.model, self.recordings), other.fit.noise)
+        self.noise.follow(other.noise, residuals(self.model, self.table), other.fit.noise)
 
     def _where_it_ended(self) -> list[BackgroundSizes] | None:
         """The background from which the next search starts."""
@@ -154,9 +152,7 @@ class SelectionLoop:
         self.point, payload = _payload(self.model, self.recordings)
         self.space = build_model_space(self.frames, self.families, [*self.candidates, *payload])
         weights = self.noise.weights
-        self.blocks = normal_equations_by_block(
-            self.space.layout, self.point, self.recordings, weights, self.block_of_row
-        )
+        self.blocks = normal_equations_by_block(self.space.layout, self.point, self.table, weights, self.block_of_row)
         self.problem = build_problem(self.space, total(self.blocks), self.noise.least_mm)
         search = Search.on(self.problem)
         found = search.best(starts, None if self.last is None else search.transferred(*self.last))
@@ -169,18 +165,18 @@ class SelectionLoop:
             self.fit = self._fitted()
         new = self._scanned(search) if scanning else []
         self.model = self.fit.model
-        self.noise.weigh(self.fit.missed, self.fit.noise, self.fit.weights.whitening)
+        self.noise.weigh(self.fit.left, self.fit.noise, self.fit.weights.whitening)
         return new
 
     def _fitted(self) -> Refit:
         """The best hypothesis fitted with the exact model."""
         effects = [
-            (self.space.placed[c.candidate], float(self.problem.sizes[c.size]) * (WITHIN if c.nested else 1.0))
+            (self.space.placed[c.candidate], float(self.problem.sizes[c.size]) * (LOOP.within if c.nested else 1.0))
             for c in self.best.chosen
         ]
         small = list(zip(self.families, background_sizes(self.problem, self.best.background), strict=True))
         rows, white = self.noise.rows, self.noise.weights.whitening
-        return refit(self.point, self.recordings, self.frames, small, effects, rows, self.noise.least_mm, white)
+        return refit(self.point, self.table, self.frames, small, effects, rows, self.noise.least_mm, white)
 
     def _against_their_load(self) -> list[int]:
         """Names within a background whose fitted values turned out negative where they can't be."""
@@ -207,12 +203,12 @@ class SelectionLoop:
     def _state(self) -> State:
         """What must not change any more: the effects and the rows that do not count."""
         chosen = [self.space.candidates[c] for c in self.best.candidates]
-        return frozenset(c.label + c.variant for c in chosen), self.noise.weights.robust_weight < INLIER_WEIGHT
+        return frozenset(c.label + c.variant for c in chosen), self.noise.weights.robust_weight < WEIGHTS.inlier_weight
 
     def _alike(self, state: State, previous: State) -> bool:
         """Whether two rounds ended alike: the same effects, and the same rows count but for a few of very many."""
         changed = np.count_nonzero(state[1] != previous[1])
-        return state[0] == previous[0] and bool(changed <= FLICKERING * len(self.recordings))
+        return state[0] == previous[0] and bool(changed <= LOOP.flickering * len(self.recordings))
 
     def _depends(self) -> bool:
         """Whether some effect requires others, whose values then must settle, too."""

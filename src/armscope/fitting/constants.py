@@ -43,7 +43,7 @@ class FittingSteps(Constants):
     smallest_group: int = constant(
         16,
         "of one direction, from which they are multiplied together",
-        "judgement: time; the result is the same",
+        "judgement: time; the result is the same; twice and half change no golden verdict",
         unit="terms",
     )
     chunk_rows: int = constant(1500, "linearised at a time", "judgement: memory; the result is the same", unit="rows")

@@ -14,10 +14,9 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.fitting.constants import SCATTER
-from armscope.fitting.linearisation import chunks
+from armscope.fitting.linearisation import Measured, linearised
 from armscope.physics.effect import motor
 from armscope.physics.model import FittedModel
-from armscope.recordings import Recordings
 
 
 @dataclass(frozen=True)
@@ -29,12 +28,13 @@ class Scattered:
     evidence: float
 
 
-def motor_jacobians(model: FittedModel, recordings: Recordings) -> Array:
+def motor_jacobians(model: FittedModel, table: Measured) -> Array:
     """(m, N, 3) displacement of the tool by each motor, base axes, mm/rad."""
-    moved = np.empty((model.arm.n_motors, len(recordings), 3))
-    for rows, posture in chunks(model, recordings):
+    moved = np.empty((model.arm.n_motors, len(table), 3))
+    for rows, posture in linearised(table).chunks(model):
         for j in range(model.arm.n_motors):
-            moved[j, rows] = posture.lever(motor(j + 1)) * 1e3
+            moved[j, rows] = posture.displacement(motor(j + 1))
+    moved *= 1e3
     return moved
 
 
@@ -45,9 +45,6 @@ def find_scatter(residuals: Array, moved: Array, least_noise: float) -> list[Sca
         residuals: (N, 3) mm, base axes.
         moved: (m, N, 3) from `motor_jacobians`.
         least_noise: mm.
-
-    Returns:
-        Joint, size at it and evidence of each.
     """
     size = np.linalg.norm(residuals, axis=1)
     near = size <= np.quantile(size, 1 - SCATTER.trimmed)
@@ -99,17 +96,7 @@ def _covariance(moved: Array, rho: Mapping[int, float]) -> Array:
 
 
 def noise_between(residuals: Array, moved: Array, found: Sequence[Scattered], least: float) -> float:
-    """The noise that is left once scatter of the sizes found is taken out, mm.
-
-    Args:
-        residuals: (N, 3) mm, base axes.
-        moved: (m, N, 3) from `motor_jacobians`.
-        found: where it scatters.
-        least: mm; the noise is never taken to be below.
-
-    Returns:
-        mm per axis.
-    """
+    """The noise that is left once scatter of the sizes found is taken out, mm."""
     noise = max(least, float(np.sqrt(np.mean(residuals**2))))
     for _ in range(20):
         noise = _likelihood(residuals, moved, {s.motor - 1: s.size / noise for s in found}, least)[1]
@@ -117,16 +104,7 @@ def noise_between(residuals: Array, moved: Array, found: Sequence[Scattered], le
 
 
 def whitening(found: Sequence[Scattered], moved: Array, noise: float) -> Array | None:
-    """(N, 3, 3) symmetric V^-1/2 per row; None without scatter.
-
-    Args:
-        found: where it scatters.
-        moved: (m, N, 3) from `motor_jacobians`.
-        noise: elsewhere, mm per axis.
-
-    Returns:
-        (N, 3, 3); rows that do not scatter keep their scale.
-    """
+    """(N, 3, 3) symmetric V^-1/2 per row; None without scatter."""
     if not found:
         return None
     values, vectors = np.linalg.eigh(_covariance(moved, {s.motor - 1: s.size / noise for s in found}))

@@ -7,14 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.diagnosis.constants import TELLING
 from armscope.physics.drivers import KINDS, cubic_spline
 from armscope.physics.effect import ONE, Driver, Placed
 from armscope.physics.scene import Scene
 from armscope.verdict.schema import Curve
-
-GRID = 361
-TELLING = 0.7
-"""Share of a curve's variation that a simple shape must explain to be named."""
 
 
 def source_of(placed: Placed) -> Driver | None:
@@ -38,7 +35,7 @@ def curve_of(placed: Placed, values: Array, covariance: Array, scene: Scene) -> 
     if source is None:
         return None
     recorded, unit = scene.driver(source), KINDS[source.kind].unit
-    at = np.linspace(recorded.min(), recorded.max(), GRID)
+    at = np.linspace(recorded.min(), recorded.max(), TELLING.grid)
     directions = {term.products[0].direction for term in placed.terms}
     best: tuple[float, Array, Array, str] | None = None
     for direction in sorted(directions, key=lambda d: (d.location, d.axis)):
@@ -119,7 +116,7 @@ def describe(
     trend = shapes[0]
     if trend[0] > share - 0.02:
         share, words = trend
-    return words if share > TELLING else "a free curve" + _strongest(periods)
+    return words if share > TELLING.telling_share else "a free curve" + _strongest(periods)
 
 
 def _strongest(periods: tuple[tuple[float, float], ...]) -> str:
