@@ -63,6 +63,9 @@ def trusted_channels(
         channels: that were measured.
         recordings: the table.
         left: what the free frames leave in every channel.
+
+    Returns:
+        Those channels, that table, and a notice per channel left out.
     """
     kept, notices = [], []
     for channel in channels:

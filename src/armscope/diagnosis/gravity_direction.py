@@ -61,6 +61,9 @@ def lean(start: FittedModel, recordings: Recordings, noise: Noise, tool_per_run:
         recordings: the rows.
         noise: what is known of it.
         tool_per_run: whether the tool is free in every run.
+
+    Returns:
+        The arm with the direction found, its angle and interval, rad, and evidence, nats.
     """
     if not start.arm.has_masses:
         return None

@@ -76,9 +76,15 @@ def cross_validate(
     its rows, as it always is.
 
     Args:
+        problem: the sums of all rows, priors and costs.
         blocks: sums over the rows as they were fitted.
+        split: which blocks make which fold.
+        best: the hypothesis chosen on all rows.
         order: candidates of ``best`` in the order in which the waterfall adds them.
         rows: the rows at the point of linearisation of ``blocks``.
+
+    Returns:
+        Errors per axis, mm, and one step per effect.
     """
     folds = [int(k) for k in np.unique(split.fold) if 0 < np.count_nonzero(split.fold == k) < len(blocks)]
     if not folds:
@@ -178,8 +184,12 @@ def left_over(rows: Rows, values: Array, number: Indices | None = None) -> Array
     """(K, N, c) what K readings leave of every row in all channels, base axes, mm and mrad; NaN where not measured.
 
     Args:
+        rows: what they are computed from.
         values: (K, p) values of the layout's terms, SI units; or (F, K, p): each row takes those of its ``number``.
         number: (N,) 0 ... F - 1.
+
+    Returns:
+        The residuals.
     """
     values = values if number is not None else values[None]
     number = np.zeros(len(rows.recordings), dtype=np.intp) if number is None else number

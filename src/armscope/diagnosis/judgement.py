@@ -53,7 +53,18 @@ from armscope.verdict.sentences import headline
 def judge(
     state: DiagnosisState, resamples: int, cross_validation: bool, rng: np.random.Generator, tell: Progress
 ) -> Diagnosis:
-    """Certainty, validation, atlas and words."""
+    """Certainty, validation, atlas and words.
+
+    Args:
+        state: the finished selection.
+        resamples: how often rows are drawn anew; 0 never.
+        cross_validation: whether the procedure is validated on held-out rows.
+        rng: draws the resamples.
+        tell: hears what is being done.
+
+    Returns:
+        The verdict.
+    """
     fit, best, problem = state.fit, state.best, state.problem
     search = Search.on(problem)
     tell("weighing alternatives", 0.55)
@@ -227,7 +238,19 @@ def undecided(
     notices: tuple[Notice, ...],
     seconds: float,
 ) -> Diagnosis:
-    """The verdict where no effect can honestly be named."""
+    """The verdict where no effect can honestly be named.
+
+    Args:
+        start: the arm with its frames.
+        recordings: N rows.
+        residuals: (N, 3) mm after the frames.
+        noise: what is known of it.
+        notices: why nothing can be named.
+        seconds: taken so far.
+
+    Returns:
+        The verdict.
+    """
     rms = float(np.sqrt(np.mean(residuals**2)))
     points = start.to_base(recordings.positions, recordings.run) * 1e3
     count = len(recordings)

@@ -148,7 +148,16 @@ def _along_load(M: Array, mean: Array, line: int, constant: Sequence[int]) -> bo
 
 
 def rest_of(problem: Problem, hypothesis: Hypothesis, line: int) -> list[int]:
-    """What is left, in a hypothesis, of the curve that a named line was taken from."""
+    """What is left, in a hypothesis, of the curve that a named line was taken from.
+
+    Args:
+        problem: the sums, priors and costs.
+        hypothesis: that holds the line.
+        line: the candidate's number.
+
+    Returns:
+        Numbers of columns.
+    """
     candidates = problem.space.candidates
     if candidates[line].kind != DRIVE:
         return []

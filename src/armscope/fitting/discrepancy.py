@@ -78,6 +78,9 @@ def model_error(fit: Refit, recordings: Recordings, least_mm: float) -> ModelErr
         fit: of the recordings.
         recordings: the rows.
         least_mm: the noise is never taken to be below.
+
+    Returns:
+        The covariance, SI, and the processes that it was widened by.
     """
     rows = spread_evenly(len(recordings), DISCREPANCY.most_rows)
     share = len(rows) / len(recordings)

@@ -118,6 +118,9 @@ def gauss_newton(
         problem: what is fitted to what.
         start: where to begin.
         most_steps: after so many steps the fit stops where it is.
+
+    Returns:
+        State, residual, steps, and why it stopped.
     """
     state, residual = start, problem.residual(start)
     damping = problem.least_damping

@@ -45,6 +45,9 @@ def find_scatter(residuals: Array, moved: Array, least_noise: float) -> list[Sca
         residuals: (N, 3) mm, base axes.
         moved: (m, N, 3) from `motor_jacobians`.
         least_noise: mm.
+
+    Returns:
+        Joint, size at it and evidence of each.
     """
     size = np.linalg.norm(residuals, axis=1)
     near = size <= np.quantile(size, 1 - SCATTER.trimmed)
@@ -96,7 +99,17 @@ def _covariance(moved: Array, rho: Mapping[int, float]) -> Array:
 
 
 def noise_between(residuals: Array, moved: Array, found: Sequence[Scattered], least: float) -> float:
-    """The noise that is left once scatter of the sizes found is taken out, mm."""
+    """The noise that is left once scatter of the sizes found is taken out, mm.
+
+    Args:
+        residuals: (N, 3) mm, base axes.
+        moved: (m, N, 3) from `motor_jacobians`.
+        found: where it scatters.
+        least: mm; the noise is never taken to be below.
+
+    Returns:
+        mm per axis.
+    """
     noise = max(least, float(np.sqrt(np.mean(residuals**2))))
     for _ in range(20):
         noise = _likelihood(residuals, moved, {s.motor - 1: s.size / noise for s in found}, least)[1]
@@ -104,7 +117,16 @@ def noise_between(residuals: Array, moved: Array, found: Sequence[Scattered], le
 
 
 def whitening(found: Sequence[Scattered], moved: Array, noise: float) -> Array | None:
-    """(N, 3, 3) symmetric V^-1/2 per row; None without scatter."""
+    """(N, 3, 3) symmetric V^-1/2 per row; None without scatter.
+
+    Args:
+        found: where it scatters.
+        moved: (m, N, 3) from `motor_jacobians`.
+        noise: elsewhere, mm per axis.
+
+    Returns:
+        (N, 3, 3); rows that do not scatter keep their scale.
+    """
     if not found:
         return None
     values, vectors = np.linalg.eigh(_covariance(moved, {s.motor - 1: s.size / noise for s in found}))

@@ -112,9 +112,14 @@ def normal_equations_by_block(
     starts from no effects while the linearisation stands where the model stands.
 
     Args:
+        pool: of the model's columns.
+        model: the point of linearisation.
         rows: a table, or recordings.
         weights: of the rows; only the channels that they are of count.
         blocks: (N,) number of each row's block, from 0.
+
+    Returns:
+        One per block, mm per SI unit.
     """
     column_order = pool.column_order
     current = current_parameters(pool, model)[column_order.order]

@@ -131,6 +131,9 @@ def frame_columns(points: Array, turned: Array, base: Indices, tool: Indices, co
         points, turned: (N, 3), (N, 3, 3) tool points and the last frame's rotations.
         base, tool: (N,) numbers of each row's base and tool.
         counts: (R, K).
+
+    Returns:
+        (N, 3, 6 R + 3 K) m per m or rad.
     """
     n_bases, n_tools = counts
     rows, axes = np.arange(len(points))[:, None], np.arange(3)
@@ -181,5 +184,15 @@ class _Placement(NonlinearProblem[Frames, Array]):
 def place_frames(
     poses: FlangePoses, start: Frames, most_steps: int, weigh: Callable[[Array], Array]
 ) -> FitResult[Frames, Array]:
-    """Bases and tools together, refined from a start; rows weighed by what is left of them (N, 3), m."""
+    """Bases and tools together, refined from a start; rows weighed by what is left of them (N, 3), m.
+
+    Args:
+        poses: the last frame in N rows, and what was measured.
+        start: bases and tools to start from.
+        most_steps: after so many steps the fit stops where it is.
+        weigh: (N, 3) m to (N,) weights.
+
+    Returns:
+        Bases and tools, and what is left, m.
+    """
     return gauss_newton(_Placement(poses, weigh), start, most_steps)

@@ -152,12 +152,17 @@ def refit(
 
     Args:
         model: where to start from; its effects are replaced.
+        rows: a table, or recordings.
+        frames: always free.
         backgrounds: per family (effects, size): a share of the tolerance for the first, mm at the tool for the others;
             families of size 0 are left out.
         effects: (effect, size at the tool, mm).
-        rows: a table, or recordings.
         row_noise: relative uncertainty of the rows, and which are independent.
+        least_noise: mm; the noise is never taken to be below.
         whitening: (N, 3, 3) of rows that scatter along known directions.
+
+    Returns:
+        The fitted model, its weights, noise and covariance.
     """
     named = {term for placed, _ in effects for term in placed.terms}
     kept = [[b for placed in family if size and (b := _without(placed, named))] for family, size in backgrounds]

@@ -22,6 +22,14 @@ def fit_frames(arm: Arm, recordings: Recordings, tool_per_run: bool = False) -> 
 
     Each run starts from the rigid motion of the nominal tool points about their medians onto the measured ones;
     Gauss-Newton with Huber weights then fits bases and tools together.
+
+    Args:
+        arm: the nominal arm.
+        recordings: N rows.
+        tool_per_run: a tool of its own in every run, where it was taken off in between.
+
+    Returns:
+        The model, its frames in SI units.
     """
     frames = chain(arm, recordings.motor_angles)
     keys = tool_keys(recordings, tool_per_run)

@@ -81,6 +81,9 @@ def transfer(
         without: what to compare with; the model without any effect where not given. (Where frames are kept, the bare
             arm's own fit to the rows of learning is the fair one: `fit_frames`.)
 
+    Returns:
+        The model on the other rows, and what it leaves of them.
+
     Raises:
         InputError: ``effects`` names nothing that the model has, or a kept tool is not known for a target.
     """

@@ -62,6 +62,12 @@ class WeightRules(Constants):
         "part of its clean weight below which a row does not count as a measurement",
         "judgement: it then lies 5.4 scales off",
     )
+    fewest_orientations: int = constant(
+        15,
+        "fewer orientations are not used",
+        "judgement: the frames of the tools take up too much of what they tell",
+        unit="rows",
+    )
 
 
 NOISE = NoiseRules()

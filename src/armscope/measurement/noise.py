@@ -67,6 +67,14 @@ def independence_weights(residuals: Array, pose: Indices, trusted: NDArray[np.bo
     A residual is what is wrong with its pose (variance u^2, the same at every visit) and the reading's noise (e^2). The
     mean of k visits has variance u^2 + e^2 / k: together they count (u^2 + e^2) / (u^2 + e^2 / k) rows, 1 where the
     pose is wrong, k where the reading is. e^2 comes from within poses, u^2 from the likelihood of their means.
+
+    Args:
+        residuals: (N, 3) mm.
+        pose: (N,) number of each row's configuration.
+        trusted: (N,) rows that are no bad shots.
+
+    Returns:
+        (N,), at most 1.
     """
     visits = np.bincount(pose[trusted], minlength=int(pose.max()) + 1)
     freedom = int((visits[visits > 0] - 1).sum())
@@ -115,6 +123,14 @@ def growth(residuals: Array, distance: Array, trusted: NDArray[np.bool_]) -> Gro
 
     The likelihood of normal residuals with variance near^2 (1 + (ratio d)^2), near at its best, is compared with that
     of one variance for all.
+
+    Args:
+        residuals: (N, 3) mm.
+        distance: (N,) from the instrument, any unit.
+        trusted: (N,) rows that are no bad shots.
+
+    Returns:
+        Noise at the nearest and per distance, mm, with its evidence, nats.
     """
     squares, d = np.sum(residuals[trusted] ** 2, axis=1), distance[trusted]
     if len(d) < NOISE.fewest_for_growth or squares.sum() <= 0:
@@ -136,7 +152,12 @@ def relative_uncertainty(recordings: Recordings, noise_mm: float, known: Array |
     """(N,) uncertainty of each row relative to the usual one: stated differences on top of the common noise.
 
     Args:
+        recordings: with the uncertainties that they state.
+        noise_mm: the common noise.
         known: (N,) noise of the rows, mm, where it was found to differ; counts where none is stated.
+
+    Returns:
+        (N,), 1 for the usual row.
     """
     if recordings.sigma is None or not np.isfinite(recordings.sigma).any():
         return np.ones(len(recordings)) if known is None else np.asarray(known / np.median(known))

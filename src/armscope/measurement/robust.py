@@ -34,7 +34,16 @@ def tuning_constant(width: int) -> float:
 
 
 def huber_weights(residuals: Array, uncertainty: Array, least: float) -> Array:
-    """(N,) weights while structure may still be in the residuals: Huber's, so that nothing is silenced yet."""
+    """(N,) weights while structure may still be in the residuals: Huber's, so that nothing is silenced yet.
+
+    Args:
+        residuals: (N, 3).
+        uncertainty: (N,) relative stated uncertainty of the rows (1 where not stated).
+        least: the noise is not taken to be below this.
+
+    Returns:
+        (N,), 1 for a clean row of usual uncertainty.
+    """
     far = _distance(residuals, uncertainty, least)
     return np.minimum(1.0, tuning_constant(residuals.shape[1]) / far) / uncertainty**2
 
@@ -46,6 +55,9 @@ def quartic_weights(residuals: Array, uncertainty: Array, least: float) -> Array
         residuals: (N, c).
         uncertainty: (N,) relative stated uncertainty of the rows (1 where not stated).
         least: the noise is not taken to be below this.
+
+    Returns:
+        (N,), 1 for a clean row of usual uncertainty.
     """
     far = _distance(residuals, uncertainty, least)
     return np.minimum(1.0, tuning_constant(residuals.shape[1]) / far) ** 4 / uncertainty**2

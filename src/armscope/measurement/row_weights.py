@@ -35,8 +35,12 @@ class RowNoise:
         """Weights against what a fitted model leaves, the reference channel whitened.
 
         Args:
+            left: residuals of the model by channel.
             least: mm, below which the reference channel's noise is not taken to be.
             whitening: (N, width, width) of the reference channel.
+
+        Returns:
+            Weights of positions and of turns.
         """
         return self._weights(robust.quartic_weights, left, least, whitening)
 

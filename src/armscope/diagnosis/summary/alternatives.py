@@ -32,6 +32,13 @@ def alternatives(search: Search, best: Hypothesis, number: int) -> list[Rival]:
 
     None where a background holds the effect, too: without the name, the background explains the same. A line taken from
     a curve of load is rivalled by what rivals the curve; a curve of another drive's load is told as its compliance.
+
+    Args:
+        search: the finished one.
+        best: the hypothesis chosen.
+
+    Returns:
+        Gap, effect in place, and the hypothesis with it.
     """
     candidate, rest = search.candidate(number), rest_of(search.problem, best, number)
     if search.in_background(best, number) and not rest:
@@ -69,6 +76,15 @@ def discriminability(best: Hypothesis, other: Hypothesis, effect: Candidate, riv
 
     The evidence also holds what a rival of one parameter more (a wave of free phase) pays for it; where the two fit
     alike, that is no measurement: such a rival counts by its fit alone. Larger ones fit anything and count in full.
+
+    Args:
+        best: the hypothesis with the effect.
+        other: the one with its rival.
+        effect: in place.
+        rival: in place.
+
+    Returns:
+        Nats; negative where the rival fits better.
     """
     gap = best.log_posterior - other.log_posterior
     if len(rival.columns) > len(effect.columns) + 1:
@@ -118,6 +134,13 @@ def inclusion_frequency(state: DiagnosisState, draws: int, rng: np.random.Genera
     """How often each chosen effect's place is chosen again when blocks of rows are drawn with replacement.
 
     Hypotheses of many columns (several free curves) are looked for with coarse curves, and without a local search.
+
+    Args:
+        draws: how often.
+        rng: draws them.
+
+    Returns:
+        Share of the draws, by candidate.
     """
     best, blocks = state.best, state.blocks
     if not blocks or not best.chosen or not draws:

@@ -44,6 +44,12 @@ def atlas(layout: ParameterLayout, model: FittedModel, recordings: Recordings, w
 
     Args:
         layout: of the fitted model.
+        model: the fitted one.
+        recordings: N rows.
+        weights: of the rows.
+
+    Returns:
+        Shares of the mean square by location, direction and driver.
     """
     rows = spread_evenly(len(recordings), TELLING.atlas_rows)
     share = len(rows) / len(recordings)

@@ -30,7 +30,17 @@ def _root(driver: Driver) -> Driver | None:
 
 
 def curve_of(placed: Placed, values: Array, covariance: Array, scene: Scene) -> Curve | None:
-    """The turn or shift that an effect makes over its driver's recorded range; the direction that moves most."""
+    """The turn or shift that an effect makes over its driver's recorded range; the direction that moves most.
+
+    Args:
+        placed: the effect.
+        values: (k,) of its terms, SI.
+        covariance: (k, k) of them.
+        scene: the recorded rows.
+
+    Returns:
+        Values with standard errors over the driver.
+    """
     source = source_of(placed)
     if source is None:
         return None
@@ -96,7 +106,18 @@ def _periods(placed: Placed, values: Array) -> tuple[tuple[float, float], ...]:
 def describe(
     at: Array, value: Array, recorded: Array, periods: tuple[tuple[float, float], ...] = (), unit: str = ""
 ) -> str:
-    """The simple shape that comes closest to a curve over values in ``unit``, weighted by where rows were recorded."""
+    """The simple shape that comes closest to a curve over values in ``unit``, weighted by where rows were recorded.
+
+    Args:
+        at: (G,) the driver's values.
+        value: (G,) the curve.
+        recorded: (N,) the driver's values in the table.
+        periods: of the waves that it holds, with their amplitudes.
+        unit: of the values.
+
+    Returns:
+        A few words.
+    """
     density, _ = np.histogram(recorded, bins=np.append(at, at[-1] + 1e-9))
     weight = np.convolve(density, np.ones(9) / 9, mode="same") + 1e-6 * max(density.max(), 1)
     shapes: list[tuple[float, str]] = [(_explained(value, [at], weight), "a trend in proportion to its driver")]

@@ -21,7 +21,11 @@ from armscope.recordings import Recordings
 
 
 def subset_consistency(state: DiagnosisState) -> dict[int, str]:
-    """For effects with plain parameters: whether every run, payload and half of the workspace alone gives the same."""
+    """For effects with plain parameters: whether every run, payload and half of the workspace alone gives the same.
+
+    Returns:
+        A sentence by candidate.
+    """
     told: dict[int, list[str]] = {}
     plain = [
         c.candidate

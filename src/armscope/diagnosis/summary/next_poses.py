@@ -29,6 +29,13 @@ def next_poses(
 
     Greedy: each next pose is the one where the two predictions differ most, measured against what the rival could still
     adapt to (its posterior covariance, updated after each choice) and the noise.
+
+    Args:
+        rivals: other readings by effect.
+        rng: draws the poses that compete.
+
+    Returns:
+        Poses, payloads and how far the two predictions lie apart there, mm.
     """
     best, candidates = state.best, state.space.candidates
     pairs = [

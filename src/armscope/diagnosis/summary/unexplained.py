@@ -20,7 +20,16 @@ from armscope.verdict.schema import Background, FoundEffect, Unexplained
 def background_summaries(
     state: DiagnosisState, edits: Edits, gram: NormalEquations, of_families: Sequence[float]
 ) -> tuple[Background, ...]:
-    """What each family's background amounts to, and whether the evidence asks for it."""
+    """What each family's background amounts to, and whether the evidence asks for it.
+
+    Args:
+        state: the finished selection.
+        gram: sums over all rows.
+        of_families: RMS at the tool by family, mm.
+
+    Returns:
+        One per family.
+    """
     fit, best = state.fit, state.best
     sizes = background_sizes(state.problem, best.background)
     values = {t: v for part in fit.model.background for t, v in zip(part.placed.terms, part.values, strict=True)}
