@@ -9,12 +9,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from armscope.report.text.headline import exact_phrase, headline
 
 from armscope.core.inputs import InputError
 from armscope.physics import registry
 from armscope.physics.drivers import KINDS
 from armscope.report.pages.diagnosis import write_report
+from armscope.verdict.sentences import exact_phrase, headline
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "add-an-effect.md").read_text(encoding="utf-8")
