@@ -21,7 +21,7 @@ WINDOWS = 12
 """The running mean along an angle has so many windows over its range."""
 
 
-def along_joints(subject: Subject) -> Iterator[Drawn]:
+def along_joints_figure(subject: Subject) -> Iterator[Drawn]:
     """The residual along each joint's motion against its angle, where one moves."""
     rows = evenly(len(subject.recordings), MOST_ROWS)
     angles, residuals = subject.recordings.motor_angles[rows], subject.verdict.residuals

@@ -9,7 +9,7 @@ from armscope.report.subject import Drawn, Subject
 from armscope.verdict.schema import Verdict
 
 
-def arm(subject: Subject) -> Iterator[Drawn]:
+def arm_figure(subject: Subject) -> Iterator[Drawn]:
     """The arm in a recorded pose."""
     picture = draw_arm(subject.arm, subject.recordings.motor_angles, location_shares(subject.verdict))
     yield Drawn("arm", picture, "The arm in a recorded pose, joints and links coloured by their share of the mismatch")

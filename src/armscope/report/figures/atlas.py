@@ -84,7 +84,7 @@ def attribution(verdict: Diagnosis) -> bool:
     return verdict.atlas is not None and bool(np.isfinite(verdict.atlas.share).any())
 
 
-def atlas(subject: Subject) -> Iterator[Drawn]:
+def atlas_figure(subject: Subject) -> Iterator[Drawn]:
     """The atlas with the named effects framed."""
     verdict = subject.verdict
     if verdict.atlas is not None and attribution(verdict):

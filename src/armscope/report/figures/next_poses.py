@@ -55,7 +55,7 @@ def _from_the_side(shape: ArmShape) -> View:
     return view_from(float(azimuth), float(ELEVATION))
 
 
-def next_poses(subject: Subject) -> Iterator[Drawn]:
+def next_poses_figure(subject: Subject) -> Iterator[Drawn]:
     """The arm in the poses to measure next, where there are some."""
     poses = subject.verdict.next_poses
     if poses is not None and len(poses.motor_angles):

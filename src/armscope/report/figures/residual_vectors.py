@@ -124,7 +124,7 @@ def _mark_base(panel: Axes) -> None:
         panel.annotate("base", (0, 0), (5, 5), textcoords="offset points", color=GREY, fontsize=8)
 
 
-def vectors(subject: Subject) -> Iterator[Drawn]:
+def vectors_figure(subject: Subject) -> Iterator[Drawn]:
     """Residual vectors before and after."""
     rows = subject.verdict.residuals
     drawn = draw_vectors(rows.points * 1e-3, rows.before, rows.after)

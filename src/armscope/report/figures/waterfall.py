@@ -105,7 +105,7 @@ def _millimetres(value: float) -> str:
     return f"{value:.3f} mm" if value < 1 else f"{value:.2f} mm"
 
 
-def waterfall(subject: Subject) -> Iterator[Drawn]:
+def waterfall_figure(subject: Subject) -> Iterator[Drawn]:
     """The held-out error as effects enter, beside the paper's models; none where nothing was held out."""
     verdict = subject.verdict
     known = gathered([step for step in waterfall_steps(verdict) if np.isfinite(step.held_out_mm)])

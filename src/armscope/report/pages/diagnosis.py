@@ -14,7 +14,7 @@ from markupsafe import Markup
 from armscope.core.files import write_text
 from armscope.report.html import render_page
 from armscope.report.sections.better import improvement
-from armscope.report.sections.effects import found
+from armscope.report.sections.effects import findings
 from armscope.report.sections.registry import SECTIONS
 from armscope.report.style import save_figure
 from armscope.report.subject import Drawn, Section, Subject
@@ -90,7 +90,7 @@ def _head(verdict: Diagnosis) -> dict[str, Any]:
         "answer": answer,
         "tiles": _tiles(verdict),
         "improvement": improvement(verdict),
-        "open_question": found(verdict)["open_question"],
+        "open_question": findings(verdict)["open_question"],
         "notices": [notice for notice in verdict.notices if not _said(notice.text, verdict.headline)],
     }
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from armscope.report.figures.atlas import atlas, attribution
+from armscope.report.figures.atlas import atlas_figure, attribution
 from armscope.report.subject import Section
 
-ATLAS = Section("atlas", "Atlas", figures=(atlas,), applies=attribution)
+ATLAS = Section("atlas", "Atlas", figures=(atlas_figure,), applies=attribution)

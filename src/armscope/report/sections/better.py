@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from armscope.core.numerals import rounded
-from armscope.report.figures.waterfall import waterfall, waterfall_steps
+from armscope.report.figures.waterfall import waterfall_figure, waterfall_steps
 from armscope.report.subject import Section, Subject
 from armscope.verdict.schema import Verdict
 from armscope.verdict.wording import millimetres
@@ -58,4 +58,4 @@ def _context(subject: Subject) -> dict[str, Any]:
     return {"improvement": improvement(subject.verdict), "steps": pd.DataFrame(steps, columns=names)}
 
 
-BETTER = Section("better", "How much better", _context, (waterfall,))
+BETTER = Section("better", "How much better", _context, (waterfall_figure,))

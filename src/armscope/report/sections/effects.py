@@ -12,7 +12,7 @@ from armscope.verdict.schema import Diagnosis, FoundEffect, NextPoses
 from armscope.verdict.wording import main_and_minor, percent
 
 
-def found(verdict: Diagnosis) -> dict[str, Any]:
+def findings(verdict: Diagnosis) -> dict[str, Any]:
     """What several sections tell: cards of main and minor effects, the backgrounds, whether a main one is in doubt."""
     number = {id(effect): n for n, effect in enumerate(verdict.effects, start=1)}
 
@@ -35,7 +35,7 @@ def found(verdict: Diagnosis) -> dict[str, Any]:
 
 
 def _context(subject: Subject) -> dict[str, Any]:
-    return found(subject.verdict)
+    return findings(subject.verdict)
 
 
 def _concerns(poses: NextPoses | None, effects: Sequence[FoundEffect]) -> bool:

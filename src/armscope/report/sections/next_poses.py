@@ -7,15 +7,15 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from armscope.report.figures.next_poses import next_poses
-from armscope.report.sections.effects import found
+from armscope.report.figures.next_poses import next_poses_figure
+from armscope.report.sections.effects import findings
 from armscope.report.subject import Section, Subject
 from armscope.verdict.schema import NextPoses
 
 
 def _context(subject: Subject) -> dict[str, Any]:
     poses = subject.verdict.next_poses
-    return {**found(subject.verdict), "next_poses": None if poses is None else _next_poses(poses)}
+    return {**findings(subject.verdict), "next_poses": None if poses is None else _next_poses(poses)}
 
 
 def _next_poses(poses: NextPoses) -> pd.DataFrame:
@@ -29,4 +29,4 @@ def _next_poses(poses: NextPoses) -> pd.DataFrame:
     return table
 
 
-NEXT = Section("next", "What to measure next", _context, (next_poses,))
+NEXT = Section("next", "What to measure next", _context, (next_poses_figure,))

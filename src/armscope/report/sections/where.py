@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from armscope.report.figures.arm import arm
-from armscope.report.sections.effects import found
+from armscope.report.figures.arm import arm_figure
+from armscope.report.sections.effects import findings
 from armscope.report.subject import Section, Subject
 
 
 def _context(subject: Subject) -> dict[str, Any]:
-    return {**found(subject.verdict), "arm": subject.arm}
+    return {**findings(subject.verdict), "arm": subject.arm}
 
 
-WHERE = Section("where", "Where", _context, (arm,))
+WHERE = Section("where", "Where", _context, (arm_figure,))

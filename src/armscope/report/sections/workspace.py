@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from armscope.report.figures.along_joints import along_joints
+from armscope.report.figures.along_joints import along_joints_figure
 from armscope.report.figures.arm import location_shares
 from armscope.report.figures.error_field import MOST_ROWS, ErrorField, turnable
-from armscope.report.figures.residual_vectors import MOST_ARROWS, vectors
+from armscope.report.figures.residual_vectors import MOST_ARROWS, vectors_figure
 from armscope.report.subject import Section, Subject
 
 
@@ -38,4 +38,4 @@ def _field(subject: Subject) -> ErrorField:
     )
 
 
-WORKSPACE = Section("workspace", "Before and after", _context, (vectors, along_joints))
+WORKSPACE = Section("workspace", "Before and after", _context, (vectors_figure, along_joints_figure))
