@@ -25,12 +25,13 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import solve_triangular
 
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import component_rows
 from armscope.fitting.linearisation import chunks, response
 from armscope.fitting.refit import Refit
+from armscope.inference.constants import PRIORS
 from armscope.inference.linear_algebra import lower_cholesky, quadratic_and_logdet, solve_lower
-from armscope.inference.problem import SURE_NATS
 from armscope.physics.effect import AXES, ONE, Direction, motor, term
 from armscope.physics.placing import moving_joints
 from armscope.recordings import Recordings
@@ -73,7 +74,7 @@ class ModelError:
 
     def told(self) -> list[Notice]:
         """What to say of it, where it is sure."""
-        sure = [f"{p.what} ({p.rms_mm:.2g} mm)" for p in self.processes if p.evidence > SURE_NATS]
+        sure = [f"{p.what} ({p.rms_mm:.2g} mm)" for p in self.processes if p.evidence > PRIORS.sure_nats]
         if not sure:
             return []
         text = f"What is left is more than noise, and no effect explains it: {', '.join(sure)}. Intervals count it in."
@@ -88,7 +89,7 @@ def model_error(fit: Refit, recordings: Recordings, least_mm: float) -> ModelErr
         recordings: the rows.
         least_mm: the noise is never taken to be below.
     """
-    rows = np.unique(np.linspace(0, len(recordings) - 1, min(len(recordings), MOST_ROWS)).astype(np.intp))
+    rows = spread_evenly(len(recordings), MOST_ROWS)
     share = len(rows) / len(recordings)
     sums = _sums(fit, recordings, rows)
     factor = lower_cholesky(sums.normal / share, fit.noise**2 * fit.precision)

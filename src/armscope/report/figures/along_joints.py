@@ -8,8 +8,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
-from armscope.report.figures.residual_vectors import evenly
+from armscope.recordings.motion import moving
 from armscope.report.style import BLACK, BLUE, VERMILION, legend_above, styled
 from armscope.report.subject import Drawn, Subject
 from armscope.robot import chain, position_jacobian
@@ -23,9 +24,9 @@ WINDOWS = 12
 
 def along_joints_figure(subject: Subject) -> Iterator[Drawn]:
     """The residual along each joint's motion against its angle, where one moves."""
-    rows = evenly(len(subject.recordings), MOST_ROWS)
+    rows = spread_evenly(len(subject.recordings), MOST_ROWS)
     angles, residuals = subject.recordings.motor_angles[rows], subject.verdict.residuals
-    if np.any(np.ptp(angles, axis=0) > 1e-3):
+    if moving(angles).any():
         jacobian = position_jacobian(subject.arm, chain(subject.arm, angles))
         drawn = draw_along_joints(angles, jacobian, residuals.before[rows], residuals.after[rows])
         yield Drawn("along_joints", drawn, "Residual along each joint's motion against its angle, before and after")
@@ -39,8 +40,8 @@ def draw_along_joints(motor_angles: Array, jacobian: Array, before: Array, after
         jacobian: (N, 3, m) displacement of the tool by unit turns of the motors, base axes.
         before, after: (N, 3) residuals in base axes, mm.
     """
-    joints = np.flatnonzero(np.ptp(motor_angles, axis=0) > 1e-3)
-    shown = evenly(len(motor_angles), MOST_DOTS)
+    joints = np.flatnonzero(moving(motor_angles))
+    shown = spread_evenly(len(motor_angles), MOST_DOTS)
     ways = jacobian / np.maximum(np.linalg.norm(jacobian, axis=1, keepdims=True), 1e-9)
     along = [np.einsum("nci,nc->ni", ways, residual) for residual in (before, after)]
     limit = 1.15 * float(np.percentile(np.abs(along[0]), 99)) + 1e-9

@@ -11,8 +11,8 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Colormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.quiver import Quiver
-from numpy.typing import NDArray
 
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.report.figures.arm_picture import share_colours
 from armscope.report.style import GREY, styled
@@ -29,7 +29,7 @@ def draw_vectors(points: Array, before: Array, after: Array) -> Figure:
         points: (N, 3) measured tool points, base axes, m.
         before, after: (N, 3) residuals without any effect and with the fitted model, base axes, mm.
     """
-    shown = evenly(len(points), MOST_ARROWS)
+    shown = spread_evenly(len(points), MOST_ARROWS)
     at = 1e3 * points[shown]
     typical = float(np.percentile(np.linalg.norm(before, axis=1), 95))
     across = float(max(np.ptp(at, axis=0).max(), 1.0))
@@ -68,11 +68,6 @@ def draw_vectors(points: Array, before: Array, after: Array) -> Figure:
         bar.outline.set_linewidth(0)
         _key(panels[0, 0], drawn, factor, nice(typical))
     return figure
-
-
-def evenly(count: int, most: int) -> NDArray[np.intp]:
-    """At most ``most`` row numbers, spread evenly; the same ones each time."""
-    return np.unique(np.linspace(0, count - 1, min(count, most)).astype(int))
 
 
 def nice(value: float) -> float:

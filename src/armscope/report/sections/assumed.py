@@ -10,6 +10,7 @@ import pandas as pd
 
 from armscope.core.numerals import rounded
 from armscope.recordings import Recordings
+from armscope.recordings.motion import moving
 from armscope.report.subject import Section, Subject
 from armscope.robot import Arm
 from armscope.verdict.schema import Verdict
@@ -42,7 +43,7 @@ def assumptions(verdict: Verdict, arm: Arm, recordings: Recordings) -> list[str]
         "payload": recordings.payload,
     }
     missing = [name for name, values in context.items() if values is None]
-    still = [f"joint {j + 1}" for j in np.flatnonzero(np.ptp(recordings.motor_angles, axis=0) <= 1e-3)]
+    still = [f"joint {j + 1}" for j in np.flatnonzero(~moving(recordings.motor_angles))]
     sentences = [
         "The base's place in the measurement frame is free for each run, the tool point for each target; what they "
         "can absorb is not part of the mismatch.",
