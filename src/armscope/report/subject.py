@@ -9,8 +9,8 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
+from armscope.errormodels.reference_models import held_out_rms
 from armscope.recordings import Recordings
-from armscope.report.reference_models import held_out_rms
 from armscope.robot import Arm
 from armscope.verdict.schema import Diagnosis
 
