@@ -15,6 +15,7 @@ from armscope.report.figures.arm_picture import share_colours
 from armscope.report.style import BLACK, styled
 from armscope.report.subject import Drawn, Subject
 from armscope.verdict.schema import Atlas, Diagnosis, FoundEffect
+from armscope.verdict.sentences import atlas_column
 
 WORTH_A_NUMBER = 0.03
 """Cells below this share are coloured but carry no number."""
@@ -106,37 +107,5 @@ def atlas_tables(
     there = tables[0].notna()
     rows, columns = there.index[there.any(axis=1)], there.columns[there.any(axis=0)]
     shares, left = (table.reindex(index=rows, columns=columns) for table in tables)
-    marked = [cell for effect in effects if (cell := _cell(effect)) is not None]
+    marked = [(effect.location, column) for effect in effects if (column := atlas_column(effect))]
     return shares, left, marked
-
-
-ATLAS_DRIVERS = {
-    "joint_offset": "constant",
-    "link_geometry": "constant",
-    "gear_ratio": "own angle",
-    "joint_compliance": "gravity load",
-    "bearing_compliance": "gravity load",
-    "base_compliance": "gravity load",
-    "link_bending": "gravity load",
-    "backlash": "side of approach",
-    "servo_lag": "speed",
-    "parallelogram_geometry": "constant",
-    "instrument_scale": "constant",
-    "payload_error": "gravity load",
-    "thermal_expansion": "temperature",
-    "base_drift": "time",
-}
-FOLLOWED = {"angle of": "own angle", "load of": "gravity load", "time": "time", "temperature": "temperature"}
-"""Columns of the atlas by how the driver of an unexplained curve begins."""
-WAVES = {1: "once per turn", 2: "twice per turn"}
-
-
-def _cell(effect: FoundEffect) -> tuple[str, str] | None:
-    """Where in the atlas an effect shows; None: nowhere."""
-    driver = ATLAS_DRIVERS.get(effect.effect)
-    if effect.effect == "unknown":
-        driver = next((column for start, column in FOLLOWED.items() if effect.driver.startswith(start)), None)
-    if effect.effect in ("gear_eccentricity", "axis_wobble"):
-        count = next((p.value for p in effect.parameters if p.name == "per_turn"), 0)
-        driver = WAVES.get(round(count))
-    return None if driver is None else (effect.location, driver)
