@@ -125,7 +125,7 @@ def nuisances(channels: Sequence[Channel], recordings: Recordings, tool_per_run:
         tool_per_run: a tool of its own in every run.
 
     Returns:
-        Terms in place, the frames of base and tool first.
+        Terms in place, channel by channel.
     """
     return [placed for channel in channels for placed in channel.nuisance(recordings, tool_per_run)]
 
