@@ -1,13 +1,10 @@
 """The frames are found without a first guess, wherever the instrument stands."""
 
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.spatial.transform import Rotation
 
 from armscope.calibration import calibrate
-from armscope.calibration.registration import kabsch
 from tests.calibration.worlds import far_away, measured, poses, ur_like
 from tests.robot.arms import STANDARD, dh_arm
 
@@ -48,20 +45,3 @@ def test_each_run_has_a_base_of_its_own():
     np.testing.assert_allclose(calibration.state.translations[1], bases["b"][1], atol=1e-7)
     # a single base can't serve both
     assert calibrate(arm, both, "nominal", one_base=True).rms_distance > 0.1
-
-
-def test_kabsch_agrees_with_scipy_and_tells_scale_and_handedness():
-    rng = np.random.default_rng(0)
-    points = rng.normal(size=(20, 3))
-    rotation, translation = far_away(rng)
-    goal = 2.5 * points @ rotation.T + translation
-    found = kabsch(points, goal)
-    oracle, _ = Rotation.align_vectors(goal - goal.mean(axis=0), points - points.mean(axis=0))
-    np.testing.assert_allclose(found.rotation, oracle.as_matrix(), atol=1e-9)
-    assert found.scale == pytest.approx(2.5)
-    assert found.determinant == 1
-    mirror = kabsch(points, (points * [1, 1, -1]) @ rotation.T)
-    assert mirror.determinant == -1
-    assert np.linalg.det(mirror.rotation) == pytest.approx(1)
-    assert mirror.rms > 0.1
-    assert kabsch(points, (points * [1, 1, -1]) @ rotation.T, mirrored=True).rms < 1e-9

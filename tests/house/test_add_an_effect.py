@@ -58,7 +58,7 @@ def test_the_pages_effect_is_found_by_name_with_its_clause_its_atlas_column_and_
     exec(SCRIPT, names)
     promised = re.findall(r"It prints `(.*)`", PAGE)[0]
     assert capsys.readouterr().out.strip() == promised
-    verdict, arm, table = names["verdict"], names["arm"], names["table"]
+    verdict = names["verdict"]
     assert [effect.effect for effect in verdict.effects] == ["hose_pull"]
     found = verdict.effects[0]
     pull = found.parameters[0]
@@ -69,7 +69,7 @@ def test_the_pages_effect_is_found_by_name_with_its_clause_its_atlas_column_and_
     column = atlas.share[:, -1, atlas.drivers.index("hose pull")]
     assert atlas.locations[np.nanargmax(column)] == "joint 3"
     assert np.nanmax(column) > 0.9
-    page = write_report(verdict, arm, table, tmp_path_factory.mktemp("report")).read_text(encoding="utf-8")
+    page = write_report(verdict, tmp_path_factory.mktemp("report")).read_text(encoding="utf-8")
     assert "pull of the hoses" in page
     assert "commanded = wanted - pull x wanted x |wanted|" in page
 

@@ -4,12 +4,13 @@ import pandas as pd
 import pytest
 from matplotlib.colors import to_rgb
 
+from armscope.core.sampling import spread_evenly
 from armscope.report.figures.arm_picture import draw_arm, share_colours, shares_by_place
 from armscope.report.figures.arm_shape import arm_shape, typical_pose
 from armscope.report.figures.atlas import draw_atlas
 from armscope.report.figures.diagnosis import atlas_tables, curve_of, gathered, location_shares, waterfall_steps
 from armscope.report.figures.next_poses import draw_poses
-from armscope.report.figures.residual_vectors import draw_along_joints, draw_vectors, evenly, nice, running_mean
+from armscope.report.figures.residual_vectors import draw_along_joints, draw_vectors, nice, running_mean
 from armscope.report.figures.waterfall import draw_waterfall
 from armscope.robot import load_arm
 from armscope.verdict.schema import Parameter
@@ -168,7 +169,7 @@ def test_arrows_have_the_stated_scale_and_long_tables_are_thinned():
     figure = draw_vectors(points, before, 0.1 * before)
     quivers = [c for axes in figure.axes[:4] for c in axes.collections if hasattr(c, "U")]
     assert [quiver.N for quiver in quivers] == [350] * 4
-    rows = evenly(12_000, 350)
+    rows = spread_evenly(12_000, 350)
     factor = float(figure.get_suptitle().split("drawn ")[1].split(" times")[0])
     assert np.allclose(quivers[0].U, factor * before[rows, 0])
     assert np.allclose(quivers[1].U, 0.1 * factor * before[rows, 0])

@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from armscope.robot import chain, forward_kinematics, load_arm
+from armscope.robot import Arm, chain, forward_kinematics, load_arm, twist_jacobian
 from armscope.robot.arm import build_arm
-from armscope.robot.denavit_hartenberg import as_dh
+from armscope.robot.denavit_hartenberg import as_dh, row_twist
 from armscope.robot.description import RobotDescription
 from armscope.robot.gravity import gravity_torques
 from tests.robot.arms import CONFIG
@@ -108,3 +108,28 @@ def test_a_joint_without_limits_can_be_held_at_an_angle(tmp_path):
         ).max()
         < 1e-12
     )
+
+
+@pytest.mark.parametrize("convention", ["standard", "modified"])
+@pytest.mark.parametrize("beta_deg", [0.0, 7.0])
+def test_a_constant_moves_the_tool_as_a_row_written_anew_does(convention: str, beta_deg: float) -> None:
+    rng = np.random.default_rng(0)
+    fields = {"a": "a_mm", "alpha": "alpha_deg", "d": "d_mm", "theta": "theta_offset_deg", "beta": "beta_deg"}
+    row = {"a_mm": 300.0, "alpha_deg": 40.0, "d_mm": 200.0, "theta_offset_deg": 10.0, "beta_deg": beta_deg}
+
+    def arm(joint: int = 1, **more: float) -> Arm:
+        joints = [row | (more if j == joint else {}) for j in range(1, 4)]
+        content = {"name": "test", "dh": {"convention": convention, "joints": joints}, "tool_mm": [50, 60, 70]}
+        return build_arm(RobotDescription.model_validate(content))
+
+    angles, nominal, step = rng.uniform(-2, 2, (5, 3)), arm(), 1e-6
+    for joint in (1, 2, 3):
+        for kind, field in fields.items():
+            in_file = 1e3 if field.endswith("mm") else np.degrees(1.0)
+            two = [
+                forward_kinematics(arm(joint, **{field: row[field] + side * step * in_file}), angles)
+                for side in (1, -1)
+            ]
+            location, twist = row_twist(nominal, joint, kind)
+            moved = twist_jacobian(chain(nominal, angles), location) @ twist
+            np.testing.assert_allclose(moved, (two[0] - two[1]) / (2 * step), atol=1e-7, err_msg=f"{kind} {joint}")

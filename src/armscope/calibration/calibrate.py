@@ -12,17 +12,18 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.calibration.by_run import misses_by_run
-from armscope.calibration.fit import rms_distance, spread_of
+from armscope.calibration.fit import rms_distance
 from armscope.calibration.geometry import nominal_values
 from armscope.calibration.imitation import Imitation, imitations
 from armscope.calibration.model import Level, SetUp, State, set_up
 from armscope.calibration.sanity import lost, no_gain, odd_loads, require_loads
-from armscope.calibration.sharing import exchanged_tool, moved_base
+from armscope.calibration.sharing import sharing
 from armscope.calibration.solve import Priors, Redundancy, Solved, scales_of, solve
 from armscope.calibration.splits import foretold, split
 from armscope.calibration.words import in_words
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
+from armscope.measurement.robust import scale_of
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -154,7 +155,7 @@ def calibrate(
         redundancy: parameters that imitate each other are "fixed" at nominal until the rest can be told apart
             (rank-revealing QR), or all free and held by "priors".
         priors: sizes for `redundancy` "priors"; None takes the defaults.
-        robust: take the say from bad shots (Tukey's biweight).
+        robust: take the say from bad shots (weights fall with the fourth power).
         one_base: one base frame for all runs.
         tool_per_run: a tool of its own for every run; None: where one for all leaves more than twice as much.
         orientation: use measured orientations, weighed by the scatter that positions and orientations show; None uses
@@ -171,7 +172,7 @@ def calibrate(
             without loads.
     """
     priors = priors or Priors()
-    notes, doubts = _sharing(arm, recordings, one_base, tool_per_run)
+    notes, doubts = sharing(arm, recordings, one_base, tool_per_run)
     tool_per_run = bool(notes) if tool_per_run is None else tool_per_run
     rows = set_up(arm, recordings, one_base, tool_per_run, orientation is not False)
     require_loads(recordings, rows, level)
@@ -200,30 +201,13 @@ def calibrate(
         covariance=covariance,
         steps=fitted.steps,
         reason=fitted.reason,
-        suspects=distance > SUSPECT_SIGMAS * spread_of(distance),
+        suspects=distance > SUSPECT_SIGMAS * scale_of(rows.residuals(fitted.state)),
         ids=np.array(ids),
         notes=tuple(notes + odd_loads(solved, level, covariance) + no_gain(misses)),
         doubts=tuple(doubts + lost(solved)),
         held=_held(solved, level),
         misses=misses,
     )
-
-
-def _sharing(
-    arm: Arm, recordings: Recordings, one_base: bool, tool_per_run: bool | None
-) -> tuple[list[str], list[str]]:
-    """(notes, doubts) on what the runs share; a note if tools must be free per run and nobody said otherwise."""
-    if len(np.unique(recordings.run)) < 2:
-        return [], []
-    notes, doubts = list[str](), list[str]()
-    if not tool_per_run and (text := exchanged_tool(arm, recordings, one_base)):
-        if tool_per_run is None:
-            notes.append(f"{text}, and is free in every run")
-        else:
-            doubts.append(text)
-    if one_base and (text := moved_base(arm, recordings, bool(notes) or bool(tool_per_run))):
-        doubts.append(text)
-    return notes, doubts
 
 
 def _held(solved: Solved, level: Level) -> tuple[Imitation, ...]:

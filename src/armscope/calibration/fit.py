@@ -2,27 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Literal
 
 import numpy as np
-import scipy.linalg
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from armscope.calibration.model import SetUp, State
-from armscope.calibration.registration import starts
+from armscope.calibration.model import Posed, SetUp, State
 from armscope.core.types import Array
+from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic, Reason, gauss_newton
+from armscope.fitting.placement import FlangePoses, place_frames
+from armscope.measurement import robust
 
-Reason = Literal["the step became negligible", "no step lowers the misfit", "the largest number of steps was made"]
-
-UNSETTLED: Reason = "the largest number of steps was made"
 LARGEST_STEPS = 60
 NEGLIGIBLE = 1e-8
 """Steps that move the tool by less than this, in metres RMS, end the fit: a hundredth of a micrometre."""
 
-BISQUARE_TUNING = 5.49
-"""Tukey's biweight on the 3D distance in units of its 1-sigma per axis: 95 % efficient where errors are normal."""
+Rule = Callable[[Array], Array]
+"""(N,) weights by what is left of the points (N, 3), m."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,12 +33,49 @@ class Fitted:
     reason: Reason
 
 
+def all_alike(left: Array) -> Array:
+    """(N,) ones."""
+    return np.ones(len(left))
+
+
+class _Calibration(NonlinearProblem[State, Posed]):
+    """Some of a set-up's parameters, each held near zero by its own stiffness."""
+
+    least_damping = 1e-13
+
+    def __init__(self, set_up: SetUp, free: NDArray[np.bool_], stiffness: Array, rule: Rule) -> None:
+        self.set_up, self.free, self.stiffness, self.rule = set_up, free, stiffness, rule
+        self.weights = np.ones(len(set_up))
+
+    def residual(self, state: State) -> Posed:
+        return self.set_up.posed(state)
+
+    def quadratic(self, state: State, residual: Posed) -> Quadratic:
+        self.weights = self.rule(residual.left[:, :3])
+        X = self.set_up.jacobian(state, residual, self.free)
+        weighted = X * np.repeat(self.weights, residual.left.shape[1])[:, None]
+        held = self.stiffness[self.free]
+        right = weighted.T @ residual.left.ravel() - held * _changes(state)[self.free]
+        return Quadratic(weighted.T @ X + np.diag(held), right, np.zeros(len(held)))
+
+    def misfit(self, state: State, residual: Posed) -> float:
+        return float(self.weights @ np.sum(residual.left**2, axis=1) + self.stiffness @ _changes(state) ** 2)
+
+    def moved(self, state: State, step: Array) -> State:
+        whole = np.zeros(len(self.free))
+        whole[self.free] = step
+        return state.moved(whole)
+
+    def settled(self, before: Posed, after: Posed) -> bool:
+        return float(np.sqrt(np.mean((after.left - before.left) ** 2))) < NEGLIGIBLE
+
+
 def least_squares(
     set_up: SetUp,
     state: State,
     free: NDArray[np.bool_],
     stiffness: Array | None = None,
-    weights: Array | None = None,
+    rule: Rule = all_alike,
     most_steps: int = LARGEST_STEPS,
 ) -> Fitted:
     """Minimise sum of weights * squared residuals + sum of stiffness * squared change, from ``state``.
@@ -50,38 +85,15 @@ def least_squares(
         state: the start.
         free: (P,) which parameters move.
         stiffness: (P,) m^2 per squared unit, holds parameters near zero (a prior); None holds none.
-        weights: (N,) per row; None counts all alike.
+        rule: weights of the rows by what is left of them; all count alike where not given.
         most_steps: after so many steps the fit stops where it is.
 
     Returns:
         The state, weights, steps, and why it stopped.
     """
-    weights = np.ones(len(set_up)) if weights is None else weights
-    stiffness = np.zeros(len(free)) if stiffness is None else stiffness
-    change = _changes(state)
-    residual, jacobian = set_up.linearised(state, free)
-    per_component = np.repeat(weights, len(residual) // len(set_up))
-    damping = 0.0
-    for steps in range(1, most_steps + 1):
-        cost = _cost(residual, per_component, stiffness, change)
-        weighted = jacobian * per_component[:, None]
-        normal = weighted.T @ jacobian + np.diag(stiffness[free])
-        gradient = weighted.T @ residual - stiffness[free] * change[free]
-        while True:
-            step = np.zeros(len(free))
-            step[free] = _solve(normal, gradient, damping)
-            candidate = state.moved(step)
-            if np.sqrt(np.mean((jacobian @ step[free]) ** 2)) < NEGLIGIBLE:
-                return Fitted(candidate, weights, steps, "the step became negligible")
-            residual, ahead = set_up.linearised(candidate, free)
-            if _cost(residual, per_component, stiffness, change + step) <= cost:
-                break
-            damping = max(damping * 10, 1e-4)
-            if damping > 1e8:
-                return Fitted(state, weights, steps, "no step lowers the misfit")
-        state, jacobian, change = candidate, ahead, change + step
-        damping = damping / 100 if damping > 1e-6 else 0.0
-    return Fitted(state, weights, most_steps, UNSETTLED)
+    problem = _Calibration(set_up, free, np.zeros(len(free)) if stiffness is None else stiffness, rule)
+    found = gauss_newton(problem, state, most_steps)
+    return Fitted(found.state, problem.weights, found.steps, found.reason)
 
 
 def _changes(state: State) -> Array:
@@ -90,23 +102,12 @@ def _changes(state: State) -> Array:
     return np.concatenate([np.zeros(n_frames), state.constants, state.compliances, np.zeros(n_turns)])
 
 
-def _cost(residual: Array, per_component: Array, stiffness: Array, change: Array) -> float:
-    return float(residual @ (per_component * residual) + stiffness @ change**2)
-
-
-def _solve(normal: Array, gradient: Array, damping: float) -> Array:
-    """Damped normal equations, scaled to a unit diagonal first: conditioning must not depend on units."""
-    scale = 1 / np.sqrt(np.maximum(np.diag(normal), 1e-300))
-    scaled = normal * scale * scale[:, None] + np.diag(np.full(len(scale), damping + 1e-13))
-    return scale * scipy.linalg.solve(scaled, scale * gradient, assume_a="pos")
-
-
 def robust_least_squares(
     set_up: SetUp, state: State, free: NDArray[np.bool_], stiffness: Array | None = None
 ) -> Fitted:
-    """As `least_squares`, with Tukey's biweight on the 3D distances: bad shots lose their say, and keep their rows.
+    """As `least_squares`, with the weights of the diagnosis: bad shots lose their say, and keep their rows.
 
-    Huber's weights come first, since the biweight is only safe near its solution. The scale is the median distance.
+    Huber's weights come first, since those that fall with the fourth power are only safe near their solution.
 
     Args:
         set_up: rows and arm.
@@ -117,17 +118,11 @@ def robust_least_squares(
     Returns:
         As `least_squares`, with the final weights (N,).
     """
-    fitted = least_squares(set_up, state, free, stiffness)
-    steps = fitted.steps
-    for weigh in [_huber] * 5 + [_bisquare] * 25:
-        distance = np.linalg.norm(set_up.residuals(fitted.state), axis=1)
-        weights = weigh(distance / spread_of(distance))
-        settled = np.abs(weights - fitted.weights).max() < 1e-4
-        fitted = least_squares(set_up, fitted.state, free, stiffness, weights)
-        steps += fitted.steps
-        if settled and weigh is _bisquare:
-            break
-    return Fitted(fitted.state, fitted.weights, steps, fitted.reason)
+    steps = 0
+    for rule in (all_alike, _huber, _quartic):
+        fitted = least_squares(set_up, state, free, stiffness, rule)
+        state, steps = fitted.state, steps + fitted.steps
+    return replace(fitted, steps=steps)
 
 
 def rms_distance(residuals: Array) -> float:
@@ -135,17 +130,12 @@ def rms_distance(residuals: Array) -> float:
     return float(np.sqrt(np.mean(np.sum(residuals**2, axis=1))))
 
 
-def spread_of(distance: Array) -> float:
-    """1-sigma per axis that the median 3D distance says, for normal errors; never zero."""
-    return max(float(np.median(distance)) / 1.5382, 1e-9)
+def _huber(left: Array) -> Array:
+    return robust.huber_weights(left, np.ones(len(left)), 0.0)
 
 
-def _huber(distance: Array) -> Array:
-    return np.minimum(1.0, 2.0 / np.maximum(distance, 1e-12))
-
-
-def _bisquare(distance: Array) -> Array:
-    return np.clip(1 - (distance / BISQUARE_TUNING) ** 2, 0.0, None) ** 2
+def _quartic(left: Array) -> Array:
+    return robust.quartic_weights(left, np.ones(len(left)), 0.0)
 
 
 def placed(set_up: SetUp, most_steps: int = LARGEST_STEPS) -> State:
@@ -155,15 +145,23 @@ def placed(set_up: SetUp, most_steps: int = LARGEST_STEPS) -> State:
         set_up: rows and arm.
         most_steps: of refinement; a few are enough to see whether an arm explains its points at all.
     """
-    blank = State(
-        rotations=np.tile(np.eye(3), (len(set_up.base_names), 1, 1)),
-        translations=np.zeros((len(set_up.base_names), 3)),
-        tools=np.tile(set_up.arm.tool, (len(set_up.tool_names), 1)),
+    frames, n_bases, n_tools = set_up.nominal_frames, len(set_up.base_names), len(set_up.tool_names)
+    flange = frames.tool - frames.tool_rotation @ set_up.arm.tool
+    poses = FlangePoses(flange, frames.tool_rotation, set_up.measured, set_up.base, set_up.tool)
+    tools = np.tile(set_up.arm.tool, (n_tools, 1))
+    # the second start fails where the poses hardly turn, the first where the tool is far from nominal
+    starts = [start for start in (poses.start(tools, n_bases), poses.start_of_far_tools(tools, n_bases)) if start]
+    tried = [place_frames(poses, start, most_steps, all_alike) for start in starts]
+    found = min(tried, key=lambda each: float(np.sum(each.residual**2))).state
+    state = State(
+        found.rotations,
+        found.translations,
+        found.tools,
         constants=np.zeros(len(set_up.constants)),
         compliances=np.zeros(set_up.arm.n_motors),
-        tool_rotations=np.tile(np.eye(3), (len(set_up.tool_names), 1, 1)),
+        tool_rotations=np.tile(np.eye(3), (n_tools, 1, 1)),
     )
-    return with_tool_rotations(set_up, _placed(replace(set_up, orientations=None), blank, most_steps))
+    return with_tool_rotations(set_up, state)
 
 
 def with_tool_rotations(set_up: SetUp, state: State) -> State:
@@ -178,32 +176,3 @@ def with_tool_rotations(set_up: SetUp, state: State) -> State:
     for tool in np.unique(set_up.tool[known]):
         rotations[tool] = Rotation.from_matrix(on_flange[known & (set_up.tool == tool)]).mean().as_matrix()
     return replace(state, tool_rotations=rotations)
-
-
-def _placed(set_up: SetUp, blank: State, most_steps: int) -> State:
-    _, frames = set_up.frames(blank)
-    turned = frames.tool_rotation
-    flange = frames.tool - np.einsum("nij,nj->ni", turned, blank.tools[set_up.tool])
-    free = set_up.free("nominal")
-    candidates = []
-    for trust_nominal in (True, False):
-        rotations, translations, tools = blank.rotations.copy(), blank.translations.copy(), []
-        for base in range(len(set_up.base_names)):
-            rows = set_up.base == base
-            if not rows.any():  # part of a table: what has no row stays where it is
-                continue
-            found = starts(flange[rows], turned[rows], set_up.tool[rows], set_up.measured[rows], blank.tools)
-            placement = found[0 if trust_nominal else -1]
-            rotations[base], translations[base] = placement.rotation, placement.translation
-            tools.append(placement.tools)
-        start = replace(
-            blank, rotations=rotations, translations=translations, tools=_mean_known(np.array(tools), blank.tools)
-        )
-        candidates.append(least_squares(set_up, start, free, most_steps=most_steps).state)
-    return min(candidates, key=lambda state: float(np.sum(set_up.residuals(state) ** 2)))
-
-
-def _mean_known(tools: Array, otherwise: Array) -> Array:
-    known = np.isfinite(tools)
-    sums = np.where(known, tools, 0.0).sum(axis=0)
-    return np.where(known.any(axis=0), sums / np.maximum(known.sum(axis=0), 1), otherwise)

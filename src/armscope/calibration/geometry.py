@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 from armscope.core.types import Array
 from armscope.robot import Arm, Chain, twist_jacobian
 from armscope.robot.arm import build_arm
+from armscope.robot.denavit_hartenberg import row_twist
 from armscope.robot.description import DHRow
 
 Unit = Literal["m", "rad"]
@@ -149,22 +150,6 @@ def turn_columns(arm: Arm, frames: Chain, constants: tuple[Constant, ...]) -> Ar
 
 def _twist(arm: Arm, constant: Constant) -> tuple[str, Array]:
     """Frame and twist (translation, rotation in its axes) that a unit of the constant is."""
-    twist = np.zeros(6)
-    joint = f"joint {constant.joint}"
-    if arm.description.dh is None:
-        twist[TWIST_NAMES.index(constant.kind)] = 1.0
-        return joint, twist
-    if constant.kind in ("theta", "d"):
-        twist[5 if constant.kind == "theta" else 2] = 1.0
-        return joint, twist
-    row = arm.description.dh.joints[constant.joint - 1]
-    beta, d = np.radians(row.beta_deg), row.d_mm * 1e-3
-    along = np.array([np.cos(beta), 0.0, np.sin(beta)])  # the row's x axis, seen past the turn about y
-    axis = along if constant.kind in ("a", "alpha") else np.array([0.0, 1.0, 0.0])
-    twist[:3] = axis if constant.kind == "a" else 0.0
-    twist[3:] = 0.0 if constant.kind == "a" else axis
-    if not arm.is_modified_dh:
-        return f"link {constant.joint}", twist
-    # in Craig's rows these stand before d, so they turn about a point d behind the joint frame's origin
-    twist[:2] += d * np.array([twist[4], -twist[3]])
-    return joint, twist
+    if arm.description.dh is not None:
+        return row_twist(arm, constant.joint, constant.kind)
+    return f"joint {constant.joint}", np.eye(6)[TWIST_NAMES.index(constant.kind)]

@@ -10,9 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from armscope.calibration.geometry import Constant, columns, constants_of, corrected, turn_columns
+from armscope.calibration.geometry import Constant, constants_of, corrected, turn_columns
+from armscope.calibration.geometry import columns as constant_columns
+from armscope.core.grouping import by_label
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
+from armscope.fitting.placement import frame_columns
 from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain, position_jacobian
 from armscope.robot.gravity import gravity_torques
@@ -56,6 +59,15 @@ class State:
             compliances=self.compliances + compliances,
             tool_rotations=self.tool_rotations @ Rotation.from_rotvec(turns.reshape(n_tools, 3)).as_matrix(),
         )
+
+
+@dataclass(frozen=True, eq=False)
+class Posed:
+    """An arm with a state's constants, its frames, and what is left of N rows: (N, 3) m, or (N, 6) with turns."""
+
+    arm: Arm
+    frames: Chain
+    left: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,7 +158,7 @@ class SetUp:
 
     def frames(self, state: State) -> tuple[Arm, Chain]:
         """The corrected arm and its frames, the tool points those of each row's tool."""
-        arm, frames = self.arm, self._nominal_frames
+        arm, frames = self.arm, self.nominal_frames
         if state.constants.any() or state.compliances.any():
             arm = corrected(self.arm, self.constants, state.constants)
             loads = 0.0 if self.loads is None else self.loads
@@ -155,8 +167,8 @@ class SetUp:
         return arm, replace(frames, tool=frames.tool + np.einsum("nij,nj->ni", frames.tool_rotation, offset))
 
     @functools.cached_property
-    def _nominal_frames(self) -> Chain:
-        """Finding base and tool moves no joint: the nominal arm's frames serve every step."""
+    def nominal_frames(self) -> Chain:
+        """Of the nominal arm: finding base and tool moves no joint: the nominal arm's frames serve every step."""
         return chain(self.arm, self.angles)
 
     def residuals(self, state: State) -> Array:
@@ -185,37 +197,49 @@ class SetUp:
         turns[known] = Rotation.from_matrix(seen @ np.swapaxes(expected, 1, 2)).as_rotvec()
         return turns
 
+    def posed(self, state: State) -> Posed:
+        """The arm at a state, and what that leaves."""
+        arm, frames = self.frames(state)
+        back = np.swapaxes(state.rotations[self.base], 1, 2)
+        left = np.einsum("nij,nj->ni", back, self.measured - state.translations[self.base]) - frames.tool
+        if self.orientations is not None:
+            left = np.concatenate([left, self.lever * self._turn_residuals(state, frames)], axis=1)
+        return Posed(arm, frames, left)
+
+    def jacobian(self, state: State, posed: Posed, free: NDArray[np.bool_]) -> Array:
+        """Columns of the prediction at a state.
+
+        Args:
+            state: values of everything.
+            posed: the arm there, see `posed`.
+            free: (P,) which parameters' columns.
+
+        Returns:
+            (cN, free), m per unit of each parameter, in the axes of each row's arm base.
+        """
+        arm, frames = posed.arm, posed.frames
+        counts = len(self.base_names), len(self.tool_names)
+        n_frames = 6 * counts[0] + 3 * counts[1]
+        columns = np.zeros((len(self), 3, len(free)))
+        columns[:, :, :n_frames] = frame_columns(frames.tool, frames.tool_rotation, self.base, self.tool, counts)
+        chosen = np.flatnonzero(free[n_frames : n_frames + len(self.constants)])
+        columns[:, :, n_frames + chosen] = constant_columns(arm, frames, tuple(self.constants[each] for each in chosen))
+        motors = slice(n_frames + len(self.constants), n_frames + len(self.constants) + arm.n_motors)
+        if self.loads is not None and free[motors].any():
+            columns[:, :, motors] = position_jacobian(arm, frames) * self.loads[:, None, :]
+        columns = columns[:, :, free]
+        if self.orientations is not None:
+            turned = self._turn_columns(arm, frames, state)[:, :, free]
+            columns = np.concatenate([columns, self.lever * turned], axis=1)
+        return columns.reshape(posed.left.size, -1)
+
     def linearised(self, state: State, free: NDArray[np.bool_]) -> tuple[Array, Array]:
         """Residuals (cN,) and the columns (cN, free) of the prediction, both in the axes of each row's arm base.
 
         Each row has c = 3 numbers, or 6 where orientations are used: the position, and the turn times the lever.
         """
-        arm, frames = self.frames(state)
-        back = np.swapaxes(state.rotations[self.base], 1, 2)
-        seen = np.einsum("nij,nj->ni", back, self.measured - state.translations[self.base])
-        n_rows, n_frames = len(self), 6 * len(self.base_names) + 3 * len(self.tool_names)
-        jacobian = np.zeros((n_rows, 3, len(free)))
-        rows = np.arange(n_rows)
-        x, y, z = frames.tool.T
-        turns = {(1, 3): -z, (2, 3): y, (0, 4): z, (2, 4): -x, (0, 5): -y, (1, 5): x}  # axis x tool
-        for (axis, turn), moved in turns.items():
-            jacobian[rows, axis, 6 * self.base + turn] = moved
-        for axis in range(3):
-            jacobian[rows, axis, 6 * self.base + axis] = 1.0
-            for tool_axis in range(3):
-                column = 6 * len(self.base_names) + 3 * self.tool + tool_axis
-                jacobian[rows, axis, column] = frames.tool_rotation[:, axis, tool_axis]
-        chosen = np.flatnonzero(free[n_frames : n_frames + len(self.constants)])
-        jacobian[:, :, n_frames + chosen] = columns(arm, frames, tuple(self.constants[each] for each in chosen))
-        motors = slice(n_frames + len(self.constants), n_frames + len(self.constants) + arm.n_motors)
-        if self.loads is not None and free[motors].any():
-            jacobian[:, :, motors] = position_jacobian(arm, frames) * self.loads[:, None, :]
-        residual, jacobian = seen - frames.tool, jacobian[:, :, free]
-        if self.orientations is not None:
-            turned = self._turn_columns(arm, frames, state)[:, :, free]
-            jacobian = np.concatenate([jacobian, self.lever * turned], axis=1)
-            residual = np.concatenate([residual, self.lever * self._turn_residuals(state, frames)], axis=1)
-        return residual.ravel(), jacobian.reshape(residual.size, -1)
+        posed = self.posed(state)
+        return posed.left.ravel(), self.jacobian(state, posed, free)
 
     def _turn_columns(self, arm: Arm, frames: Chain, state: State) -> Array:
         """(N, 3, P) turn of the tool by a unit of each parameter, arm base axes; 0 where not measured."""
@@ -271,12 +295,12 @@ def set_up(
             f"{arm.name} has {arm.n_motors}",
             "Is this the right robot for the recordings?",
         )
-    base_names, base = _groups(np.full(len(recordings), "") if one_base else recordings.run)
+    base_names, base = by_label(np.full(len(recordings), "") if one_base else recordings.run)
     labels = recordings.target
     if tool_per_run:
         joined = [" in ".join(filter(None, pair)) for pair in zip(recordings.target, recordings.run, strict=True)]
         labels = np.array(joined)
-    tool_names, tool = _groups(labels)
+    tool_names, tool = by_label(labels)
     loads, load_source = _loads(arm, recordings)
     return SetUp(
         arm=arm,
@@ -301,15 +325,6 @@ def _matrices(quaternions: Array | None) -> Array | None:
     matrices = np.full((len(quaternions), 3, 3), np.nan)
     matrices[known] = Rotation.from_quat(quaternions[known][:, [1, 2, 3, 0]]).as_matrix()
     return matrices
-
-
-def _groups(labels: NDArray[np.str_]) -> tuple[tuple[str, ...], NDArray[np.intp]]:
-    """Names in the order of their first row, and each row's number among them."""
-    names, first, number = np.unique(labels, return_index=True, return_inverse=True)
-    order = np.argsort(first)
-    rank = np.empty_like(order)
-    rank[order] = np.arange(len(order))
-    return tuple(str(name) for name in names[order]), rank[number]
 
 
 def _loads(arm: Arm, recordings: Recordings) -> tuple[Array | None, str]:

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from armscope.calibration.fit import UNSETTLED
 from armscope.calibration.model import GRAVITY, Level, SetUp
 from armscope.calibration.solve import Solved
 from armscope.calibration.words import SHOWN
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
+from armscope.fitting.gauss_newton import UNSETTLED
 from armscope.recordings import Recordings
 
 IMPLAUSIBLE = {"m": 0.05, "rad": 0.1}

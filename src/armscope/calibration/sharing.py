@@ -2,54 +2,52 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
-from armscope.calibration.fit import placed, spread_of
+from armscope.calibration.fit import placed
 from armscope.calibration.model import set_up
+from armscope.core.sampling import spread_evenly
+from armscope.fitting.exchanged_tool import LEAST_NUMBERS, WORSE, exchanged_tool
+from armscope.fitting.registration import fit_frames
+from armscope.measurement.robust import scale_of
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
-WORSE = 2.0
-"""Runs do not share a frame if one for all leaves more than this many times what one per run leaves: a mere shift of
-tenths of what the arm itself misses must not cost a frame its precision."""
-LEAST_NUMBERS = 2
-"""Measured numbers per number of a frame, for frames to tell anything."""
 ROWS = 1000
 """Rows that are looked at, at most."""
 
 
-def exchanged_tool(arm: Arm, recordings: Recordings, one_base: bool) -> str:
-    """A sentence if one tool per target does not do for all runs; empty if it does.
+def sharing(arm: Arm, recordings: Recordings, one_base: bool, tool_per_run: bool | None) -> tuple[list[str], list[str]]:
+    """What speaks against the frames that runs are said to share.
 
     Args:
         arm: the nominal arm.
-        recordings: measured points of several runs.
-        one_base: one base frame for all runs.
+        recordings: measured points.
+        one_base: whether all runs are said to share a base frame.
+        tool_per_run: whether every run has a tool of its own; None: nobody said.
 
     Returns:
-        The sentence.
+        (notes, doubts), sentences; a note if tools must be free per run and nobody said otherwise.
     """
-    shared, own = (_usual_miss(arm, recordings, one_base, per_run) for per_run in (False, True))
-    if shared <= WORSE * own:
-        return ""
-    return f"one tool for all runs leaves {shared * 1e3:.3g} mm, one per run {own * 1e3:.3g} mm: it was exchanged"
-
-
-def moved_base(arm: Arm, recordings: Recordings, tool_per_run: bool) -> str:
-    """A sentence if one base frame does not do for all runs; empty if it does.
-
-    Args:
-        arm: the nominal arm.
-        recordings: measured points of several runs.
-        tool_per_run: a tool of its own for every run.
-
-    Returns:
-        The sentence.
-    """
-    shared, own = (_usual_miss(arm, recordings, one_base, tool_per_run) for one_base in (True, False))
-    if shared <= WORSE * own:
-        return ""
-    return f"one base frame for all runs leaves {shared * 1e3:.3g} mm, one per run {own * 1e3:.3g} mm: it was moved"
+    if len(np.unique(recordings.run)) < 2:
+        return [], []
+    notes, doubts = list[str](), list[str]()
+    some = replace(recordings.rows(spread_evenly(len(recordings), ROWS)), orientation=None)
+    if not tool_per_run and (found := exchanged_tool(fit_frames(arm, some), some)):
+        text = f"one tool for all runs leaves {found.shared_mm:.3g} mm, one per run {found.own_mm:.3g} mm"
+        if tool_per_run is None:
+            notes.append(f"{text}: it was exchanged, and is free in every run")
+        else:
+            doubts.append(f"{text}: it was exchanged")
+    if one_base:
+        free = bool(notes) or bool(tool_per_run)
+        shared, own = (_usual_miss(arm, some, one, free) for one in (True, False))
+        if shared > WORSE * own:
+            text = f"one base frame for all runs leaves {shared * 1e3:.3g} mm, one per run {own * 1e3:.3g} mm"
+            doubts.append(f"{text}: it was moved")
+    return notes, doubts
 
 
 def _usual_miss(arm: Arm, recordings: Recordings, one_base: bool, tool_per_run: bool) -> float:
@@ -57,10 +55,9 @@ def _usual_miss(arm: Arm, recordings: Recordings, one_base: bool, tool_per_run: 
 
     Infinite where frames for so few rows would follow anything.
     """
-    some = np.unique(np.linspace(0, len(recordings) - 1, min(len(recordings), ROWS)).astype(np.intp))
-    rows = set_up(arm, recordings.rows(some), one_base, tool_per_run)
+    rows = set_up(arm, recordings, one_base, tool_per_run)
     measured, spent = 3 * len(rows), 6 * len(rows.base_names) + 3 * len(rows.tool_names)
     if measured < LEAST_NUMBERS * spent:
         return float(np.inf)
-    spread = spread_of(np.linalg.norm(rows.residuals(placed(rows)), axis=1))
+    spread = scale_of(rows.residuals(placed(rows)))
     return spread * float(np.sqrt(measured / (measured - spent)))

@@ -8,10 +8,11 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.calibration.fit import Fitted, least_squares, placed, robust_least_squares, spread_of
+from armscope.calibration.fit import Fitted, least_squares, placed, robust_least_squares
 from armscope.calibration.identifiability import identifiable
 from armscope.calibration.model import Level, SetUp, State
 from armscope.core.types import Array
+from armscope.measurement.robust import scale_of
 
 Redundancy = Literal["fixed", "priors"]
 WEIGHINGS = 3
@@ -73,9 +74,7 @@ def _weighed(rows: SetUp, state: State) -> SetUp:
     if rows.orientations is None:
         return rows
     known = np.isfinite(rows.orientations).all(axis=(1, 2))
-    shift = np.linalg.norm(rows.residuals(state), axis=1)
-    turn = np.linalg.norm(rows.turn_residuals(state)[known], axis=1)
-    return replace(rows, lever=spread_of(shift) / spread_of(turn))
+    return replace(rows, lever=scale_of(rows.residuals(state)) / scale_of(rows.turn_residuals(state)[known]))
 
 
 def _freedom(

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.calibration.model import SetUp
+from armscope.core.grouping import by_label
 from armscope.recordings import Recordings
 
 TRAIN_SHARE = 0.7
@@ -16,13 +17,8 @@ def split(recordings: Recordings, seed: int) -> tuple[NDArray[np.intp], NDArray[
 
     A configuration is an id within its run; all its targets stay together.
     """
-    keys = np.char.add(np.char.add(recordings.run, "\n"), recordings.id)
-    _, first, number = np.unique(keys, return_index=True, return_inverse=True)
-    rank = np.empty_like(first)
-    rank[np.argsort(first)] = np.arange(len(first))
-    configuration = rank[number]
-    order = np.random.default_rng(seed).permutation(len(first))
-    train = order[: int(TRAIN_SHARE * len(first))]
+    names, configuration = by_label(np.char.add(np.char.add(recordings.run, "\n"), recordings.id))
+    train = np.random.default_rng(seed).permutation(len(names))[: int(TRAIN_SHARE * len(names))]
     in_train = np.isin(configuration, train)
     return np.flatnonzero(in_train), np.flatnonzero(~in_train)
 

@@ -11,9 +11,7 @@ from scipy.spatial import cKDTree
 
 from armscope.core.types import Array
 from armscope.recordings import Recordings
-
-MOVED_RAD = np.radians(0.5)
-"""A joint that stays within this range counts as held: servo noise, not motion."""
+from armscope.recordings.motion import moving
 
 SAME_POSE_RAD = 5e-4
 """Joint angles within this distance count as the same pose visited again."""
@@ -112,7 +110,7 @@ def _run(recordings: Recordings, name: str) -> RunContents:
     rows = recordings.run == name
     points = recordings.positions[rows]
     extent, scatter = np.ptp(points, axis=0), np.linalg.eigvalsh(np.cov(points.T, bias=True))
-    moved = np.flatnonzero(np.ptp(recordings.motor_angles[rows], axis=0) > MOVED_RAD) + 1
+    moved = np.flatnonzero(moving(recordings.motor_angles[rows])) + 1
     return RunContents(
         name=name,
         rows=int(rows.sum()),
@@ -126,7 +124,7 @@ def _run(recordings: Recordings, name: str) -> RunContents:
 
 def _coverage(recordings: Recordings, motor: int) -> Coverage:
     angles = recordings.motor_angles[:, motor]
-    return Coverage(motor + 1, float(angles.min()), float(angles.max()), bool(np.ptp(angles) > MOVED_RAD))
+    return Coverage(motor + 1, float(angles.min()), float(angles.max()), bool(moving(angles[:, None])[0]))
 
 
 def _context(recordings: Recordings) -> list[Context]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,15 +13,17 @@ from scipy.spatial.transform import Rotation
 from armscope.calibration.model import SetUp, State
 from armscope.check.suspicion import Suspicion
 from armscope.core.types import Array
+from armscope.recordings import Recordings
+from armscope.verdict.schema import Notice
 
-FEWEST = 5
-"""Orientations below which none is judged."""
+FEWEST = 15
+"""Fewer orientations are not used: the frames of the tools take up too much of what they tell."""
 
 CLEARLY_BETTER = 0.3
 """Another reading must bring the scatter below this share."""
 
 NOT_THE_TOOLS_RAD = np.radians(5)
-"""Scatter on the flange beyond which orientations are not the tool's; joint zeros two degrees off leave less."""
+"""Median turn on the flange beyond which orientations are not the tool's; joint zeros two degrees off leave less."""
 
 Reading = tuple[str, str, Callable[[Array], Array]]
 """What is wrong, how to mend it, and quaternions (N, 4) read so."""
@@ -55,6 +58,29 @@ READINGS: tuple[Reading, ...] = (
 )
 
 
+def with_orientations(recordings: Recordings, turns: Array | None) -> tuple[Recordings, list[Notice]]:
+    """The table with its orientations, if they are the arm's; and what to say of them.
+
+    Args:
+        recordings: the table.
+        turns: (N, 3) rad, between modelled and measured orientations after the free frames, NaN where not measured.
+    """
+    if turns is None:
+        return recordings, []
+    size = np.linalg.norm(turns[np.isfinite(turns).all(axis=1)], axis=1)
+    bare = replace(recordings, orientation=None)
+    if len(size) < FEWEST:
+        text = f"Only {len(size)} rows hold an orientation: positions alone were used."
+        return bare, [Notice("few orientations", text)]
+    if np.median(size) > NOT_THE_TOOLS_RAD:
+        text = (
+            f"The measured orientations lie {np.degrees(np.median(size)):.3g} degrees (median) from the arm's, however "
+            "the tool is turned: positions alone were used. Are the quaternions in the order w, x, y, z?"
+        )
+        return bare, [Notice("orientations not the arm's", text)]
+    return recordings, []
+
+
 def orientation_mistakes(rows: SetUp, state: State, quaternions: Array | None) -> list[Suspicion]:
     """The reading of the quaternions (N, 4) under which each tool sits still on the flange.
 
@@ -67,8 +93,10 @@ def orientation_mistakes(rows: SetUp, state: State, quaternions: Array | None) -
         At most one suspicion.
     """
     known = np.zeros(len(rows), bool) if quaternions is None else np.isfinite(quaternions).all(axis=1)
-    if quaternions is None or known.sum() < FEWEST:
+    if quaternions is None or not known.any():
         return []
+    if known.sum() < FEWEST:
+        return [Suspicion("hint", f"only {known.sum()} rows hold an orientation", "Positions are used alone.")]
     _, frames = rows.frames(state)
     expected = (state.rotations[rows.base] @ frames.tool_rotation)[known]
     group = (rows.base * len(rows.tool_names) + rows.tool)[known]
@@ -77,7 +105,7 @@ def orientation_mistakes(rows: SetUp, state: State, quaternions: Array | None) -
     declared, least = np.degrees(spreads[0]), np.degrees(spreads[best])
     if best != 0 and spreads[best] < min(CLEARLY_BETTER * spreads[0], NOT_THE_TOOLS_RAD):
         statement, cure, _ = READINGS[best]
-        seen = f" (scatter of the tool's orientation {declared:.3g} degrees as declared, {least:.2g} degrees so)"
+        seen = f" (the tool's orientation is usually {declared:.3g} degrees off as declared, {least:.2g} degrees so)"
         return [Suspicion("problem", statement + seen, cure)]
     if spreads[0] > NOT_THE_TOOLS_RAD:
         statement = (
@@ -89,10 +117,10 @@ def orientation_mistakes(rows: SetUp, state: State, quaternions: Array | None) -
 
 
 def _tool_spread(expected: Array, quaternions: Array, group: NDArray[np.intp]) -> float:
-    """RMS angle of the tool's orientation on the flange about its mean, per base frame and tool, rad."""
+    """Median angle of the tool's orientation on the flange to its mean, per base frame and tool, rad."""
     on_flange = Rotation.from_matrix(np.swapaxes(expected, 1, 2)) * Rotation.from_quat(quaternions, scalar_first=True)
-    squares = 0.0
+    away = np.empty(len(group))
     for number in np.unique(group):
         of_group = on_flange[group == number]
-        squares += float(np.sum((of_group.mean().inv() * of_group).magnitude() ** 2))
-    return float(np.sqrt(squares / len(quaternions)))
+        away[group == number] = (of_group.mean().inv() * of_group).magnitude()
+    return float(np.median(away))

@@ -9,22 +9,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.check.report import check
+from armscope.check.suspicions import explanation
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
-from armscope.physics.placing import STANDS_STILL_RAD, varies
+from armscope.physics.placing import varies
 from armscope.recordings import Recordings
-from armscope.robot import Arm, forward_kinematics
+from armscope.recordings.motion import moving
+from armscope.robot import Arm
 from armscope.verdict.schema import Notice
 
 FEWEST_ROWS = 15
 """Below, frames and a handful of effects take up all there is."""
 TOO_FAR = 0.03
 """Share of the arm's reach beyond which a residual is no calibration error."""
-TURNED_TOO_FAR = 0.05
-"""Median turn (rad) between modelled and measured orientations beyond which they are not the tool's."""
 FLAT = 1e-3
 SAME_VALUE_ROWS = 4
-LARGEST_ROW_SHIFT = 3
 
 
 @dataclass(frozen=True)
@@ -99,7 +98,7 @@ def _not_clipped(recordings: Recordings) -> NDArray[np.bool_]:
         values = recordings.positions[:, axis]
         for extreme in (values.min(), values.max()):
             at = values == extreme
-            if at.sum() >= SAME_VALUE_ROWS and np.ptp(recordings.motor_angles[at], axis=0).max() > STANDS_STILL_RAD:
+            if at.sum() >= SAME_VALUE_ROWS and moving(recordings.motor_angles[at]).any():
                 good &= ~at
     return good
 
@@ -110,14 +109,14 @@ def _not_stuck(recordings: Recordings) -> NDArray[np.bool_]:
     good = np.ones(len(recordings), dtype=bool)
     for point in np.flatnonzero(count > 1):
         rows = np.flatnonzero(which == point)
-        if np.ptp(recordings.motor_angles[rows], axis=0).max() > 1e-2:
+        if moving(recordings.motor_angles[rows]).any():
             good[rows[1:]] = False
     return good
 
 
 def _limits(arm: Arm, recordings: Recordings) -> list[Notice]:
     notices = []
-    still = np.flatnonzero(np.ptp(recordings.motor_angles, axis=0) <= STANDS_STILL_RAD) + 1
+    still = np.flatnonzero(~moving(recordings.motor_angles)) + 1
     if len(still):
         joints = ", ".join(f"joint {j}" for j in still)
         notices.append(Notice("joints that never move", f"{joints}: nothing that follows their angle can be found."))
@@ -151,67 +150,6 @@ def too_far(arm: Arm, recordings: Recordings, residuals: Array) -> Notice | None
     size = float(np.median(np.linalg.norm(residuals, axis=1))) / np.sqrt(3)
     if size < TOO_FAR * arm.reach * 1e3:
         return None
-    points = forward_kinematics(arm, recordings.motor_angles)
     start = f"After fitting base and tool the residual is still {size:.0f} mm per axis"
-    stretch = _spread(recordings.positions) / _spread(points)
-    if not 0.5 < stretch < 2:
-        text = (
-            f"{start}: the measured points are spread {stretch:.3g} times as far as the arm's, so the lengths seem to "
-        )
-        return Notice("units", f"{text}stand in another unit than their columns' names say.")
-    shift = _row_shift(points, recordings.positions)
-    if shift:
-        text = f"{start}, and nearly vanishes when the positions move by {shift} rows: they are out of step."
-        return Notice("rows out of step", text)
-    if _distance_misfit(points * [1, 1, -1], recordings.positions) < 0.1 * _spread(points):
-        text = f"{start}, and nearly vanishes in the mirror: two of x, y, z are exchanged, or one has the wrong sign."
-        return Notice("left-handed frame", text)
-    text = (
-        f"{start}: this is not the robot of these recordings, two angle columns are exchanged, or rows and positions "
-        "do not belong together."
-    )
-    return Notice("wrong robot", text)
-
-
-def with_orientations(recordings: Recordings, turns: Array | None) -> tuple[Recordings, list[Notice]]:
-    """The table with its orientations, if they are the arm's; and what to say of them.
-
-    Args:
-        turns: (N, 3) rad, between modelled and measured orientations after the free frames, NaN where not measured.
-    """
-    if turns is None:
-        return recordings, []
-    size = np.linalg.norm(turns[np.isfinite(turns).all(axis=1)], axis=1)
-    bare = replace(recordings, orientation=None)
-    if len(size) < FEWEST_ROWS:
-        text = f"Only {len(size)} rows hold an orientation: positions alone were used."
-        return bare, [Notice("few orientations", text)]
-    if np.median(size) > TURNED_TOO_FAR:
-        text = (
-            f"The measured orientations lie {np.degrees(np.median(size)):.3g} degrees (median) from the arm's, however "
-            "the tool is turned: positions alone were used. Are the quaternions in the order w, x, y, z?"
-        )
-        return bare, [Notice("orientations not the arm's", text)]
-    return recordings, []
-
-
-def _spread(points: Array) -> float:
-    return float(np.sqrt(np.mean(np.sum((points - points.mean(axis=0)) ** 2, axis=1))))
-
-
-def _row_shift(points: Array, measured: Array) -> int:
-    """The shift of rows under which a rigid motion maps the points onto the measured ones, 0 if there is none."""
-    for shift in range(1, LARGEST_ROW_SHIFT + 1):
-        for sign in (1, -1):
-            moved = np.roll(measured, -sign * shift, axis=0)[shift:-shift]
-            if _distance_misfit(points[shift:-shift], moved) < 0.05 * _spread(points):
-                return sign * shift
-    return 0
-
-
-def _distance_misfit(points: Array, measured: Array) -> float:
-    """RMS distance after the best rigid motion, m."""
-    p, m = points - points.mean(axis=0), measured - measured.mean(axis=0)
-    u, _, vt = np.linalg.svd(m.T @ p)
-    flip = np.diag([1.0, 1.0, float(np.sign(np.linalg.det(u @ vt)))])
-    return float(np.sqrt(np.mean(np.sum((m - p @ (u @ flip @ vt).T) ** 2, axis=1))))
+    found = explanation(arm, recordings)
+    return Notice(found.kind, f"{start}: {found.text()}")

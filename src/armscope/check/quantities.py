@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from armscope.check.suspicion import Suspicion
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.recordings import Recordings
 from armscope.robot import Arm, chain
@@ -89,7 +90,7 @@ def _torque(recordings: Recordings, arm: Arm | None) -> Suspicion | None:
     if recordings.torque is None or arm is None or not arm.has_masses:
         return None
     rows = np.flatnonzero(np.isfinite(recordings.torque).all(axis=1))
-    rows = rows[np.unique(np.linspace(0, len(rows) - 1, min(len(rows), MOST_ROWS)).astype(int))] if len(rows) else rows
+    rows = rows[spread_evenly(len(rows), MOST_ROWS)] if len(rows) else rows
     payload = None if recordings.payload is None else np.nan_to_num(recordings.payload[rows])
     pull, torque = gravity_torques(arm, chain(arm, recordings.motor_angles[rows]), payload), recordings.torque[rows]
     both, pulled, seen = np.sum(pull * torque), np.sum(pull**2), np.sum(torque**2)

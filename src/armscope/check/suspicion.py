@@ -8,11 +8,12 @@ from typing import Literal
 
 @dataclass(frozen=True)
 class Suspicion:
-    """A "problem" makes results meaningless, a "hint" may be as it should."""
+    """A "problem" makes results meaningless, a "hint" may be as it should; ``kind``: what a notice of it is called."""
 
     weight: Literal["problem", "hint"]
     statement: str
     cure: str = ""
+    kind: str = "check"
 
     def text(self) -> str:
         """In words."""

@@ -6,23 +6,23 @@ and a mistake is only named where undoing it makes the arm explain the points, o
 
 from __future__ import annotations
 
-import functools
-import itertools
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
-from armscope.calibration.fit import placed, rms_distance, robust_least_squares, spread_of
+from armscope.calibration.fit import placed, rms_distance, robust_least_squares
 from armscope.calibration.model import SetUp, State, set_up
-from armscope.check.contents import MOVED_RAD
 from armscope.check.orientations import orientation_mistakes
 from armscope.check.suspicion import Suspicion
-from armscope.core.types import Array
+from armscope.check.trials import trials
+from armscope.core.sampling import spread_evenly
+from armscope.fitting.exchanged_tool import exchanged_tool
+from armscope.fitting.registration import fit_frames
+from armscope.measurement.robust import scale_of
 from armscope.recordings import Recordings
+from armscope.recordings.motion import moving
 from armscope.robot import Arm
 
 MOST_ROWS = 400
@@ -46,9 +46,6 @@ AS_GOOD = 1.05
 MOST_ROWS_FOR_EXCHANGE = 20_000
 FAR = 10
 """Rows further off than so many times the usual spread may have exchanged their points."""
-
-TOOL_MOVED = 0.8
-"""Tools of their own per run must bring the misfit below this share to be worth a hint."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +79,7 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
     if 3 * len(rows) < ROWS_PER_PARAMETER * rows.free("nominal").sum():
         hint = Suspicion("hint", "too few rows to fit base and tool, so nothing was tried against the arm")
         return Consistency(float("nan"), _spread(recordings), 0, (hint,))
-    if np.ptp(recordings.motor_angles, axis=0).max() < MOVED_RAD:  # what is left is noise
+    if not moving(recordings.motor_angles).any():  # what is left is noise
         return Consistency(float("nan"), _spread(recordings), 0, ())
     state = placed(rows, MOST_STEPS)
     misfit = rms_distance(rows.residuals(state))
@@ -90,19 +87,19 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
     found: list[Suspicion] = []
     turned: list[Suspicion] = []
     if _share_left(rows, state) > FITS:
-        found += _moved_tools(arm, some, misfit, FITS) or [_explanation(arm, recordings)]
+        found += _moved_tools(arm, replace(some, orientation=None), explains=True) or [explanation(arm, recordings)]
     else:
         found += _exchanged_rows(arm, recordings)
         turned = orientation_mistakes(rows, state, some.orientation)
         found += turned
-        found += _moved_tools(arm, some, misfit)
+        found += _moved_tools(arm, replace(some, orientation=None) if turned else some)
     return Consistency(misfit, spread, len(some), (*found, *_outside_limits(arm, recordings)), orientations=not turned)
 
 
 def _spread_evenly(recordings: Recordings) -> Recordings:
     if len(recordings) <= MOST_ROWS:
         return recordings
-    return recordings.rows(np.unique(np.linspace(0, len(recordings) - 1, MOST_ROWS).astype(int)))
+    return recordings.rows(spread_evenly(len(recordings), MOST_ROWS))
 
 
 def _spread(recordings: Recordings) -> float:
@@ -142,111 +139,7 @@ def _predicted_spread(rows: SetUp, state: State) -> float:
     return float(np.sqrt(np.mean(np.sum((points - points.mean(axis=0)) ** 2, axis=1))))
 
 
-@dataclass(frozen=True)
-class _Trial:
-    """A mistake that may have been made, and the table with it undone."""
-
-    statement: str
-    cure: str
-    undo: Callable[[Recordings], Recordings]
-
-
-def _trials(arm: Arm) -> Iterator[_Trial]:
-    yield _Trial(
-        "the joint angles look like degrees that were declared as radians",
-        "Call the columns q1_deg ..., or say unit: deg in the mapping.",
-        lambda table: replace(table, motor_angles=np.radians(table.motor_angles)),
-    )
-    yield _Trial(
-        "the joint angles look like radians that were declared as degrees",
-        "Call the columns q1_rad ..., or say unit: rad in the mapping.",
-        lambda table: replace(table, motor_angles=np.degrees(table.motor_angles)),
-    )
-    yield _Trial(
-        "the positions look like metres that were declared as millimetres",
-        "Call the columns x_m, y_m, z_m.",
-        lambda table: replace(table, positions=table.positions * 1e3),
-    )
-    yield _Trial(
-        "the positions look like millimetres that were declared as metres",
-        "Call the columns x_mm, y_mm, z_mm.",
-        lambda table: replace(table, positions=table.positions * 1e-3),
-    )
-    for factor, unit in ((10.0, "centimetres"), (25.4, "inches")):
-        yield _Trial(
-            f"the positions look like {unit} that were declared as millimetres",
-            f"Multiply them by {factor:g}.",
-            functools.partial(_enlarged, factor=factor),
-        )
-    yield _Trial(
-        "the measurement frame is left-handed: the points are a mirror image of the arm's",
-        "Flip the sign of one axis, or exchange two, where the points come from.",
-        lambda table: replace(table, positions=table.positions * [1.0, 1.0, -1.0]),
-    )
-    yield _Trial(
-        "the joints stand in reverse order",
-        "q1 is the joint nearest the base.",
-        lambda table: replace(table, motor_angles=table.motor_angles[:, ::-1]),
-    )
-    for shift in (-2, -1, 1, 2):
-        yield _Trial(
-            f"the measured points come {abs(shift)} row(s) too {'late' if shift < 0 else 'early'} for the joint angles",
-            "Join angles and points by what they have in common, not by their order.",
-            functools.partial(_shifted, shift=shift),
-        )
-    for motor in range(arm.n_motors):
-        signs = np.where(np.arange(arm.n_motors) == motor, -1.0, 1.0)
-        yield _Trial(
-            f"joint {motor + 1} turns the other way than the arm's model says",
-            f"Give q{motor + 1} the other sign, or turn the axis in robot.yaml (alpha of the rows beside it).",
-            functools.partial(_turned_round, signs=signs),
-        )
-
-    for motor, degrees in itertools.product(range(arm.n_motors), (-90, 90, 180)):
-        zero = np.where(np.arange(arm.n_motors) == motor, np.radians(degrees), 0.0)
-        yield _Trial(
-            f"the zero of joint {motor + 1} is {abs(degrees)} degrees off",
-            f"Add {degrees} degrees to q{motor + 1}, or to its theta_offset_deg in robot.yaml.",
-            functools.partial(_from_zero, zero=zero),
-        )
-    for one, other in itertools.combinations(range(arm.n_motors), 2):
-        order = np.arange(arm.n_motors)
-        order[[one, other]] = other, one
-        yield _Trial(
-            f"the angles of joints {one + 1} and {other + 1} are exchanged",
-            "Exchange their columns.",
-            functools.partial(_reordered, order=order),
-        )
-
-
-def _enlarged(table: Recordings, factor: float) -> Recordings:
-    return replace(table, positions=table.positions * factor)
-
-
-def _from_zero(table: Recordings, zero: Array) -> Recordings:
-    return replace(table, motor_angles=table.motor_angles + zero)
-
-
-def _reordered(table: Recordings, order: NDArray[np.intp]) -> Recordings:
-    return replace(table, motor_angles=table.motor_angles[:, order])
-
-
-def _turned_round(table: Recordings, signs: Array) -> Recordings:
-    return replace(table, motor_angles=table.motor_angles * signs)
-
-
-def _shifted(table: Recordings, shift: int) -> Recordings:
-    """Points moved by some rows against the angles, within each run; what has no partner is left out."""
-    kept, partner = [], []
-    for run in np.unique(table.run):
-        rows = np.flatnonzero(table.run == run)
-        kept.append(rows[max(0, shift) : len(rows) + min(0, shift)])
-        partner.append(rows[max(0, -shift) : len(rows) + min(0, -shift)])
-    moved = table.rows(np.concatenate(kept))
-    return replace(moved, positions=table.positions[np.concatenate(partner)])
-
-
-def _explanation(arm: Arm, table: Recordings) -> Suspicion:
+def explanation(arm: Arm, table: Recordings) -> Suspicion:
     """Why the arm does not explain the points; where runs don't share the fault, of those that have it."""
     # what no trial looks at need not be copied in each
     unused: dict[str, Any] = dict.fromkeys(
@@ -270,17 +163,18 @@ def _fails_alone(arm: Arm, of_run: Recordings) -> bool:
 
 def _best_trial(arm: Arm, table: Recordings, where: str) -> Suspicion:
     share, spread = _tried(arm, table)
-    tried = [(_tried(arm, trial.undo(table))[0], trial) for trial in _trials(arm)]
+    tried = [(_tried(arm, trial.undo(table))[0], trial) for trial in trials(arm)]
     least = min(left for left, _ in tried)
     if least < min(FITS, CLEARLY_BETTER * share):
         best, *others = [trial for left, trial in tried if left <= AS_GOOD * least]
         alternatives = " ".join(f"Or {other.statement}: the points can't tell." for other in others)
-        return Suspicion("problem", best.statement + where, f"{best.cure} {alternatives}".strip())
+        return Suspicion("problem", best.statement + where, f"{best.cure} {alternatives}".strip(), best.kind)
     return Suspicion(
         "problem",
         f"the arm does not explain the points{where}: {100 * min(share, 1):.0f} % of their spread of "
         f"{spread * 1e3:.0f} mm are left after base and tool are fitted",
         "Is it another robot, are angles and points of different rows, or is a joint's zero far off?",
+        "wrong robot",
     )
 
 
@@ -289,12 +183,11 @@ def _exchanged_rows(arm: Arm, recordings: Recordings) -> list[Suspicion]:
     some = recordings.rows(slice(0, MOST_ROWS_FOR_EXCHANGE))
     rows = set_up(arm, some)
     state = placed(rows, MOST_STEPS)
-    distance = np.linalg.norm(rows.residuals(state), axis=1)
-    if distance.max() < FAR * spread_of(distance):
+    residuals = rows.residuals(state)
+    if np.linalg.norm(residuals, axis=1).max() < FAR * scale_of(residuals):
         return []
     residuals = rows.residuals(robust_least_squares(rows, state, rows.free("nominal")).state)
-    distance = np.linalg.norm(residuals, axis=1)
-    usual = spread_of(distance)
+    distance, usual = np.linalg.norm(residuals, axis=1), scale_of(residuals)
     far = np.flatnonzero(distance > FAR * usual)
     if not 2 <= len(far) <= 500:
         return []
@@ -311,24 +204,21 @@ def _exchanged_rows(arm: Arm, recordings: Recordings) -> list[Suspicion]:
     return [Suspicion("problem", statement, "Their points fit each other's joint angles.")]
 
 
-def _moved_tools(arm: Arm, table: Recordings, misfit: float, least_share: float | None = None) -> list[Suspicion]:
+def _moved_tools(arm: Arm, table: Recordings, explains: bool = False) -> list[Suspicion]:
     """Whether a target that several runs share sits elsewhere on the flange in some of them.
 
     Args:
-        least_share: of the spread that tools of their own may leave; None asks for a clearly smaller misfit only.
+        explains: only where tools of their own explain the points.
     """
-    rows = set_up(arm, table, tool_per_run=True)
-    if len(rows.tool_names) == len(np.unique(table.target)):
+    found = exchanged_tool(fit_frames(arm, table), table)
+    if found is None:
         return []
-    state = placed(rows, MOST_STEPS)
-    alone = rms_distance(rows.residuals(state))
-    numbers, own = 3 * len(rows), rows.free("nominal").sum()
-    shared = own - 3 * (len(rows.tool_names) - len(np.unique(table.target)))
-    expected = misfit * np.sqrt(max(numbers - own, 0) / max(numbers - shared, 1))  # of tools that did not move
-    if alone > TOOL_MOVED * expected or (least_share is not None and _share_left(rows, state) > least_share):
-        return []
-    statement = f"the tool seems to have moved between runs: with one of its own per run {alone * 1e3:.3g} mm are left"
-    return [Suspicion("hint", statement, "Free the tool per run.")]
+    if explains:
+        rows = set_up(arm, table, tool_per_run=True)
+        if _share_left(rows, placed(rows, MOST_STEPS)) > FITS:
+            return []
+    statement = f"the tool seems to have moved between runs, {found.apart}"
+    return [Suspicion("hint", statement, f"With one of its own per run {found.own_mm:.3g} mm are left: free it there.")]
 
 
 def _outside_limits(arm: Arm, recordings: Recordings) -> list[Suspicion]:

@@ -14,6 +14,7 @@ from armscope.errormodels import FittedModel as Fit
 from armscope.errormodels.products import ProductFeatures
 from armscope.errormodels.regions import Cut, weights
 from armscope.physics.model import Base
+from armscope.recordings.motion import moving
 from armscope.robot import Arm, chain
 
 
@@ -162,7 +163,7 @@ def domain_of(arm: Arm, spec: ModelSpec, angles: Array) -> Domain:
     names = [f"q{motor}" for motor in range(1, arm.n_motors + 1)]
     if spec.space == "angular":
         return Domain.of(angles, names, ["rad"] * len(names))
-    still = np.flatnonzero(np.ptp(angles, axis=0) <= 0.02)
+    still = np.flatnonzero(~moving(angles))
     inputs = np.column_stack([chain(arm, angles).tool * 1e3, angles[:, still]])
     return Domain.of(inputs, ["x", "y", "z", *(names[j] for j in still)], ["mm"] * 3 + ["rad"] * len(still))
 

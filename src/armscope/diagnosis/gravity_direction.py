@@ -14,6 +14,7 @@ from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 from scipy.special import log_ndtr
 
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.diagnosis.model_space import build_model_space
 from armscope.fitting.linearisation import normal_equations_by_block, residuals
@@ -68,7 +69,7 @@ def lean(start: FittedModel, recordings: Recordings, noise: Noise, tool_per_run:
     """
     if not start.arm.has_masses:
         return None
-    rows = np.unique(np.linspace(0, len(recordings) - 1, min(len(recordings), ROWS)).astype(np.intp))
+    rows = spread_evenly(len(recordings), ROWS)
     valley = _Valley(start, recordings.rows(rows), noise, tool_per_run)
     tried: list[Array] = [np.zeros(2)]
     for size in LEANS_TRIED:

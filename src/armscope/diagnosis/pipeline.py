@@ -8,15 +8,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from armscope.check.preconditions import FEWEST_ROWS, check_table, suspected, too_far, with_orientations
+from armscope.check.orientations import with_orientations
+from armscope.check.preconditions import FEWEST_ROWS, check_table, suspected, too_far
 from armscope.core.types import Progress
 from armscope.diagnosis.gravity_direction import lean
 from armscope.diagnosis.held_out import split
 from armscope.diagnosis.judgement import judge, undecided
 from armscope.diagnosis.selection import select
 from armscope.diagnosis.state import DiagnosisState
+from armscope.fitting.exchanged_tool import exchanged_tool
 from armscope.fitting.linearisation import missed
-from armscope.fitting.registration import fit_frames, other_tools
+from armscope.fitting.registration import fit_frames
 from armscope.measurement.noise import Noise, known_noise
 from armscope.physics.effect import Placed
 from armscope.physics.frames import free_frames
@@ -100,11 +102,11 @@ def diagnose(
 def _frames(arm: Arm, table: Recordings, tool_per_run: bool) -> tuple[FittedModel, bool, list[Notice]]:
     """The arm with base and tool fitted, whether its tool is free in every run, and why where nobody asked for it."""
     start = fit_frames(arm, table, tool_per_run)
-    exchanged = None if tool_per_run else other_tools(arm, table, start)
+    exchanged = None if tool_per_run else exchanged_tool(start, table)
     if exchanged is None:
         return start, tool_per_run, []
-    text = f"From run to run the tool lies elsewhere, {exchanged[1]}: it is free in each run."
-    return exchanged[0], True, [Notice("tool exchanged", text)]
+    text = f"From run to run the tool lies elsewhere, {exchanged.apart}: it is free in each run."
+    return exchanged.model, True, [Notice("tool exchanged", text)]
 
 
 def _gravity(start: FittedModel, table: Recordings, noise: Noise, tool_per_run: bool) -> tuple[Arm, list[Notice]]:

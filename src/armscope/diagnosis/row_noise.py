@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.fitting.joint_scatter import Scattered, find_scatter, motor_jacobians, noise_between, whitening
 from armscope.measurement import robust
@@ -100,7 +101,7 @@ class NoiseOfRows:
     def _find_scatter(self) -> list[Scattered]:
         """Scatter in what is left, on as many rows as it takes."""
         left = self.residuals.shift
-        rows = np.unique(np.linspace(0, len(left) - 1, min(len(left), SCATTER_ROWS)).astype(np.intp))
+        rows = spread_evenly(len(left), SCATTER_ROWS)
         relative = self.rows.uncertainty[rows, None]
         return find_scatter(left[rows] / relative, self.moved[:, rows] / relative, self.least_mm)
 

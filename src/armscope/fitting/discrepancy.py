@@ -25,6 +25,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import solve_triangular
 
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import component_rows
 from armscope.fitting.linearisation import chunks, response
@@ -88,7 +89,7 @@ def model_error(fit: Refit, recordings: Recordings, least_mm: float) -> ModelErr
         recordings: the rows.
         least_mm: the noise is never taken to be below.
     """
-    rows = np.unique(np.linspace(0, len(recordings) - 1, min(len(recordings), MOST_ROWS)).astype(np.intp))
+    rows = spread_evenly(len(recordings), MOST_ROWS)
     share = len(rows) / len(recordings)
     sums = _sums(fit, recordings, rows)
     factor = lower_cholesky(sums.normal / share, fit.noise**2 * fit.precision)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from armscope.core.types import Array
+from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic, gauss_newton
 from armscope.fitting.linearisation import current_parameters, missed, normal_equations_by_block
 from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
 from armscope.fitting.registration import moved_base
@@ -27,8 +27,6 @@ from armscope.recordings import Recordings
 STEPS = 6
 CONVERGED_MM, CONVERGED = 1e-6, 0.05
 """Steps end when residuals (RMS) move by less: mm, or this share of what the noise leaves uncertain anyway."""
-LEADS_AWAY, SHORTEST_STEP = 1.5, 0.1
-"""A step that makes the residual this many times larger is halved, down to this share of it."""
 FREE = 10.0
 """A named effect's values are held by a prior this many times wider than its size: freely, but not where poses hardly
 tell it."""
@@ -70,6 +68,79 @@ class Refit:
         return np.asarray(self.covariance[np.ix_(at, at)])
 
 
+class ModelFit(NonlinearProblem[FittedModel, Missed]):
+    """A model's frames, background and effects fitted to recordings with the exact model; noise found on the way.
+
+    Args:
+        parts: the columns that are fitted: all of the model's.
+        recordings: the rows.
+        weigh: weights of the rows by what the model leaves.
+        precision: (p,) prior precisions, SI units, by the columns' sums.
+        least_noise: mm; 0 where nothing is known.
+        negligible: steps end when residuals (RMS) move by less than this share of what the noise leaves uncertain.
+    """
+
+    may_grow = 1.5
+
+    def __init__(
+        self,
+        parts: ParameterLayout,
+        recordings: Recordings,
+        weigh: Callable[[Missed], RowWeights],
+        precision: Callable[[NormalEquations], Array],
+        least_noise: float,
+        negligible: float,
+    ) -> None:
+        self.parts, self.recordings = parts, recordings
+        self.weigh, self.prior = weigh, precision
+        self.noise, self.negligible = least_noise, negligible
+        self.weights: RowWeights
+        self.gram: NormalEquations
+        self.precision: Array
+        self.inverse: Array
+        self.spent: float
+
+    def residual(self, state: FittedModel) -> Missed:
+        """What a model leaves of every row, mm and rad."""
+        return missed(state, self.recordings)
+
+    def quadratic(self, state: FittedModel, residual: Missed) -> Quadratic:
+        """Sums over weighted rows; with the noise that they leave once all is fitted."""
+        self.weights = self.weigh(residual)
+        blocks = np.zeros(len(self.recordings), dtype=np.intp)
+        self.gram = normal_equations_by_block(self.parts, state, self.recordings, self.weights, blocks)[0]
+        noise = self.noise or robust.scale_of(residual.shift)
+        self.precision = self.prior(self.gram)
+        solved = Quadratic(
+            self.gram.G + np.diag(noise**2 * self.precision), self.gram.b, current_parameters(self.parts, state)
+        )
+        self.inverse = solved.inverse
+        self.spent = float(len(self.precision) - noise**2 * np.sum(np.diag(solved.inverse) * self.precision))
+        left = self.gram.rss(solved.values)
+        self.noise = max(float(np.sqrt(max(left, 0.0) / max(self.gram.n - self.spent, 1.0))), 1e-9)
+        return solved
+
+    def misfit(self, state: FittedModel, residual: Missed) -> float:
+        """The usual row's size, whatever its weight."""
+        return robust.scale_of(residual.shift)
+
+    def moved(self, state: FittedModel, step: Array) -> FittedModel:
+        """The model a step further; frame columns are increments where it stands."""
+        values = current_parameters(self.parts, state) + step
+        moved = moved_frames(state, dict(zip(self.parts.terms, step, strict=True)))
+        background, parts = (
+            tuple(Part(part.placed, values[self.parts.of(part.placed)]) for part in some)
+            for some in (state.background, state.parts)
+        )
+        return replace(moved, background=background, parts=parts)
+
+    def settled(self, before: Missed, after: Missed) -> bool:
+        """Whether points move by next to nothing beside what noise leaves uncertain."""
+        uncertain = self.noise * np.sqrt(self.spent / max(self.gram.n, 1.0))
+        moved = np.sqrt(np.mean((after.shift - before.shift) ** 2))
+        return bool(moved < max(CONVERGED_MM, self.negligible * uncertain))
+
+
 def refit(
     model: FittedModel,
     recordings: Recordings,
@@ -94,41 +165,21 @@ def refit(
     kept = [[b for placed in family if size and (b := _without(placed, named))] for family, size in backgrounds]
     background = [placed for family in kept for placed in family]
     parts = parameter_layout(frames, kept, [placed for placed, _ in effects])
-    model = _start(model, background, effects)
-    blocks = np.zeros(len(recordings), dtype=np.intp)
-    noise = least_noise
-    left = missed(model, recordings)
-    for _ in range(STEPS):
-        weights = rows.weights(left, least_noise, whitening)
-        gram = normal_equations_by_block(parts, model, recordings, weights, blocks)[0]
-        noise = noise or robust.scale_of(left.shift)
-        precision = _precision(parts, gram, [size for _, size in backgrounds], effects)
-        A = gram.G + np.diag(noise**2 * precision)
-        values, covariance = _solve(A, gram.b)
-        spent = float(len(values) - noise**2 * np.sum(np.diag(covariance) * precision))
-        misfit = gram.rss(values)
-        noise = max(float(np.sqrt(max(misfit, 0.0) / max(gram.n - spent, 1.0))), 1e-9)
-        before = left
-        model, left = _not_worse(partial(_updated, model, parts, background, effects, values), recordings, left)
-        uncertain = noise * np.sqrt(spent / max(gram.n, 1.0))
-        if np.sqrt(np.mean((left.shift - before.shift) ** 2)) < max(CONVERGED_MM, CONVERGED * uncertain):
-            break
+    problem = ModelFit(
+        parts,
+        recordings,
+        lambda left: rows.weights(left, least_noise, whitening),
+        lambda gram: _precision(parts, gram, [size for _, size in backgrounds], effects),
+        least_noise,
+        CONVERGED,
+    )
+    found = gauss_newton(problem, _start(model, background, effects), STEPS)
     # a lucky residual does not make the instrument better than it is known to be
-    covariance = max(noise, least_noise) ** 2 * covariance
-    return Refit(model, parts, gram, precision, covariance, noise, spent, weights, left)
-
-
-def _not_worse(
-    updated: Callable[[float], FittedModel], recordings: Recordings, left: Missed
-) -> tuple[FittedModel, Missed]:
-    """The model after a step that is shortened until it does not lead away, and what it leaves."""
-    share, here = 1.0, robust.scale_of(left.shift)
-    while True:
-        model = updated(share)
-        new = missed(model, recordings)
-        if share < SHORTEST_STEP or robust.scale_of(new.shift) < LEADS_AWAY * here:
-            return model, new
-        share /= 2
+    covariance = max(problem.noise, least_noise) ** 2 * problem.inverse
+    return Refit(
+        found.state, parts, problem.gram, problem.precision, covariance,
+        problem.noise, problem.spent, problem.weights, found.residual,
+    )  # fmt: skip
 
 
 def _without(placed: Placed, named: set[Term]) -> Placed | None:
@@ -172,36 +223,6 @@ def _precision(
         variance[at] = np.minimum(variance[at], FRAME_PRIOR_MM**2 * gram.n / np.maximum(np.diag(gram.G)[at], 1e-24))
     variance[parts.frames] = (FRAME_PRIOR_MM / scale[parts.frames]) ** 2
     return np.asarray(1 / variance)
-
-
-def _solve(A: Array, b: Array) -> tuple[Array, Array]:
-    """(A^-1 b, A^-1), equilibrated first: SI units differ by many powers of ten."""
-    d = 1 / np.sqrt(np.diag(A))
-    inverse = np.linalg.inv(A * np.outer(d, d)) * np.outer(d, d)
-    return inverse @ b, inverse
-
-
-def _updated(
-    model: FittedModel,
-    parts: ParameterLayout,
-    background: Sequence[Placed],
-    effects: Sequence[tuple[Placed, float]],
-    values: Array,
-    share: float,
-) -> FittedModel:
-    """The model with new values, or a share of the way there; frame columns are increments where it stands."""
-    present = current_parameters(parts, model)
-    values = present + share * (values - present)
-
-    def new(placed: Placed) -> Array:
-        return values[[parts.index[term] for term in placed.terms]]
-
-    moved = moved_frames(model, dict(zip(parts.terms, values, strict=True)))
-    return replace(
-        moved,
-        background=tuple(Part(p, new(p)) for p in background),
-        parts=tuple(Part(placed, new(placed)) for placed, _ in effects),
-    )
 
 
 def moved_frames(model: FittedModel, steps: Mapping[Term, float]) -> FittedModel:

@@ -11,6 +11,7 @@ import numpy as np
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.fitting.design_matrix import columns
+from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic, gauss_newton
 from armscope.fitting.linearisation import chunks, residuals
 from armscope.fitting.refit import moved_frames
 from armscope.fitting.registration import fit_frames
@@ -27,8 +28,7 @@ Frame = Literal["base", "tool"]
 BACKGROUND = "background"
 """Stands for the small errors that were allowed for everywhere and are not named."""
 STEPS = 8
-CONVERGED = 1e-9
-"""m and rad."""
+NEGLIGIBLE_MM = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,31 +170,38 @@ def _placed_anew(
     start = fit_frames(model.arm, recordings, tool_per_run)
     tools = start.tools if "tool" in frames else model.tools
     bases = start.bases if "base" in frames else {str(r): model.base_of(str(r)) for r in np.unique(recordings.run)}
-    model = replace(model, bases=dict(bases), tools=tools)
     free = [p for p in free_frames(recordings, tool_per_run) if p.location in frames]
-    for _ in range(STEPS):
-        steps = _steps(model, recordings, [term for placed in free for term in placed.terms])
-        model = moved_frames(model, steps)
-        if max(abs(step) for step in steps.values()) < CONVERGED:
-            break
-    return model
+    problem = _Frames(recordings, [term for placed in free for term in placed.terms])
+    return gauss_newton(problem, replace(model, bases=dict(bases), tools=tools), STEPS).state
 
 
-def _steps(model: FittedModel, recordings: Recordings, terms: Sequence[Term]) -> dict[Term, float]:
-    """A step of each of the free frames' terms, SI units."""
-    left = residuals(model, recordings)
-    weight = robust.huber_weights(left, np.ones(len(left)), 0.0)
-    G, b = np.zeros((len(terms), len(terms))), np.zeros(len(terms))
-    for rows, posture in chunks(model, recordings):
-        X = columns(posture, terms)
-        weighted = X * np.repeat(weight[rows], 3)[:, None]
-        G += weighted.T @ X
-        b += weighted.T @ left[rows].reshape(-1)
-    # a held wrist leaves the tool's offset to the base: the tiny ridge keeps such a fit at its start
-    scale = 1 / np.sqrt(np.maximum(np.diag(G), 1e-300))
-    ridge = 1e-9 * np.eye(len(terms))
-    step = scale * np.linalg.solve(G * np.outer(scale, scale) + ridge, scale * b)
-    return {term: float(value) for term, value in zip(terms, step, strict=True)}
+class _Frames(NonlinearProblem[FittedModel, Array]):
+    """Some of the free frames' terms beside a model that stays: points, Huber weights."""
+
+    least_damping = 1e-9
+    """A held wrist leaves the tool's offset to the base: it then stays at its start."""
+
+    def __init__(self, recordings: Recordings, terms: Sequence[Term]) -> None:
+        self.recordings, self.terms = recordings, terms
+
+    def residual(self, state: FittedModel) -> Array:
+        return residuals(state, self.recordings)
+
+    def quadratic(self, state: FittedModel, residual: Array) -> Quadratic:
+        weight = robust.huber_weights(residual, np.ones(len(residual)), 0.0)
+        G, b = np.zeros((len(self.terms), len(self.terms))), np.zeros(len(self.terms))
+        for rows, posture in chunks(state, self.recordings):
+            X = columns(posture, self.terms)
+            weighted = X * np.repeat(weight[rows], 3)[:, None]
+            G += weighted.T @ X
+            b += weighted.T @ residual[rows].reshape(-1)
+        return Quadratic(G, b, np.zeros(len(b)))
+
+    def moved(self, state: FittedModel, step: Array) -> FittedModel:
+        return moved_frames(state, dict(zip(self.terms, step, strict=True)))
+
+    def settled(self, before: Array, after: Array) -> bool:
+        return float(np.abs(after - before).max()) < NEGLIGIBLE_MM
 
 
 def _distance(errors: Array) -> float:

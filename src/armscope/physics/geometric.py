@@ -11,11 +11,13 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.physics.clause import Told, swings
 from armscope.physics.cure import Cure, command
-from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
-from armscope.physics.placing import STANDS_STILL_RAD, moving_joints
+from armscope.physics.effect import AXES, ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
+from armscope.physics.placing import moving_joints
 from armscope.physics.scene import LINKAGE_JOINT, Part, Scene
 from armscope.recordings import Recordings
+from armscope.recordings.motion import moving
 from armscope.robot import Arm
+from armscope.robot.denavit_hartenberg import row_twist
 from armscope.robot.parallelogram import forearm_deviation
 
 MILLIMETRE = 1e-3
@@ -26,28 +28,23 @@ PARALLEL_RAD = 1e-2
 def row_terms(arm: Arm, j: int) -> dict[str, Term]:
     """Constant errors of D-H row j (1-based) by name: a, alpha, d, theta, and beta where axes are parallel.
 
-    Standard rows Rz(theta) Tz(d) Tx(a) Rx(alpha): theta and d act along the joint's axis, a and alpha along x of D-H
-    frame j. Modified rows Rx(alpha_j-1) Tx(a_j-1) Rz(theta) Tz(d): a and alpha act along x of D-H frame j-1. For a
-    URDF there are no rows: all six directions of the joint's frame, named by axis.
+    What each does is `armscope.robot.denavit_hartenberg.row_twist`. For a URDF there are no rows: all six directions of
+    the joint's frame, named by axis.
     """
-    joint = f"joint {j}"
     if arm.description.dh is None:
-        return {
-            axis: term(
-                axis, "mm" if axis[0] == "t" else "rad", (Direction(joint, axis), ONE), si=1e-3 if axis[0] == "t" else 1
-            )
-            for axis in ("tx", "ty", "tz", "rx", "ry", "rz")
-        }
-    across = (f"link {j - 1}" if j > 1 else "base") if arm.is_modified_dh else f"link {j}"
-    terms = {
-        "a": term("a", "mm", (Direction(across, "tx"), ONE), si=MILLIMETRE),
-        "alpha": term("alpha", "rad", (Direction(across, "rx"), ONE)),
-        "d": term("d", "mm", (Direction(joint, "tz"), ONE), si=MILLIMETRE),
-        "theta": term("theta", "rad", (Direction(joint, "rz"), ONE)),
-    }
-    if abs(np.sin(np.radians(arm.description.dh.joints[j - 1].alpha_deg))) < PARALLEL_RAD:
-        terms["beta"] = term("beta", "rad", (Direction(across, "ry"), ONE))
-    return terms
+        twists = {axis: (f"joint {j}", unit) for axis, unit in zip(AXES, np.eye(6), strict=True)}
+    else:
+        parallel = abs(np.sin(np.radians(arm.description.dh.joints[j - 1].alpha_deg))) < PARALLEL_RAD
+        kinds = ("a", "alpha", "d", "theta", *(["beta"] if parallel else []))
+        twists = {kind: row_twist(arm, j, kind) for kind in kinds}
+    return {name: _constant(name, *twist) for name, twist in twists.items()}
+
+
+def _constant(name: str, location: str, twist: Array) -> Term:
+    """A length (a, d, tx, ty, tz) in mm, or an angle, that moves a frame by a twist per SI unit."""
+    length = name in ("a", "d", "tx", "ty", "tz")
+    products = (Product(Direction(location, AXES[n]), ONE, float(twist[n])) for n in np.flatnonzero(twist))
+    return term(name, "mm" if length else "rad", *products, si=MILLIMETRE if length else 1.0)
 
 
 def _place_offsets(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
@@ -134,8 +131,7 @@ BACKGROUND = Effect(
 
 
 def _place_wobbles(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    spans = np.ptp(recordings.motor_angles @ arm.actuation.T, axis=0)
-    for j in np.flatnonzero(spans > STANDS_STILL_RAD) + 1:
+    for j in np.flatnonzero(moving(recordings.motor_angles @ arm.actuation.T)) + 1:
         for per_turn in (1, 2):
             terms = tuple(
                 term(

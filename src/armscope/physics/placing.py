@@ -8,15 +8,12 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.recordings import Recordings
-
-STANDS_STILL_RAD = 1e-2
-"""A joint whose commanded angles span less than this tells nothing about what follows its angle."""
+from armscope.recordings.motion import moving
 
 
 def moving_joints(recordings: Recordings) -> list[int]:
     """Motors (1-based) that move."""
-    spans = np.ptp(recordings.motor_angles, axis=0)
-    return [j + 1 for j in range(recordings.n_motors) if spans[j] > STANDS_STILL_RAD]
+    return [int(j) + 1 for j in np.flatnonzero(moving(recordings.motor_angles))]
 
 
 def varies(values: Array | None, least: float) -> bool:

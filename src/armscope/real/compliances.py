@@ -22,15 +22,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.stats import f as f_distribution
 
-from armscope.check.preconditions import check_table, with_orientations
+from armscope.check.orientations import with_orientations
+from armscope.check.preconditions import check_table
 from armscope.core.location import Location
 from armscope.core.types import Array
+from armscope.fitting.gauss_newton import Quadratic, gauss_newton
 from armscope.fitting.linearisation import missed, normal_equations_by_block
 from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
-from armscope.fitting.refit import moved_frames
+from armscope.fitting.refit import ModelFit
 from armscope.fitting.registration import fit_frames
 from armscope.inference.normal_equations import NormalEquations, total
-from armscope.measurement import robust
 from armscope.measurement.row_weights import RowNoise
 from armscope.physics import elastic, geometric
 from armscope.physics.backgrounds import TOLERANCE
@@ -55,8 +56,8 @@ BLOCKS = 20
 """Of consecutive rows: enough to tell a variance, and each long beside what hangs together."""
 UNSEEN = 1e-4
 """Combinations of mass moments that load no joint by more than this share of the strongest are left out."""
-STEPS, SETTLED = 8, 1e-3
-"""Gauss-Newton ends when values move by less than this share of their standard errors."""
+STEPS, NEGLIGIBLE = 8, 1e-3
+"""Gauss-Newton ends when residuals move by less than this share of what noise leaves uncertain."""
 DETERMINED = 0.5
 """Runs are compared in combinations that both together leave less uncertain than this share of the prior."""
 
@@ -172,30 +173,13 @@ def _precision(parts: ParameterLayout) -> Array:
 def _settled(
     parts: ParameterLayout, model: FittedModel, small: Sequence[Placed], table: Recordings, precision: Array
 ) -> tuple[list[NormalEquations], float]:
-    """Sums over each block of rows where the exact fit settles, and the noise there (mm): Gauss-Newton, robust."""
+    """Sums over each block of rows where the exact fit settles, and the noise there (mm)."""
     rows = RowNoise(np.ones(len(table)), np.ones(len(table)))
-    block = np.arange(len(table)) * BLOCKS // len(table)
     model = replace(model, background=tuple(Part(placed, np.zeros(len(placed.terms))) for placed in small))
-    left = missed(model, table)
-    values, noise = np.zeros(len(parts.terms)), robust.scale_of(left.shift)
-    for _ in range(STEPS):
-        blocks = normal_equations_by_block(parts, model, table, rows.weights(left, 0.0), block)
-        gram = total(blocks)
-        covariance = _inverse(gram.G / noise**2 + np.diag(precision))
-        before, values = values, covariance @ gram.b / noise**2
-        spent = len(values) - float(np.diag(covariance) @ precision)
-        noise = float(np.sqrt(max(gram.rss(values), 0.0) / max(gram.n - spent, 1.0)))
-        model = _at(parts, model, values)
-        left = missed(model, table)
-        inner = np.concatenate(parts.background)
-        if np.all(np.abs(values - before)[inner] < SETTLED * np.sqrt(np.diag(covariance))[inner]):
-            break
-    return normal_equations_by_block(parts, model, table, rows.weights(left, 0.0), block), noise
-
-
-def _at(parts: ParameterLayout, model: FittedModel, values: Array) -> FittedModel:
-    moved = moved_frames(model, dict(zip(parts.terms, values, strict=True)))
-    return replace(moved, background=tuple(Part(p.placed, values[parts.of(p.placed)]) for p in model.background))
+    problem = ModelFit(parts, table, lambda left: rows.weights(left, 0.0), lambda gram: precision, 0.0, NEGLIGIBLE)
+    found = gauss_newton(problem, model, STEPS)
+    block = np.arange(len(table)) * BLOCKS // len(table)
+    return normal_equations_by_block(parts, found.state, table, rows.weights(found.residual, 0.0), block), problem.noise
 
 
 def _jackknifed(blocks: Sequence[NormalEquations], noise: float, precision: Array) -> tuple[Array, Array, Array]:
@@ -203,21 +187,17 @@ def _jackknifed(blocks: Sequence[NormalEquations], noise: float, precision: Arra
 
     Without block b the mean is theta_b; the rows' part is (B-1)/B sum (theta_b - mean)(theta_b - mean)' (Tukey 1958).
     """
-    gram = total(blocks)
-    ridge = np.diag(precision)
-    posterior = _inverse(gram.G / noise**2 + ridge)
-    without = np.array(
-        [_inverse((gram.G - b.G) / noise**2 + ridge) @ (gram.b - b.b) / noise**2 for b in blocks if b.n > 0]
-    )
+    gram, start = total(blocks), np.zeros(len(precision))
+
+    def solved(sums: NormalEquations) -> Quadratic:
+        return Quadratic(sums.G / noise**2 + np.diag(precision), sums.b / noise**2, start)
+
+    whole = solved(gram)
+    posterior = whole.inverse
+    without = np.array([solved(gram - block).values for block in blocks if block.n > 0])
     off = without - without.mean(axis=0)
     rows = (len(off) - 1) / len(off) * off.T @ off
-    return posterior @ gram.b / noise**2, posterior, posterior @ ridge @ posterior + rows
-
-
-def _inverse(A: Array) -> Array:
-    """A^-1, equilibrated first: SI units differ by many powers of ten."""
-    d = 1 / np.sqrt(np.diag(A))
-    return np.asarray(np.linalg.inv(A * np.outer(d, d)) * np.outer(d, d))
+    return whole.values, posterior, posterior * precision @ posterior + rows
 
 
 @dataclass(frozen=True, eq=False)

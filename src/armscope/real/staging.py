@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from armscope.calibration import calibrate
 from armscope.calibration.splits import split
+from armscope.core.grouping import by_label
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.recordings import Recordings, as_recordings
@@ -126,7 +127,7 @@ def stage(arm: Arm, table: pd.DataFrame, most_rows: int, source: str = "table") 
 def _configurations(table: pd.DataFrame) -> NDArray[np.intp]:
     """(N,) number of each row's run and id, in the order of their first row."""
     keys = table["id"].astype(str) if "run" not in table else table["run"].astype(str) + "\n" + table["id"].astype(str)
-    return np.asarray(pd.factorize(keys)[0], dtype=np.intp)
+    return by_label(keys.to_numpy(str))[1]
 
 
 def _approach(angles: Array, configuration: NDArray[np.intp]) -> NDArray[np.int64]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.grouping import random_parts, same_configuration
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.errormodels import PAPER_MODELS, ModelSpec, fit_least_squares
 from armscope.recordings import Recordings
@@ -24,24 +26,16 @@ def held_out_rms(arm: Arm, recordings: Recordings, residual: Array, seed: int = 
         residual: (N, 3) what is to be modelled, mm: measured minus nominal after the free frames.
         seed: of the folds.
     """
-    rows = np.unique(np.linspace(0, len(residual) - 1, min(len(residual), MOST_ROWS)).astype(int))
+    rows = spread_evenly(len(residual), MOST_ROWS)
     angles = recordings.motor_angles[rows]
     inputs = {"cartesian": 1e3 * forward_kinematics(arm, angles), "angular": angles}
-    folds = _folds(angles, np.random.default_rng(seed))
+    folds = random_parts(same_configuration(angles), FOLDS, np.random.default_rng(seed))
     found = []
     for spec in PAPER_MODELS:
         rms = _cross_validated(spec, inputs[spec.space], residual[rows], folds)
         if rms is not None:
             found.append((spec.name, rms))
     return found
-
-
-def _folds(angles: Array, random: np.random.Generator) -> NDArray[np.intp]:
-    """(N,) the fold of each row; rows of one configuration (several targets, repeats) stay together."""
-    _, configuration = np.unique(np.round(angles, 6), axis=0, return_inverse=True)
-    fold_of = random.permutation(configuration.max() + 1) % FOLDS
-    folds: NDArray[np.intp] = fold_of[configuration.ravel()]
-    return folds
 
 
 def _cross_validated(spec: ModelSpec, inputs: Array, residual: Array, folds: NDArray[np.intp]) -> float | None:

@@ -1,4 +1,4 @@
-"""Any chain of hinges as Denavit-Hartenberg rows: an arm that came from a URDF, for whoever needs rows."""
+"""Denavit-Hartenberg rows: what a unit of each constant moves, and rows of any chain of hinges, as one from a URDF."""
 
 from __future__ import annotations
 
@@ -11,6 +11,38 @@ from armscope.robot.description import DH, DHRow, LinkMass, RobotDescription
 PARALLEL = 1e-6
 """Sine of the angle between two axes below which they count as parallel: the rows of nearly parallel axes run away."""
 MM = 1e3
+
+
+def row_twist(arm: Arm, joint: int, kind: str) -> tuple[str, Array]:
+    """Where a constant of a D-H row acts, and how: exact at any values of the row.
+
+    Standard rows Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta): theta and d act along the joint's axis, a and alpha along
+    the row's x axis, seen past the turn about y. Modified rows Rx(alpha) Tx(a) Ry(beta) Rz(theta) Tz(d) (Craig): a and
+    alpha act along x of the frame before, beta about a point d behind the joint frame's origin.
+
+    Args:
+        arm: with D-H rows.
+        joint: number of the row, from 1.
+        kind: "a", "alpha", "d", "theta" or "beta".
+
+    Returns:
+        The frame, see `Chain.frame`, and (6,) the twist (translation, rotation) in its axes by a unit (m, rad).
+    """
+    assert arm.description.dh is not None
+    twist = np.zeros(6)
+    if kind in ("theta", "d"):
+        twist[5 if kind == "theta" else 2] = 1.0
+        return f"joint {joint}", twist
+    row = arm.description.dh.joints[joint - 1]
+    if kind == "beta":
+        twist[4] = 1.0
+        twist[0] = row.d_mm / MM if arm.is_modified_dh else 0.0
+        return f"joint {joint}" if arm.is_modified_dh else f"link {joint}", twist
+    beta = 0.0 if arm.is_modified_dh else np.radians(row.beta_deg)
+    twist[[0, 2] if kind == "a" else [3, 5]] = np.cos(beta), np.sin(beta)
+    if arm.is_modified_dh:
+        return f"link {joint - 1}" if joint > 1 else "base", twist
+    return f"link {joint}", twist
 
 
 def as_dh(arm: Arm) -> tuple[RobotDescription, Array]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from armscope.core.location import Location
+from armscope.core.sampling import spread_evenly
 from armscope.fitting.column_blocks import column_blocks
 from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.fitting.parameter_layout import ParameterLayout
@@ -29,7 +30,7 @@ def atlas(layout: ParameterLayout, model: FittedModel, recordings: Recordings, w
     Args:
         layout: of the fitted model.
     """
-    rows = np.unique(np.linspace(0, len(recordings) - 1, min(len(recordings), ATLAS_ROWS)).astype(np.intp))
+    rows = spread_evenly(len(recordings), ATLAS_ROWS)
     share = len(rows) / len(recordings)
     table, w = recordings.rows(rows), weights.take(rows, share)
     # columns and response must stand at one and the same point and on the same rows, or what the frames absorb does not

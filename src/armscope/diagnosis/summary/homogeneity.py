@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from scipy.stats import chi2
 
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Indices
 from armscope.diagnosis.held_out import FEWEST_ROWS_PER_RUN
 from armscope.diagnosis.state import DiagnosisState
@@ -44,7 +45,7 @@ def _divisions(state: DiagnosisState) -> Iterator[tuple[list[NormalEquations], s
     if split.grouped_by == "run":
         runs = [np.flatnonzero(split.fold == run) for run in np.unique(split.fold)]
         yield [total([state.blocks[int(k)] for k in inside]) for inside in runs], "runs"
-    rows = np.unique(np.linspace(0, len(recordings) - 1, min(len(recordings), MOST_ROWS)).astype(np.intp))
+    rows = spread_evenly(len(recordings), MOST_ROWS)
     table, some = recordings.rows(rows), state.fit.weights.take(rows)
     for of_row, kind in ((_payloads(table), "payloads"), (_halves(table, point), "halves of the workspace")):
         counts = np.bincount(of_row[of_row >= 0])

@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.robot import Arm, Chain, chain
 from armscope.robot.centre_line import centre_lines
@@ -94,7 +95,7 @@ def typical_pose(arm: Arm, motor_angles: Array) -> tuple[int, View]:
     Returns:
         row number from 0, and the view.
     """
-    rows = np.unique(np.linspace(0, len(motor_angles) - 1, MOST_POSES).astype(int))
+    rows = spread_evenly(len(motor_angles), MOST_POSES)
     shapes = [arm_shape(arm, motor_angles[row]) for row in rows]
     nodes = np.array([np.vstack([np.zeros(3), shape.centres, shape.tool]) for shape in shapes])
     spread = np.std(motor_angles, axis=0) + 1e-9

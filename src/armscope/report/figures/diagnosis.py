@@ -13,12 +13,14 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from armscope.core.numerals import shown_unit
+from armscope.core.sampling import spread_evenly
 from armscope.recordings import Recordings
+from armscope.recordings.motion import moving
 from armscope.report.figures.arm_picture import draw_arm
 from armscope.report.figures.atlas import draw_atlas
 from armscope.report.figures.effect_curve import Curve, draw_curves
 from armscope.report.figures.next_poses import draw_poses
-from armscope.report.figures.residual_vectors import draw_along_joints, draw_vectors, evenly
+from armscope.report.figures.residual_vectors import draw_along_joints, draw_vectors
 from armscope.report.figures.waterfall import draw_waterfall
 from armscope.report.style import save_figure
 from armscope.robot import Arm, chain, position_jacobian
@@ -75,9 +77,9 @@ def save_all(
         draw_vectors(residuals.points * 1e-3, residuals.before, residuals.after),
         "Residual vectors in the workspace, before and after",
     )
-    rows = evenly(len(recordings), MOST_ROWS)
+    rows = spread_evenly(len(recordings), MOST_ROWS)
     angles = recordings.motor_angles[rows]
-    if np.any(np.ptp(angles, axis=0) > 1e-3):
+    if moving(angles).any():
         jacobian = position_jacobian(arm, chain(arm, angles))
         keep(
             "along_joints",

@@ -18,10 +18,10 @@ from matplotlib.colors import LinearSegmentedColormap, Normalize, to_hex, to_rgb
 from numpy.typing import ArrayLike
 
 from armscope.core.location import Location
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.report.figures.arm_picture import UNTOUCHED, round_up, share_colours, shares_by_place
 from armscope.report.figures.arm_shape import arm_shape, typical_pose, upright
-from armscope.report.figures.residual_vectors import evenly
 from armscope.report.style import BLUE, VERMILION
 from armscope.robot import Arm, Chain, chain
 
@@ -81,7 +81,7 @@ def turnable(arm: Arm, shown: ErrorField, name: str = "field") -> Markup:
 
 def figure_data(arm: Arm, shown: ErrorField) -> dict[str, Any]:
     """What error_field.js reads; lengths in mm, angles in rad, arrays as base64 of little-endian 32-bit floats."""
-    rows = np.union1d(evenly(len(shown.points_mm), MOST_ROWS), sorted(shown.suspects)).astype(np.intp)
+    rows = np.union1d(spread_evenly(len(shown.points_mm), MOST_ROWS), sorted(shown.suspects)).astype(np.intp)
     names = list(dict.fromkeys(shown.groups))
     number = {name: n for n, name in enumerate(names)}
     fields: list[str] = []

@@ -9,9 +9,10 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Colormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.quiver import Quiver
-from numpy.typing import NDArray
 
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
+from armscope.recordings.motion import moving
 from armscope.report.figures.arm_picture import share_colours
 from armscope.report.style import BLACK, BLUE, GREY, VERMILION, legend_above, styled
 
@@ -29,7 +30,7 @@ def draw_vectors(points: Array, before: Array, after: Array) -> Figure:
         points: (N, 3) measured tool points, base axes, m.
         before, after: (N, 3) residuals without any effect and with the fitted model, base axes, mm.
     """
-    shown = evenly(len(points), MOST_ARROWS)
+    shown = spread_evenly(len(points), MOST_ARROWS)
     at = 1e3 * points[shown]
     typical = float(np.percentile(np.linalg.norm(before, axis=1), 95))
     across = float(max(np.ptp(at, axis=0).max(), 1.0))
@@ -78,8 +79,8 @@ def draw_along_joints(motor_angles: Array, jacobian: Array, before: Array, after
         jacobian: (N, 3, m) displacement of the tool by unit turns of the motors, base axes.
         before, after: (N, 3) residuals in base axes, mm.
     """
-    joints = np.flatnonzero(np.ptp(motor_angles, axis=0) > 1e-3)
-    shown = evenly(len(motor_angles), MOST_DOTS)
+    joints = np.flatnonzero(moving(motor_angles))
+    shown = spread_evenly(len(motor_angles), MOST_DOTS)
     ways = jacobian / np.maximum(np.linalg.norm(jacobian, axis=1, keepdims=True), 1e-9)
     along = [np.einsum("nci,nc->ni", ways, residual) for residual in (before, after)]
     limit = 1.15 * float(np.percentile(np.abs(along[0]), 99)) + 1e-9
@@ -112,11 +113,6 @@ def running_mean(angle: Array, values: Array) -> tuple[Array, Array]:
     order = np.argsort(angle, kind="stable")
     windows = np.array_split(order, max(2, min(WINDOWS, len(order) // 8)))
     return np.array([angle[w].mean() for w in windows]), np.array([values[w].mean() for w in windows])
-
-
-def evenly(count: int, most: int) -> NDArray[np.intp]:
-    """At most ``most`` row numbers, spread evenly; the same ones each time."""
-    return np.unique(np.linspace(0, count - 1, min(count, most)).astype(int))
 
 
 def nice(value: float) -> float:

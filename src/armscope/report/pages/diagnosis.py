@@ -14,6 +14,7 @@ import pandas as pd
 from armscope.core.files import write_text
 from armscope.core.numerals import rounded
 from armscope.recordings import Recordings
+from armscope.recordings.motion import moving
 from armscope.report.figures.diagnosis import SavedFigure, location_shares, save_all, waterfall_steps
 from armscope.report.figures.error_field import MOST_ROWS, ErrorField, turnable
 from armscope.report.html import render_page
@@ -271,7 +272,7 @@ def assumptions(verdict: Diagnosis, arm: Arm, recordings: Recordings) -> list[st
         "payload": recordings.payload,
     }
     missing = [name for name, values in context.items() if values is None]
-    still = [f"joint {j + 1}" for j in np.flatnonzero(np.ptp(recordings.motor_angles, axis=0) <= 1e-3)]
+    still = [f"joint {j + 1}" for j in np.flatnonzero(~moving(recordings.motor_angles))]
     sentences = [
         "The base's place in the measurement frame is free for each run, the tool point for each target; what they "
         "can absorb is not part of the mismatch.",

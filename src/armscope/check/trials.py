@@ -1,0 +1,117 @@
+"""Common mistakes in a table, and the table with each of them undone."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+
+LARGEST_ROW_SHIFT = 3
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A mistake that may have been made: its kind as notices call it, what to say of it, and how to undo it."""
+
+    kind: str
+    statement: str
+    cure: str
+    undo: Callable[[Recordings], Recordings]
+
+
+def trials(arm: Arm) -> Iterator[Trial]:
+    """All mistakes that are tried, the usual ones first."""
+    yield from _units()
+    yield Trial(
+        "left-handed frame",
+        "the measurement frame is left-handed: the points are a mirror image of the arm's",
+        "Flip the sign of one axis, or exchange two, where the points come from.",
+        _changed("positions", partial(np.multiply, [1.0, 1.0, -1.0])),
+    )
+    for shift in sorted({*range(-LARGEST_ROW_SHIFT, LARGEST_ROW_SHIFT + 1)} - {0}, key=abs):
+        yield Trial(
+            "rows out of step",
+            f"the measured points come {abs(shift)} row(s) too {'late' if shift < 0 else 'early'} for the joint angles",
+            "Join angles and points by what they have in common, not by their order.",
+            partial(_shifted, shift=shift),
+        )
+    yield from _joints(arm.n_motors)
+
+
+def _units() -> Iterator[Trial]:
+    for factor, right, wrong, cure in (
+        (np.pi / 180, "degrees", "radians", "Call the columns q1_deg ..., or say unit: deg in the mapping."),
+        (180 / np.pi, "radians", "degrees", "Call the columns q1_rad ..., or say unit: rad in the mapping."),
+    ):
+        statement = f"the joint angles look like {right} that were declared as {wrong}"
+        yield Trial("units", statement, cure, _changed("motor_angles", partial(np.multiply, factor)))
+    for factor, right, wrong, cure in (
+        (1e3, "metres", "millimetres", "Call the columns x_m, y_m, z_m."),
+        (1e-3, "millimetres", "metres", "Call the columns x_mm, y_mm, z_mm."),
+        (10.0, "centimetres", "millimetres", "Multiply them by 10."),
+        (25.4, "inches", "millimetres", "Multiply them by 25.4."),
+    ):
+        statement = f"the positions look like {right} that were declared as {wrong}"
+        yield Trial("units", statement, cure, _changed("positions", partial(np.multiply, factor)))
+
+
+def _joints(n_motors: int) -> Iterator[Trial]:
+    yield Trial(
+        "joint order",
+        "the joints stand in reverse order",
+        "q1 is the joint nearest the base.",
+        _changed("motor_angles", np.fliplr),
+    )
+    one_by_one = np.eye(n_motors)
+    for motor in range(n_motors):
+        yield Trial(
+            "joint sign",
+            f"joint {motor + 1} turns the other way than the arm's model says",
+            f"Give q{motor + 1} the other sign, or turn the axis in robot.yaml (alpha of the rows beside it).",
+            _changed("motor_angles", partial(np.multiply, 1 - 2 * one_by_one[motor])),
+        )
+    for motor, degrees in itertools.product(range(n_motors), (-90, 90, 180)):
+        yield Trial(
+            "joint zero",
+            f"the zero of joint {motor + 1} is {abs(degrees)} degrees off",
+            f"Add {degrees} degrees to q{motor + 1}, or to its theta_offset_deg in robot.yaml.",
+            _changed("motor_angles", partial(np.add, np.radians(degrees) * one_by_one[motor])),
+        )
+    for one, other in itertools.combinations(range(n_motors), 2):
+        order = np.arange(n_motors)
+        order[[one, other]] = other, one
+        yield Trial(
+            "joint order",
+            f"the angles of joints {one + 1} and {other + 1} are exchanged",
+            "Exchange their columns.",
+            _changed("motor_angles", partial(np.take, indices=order, axis=1)),
+        )
+
+
+def _changed(what: str, change: Callable[[Array], Array]) -> Callable[[Recordings], Recordings]:
+    """A table with one of its arrays changed."""
+
+    def undo(table: Recordings) -> Recordings:
+        changed: dict[str, Any] = {what: change(getattr(table, what))}
+        return replace(table, **changed)
+
+    return undo
+
+
+def _shifted(table: Recordings, shift: int) -> Recordings:
+    """Points moved by some rows against the angles, within each run; what has no partner is left out."""
+    kept, partner = [], []
+    for run in np.unique(table.run):
+        rows = np.flatnonzero(table.run == run)
+        kept.append(rows[max(0, shift) : len(rows) + min(0, shift)])
+        partner.append(rows[max(0, -shift) : len(rows) + min(0, -shift)])
+    moved = table.rows(np.concatenate(kept))
+    return replace(moved, positions=table.positions[np.concatenate(partner)])

@@ -1,0 +1,54 @@
+"""Rows that belong together: by a label, or because they were taken at the same configuration of the arm."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.core.types import Array, Indices
+
+SAME_CONFIGURATION_DIGITS = 4
+"""Angles (rad) that agree to so many digits are the same: controllers repeat better, and nobody plans closer poses."""
+
+
+def same_configuration(angles: Array, *beside: NDArray[np.generic]) -> Indices:
+    """Number the configurations of a table.
+
+    Args:
+        angles: (N, m) commanded, rad.
+        beside: (N,) or (N, k) what else must agree: run, target, payload, side of approach; not recorded agrees with
+            not recorded.
+
+    Returns:
+        (N,) number of each row's configuration, from 0.
+    """
+    keys = [np.round(angles, SAME_CONFIGURATION_DIGITS)]
+    for each in beside:
+        columns = each.reshape(len(angles), -1)
+        if not np.issubdtype(columns.dtype, np.number):
+            columns = np.unique(columns, return_inverse=True)[1].reshape(columns.shape)
+        keys.append(np.nan_to_num(columns.astype(np.float64)))
+    return np.asarray(np.unique(np.column_stack(keys), axis=0, return_inverse=True)[1].reshape(-1))
+
+
+def by_label(labels: NDArray[np.str_]) -> tuple[tuple[str, ...], Indices]:
+    """Names in the order of their first row, and each row's number (N,) among them."""
+    names, first, number = np.unique(labels, return_index=True, return_inverse=True)
+    order = np.argsort(first)
+    rank = np.empty_like(order)
+    rank[order] = np.arange(len(order))
+    return tuple(str(name) for name in names[order]), rank[number]
+
+
+def random_parts(group: Indices, count: int, rng: np.random.Generator) -> Indices:
+    """Rows dealt into parts as evenly as whole groups allow.
+
+    Args:
+        group: (N,) number of each row's group, from 0; its rows stay together.
+        count: how many parts.
+        rng: draws them.
+
+    Returns:
+        (N,) number of each row's part, 0 ... count - 1.
+    """
+    return np.asarray((rng.permutation(int(group.max()) + 1) % count)[group])

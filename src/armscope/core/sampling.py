@@ -1,0 +1,12 @@
+"""Some rows of many."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from armscope.core.types import Indices
+
+
+def spread_evenly(count: int, most: int) -> Indices:
+    """(n,) at most ``most`` of the numbers 0 ... count - 1, ascending, first and last among them."""
+    return np.unique(np.linspace(0, count - 1, min(count, most)).astype(np.intp))

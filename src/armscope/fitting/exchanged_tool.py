@@ -1,0 +1,96 @@
+"""Whether a tool was exchanged between runs: one answer for the check, the calibration and the diagnosis."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from armscope.core.types import Array
+from armscope.fitting.linearisation import missed
+from armscope.fitting.registration import fit_frames
+from armscope.measurement import robust
+from armscope.physics.model import FittedModel
+from armscope.recordings import Recordings
+
+WORSE, APART = 2.0, 3.0
+"""A tool counts as exchanged when one tool for all runs leaves this many times what one per run leaves, and the tools
+lie this many times that apart: lesser shifts are effects and compete with the others."""
+LEAST_NUMBERS = 2
+"""Measured numbers per number of a frame, for frames to tell anything."""
+
+
+@dataclass(frozen=True, eq=False)
+class ExchangedTool:
+    """Tools of a target that lie elsewhere on the flange from run to run.
+
+    Attributes:
+        model: the arm with its frames fitted, the tool free in every run.
+        shared_mm, own_mm: what one tool for all runs and one per run leave of the usual point, per axis.
+        point_mm: largest difference of a coordinate between a target's tool points; None where these are no others.
+        turn_rad: largest angle between a target's tools; None where orientations do not show any.
+    """
+
+    model: FittedModel
+    shared_mm: float
+    own_mm: float
+    point_mm: float | None
+    turn_rad: float | None
+
+    @property
+    def apart(self) -> str:
+        """How far the tools lie apart, in words."""
+        point = [] if self.point_mm is None else [f"its point up to {self.point_mm:.3g} mm"]
+        turn = [] if self.turn_rad is None else [f"its axes up to {np.degrees(self.turn_rad):.3g} degrees"]
+        return " and ".join([*point, *turn])
+
+
+def exchanged_tool(shared: FittedModel, recordings: Recordings) -> ExchangedTool | None:
+    """Tools that lie elsewhere in some runs, by points or by orientations; None where one tool per target does.
+
+    What one tool per run leaves is enlarged for the numbers that it costs; where frames take up half of the measured
+    numbers, they would follow anything and tell nothing.
+
+    Args:
+        shared: the arm with its frames fitted to the recordings, one tool for all runs.
+        recordings: the rows.
+    """
+    if len(shared.bases) < 2:
+        return None
+    free = fit_frames(shared.arm, recordings, tool_per_run=True)
+    measured, spent = 3 * len(recordings), 6 * len(free.bases) + 3 * len(free.tools)
+    if len(free.tools) == len(shared.tools) or measured < LEAST_NUMBERS * spent:
+        return None
+    cost = float(np.sqrt(measured / (measured - spent)))
+    before, after = missed(shared, recordings), missed(free, recordings)
+    targets = [str(target) for target in np.unique(recordings.target)]
+    point = turn = None
+    moved = 1e3 * max(_points_apart(free, target) for target in targets)
+    if _exchanged(moved, before.shift, after.shift, cost):
+        point = moved
+    if before.turn is not None and after.turn is not None:
+        known = np.isfinite(before.turn).all(axis=1)
+        turned = max(_turns_apart(free, target) for target in targets)
+        if known.any() and _exchanged(turned, before.turn[known], after.turn[known], cost):
+            turn = turned
+    if point is None and turn is None:
+        return None
+    return ExchangedTool(free, robust.scale_of(before.shift), robust.scale_of(after.shift), point, turn)
+
+
+def _exchanged(apart: float, before: Array, after: Array, cost: float) -> bool:
+    """Whether tools lie apart, seen by residuals (N, 3) with one tool for all runs and with one per run."""
+    left = robust.scale_of(after)
+    return robust.scale_of(before) > WORSE * cost * left and apart > APART * left
+
+
+def _points_apart(model: FittedModel, target: str) -> float:
+    """Largest difference of a coordinate between a target's tool points, m."""
+    return float(np.ptp([part.values for part in model.tools if part.placed.variant == target], axis=0).max())
+
+
+def _turns_apart(model: FittedModel, target: str) -> float:
+    """Largest angle between a target's tool and its tool in the first run, rad."""
+    turns = Rotation.from_matrix([turn for (of, _), turn in model.tool_turns.items() if of == target] or [np.eye(3)])
+    return float((turns[0].inv() * turns).magnitude().max())

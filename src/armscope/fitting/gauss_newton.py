@@ -1,0 +1,141 @@
+"""The package's one robust Gauss-Newton: frames, effects, constants of an arm and compliances are all fitted by it.
+
+A problem says what a state leaves, what the normal equations are there (rows weighted by what they leave: iteratively
+reweighted least squares, Holland & Welsch 1977) and where a step leads. A step after which the misfit grows too much is
+damped (Marquardt 1963) until it no longer does.
+"""
+
+from __future__ import annotations
+
+import functools
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Generic, Literal, TypeVar
+
+import numpy as np
+import scipy.linalg
+
+from armscope.core.types import Array
+
+State = TypeVar("State")
+Residual = TypeVar("Residual")
+
+Reason = Literal["the step became negligible", "no step lowers the misfit", "the largest number of steps was made"]
+SETTLED: Reason = "the step became negligible"
+STUCK: Reason = "no step lowers the misfit"
+UNSETTLED: Reason = "the largest number of steps was made"
+
+FIRST_DAMPING, MOST_DAMPING = 1e-4, 1e8
+"""Shares of each column's own square: the first that is tried, and where trying ends."""
+
+
+@dataclass(frozen=True, eq=False)
+class Quadratic:
+    """The penalised sum of squares about a state; its lowest point solves ``matrix @ values = right``.
+
+    Attributes:
+        matrix: (p, p) X'WX plus the prior's precision, in any units.
+        right: (p,) X'Wy.
+        present: (p,) values at the state; zeros where values are counted from it.
+    """
+
+    matrix: Array
+    right: Array
+    present: Array
+
+    @property
+    def _scale(self) -> Array:
+        """(p,) what makes the diagonal one: conditioning must not depend on units."""
+        return np.asarray(1 / np.sqrt(np.maximum(np.diag(self.matrix), 1e-300)))
+
+    @functools.cached_property
+    def inverse(self) -> Array:
+        """(p, p) of the matrix."""
+        product = np.outer(self._scale, self._scale)
+        return np.asarray(np.linalg.inv(self.matrix * product) * product)
+
+    @functools.cached_property
+    def values(self) -> Array:
+        """(p,) at the lowest point."""
+        return np.asarray(self.inverse @ self.right)
+
+    def step(self, damping: float) -> Array:
+        """(p,) towards the lowest point; damped, the less a value is told the more it stays."""
+        if damping == 0:
+            return self.values - self.present
+        scale = self._scale
+        scaled = self.matrix * np.outer(scale, scale) + np.diag(np.full(len(scale), damping))
+        downhill = self.right - self.matrix @ self.present
+        return np.asarray(scale * scipy.linalg.solve(scaled, scale * downhill, assume_a="pos"))
+
+
+class NonlinearProblem(ABC, Generic[State, Residual]):
+    """What is fitted to what.
+
+    Attributes:
+        may_grow: a step is damped after which the misfit is more than this many times what it was.
+        least_damping: of every step; values that the rows do not tell then stay where they are.
+    """
+
+    may_grow: float = 1.0
+    least_damping: float = 0.0
+
+    @abstractmethod
+    def residual(self, state: State) -> Residual:
+        """What a state leaves."""
+
+    @abstractmethod
+    def quadratic(self, state: State, residual: Residual) -> Quadratic:
+        """The penalised sum of squares about a state, rows weighted by what it leaves of them."""
+
+    @abstractmethod
+    def moved(self, state: State, step: Array) -> State:
+        """Where a step (p,) leads."""
+
+    @abstractmethod
+    def settled(self, before: Residual, after: Residual) -> bool:
+        """Whether a step that changed residuals so is negligible."""
+
+    def misfit(self, state: State, residual: Residual) -> float:
+        """What no step may raise much, by the weights of the last `quadratic`; constant where any step will do."""
+        return 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class FitResult(Generic[State, Residual]):
+    """Where a fit ended, what that leaves, how many steps it took, and why it stopped."""
+
+    state: State
+    residual: Residual
+    steps: int
+    reason: Reason
+
+
+def gauss_newton(
+    problem: NonlinearProblem[State, Residual], start: State, most_steps: int
+) -> FitResult[State, Residual]:
+    """Minimise a problem's robust, penalised sum of squares from a start.
+
+    Args:
+        problem: what is fitted to what.
+        start: where to begin.
+        most_steps: after so many steps the fit stops where it is.
+    """
+    state, residual = start, problem.residual(start)
+    damping = problem.least_damping
+    for steps in range(1, most_steps + 1):
+        quadratic = problem.quadratic(state, residual)
+        bound = problem.may_grow * problem.misfit(state, residual)
+        while True:
+            candidate = problem.moved(state, quadratic.step(damping))
+            left = problem.residual(candidate)
+            if problem.settled(residual, left):
+                return FitResult(candidate, left, steps, SETTLED)
+            if problem.misfit(candidate, left) <= bound:
+                break
+            damping = max(10 * damping, FIRST_DAMPING)
+            if damping > MOST_DAMPING:
+                return FitResult(state, residual, steps, STUCK)
+        state, residual = candidate, left
+        damping = max(damping / 100 if damping > 1e-6 else 0.0, problem.least_damping)
+    return FitResult(state, residual, most_steps, UNSETTLED)
