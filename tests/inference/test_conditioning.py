@@ -11,6 +11,7 @@ from armscope.fitting.registration import fit_frames
 from armscope.inference import linear_algebra
 from armscope.inference.additions import addition_scores, group_candidates
 from armscope.inference.conditioning import condition_on, low_rank_update
+from armscope.inference.constants import NUMERICS
 from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.normal_equations import total
@@ -104,7 +105,7 @@ def test_sets_of_many_columns_gain_the_same_by_factors_as_by_eigenvalues(
     setting: Problem, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     hypothesis, groups = whole(setting, (2, 0, 0)), group_candidates(setting.space)
-    assert max(columns.shape[1] for columns in groups.columns) > linear_algebra.MANY_COLUMNS
+    assert max(columns.shape[1] for columns in groups.columns) > NUMERICS.many_columns
     by_factors = addition_scores(setting, groups, hypothesis)
-    monkeypatch.setattr(linear_algebra, "MANY_COLUMNS", 1000)
+    monkeypatch.setattr(linear_algebra, "NUMERICS", replace(NUMERICS, many_columns=1000))
     np.testing.assert_allclose(by_factors, addition_scores(setting, groups, hypothesis), rtol=1e-8, atol=1e-7)

@@ -12,10 +12,11 @@ from armscope.diagnosis.model_space import build_model_space
 from armscope.fitting.design_matrix import columns
 from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.fitting.registration import fit_frames
-from armscope.inference.detection import DETECTED_NATS, averaged_log_odds
+from armscope.inference.constants import DETECTION, PRIORS
+from armscope.inference.detection import averaged_log_odds
 from armscope.inference.evidence import evaluate
 from armscope.inference.normal_equations import total
-from armscope.inference.problem import SURE_NATS, Problem, SelectedEffect, build_problem
+from armscope.inference.problem import Problem, SelectedEffect, build_problem
 from armscope.inference.search import Search
 from armscope.measurement.row_weights import RowWeights
 from armscope.physics.backgrounds import backgrounds
@@ -57,7 +58,7 @@ def test_noise_alone_seldom_looks_like_something(setting: tuple[Problem, np.ndar
     odds = np.array([log_odds(problem, X, rng.normal(0, NOISE_MM, len(X))) for _ in range(DRAWS)])
     for bound in (0.0, 1.0):
         assert np.mean(odds > bound) < np.exp(-bound)
-    assert np.count_nonzero(odds > DETECTED_NATS) <= 2
+    assert np.count_nonzero(odds > DETECTION.detected_nats) <= 2
 
 
 def test_something_is_known_to_be_there_before_it_can_be_named(setting: tuple[Problem, np.ndarray]) -> None:
@@ -83,7 +84,7 @@ def test_a_name_that_is_not_worth_its_price_goes(setting: tuple[Problem, np.ndar
     y = 10 * NOISE_MM * X[:, problem.space.candidates[strong].columns[0]] + rng.normal(0, NOISE_MM, len(X))
     search = Search.on(read(problem, X, y))
     both = evaluate(search.problem, (SelectedEffect(strong, 4), SelectedEffect(weak, 0)), PERFECT, NOISE_MM)
-    assert search.log_odds(both, weak) < SURE_NATS < search.log_odds(both, strong)
+    assert search.log_odds(both, weak) < PRIORS.sure_nats < search.log_odds(both, strong)
     weakest = search.weakest(both)
     assert weakest is not None
     left = search.without(both, [weakest.candidate])

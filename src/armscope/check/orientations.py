@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from armscope.calibration.model import SetUp, State
+from armscope.calibration.model import SetUp
+from armscope.calibration.state import State
 from armscope.check.suspicion import Suspicion
 from armscope.core.types import Array
 from armscope.recordings import Recordings

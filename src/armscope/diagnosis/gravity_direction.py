@@ -18,9 +18,10 @@ from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.diagnosis.model_space import build_model_space
 from armscope.fitting.linearisation import normal_equations_by_block, residuals
+from armscope.inference.constants import PRIORS
 from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.normal_equations import total
-from armscope.inference.problem import SURE_NATS, Problem, build_problem
+from armscope.inference.problem import Problem, build_problem
 from armscope.measurement import robust
 from armscope.measurement.noise import Noise
 from armscope.measurement.row_weights import RowWeights
@@ -83,7 +84,7 @@ def lean(start: FittedModel, recordings: Recordings, noise: Noise, tool_per_run:
     width = 2 * float(np.pi * np.sqrt(max(float(np.linalg.det(covariance)), 1e-12)))
     gained = valley.depth(np.zeros(2)) - valley.depth(best) + min(float(np.log(width / HEMISPHERE)), 0.0)
     angle = float(np.linalg.norm(best))
-    if gained < SURE_NATS or angle == 0:
+    if gained < PRIORS.sure_nats or angle == 0:
         return None
     along = best / angle
     return Lean(turned(start.arm, best), angle, float(np.sqrt(max(float(along @ covariance @ along), 0.0))), gained)

@@ -12,7 +12,7 @@ from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import columns, structured_design
 from armscope.fitting.linearisation import chunks, current_parameters, response
 from armscope.fitting.parameter_layout import ParameterLayout
-from armscope.inference.edits import LARGE
+from armscope.inference.constants import BUDGET
 from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, SelectedEffect
@@ -124,7 +124,7 @@ def cross_validate(
 
 def _chosen_again(trained: Problem, best: Hypothesis) -> Hypothesis:
     """The selection repeated on a fold's own rows, from as many starts as on all rows; from one where it is large."""
-    if len(best.columns) > LARGE:
+    if len(best.columns) > BUDGET.large:
         search, starts = Search.on(trained, beam=1, branches=2), {best.background}
     else:
         search, starts = Search.on(trained), {best.background, *trained.space.starts}

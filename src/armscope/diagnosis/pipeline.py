@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from armscope.check.orientations import with_orientations
-from armscope.check.preconditions import FEWEST_ROWS, check_table, suspected, too_far
+from armscope.check.preconditions import FEWEST_ROWS, as_notices, check_table, suspected, too_far
 from armscope.core.types import Progress
 from armscope.diagnosis.gravity_direction import lean
 from armscope.diagnosis.held_out import split
@@ -74,10 +74,11 @@ def diagnose(
     start, tool_per_run, told = _frames(arm, table, settings.tool_per_run)
     first = missed(start, table)
     table, told_of_turns = with_orientations(table, first.turn)
-    notices = (*suspected(arm, checked.recordings), *checked.notices, *told, *told_of_turns)
     noise = known_noise(arm, table)
     frames = free_frames(table, tool_per_run)
-    obstacle = too_far(arm, table, first.shift) or _too_few(table, frames)
+    problems = suspected(arm, checked.recordings)
+    obstacle = too_far(arm, table, first.shift, problems) or _too_few(table, frames)
+    notices = (*as_notices(problems, obstacle), *checked.notices, *told, *told_of_turns)
     if obstacle is not None:
         return undecided(start, table, first.shift, noise, (*notices, obstacle), time.perf_counter() - started)
     if settings.estimate_gravity:

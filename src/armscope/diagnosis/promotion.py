@@ -12,17 +12,18 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.diagnosis.model_space import EffectSpace
+from armscope.inference.constants import PRIORS
 from armscope.inference.edits import Edits
 from armscope.inference.evidence import Hypothesis, evaluate, savage_dickey
 from armscope.inference.linear_algebra import profiled_loss, schur_complement
 from armscope.inference.normal_equations import as_response
-from armscope.inference.problem import SURE_NATS, Problem, SelectedEffect
+from armscope.inference.problem import Problem, SelectedEffect
 from armscope.physics.elastic import JOINT_COMPLIANCE
 from armscope.physics.freeform import REST_OF_LOAD
 
 STANDS_OUT_NATS, STANDS_OUT = 20.0, 0.25
 """A background's member is named when holding it right loses this much and it is worth this share of the RMS."""
-GIVES_NATS, GIVES = SURE_NATS, 0.1
+GIVES_NATS, GIVES = PRIORS.sure_nats, 0.1
 """A joint's drive in an elastic background is named at odds of 20 to 1, if it is worth this share of the RMS at all: of
 what gives way, drives do first and most."""
 LINE_SHARE = 0.9

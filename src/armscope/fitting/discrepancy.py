@@ -30,8 +30,8 @@ from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import component_rows
 from armscope.fitting.linearisation import chunks, response
 from armscope.fitting.refit import Refit
+from armscope.inference.constants import PRIORS
 from armscope.inference.linear_algebra import lower_cholesky, quadratic_and_logdet, solve_lower
-from armscope.inference.problem import SURE_NATS
 from armscope.physics.effect import AXES, ONE, Direction, motor, term
 from armscope.physics.placing import moving_joints
 from armscope.recordings import Recordings
@@ -74,7 +74,7 @@ class ModelError:
 
     def told(self) -> list[Notice]:
         """What to say of it, where it is sure."""
-        sure = [f"{p.what} ({p.rms_mm:.2g} mm)" for p in self.processes if p.evidence > SURE_NATS]
+        sure = [f"{p.what} ({p.rms_mm:.2g} mm)" for p in self.processes if p.evidence > PRIORS.sure_nats]
         if not sure:
             return []
         text = f"What is left is more than noise, and no effect explains it: {', '.join(sure)}. Intervals count it in."

@@ -13,8 +13,8 @@ from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic, gauss_new
 from armscope.fitting.linearisation import current_parameters, missed, normal_equations_by_block
 from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
 from armscope.fitting.registration import moved_base
+from armscope.inference.constants import PRIORS
 from armscope.inference.normal_equations import NormalEquations, column_scales
-from armscope.inference.problem import FRAME_PRIOR_MM
 from armscope.measurement import robust
 from armscope.measurement.row_weights import Missed, RowNoise, RowWeights
 from armscope.physics.backgrounds import TOLERANCE
@@ -220,8 +220,8 @@ def _precision(
         wide = 1.0 if placed.partly_unseen else FREE
         variance[at] = (wide * size * np.array(placed.prior_scale) / scale[at]) ** 2
         # nor farther than frames go, however much of it they would absorb
-        variance[at] = np.minimum(variance[at], FRAME_PRIOR_MM**2 * gram.n / np.maximum(np.diag(gram.G)[at], 1e-24))
-    variance[parts.frames] = (FRAME_PRIOR_MM / scale[parts.frames]) ** 2
+        variance[at] = np.minimum(variance[at], PRIORS.frame_mm**2 * gram.n / np.maximum(np.diag(gram.G)[at], 1e-24))
+    variance[parts.frames] = (PRIORS.frame_mm / scale[parts.frames]) ** 2
     return np.asarray(1 / variance)
 
 

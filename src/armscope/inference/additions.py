@@ -50,7 +50,16 @@ def group_candidates(space: ModelSpace) -> CandidateGroups:
 
 
 def best_additions(problem: Problem, groups: CandidateGroups, hypothesis: Hypothesis) -> tuple[Array, Indices]:
-    """What each candidate would add to the log posterior at its best size, nats, and the index of that size."""
+    """What each candidate would add to the log posterior at its best size, nats, and the index of that size.
+
+    Args:
+        problem: the normal equations and priors.
+        groups: the candidates.
+        hypothesis: to which they are added.
+
+    Returns:
+        (candidates,) nats, and (candidates,) indices of sizes.
+    """
     by_size = addition_scores(problem, groups, hypothesis)
     return by_size.max(axis=0), by_size.argmax(axis=0)
 
@@ -74,6 +83,9 @@ def addition_scores(
         hypothesis: to which they are added.
         asked: (candidates,) about which the question is; -inf for others.
         rest: what the hypothesis leaves of the columns that compete.
+
+    Returns:
+        (SIZES, candidates) nats, their price taken off.
     """
     if rest is None:
         assert isinstance(hypothesis, Hypothesis)
@@ -101,7 +113,16 @@ def addition_scores(
 
 
 def joint_addition_scores(problem: Problem, rest: Hypothesis, sets: Sequence[tuple[SelectedEffect, ...]]) -> Array:
-    """What each set of effects together would add to the log posterior, nats; for small sets of small effects."""
+    """What each set of effects together would add to the log posterior, nats; for small sets of small effects.
+
+    Args:
+        problem: the normal equations and priors.
+        rest: the hypothesis to which they are added.
+        sets: effects that are added together.
+
+    Returns:
+        (sets,) nats.
+    """
     members = {c.candidate: problem.space.candidates[c.candidate].columns for chosen in sets for c in chosen}
     columns = np.concatenate([members[m] for m in sorted(members)])
     noise, remaining = rest.noise, condition_on(problem, columns, rest)
@@ -129,6 +150,9 @@ def block_scores(problem: Problem, hypothesis: Hypothesis, blocks: ColumnBlocks)
         problem: the normal equations and priors.
         hypothesis: to which one of the blocks would be added.
         blocks: against the hypothesis' columns, mm per SI unit.
+
+    Returns:
+        (m,) nats.
     """
     own, b = blocks.conditioned(*unscaled_factor(problem, hypothesis))
     scale = np.sqrt(np.maximum(blocks.diagonal, 1e-300) / problem.n)

@@ -15,13 +15,11 @@ import numpy as np
 from scipy.linalg.lapack import dtrtrs
 
 from armscope.core.types import Array, Indices
+from armscope.inference.constants import NUMERICS
 from armscope.inference.evidence import Hypothesis, half_line_columns, negative_log_prior
 from armscope.inference.linear_algebra import profiled_loss, solve_lower
 from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.problem import Problem, SelectedEffect, prior_variances
-
-ROUNDED = 1e-12
-"""Prior variances that differ by a smaller part than this are the same."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +49,16 @@ class ConditionedColumns:
 
 
 def condition_on(problem: Problem, columns: Indices, hypothesis: Hypothesis) -> ConditionedColumns:
-    """What a hypothesis leaves of some columns."""
+    """What a hypothesis leaves of some columns.
+
+    Args:
+        problem: the normal equations and priors.
+        columns: of the problem.
+        hypothesis: what is conditioned on.
+
+    Returns:
+        Products of the columns with what the hypothesis leaves, and what it takes of them.
+    """
     G, b, inside = problem.equations.G, problem.equations.b, hypothesis.columns
     taken = np.asarray(dtrtrs(hypothesis.cholesky, G[np.ix_(columns, inside)].T, lower=1, overwrite_b=1)[0]).T
     return ConditionedColumns(columns, b[columns] - taken @ solve_lower(hypothesis.cholesky, b[inside]), taken)
@@ -102,12 +109,21 @@ def low_rank_update(
 
     A prior precision that grows by d (noise units) at columns R turns A into A + E d E': by Woodbury's identity all
     follows from the inverse of A at R.
+
+    Args:
+        problem: the normal equations and priors.
+        hypothesis: from which it departs.
+        chosen: the other's effects, with their sizes.
+        background: size of each family's background.
+
+    Returns:
+        Log posterior and residual of the other, without its factors.
     """
     prior, before, noise = prior_variances(problem, chosen, background), hypothesis.variance, hypothesis.noise
     after = prior[hypothesis.columns]
     if np.count_nonzero(after) < np.count_nonzero(prior):
         return None
-    at = np.flatnonzero(np.abs(after - before) > ROUNDED * before)
+    at = np.flatnonzero(np.abs(after - before) > NUMERICS.rounded * before)
     after, before = after[at], before[at]
     inverse = hypothesis.inverse[:, at]
     inner = inverse.T @ inverse
@@ -133,7 +149,16 @@ def _away(problem: Problem, whole: Hypothesis, chosen: Sequence[SelectedEffect],
 
 
 def approximate_removal_loss(problem: Problem, hypothesis: Hypothesis, kept: tuple[SelectedEffect, ...]) -> float:
-    """Nats lost with only some effects kept, of which the noise, if it were free, would take up some by growing."""
+    """Nats lost with only some effects kept, of which the noise, if it were free, would take up some by growing.
+
+    Args:
+        problem: the normal equations and priors.
+        hypothesis: with all its effects.
+        kept: those that stay.
+
+    Returns:
+        Nats.
+    """
     rest = low_rank_update(problem, hypothesis, kept, hypothesis.background)
     assert rest is not None
     return profiled_loss(hypothesis.log_posterior - rest.log_posterior, problem.n)

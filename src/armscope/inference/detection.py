@@ -14,15 +14,9 @@ from scipy.special import logsumexp
 
 from armscope.core.types import Array
 from armscope.inference.additions import addition_scores
+from armscope.inference.constants import DETECTION, PRIORS
 from armscope.inference.edits import Edits
 from armscope.inference.model_space import Candidate
-from armscope.inference.problem import SURE_NATS
-
-DETECTED_NATS = 2.0
-"""Log odds from which something is said to be missing: no false alarm in 600 simulated clean arms. (Where nothing is
-missing, an average of evidence exceeds log odds x with a chance of exp(-x) at most; in fact far less often.)"""
-SURE_OF_PLACE = 0.95
-LISTED = 3
 
 
 @dataclass(frozen=True)
@@ -44,13 +38,13 @@ class Detection:
     @property
     def detected(self) -> bool:
         """Whether something is missing beyond reasonable doubt."""
-        return self.log_odds > DETECTED_NATS
+        return self.log_odds > DETECTION.detected_nats
 
 
 def averaged_log_odds(edits: Edits) -> Detection:
     """The odds that anything is missing, against a perfect arm."""
     problem, space = edits.problem, edits.space
-    by_size = addition_scores(problem, edits.groups, edits.perfect()) + SURE_NATS
+    by_size = addition_scores(problem, edits.groups, edits.perfect()) + PRIORS.sure_nats
     by_size[:, list(space.requires)] = -np.inf
     effects = logsumexp(by_size, axis=0)
     backgrounds = _background_odds(edits)
@@ -59,9 +53,12 @@ def averaged_log_odds(edits: Edits) -> Detection:
     everything = np.concatenate([effects, backgrounds]) + shares
     order = np.argsort(-effects)
     size = float(problem.sizes[int(np.argmax(by_size[:, order[0]]))])
-    likeliest = {space.candidates[c].key: space.candidates[c] for c in order[: 3 * LISTED]}
+    likeliest = {space.candidates[c].key: space.candidates[c] for c in order[: 3 * DETECTION.listed]}
     return Detection(
-        float(logsumexp(everything)), size, _region(space.candidates, effects), tuple(list(likeliest.values())[:LISTED])
+        float(logsumexp(everything)),
+        size,
+        _region(space.candidates, effects),
+        tuple(list(likeliest.values())[: DETECTION.listed]),
     )
 
 
@@ -86,4 +83,4 @@ def _region(candidates: tuple[Candidate, ...], effects: Array) -> str | None:
         regions.setdefault(candidate.region, []).append(float(odds))
     totals = {region: float(logsumexp(odds)) for region, odds in regions.items()}
     best = max(totals, key=lambda region: totals[region])
-    return best if totals[best] - logsumexp(list(totals.values())) >= np.log(SURE_OF_PLACE) else None
+    return best if totals[best] - logsumexp(list(totals.values())) >= np.log(DETECTION.sure_of_place) else None

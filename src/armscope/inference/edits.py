@@ -10,19 +10,13 @@ import numpy as np
 
 from armscope.inference.additions import CandidateGroups, addition_scores
 from armscope.inference.conditioning import ConditionedColumns, LowRankUpdate, approximate_removal_loss, low_rank_update
+from armscope.inference.constants import BUDGET, PRIORS
 from armscope.inference.evidence import Hypothesis, evaluate, removal_log_bayes_factors, savage_dickey
 from armscope.inference.linear_algebra import profiled_loss
 from armscope.inference.model_space import BackgroundSizes, Candidate, ModelSpace
-from armscope.inference.problem import SURE_NATS, Problem, SelectedEffect
+from armscope.inference.problem import Problem, SelectedEffect
 
 T = TypeVar("T")
-BRANCHES = 3
-WORTH_TRYING_NATS = 2.0
-"""A removal that loses more than this at the present noise can't pay when the noise is re-estimated."""
-SLACK_NATS = 3.0
-"""A predicted value that falls short by more than this is not computed."""
-LARGE = 150
-"""A hypothesis of more columns than this (several free curves) is searched around less."""
 
 
 @dataclass(eq=False)
@@ -37,7 +31,7 @@ class Edits:
 
     problem: Problem
     groups: CandidateGroups
-    branches: int = BRANCHES
+    branches: int = BUDGET.branches
 
     @property
     def space(self) -> ModelSpace:
@@ -54,7 +48,16 @@ class Edits:
         like: Hypothesis | LowRankUpdate,
         background: BackgroundSizes | None = None,
     ) -> Hypothesis:
-        """Effects with a hypothesis' background, or another one, from its noise on."""
+        """Effects with a hypothesis' background, or another one, from its noise on.
+
+        Args:
+            chosen: the effects, with their sizes.
+            like: whose background and noise are taken.
+            background: size of each family's background; None takes that of ``like``.
+
+        Returns:
+            The hypothesis.
+        """
         return evaluate(self.problem, tuple(chosen), like.background if background is None else background, like.noise)
 
     def perfect(self) -> Hypothesis:
@@ -82,6 +85,9 @@ class Edits:
             without: candidates that are not asked for.
             least: they must promise to gain more than this.
             remaining: what the parent leaves of the columns that compete.
+
+        Returns:
+            Hypotheses, the most promising first.
         """
         asked = np.ones(len(self.space.candidates), dtype=np.bool_)
         for member in parent.candidates:
@@ -103,7 +109,16 @@ class Edits:
         return self.evaluated((*(c for c in parent.chosen if c.candidate not in excluded), added), parent)
 
     def with_background(self, hypothesis: Hypothesis, family: int, size: int) -> Hypothesis:
-        """The hypothesis with another size of one family's background."""
+        """The hypothesis with another size of one family's background.
+
+        Args:
+            hypothesis: from which it departs.
+            family: number of the family.
+            size: index of its size.
+
+        Returns:
+            The hypothesis.
+        """
         return self.evaluated(hypothesis.chosen, hypothesis, replaced(hypothesis.background, family, size))
 
     def without(self, hypothesis: Hypothesis, removed: Iterable[int]) -> Hypothesis:
@@ -122,7 +137,7 @@ class Edits:
         while len(hypothesis.chosen) > 1:
             lost = removal_log_bayes_factors(self.problem, hypothesis)
             weakest = int(np.argmin(lost))
-            if lost[weakest] > WORTH_TRYING_NATS:
+            if lost[weakest] > BUDGET.worth_trying_nats:
                 break
             shorter = self.without(hypothesis, [hypothesis.chosen[weakest].candidate])
             if shorter.log_posterior <= hypothesis.log_posterior:
@@ -147,8 +162,8 @@ class Edits:
 
     def _better(self, best: Hypothesis, chosen: tuple[SelectedEffect, ...], background: BackgroundSizes) -> Hypothesis:
         """The better of a hypothesis and another one; a large one is evaluated only if it promises to be."""
-        promised = low_rank_update(self.problem, best, chosen, background) if len(best.columns) > LARGE else None
-        if promised is not None and promised.log_posterior < best.log_posterior - SLACK_NATS:
+        promised = low_rank_update(self.problem, best, chosen, background) if len(best.columns) > BUDGET.large else None
+        if promised is not None and promised.log_posterior < best.log_posterior - BUDGET.slack_nats:
             return best
         return max(best, self.evaluated(chosen, best, background), key=by_posterior)
 
@@ -180,26 +195,37 @@ class Edits:
     def log_odds(self, hypothesis: Hypothesis, candidate: int) -> float:
         """Log odds, nats, of an effect against nothing in its place; a background that holds it too goes with it."""
         if not self.in_background(hypothesis, candidate):
-            return hypothesis.log_posterior - self.without(hypothesis, [candidate]).log_posterior + SURE_NATS
+            return hypothesis.log_posterior - self.without(hypothesis, [candidate]).log_posterior + PRIORS.sure_nats
         lost = savage_dickey(hypothesis, self.candidate(candidate).columns)
-        return profiled_loss(lost, self.problem.n) - float(self.problem.prior_costs[candidate]) + SURE_NATS
+        return profiled_loss(lost, self.problem.n) - float(self.problem.prior_costs[candidate]) + PRIORS.sure_nats
 
     def weakest(self, hypothesis: Hypothesis) -> SelectedEffect | None:
         """The chosen effect that is least worth its price, if one is not."""
         own = [(n, c.candidate) for n, c in enumerate(hypothesis.chosen) if not c.nested]
         odds = [(self.log_odds(hypothesis, c), n) for n, c in own if self._doubtful(hypothesis, c)]
         least, weakest = min(odds, default=(np.inf, 0))
-        return hypothesis.chosen[weakest] if least < SURE_NATS else None
+        return hypothesis.chosen[weakest] if least < PRIORS.sure_nats else None
 
     def _doubtful(self, hypothesis: Hypothesis, candidate: int) -> bool:
         """Whether an effect may not be worth its price; of small hypotheses that is evaluated anyway."""
-        if len(hypothesis.columns) <= LARGE or self.in_background(hypothesis, candidate):
+        if len(hypothesis.columns) <= BUDGET.large or self.in_background(hypothesis, candidate):
             return True
-        return approximate_removal_loss(self.problem, hypothesis, self.kept(hypothesis, [candidate])) < SLACK_NATS
+        return (
+            approximate_removal_loss(self.problem, hypothesis, self.kept(hypothesis, [candidate])) < BUDGET.slack_nats
+        )
 
 
 def replaced(members: tuple[T, ...], number: int, member: T) -> tuple[T, ...]:
-    """A tuple with another member in one place."""
+    """A tuple with another member in one place.
+
+    Args:
+        members: the tuple.
+        number: of the place, from 0.
+        member: what comes there.
+
+    Returns:
+        The new tuple.
+    """
     return (*members[:number], member, *members[number + 1 :])
 
 

@@ -16,12 +16,10 @@ from scipy.linalg.lapack import dtrtri, dtrtrs
 from scipy.special import log_ndtr
 
 from armscope.core.types import Array, Indices
+from armscope.inference.constants import NUMERICS, PRIORS
 from armscope.inference.linear_algebra import lower_cholesky, solve_lower
 from armscope.inference.model_space import BackgroundSizes
-from armscope.inference.problem import EXCESS_SPECIAL_CASE_NATS, Problem, SelectedEffect, prior_variances
-
-NOISE_STEPS = 3
-NOISE_SETTLED = 3e-3
+from armscope.inference.problem import Problem, SelectedEffect, prior_variances
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,6 +98,9 @@ def evaluate(
         chosen: the effects, with their sizes.
         background: size of each family's background.
         noise: where the noise starts, mm per axis.
+
+    Returns:
+        The hypothesis with its evidence, nats, noise, mm, and posterior.
     """
     prior = prior_variances(problem, chosen, background)
     columns = np.flatnonzero(prior > 0)
@@ -109,14 +110,14 @@ def evaluate(
     # how many values the data determine hardly changes with the noise: one inverse is enough
     inverse = np.asarray(dtrtri(first, lower=1)[0])
     effective_dof = len(columns) - noise**2 * float(np.sum(np.einsum("ij,ij->j", inverse, inverse) / variance))
-    for step in range(NOISE_STEPS):
+    for step in range(NUMERICS.noise_steps):
         whitened_rhs = solve_lower(factor, b)
         rss = float(problem.equations.yy - whitened_rhs @ whitened_rhs)
         mean = np.asarray(dtrtrs(factor, whitened_rhs, lower=1, trans=1)[0])
         misfit = rss - noise**2 * float(np.sum(mean**2 / variance))
         updated = np.sqrt(max(misfit, 0.0) / max(problem.n - effective_dof, 1.0))
         updated = max(float(updated), problem.least_noise, 1e-6)
-        if step == NOISE_STEPS - 1 or abs(updated - noise) < NOISE_SETTLED * noise:
+        if step == NUMERICS.noise_steps - 1 or abs(updated - noise) < NUMERICS.noise_settled * noise:
             break
         noise = updated
         factor = lower_cholesky(G, noise**2 / variance)
@@ -146,13 +147,18 @@ def negative_log_prior(
         background: size of each family's background.
         away: of each effect's value that can't be negative, standard errors from zero; half of the prior goes to the
             other half, each by itself.
+
+    Returns:
+        Nats.
     """
     own = [c for c in chosen if not c.nested]
     if not problem.space.requirements_met(frozenset(c.candidate for c in chosen)):
         return np.inf
     paid = sum(problem.cost(c.candidate) for c in own)
     paid += sum(cost for cost, size in zip(problem.family_costs, background, strict=True) if size)
-    paid += EXCESS_SPECIAL_CASE_NATS * max(problem.space.excess_special_cases(frozenset(c.candidate for c in own)), 0)
+    paid += PRIORS.excess_special_case_nats * max(
+        problem.space.excess_special_cases(frozenset(c.candidate for c in own)), 0
+    )
     return float(paid - np.sum(np.log(2) + log_ndtr(away)))
 
 

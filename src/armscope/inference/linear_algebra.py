@@ -8,12 +8,7 @@ import numpy as np
 from scipy.linalg.lapack import dpotrf, dtrtrs
 
 from armscope.core.types import Array, Indices
-
-ROUNDING = 1e-11
-MANY_COLUMNS = 8
-"""Sets of at least this many columns are factorised size by size, which takes less time than their eigenvalues."""
-ABSORBED = 1e-6
-"""Directions of which less than this share is left explain nothing."""
+from armscope.inference.constants import NUMERICS
 
 
 def lower_cholesky(G: Array, ridge: Array) -> Array:
@@ -23,7 +18,7 @@ def lower_cholesky(G: Array, ridge: Array) -> Array:
         LinAlgError: the matrix is not positive definite.
     """
     A = G.copy()
-    A.reshape(-1)[:: len(A) + 1] += np.maximum(ridge, ROUNDING * np.diag(G))
+    A.reshape(-1)[:: len(A) + 1] += np.maximum(ridge, NUMERICS.rounding * np.diag(G))
     # the transpose of a symmetric matrix: itself, in the order that LAPACK works in without another copy
     factor, failed = dpotrf(A.T, lower=1, clean=1, overwrite_a=1)
     if failed:
@@ -37,7 +32,16 @@ def solve_lower(factor: Array, right: Array) -> Array:
 
 
 def schur_complement(G: Array, free: Indices, columns: Indices) -> Array:
-    """(c, c) products of some columns beyond what the free ones absorb; those may depend on each other."""
+    """(c, c) products of some columns beyond what the free ones absorb; those may depend on each other.
+
+    Args:
+        G: (p, p) products of all columns.
+        free: columns that absorb.
+        columns: c others.
+
+    Returns:
+        (c, c), in the unit of G.
+    """
     absorbed = np.linalg.lstsq(G[np.ix_(free, free)], G[np.ix_(free, columns)], rcond=1e-12)[0]
     return np.asarray(G[np.ix_(columns, columns)] - G[np.ix_(columns, free)] @ absorbed)
 
@@ -81,17 +85,31 @@ def rss_reduction(own: Array, b: Array, before: Array) -> Array:
         own: (m, c, c) products within each block once the model is conditioned on.
         b: (m, c) their products with what is left.
         before: (m, c) diagonal of the blocks' own matrices before conditioning: what "absorbed" is measured against.
+
+    Returns:
+        (m,), in the unit of the sums.
     """
     norm = np.sqrt(np.maximum(before, 1e-300))
     scaled = own / (norm[:, :, None] * norm[:, None, :])
     values, vectors = np.linalg.eigh(scaled)
     u = np.einsum("mij,mi->mj", vectors, b / norm)
-    return np.asarray(np.sum(np.where(values > ABSORBED, u**2 / np.maximum(values, ABSORBED), 0.0), axis=1))
+    return np.asarray(
+        np.sum(np.where(values > NUMERICS.absorbed, u**2 / np.maximum(values, NUMERICS.absorbed), 0.0), axis=1)
+    )
 
 
 def quadratic_and_logdet(D: Array, r: Array, s2: Array) -> tuple[Array, Array]:
-    """(sizes, m) r' (D + 1 / s^2)^-1 r and log|1 + s^2 D| of m blocks (m, c, c) and (m, c), for each s^2."""
-    if D.shape[1] >= MANY_COLUMNS:
+    """(sizes, m) r' (D + 1 / s^2)^-1 r and log|1 + s^2 D| of m blocks (m, c, c) and (m, c), for each s^2.
+
+    Args:
+        D: (m, c, c) positive semi-definite.
+        r: (m, c).
+        s2: (sizes,) prior variances.
+
+    Returns:
+        Two arrays (sizes, m).
+    """
+    if D.shape[1] >= NUMERICS.many_columns:
         try:
             return _factorised(D, r, s2)
         except np.linalg.LinAlgError:
@@ -119,7 +137,18 @@ def _factorised(D: Array, r: Array, s2: Array) -> tuple[Array, Array]:
 
 
 def profiled_gain(quadratic: Array, chi2: float, n: float, noise: float, least: float) -> Array:
-    """Gain of log likelihood when chi2 falls by ``quadratic`` and the noise follows, not below its least value."""
+    """Gain of log likelihood when chi2 falls by ``quadratic`` and the noise follows, not below its least value.
+
+    Args:
+        quadratic: by how much chi2 falls; any shape.
+        chi2: of the hypothesis, in units of its noise.
+        n: measured numbers.
+        noise: of the hypothesis, mm.
+        least: the noise is not taken to be below this, mm.
+
+    Returns:
+        Nats, shaped as ``quadratic``.
+    """
     remaining = np.maximum(chi2 - quadratic, 1e-9 * chi2)
     ratio = np.maximum(np.sqrt(remaining / chi2), min(1.0, least / noise))
     return np.asarray(-n * np.log(ratio) + 0.5 * chi2 - 0.5 * remaining / ratio**2)

@@ -98,7 +98,16 @@ class BackgroundFamily(Protocol):
         """Whether it pays, as one kind of error among the others; one that everything real has is free."""
 
     def prior_variance(self, size: int, effect_sizes: Array, scale: Array) -> Array:
-        """(c,) prior variances, mm^2, of the columns once they are divided by ``scale`` (p,)."""
+        """(c,) prior variances, mm^2, of the columns once they are divided by ``scale`` (p,).
+
+        Args:
+            size: index of the background's size.
+            effect_sizes: the sizes of effects that compete, mm.
+            scale: (p,) by which columns are divided.
+
+        Returns:
+            (c,) mm^2.
+        """
 
     def label(self, size: int, effect_sizes: Array) -> float:
         """The size as a number: mm, or a share of what is stated."""
@@ -120,7 +129,16 @@ class ToleranceFamily:
         return len(self.shares)
 
     def prior_variance(self, size: int, effect_sizes: Array, scale: Array) -> Array:
-        """As of `BackgroundFamily`."""
+        """As of `BackgroundFamily`.
+
+        Args:
+            size: index of the background's size.
+            effect_sizes: not looked at: a tolerance has sizes of its own.
+            scale: (p,) by which columns are divided.
+
+        Returns:
+            (c,) mm^2.
+        """
         return np.asarray((self.shares[size] * self.tolerance * scale[self.columns]) ** 2)
 
     def label(self, size: int, effect_sizes: Array) -> float:
@@ -139,7 +157,16 @@ class SizedFamily:
     is_priced: bool = True
 
     def prior_variance(self, size: int, effect_sizes: Array, scale: Array) -> Array:
-        """As of `BackgroundFamily`."""
+        """As of `BackgroundFamily`.
+
+        Args:
+            size: index of the background's size.
+            effect_sizes: the sizes of effects that compete, mm.
+            scale: not looked at: sizes are of scaled columns.
+
+        Returns:
+            (c,) mm^2.
+        """
         return np.asarray((self.label(size, effect_sizes) * self.prior_scale) ** 2)
 
     def label(self, size: int, effect_sizes: Array) -> float:

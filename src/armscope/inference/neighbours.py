@@ -9,20 +9,17 @@ import numpy as np
 
 from armscope.inference.additions import best_additions, joint_addition_scores
 from armscope.inference.conditioning import condition_on, low_rank_update
-from armscope.inference.edits import SLACK_NATS, Edits
+from armscope.inference.constants import BUDGET
+from armscope.inference.edits import Edits
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import ModelSpace
 from armscope.inference.problem import SelectedEffect
-
-SPECIAL_CASES = 7
-"""How many of a curve's special cases are tried in its place."""
-NAMED_AT_ONCE = 3
 
 
 def neighbours(edits: Edits, hypothesis: Hypothesis) -> list[Hypothesis]:
     """Additions; swaps of one effect for another; merges of all effects in one region; splits of curves; and more."""
     whole = condition_on(edits.problem, edits.groups.competing, hypothesis)
-    found = edits.additions(hypothesis, edits.branches, least=-SLACK_NATS, remaining=whole)
+    found = edits.additions(hypothesis, edits.branches, least=-BUDGET.slack_nats, remaining=whole)
     for effect in hypothesis.chosen:
         if edits.candidate(effect.candidate).is_curve:
             found += _split(edits, hypothesis, effect)
@@ -31,7 +28,7 @@ def neighbours(edits: Edits, hypothesis: Hypothesis) -> list[Hypothesis]:
         kept = edits.kept(hypothesis, removed)
         rest = low_rank_update(edits.problem, hypothesis, kept, hypothesis.background)
         assert rest is not None
-        least = hypothesis.log_posterior - rest.log_posterior - SLACK_NATS
+        least = hypothesis.log_posterior - rest.log_posterior - BUDGET.slack_nats
         found += edits.additions(rest, edits.branches, removed, least, rest.conditioned(whole))
     moves = (_from_free_backgrounds, _into_background, _exchanges)
     return [*found, *(each for move in moves for each in move(edits, hypothesis))]
@@ -52,7 +49,7 @@ def _from_free_backgrounds(edits: Edits, hypothesis: Hypothesis) -> Iterator[Hyp
     for number, family in enumerate(edits.space.families):
         for size in range(0 if family.is_priced else hypothesis.background[number]):
             smaller = edits.with_background(hypothesis, number, size)
-            for _ in range(NAMED_AT_ONCE):
+            for _ in range(BUDGET.named_at_once):
                 larger = edits.additions(smaller, 1, least=0.0)
                 if not larger:
                     break
@@ -89,7 +86,7 @@ def _split(edits: Edits, hypothesis: Hypothesis, curve: SelectedEffect) -> list[
         return []
     rest = edits.without(hypothesis, [curve.candidate])
     gain, _ = best_additions(edits.problem, edits.groups, rest)
-    likely = sorted(special, key=lambda c: -gain[c])[:SPECIAL_CASES]
+    likely = sorted(special, key=lambda c: -gain[c])[: BUDGET.special_cases]
     sets = [
         tuple(SelectedEffect(c, curve.size) for c in members)
         for count in (2, 3)
@@ -100,6 +97,6 @@ def _split(edits: Edits, hypothesis: Hypothesis, curve: SelectedEffect) -> list[
         return []
     promised = joint_addition_scores(edits.problem, rest, sets)
     best = int(np.argmax(promised))
-    if rest.log_posterior + promised[best] < hypothesis.log_posterior - SLACK_NATS:
+    if rest.log_posterior + promised[best] < hypothesis.log_posterior - BUDGET.slack_nats:
         return []
     return [edits.pruned(edits.evaluated((*rest.chosen, *sets[best]), rest))]

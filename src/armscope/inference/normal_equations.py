@@ -8,9 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from armscope.core.types import Array, Indices
-
-LEAST_SEEN = 0.02
-"""A column of which frames absorb more than all but this share is scaled as if this share were left."""
+from armscope.inference.constants import NUMERICS
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,18 +67,36 @@ def column_scales(equations: NormalEquations, frames: Indices) -> Array:
     ridge = 1e-10 * np.diag(np.diag(Gf)) + 1e-300 * np.eye(len(frames))
     absorbed = np.sum(equations.G[frames] * np.linalg.solve(Gf + ridge, equations.G[frames]), axis=0)
     raw = np.diag(equations.G)
-    seen = np.maximum(raw - absorbed, LEAST_SEEN**2 * raw)
+    seen = np.maximum(raw - absorbed, NUMERICS.least_seen**2 * raw)
     seen[frames] = raw[frames]
     return np.asarray(np.sqrt(np.maximum(seen / max(equations.n, 1.0), 1e-24)))
 
 
 def as_response(G: Array, coefficients: Array, n: float) -> NormalEquations:
-    """The normal equations of a combination of the columns as the response."""
+    """The normal equations of a combination of the columns as the response.
+
+    Args:
+        G: (p, p) products of the columns.
+        coefficients: (p,) of the combination.
+        n: measured numbers.
+
+    Returns:
+        Sums as if that combination had been measured.
+    """
     b = G @ coefficients
     return NormalEquations(G, b, float(coefficients @ b), n)
 
 
 def projected_rms(equations: NormalEquations, frames: Indices, coefficients: Array) -> float:
-    """RMS per axis at the tool, beyond the free frames, of a combination of columns (p,), mm."""
+    """RMS per axis at the tool, beyond the free frames, of a combination of columns (p,), mm.
+
+    Args:
+        equations: sums over rows.
+        frames: columns of the free frames.
+        coefficients: (p,) of the combination.
+
+    Returns:
+        mm per axis.
+    """
     left = as_response(equations.G, coefficients, equations.n).least_rss(frames)
     return float(np.sqrt(left / max(equations.n, 1.0)))

@@ -12,22 +12,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.inference.constants import PRIORS
 from armscope.inference.model_space import BackgroundSizes, ModelSpace
 from armscope.inference.normal_equations import NormalEquations, column_scales
-
-FRAME_PRIOR_MM = 50.0
-"""Frames are free: their prior is wide, and the same in all hypotheses."""
-EXCESS_SPECIAL_CASE_NATS = 15.0
-"""What every further effect that follows one joint's own angle costs more: one unknown cause is likelier than several
-known ones. (In development worlds two names for one kink beat the free curve by at most 22 nats, half of them by less
-than 10; 38 of 40 true pairs beat it by more than 15.)"""
-SIZES = 5
-"""How many effect sizes compete, evenly in the logarithm between what is barely seen and the mismatch."""
-BARELY_SEEN = 4.0
-"""The smallest size: what all residuals together show at this many standard errors. A larger one pays for a prior that
-is wider than any effect near the threshold."""
-SURE_NATS = 3.0
-"""What any name costs on top of its share of the library: it must be 20 times as likely as nothing in its place."""
 
 
 @dataclass(frozen=True)
@@ -96,13 +83,16 @@ def build_problem(space: ModelSpace, equations: NormalEquations, least_noise: fl
         space: what the columns are.
         equations: mm per SI unit.
         least_noise: mm; the noise is never taken to be below.
+
+    Returns:
+        The problem, its columns scaled to the size that they have at the tool.
     """
     scale = column_scales(equations, space.frames)
     scaled = equations.scaled(scale)
     freedom = max(equations.n - len(space.frames), 1.0)
     mismatch = float(np.sqrt(scaled.least_rss(space.frames) / freedom))
-    low = max(least_noise * min(BARELY_SEEN / np.sqrt(max(equations.n, 1.0)), 0.5), 0.01 * mismatch)
-    sizes = np.geomspace(low, max(2 * mismatch, 4 * low), SIZES)
+    low = max(least_noise * min(PRIORS.barely_seen / np.sqrt(max(equations.n, 1.0)), 0.5), 0.01 * mismatch)
+    sizes = np.geomspace(low, max(2 * mismatch, 4 * low), PRIORS.sizes)
     family_costs = [
         np.log(space.kinds) + np.log(family.sizes - 1) if family.is_priced else 0.0 for family in space.families
     ]
@@ -120,7 +110,7 @@ def prior_costs(space: ModelSpace) -> Array:
             variants[candidate.key] = variants.get(candidate.key, 0) + 1
     return np.array(
         [
-            SURE_NATS
+            PRIORS.sure_nats
             + np.log(space.kinds)
             + np.log(len(locations[candidate.kind]))
             + np.log(candidate.multiplicity if candidate.multiplicity > 1 else variants.get(candidate.key, 1))
@@ -130,12 +120,21 @@ def prior_costs(space: ModelSpace) -> Array:
 
 
 def prior_variances(problem: Problem, chosen: Sequence[SelectedEffect], background: BackgroundSizes) -> Array:
-    """(p,) prior variances of the scaled columns, mm^2; zero where a column takes no part."""
+    """(p,) prior variances of the scaled columns, mm^2; zero where a column takes no part.
+
+    Args:
+        problem: the priors.
+        chosen: the effects, with their sizes.
+        background: size of each family's background.
+
+    Returns:
+        (p,) mm^2.
+    """
     prior, space = np.zeros(len(problem.scale)), problem.space
     for family, size in zip(space.families, background, strict=True):
         if size:
             prior[family.columns] += family.prior_variance(size, problem.sizes, problem.scale)
-    prior[space.frames] = FRAME_PRIOR_MM**2
+    prior[space.frames] = PRIORS.frame_mm**2
     for effect in chosen:
         prior[space.candidates[effect.candidate].columns] += problem.prior_scale(effect) ** 2
     return prior

@@ -10,30 +10,32 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from armscope.inference.additions import group_candidates
-from armscope.inference.edits import BRANCHES, LARGE, SLACK_NATS, Edits, by_posterior
+from armscope.inference.constants import BUDGET
+from armscope.inference.edits import Edits, by_posterior
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.neighbours import neighbours
 from armscope.inference.problem import Problem
-
-BEAM = 3
-MOST_EFFECTS = 16
-LOCALLY_SEARCHED = 2
-"""How many ends of the beam search are searched around."""
-LOCAL_STEPS, LOCAL_STEPS_OF_LARGE = 6, 2
-GAIN = 1e-3
-"""Nats by which a step must better a hypothesis."""
 
 
 @dataclass(eq=False)
 class Search(Edits):
     """A search on one problem; ``beam`` hypotheses are kept alive."""
 
-    beam: int = BEAM
+    beam: int = BUDGET.beam
 
     @classmethod
-    def on(cls, problem: Problem, beam: int = BEAM, branches: int = BRANCHES) -> Search:
-        """A search on a problem."""
+    def on(cls, problem: Problem, beam: int = BUDGET.beam, branches: int = BUDGET.branches) -> Search:
+        """A search on a problem.
+
+        Args:
+            problem: the normal equations and priors.
+            beam: hypotheses that go on after every round.
+            branches: additions tried from each.
+
+        Returns:
+            The search.
+        """
         return cls(problem, group_candidates(problem.space), branches, beam)
 
     def best(
@@ -48,6 +50,9 @@ class Search(Edits):
             starts: backgrounds to start from; the space's where not given.
             also: one found on other rows, from which it starts, too.
             local: whether the ends of the beam search are searched around.
+
+        Returns:
+            The hypothesis.
         """
         ends = [self._beam_search(self.start(start)) for start in (self.space.starts if starts is None else starts)]
         if also is not None:
@@ -55,7 +60,7 @@ class Search(Edits):
         ends = _distinct(ends)
         if not local:
             return ends[0]
-        return max((self._local_search(end) for end in ends[:LOCALLY_SEARCHED]), key=by_posterior)
+        return max((self._local_search(end) for end in ends[: BUDGET.locally_searched]), key=by_posterior)
 
     def empty(self) -> Hypothesis:
         """The best hypothesis without any named effect."""
@@ -65,26 +70,26 @@ class Search(Edits):
         """Additions and removals, the best few hypotheses kept alive."""
         alive, best = [start], start
         seen = {start.candidates}
-        for _ in range(MOST_EFFECTS):
+        for _ in range(BUDGET.most_effects):
             children: list[Hypothesis] = []
             for parent in alive:
-                for child in self.additions(parent, self.branches, least=-SLACK_NATS):
+                for child in self.additions(parent, self.branches, least=-BUDGET.slack_nats):
                     if child.candidates not in seen:
                         seen.add(child.candidates)
                         children.append(self.pruned(child))
             alive = _distinct(children)[: self.beam]
-            if not alive or alive[0].log_posterior <= best.log_posterior + GAIN:
+            if not alive or alive[0].log_posterior <= best.log_posterior + BUDGET.gain:
                 break
             best = alive[0]
         return best
 
     def _local_search(self, hypothesis: Hypothesis) -> Hypothesis:
         """Sizes, backgrounds and neighbours until nothing betters the hypothesis."""
-        for _ in range(LOCAL_STEPS if len(hypothesis.columns) < LARGE else LOCAL_STEPS_OF_LARGE):
+        for _ in range(BUDGET.local_steps if len(hypothesis.columns) < BUDGET.large else BUDGET.local_steps_of_large):
             better = self.with_best_sizes(hypothesis)
             better = max([better, *neighbours(self, better)], key=by_posterior)
             better = self.pruned(better)
-            if better.log_posterior <= hypothesis.log_posterior + GAIN:
+            if better.log_posterior <= hypothesis.log_posterior + BUDGET.gain:
                 return better if better.log_posterior > hypothesis.log_posterior else hypothesis
             hypothesis = better
         return hypothesis

@@ -14,11 +14,9 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from armscope.core.types import Array, Indices
+from armscope.inference.constants import BUDGET
 from armscope.inference.linear_algebra import lower_cholesky, solve_lower
 from armscope.inference.normal_equations import NormalEquations
-
-MOST_ORDERS = 120
-"""All orders up to five members; as many drawn at random, and their reverses, where there are more."""
 
 
 def shares(equations: NormalEquations, ridge: Array, frames: Indices, members: Sequence[Indices]) -> Array:
@@ -29,6 +27,9 @@ def shares(equations: NormalEquations, ridge: Array, frames: Indices, members: S
         ridge: (p,) noise variance over prior variance of each column: what a value that is held near zero costs.
         frames: columns of the free frames; they come first in every order.
         members: columns of each effect or background.
+
+    Returns:
+        (members,) 0 ... 1; with what is left they add up to one.
     """
     count = len(members)
     scale = np.sqrt(np.maximum(np.diag(equations.G) + ridge, 1e-300))
@@ -61,7 +62,7 @@ def _orders(count: int) -> Iterator[tuple[int, ...]]:
         yield from everything
         return
     rng = np.random.default_rng(count)
-    for _ in range(MOST_ORDERS // 2):
+    for _ in range(BUDGET.most_orders // 2):
         order = tuple(int(m) for m in rng.permutation(count))
         yield order
         yield order[::-1]

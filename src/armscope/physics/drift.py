@@ -122,6 +122,7 @@ BASE_DRIFT = Effect(
         "at each time, stated frame + drift x time: command what the corrected model's inverse kinematics asks for."
     ),
     clauses=(_drifts, "the base drifts"),
+    atlas="time",
     needs=("time_s, or rows in order",),
     contained_in=("time",),
 )

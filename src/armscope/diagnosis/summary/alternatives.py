@@ -10,7 +10,7 @@ import numpy as np
 
 from armscope.diagnosis.promotion import DRIVE, named, rest_of
 from armscope.diagnosis.state import DiagnosisState
-from armscope.inference.edits import LARGE, SLACK_NATS
+from armscope.inference.constants import BUDGET
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import Candidate
 from armscope.inference.normal_equations import weighted_total
@@ -51,7 +51,7 @@ def alternatives(search: Search, best: Hypothesis, number: int) -> list[Rival]:
     # what a coarse prediction puts far behind is not weighed
     listed_nats = LISTED_NATS_OF_SPECIAL_CASES if candidate.is_curve else LISTED_NATS
     lost = best.log_posterior - base.log_posterior
-    least = lost - paid - listed_nats - COARSELY * max(lost, 0.0) - SLACK_NATS
+    least = lost - paid - listed_nats - COARSELY * max(lost, 0.0) - BUDGET.slack_nats
     for other in search.additions(base, LOOKED_AT, [number], least):
         rival, gap = search.candidate(other.chosen[-1].candidate), best.log_posterior - other.log_posterior - paid
         excluded = other.chosen[-1].candidate in candidate.excludes
@@ -134,7 +134,7 @@ def inclusion_frequency(state: DiagnosisState, draws: int, rng: np.random.Genera
     for _ in range(draws):
         times = np.bincount(rng.integers(0, len(blocks), len(blocks)), minlength=len(blocks))
         search = Search.on(state.problem.with_equations(weighted_total(blocks, times)), beam=1, branches=2)
-        found = search.best((best.background,), search.coarsened(state.found), local=len(best.columns) <= LARGE)
+        found = search.best((best.background,), search.coarsened(state.found), local=len(best.columns) <= BUDGET.large)
         again = {state.space.candidates[c].key for c in named(search, state.space, found).candidates}
         for candidate, place in places.items():
             hits[candidate] += place in again

@@ -11,7 +11,7 @@ from armscope.design.separation import nats_apart, separating
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.alternatives import Rival, discriminability
 from armscope.fitting.design_matrix import columns
-from armscope.inference.problem import FRAME_PRIOR_MM
+from armscope.inference.constants import PRIORS
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import ONE
 from armscope.physics.scene import Scene
@@ -63,7 +63,7 @@ def next_poses(
     k = len(covariance)
     with_base = np.zeros((k + 6, k + 6))
     with_base[:k, :k] = covariance
-    with_base[k:, k:] = np.eye(6) * (FRAME_PRIOR_MM * 1e-3) ** 2
+    with_base[k:, k:] = np.eye(6) * (PRIORS.frame_mm * 1e-3) ** 2
     adapting = np.concatenate([X[:, :, other.columns], new_base], axis=2)
     chosen, separation = separating(adapting, between, with_base, other.noise, ASKED)
     repeats = next(

@@ -1,0 +1,68 @@
+"""Numbers that decide: each with its unit, what it means and why it has this value.
+
+A module keeps its own in a frozen dataclass that derives from `Constants`, one field a number:
+
+    @dataclass(frozen=True)
+    class SearchBudget(Constants):
+        '''How much is searched.'''
+
+        beam: int = constant(3, "hypotheses that go on after every round", "judgement: ...", unit="hypotheses")
+
+docs/constants.md is made of them by `python -m tools.constants`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields
+from typing import TypeVar
+
+Value = TypeVar("Value")
+
+BASES = ("measured", "derived", "convention", "judgement")
+"""What a value may rest on: an experiment that is named, a formula, what everybody does, or somebody's view."""
+
+
+@dataclass(frozen=True)
+class Constants:
+    """Numbers that belong together."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One number as the page about them shows it."""
+
+    name: str
+    value: object
+    unit: str
+    meaning: str
+    basis: str
+
+
+def constant(value: Value, meaning: str, basis: str, *, unit: str = "") -> Value:
+    """A field of `Constants`.
+
+    Args:
+        value: the number, or a tuple of them.
+        meaning: what it is, in a few words.
+        basis: one of `BASES`, a colon, and the experiment, the formula or the reason ("convention" may stand alone).
+        unit: of the value; empty for pure numbers.
+
+    Returns:
+        The field; for a reader of types it is the value.
+
+    Raises:
+        ValueError: no meaning, or a basis that is none.
+    """
+    kind, colon, reason = basis.partition(": ")
+    if not meaning or kind not in BASES or (kind != "convention" and not (colon and reason.strip())):
+        raise ValueError(f"{meaning or value!r}: basis {basis!r} must be one of {', '.join(BASES)}, with a reason")
+    told: Value = field(default=value, metadata={"meaning": meaning, "basis": basis, "unit": unit})
+    return told
+
+
+def entries(group: type[Constants]) -> list[Entry]:
+    """A group's numbers, in its order."""
+    return [
+        Entry(each.name, each.default, each.metadata["unit"], each.metadata["meaning"], each.metadata["basis"])
+        for each in fields(group)
+    ]

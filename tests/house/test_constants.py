@@ -1,0 +1,61 @@
+"""Numbers that decide have a unit, a meaning and a basis, and the page about them is what the code is."""
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from tools import constants
+
+from armscope.core.constants import BASES, Constants, constant, entries
+
+PACKAGE = Path(__file__).parents[2] / "src" / "armscope"
+
+
+def bare_numbers(path: Path) -> Iterator[str]:
+    """Names of a module's own numbers that no group of constants holds."""
+    for node in ast.parse(path.read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
+            inside = list(ast.walk(node.value))
+            literal = not any(isinstance(each, ast.Dict | ast.Call | ast.Name | ast.JoinedStr) for each in inside)
+            values = [each.value for each in inside if isinstance(each, ast.Constant)]
+            if literal and values and all(isinstance(value, int | float) for value in values):
+                yield ast.unparse(node.target if isinstance(node, ast.AnnAssign) else node.targets[0])
+
+
+def test_the_page_is_made_from_the_code_as_it_is() -> None:
+    assert constants.PAGE.read_text(encoding="utf-8") == constants.page()
+
+
+def test_every_number_has_a_meaning_and_a_basis() -> None:
+    numbers = [number for group in constants.groups() for number in entries(group)]
+    assert len(numbers) > 20
+    for number in numbers:
+        assert number.meaning, number
+        assert number.basis.partition(":")[0] in BASES, number
+
+
+@pytest.mark.parametrize("room", constants.ROOMS)
+def test_no_number_decides_without_them(room: str) -> None:
+    bare = {path.name: names for path in (PACKAGE / room).rglob("*.py") if (names := list(bare_numbers(path)))}
+    assert not bare
+
+
+def test_a_number_without_a_basis_is_noticed(tmp_path: Path) -> None:
+    for basis in ("", "judgement", "judgement: ", "felt right: yes"):
+        with pytest.raises(ValueError, match="basis"):
+            constant(1.0, "how much", basis)
+    with pytest.raises(ValueError, match="basis"):
+        constant(1.0, "", "convention")
+    module = tmp_path / "module.py"
+    module.write_text(
+        'A = 3\nB, C = 1.0, 2\nD: float = -1e-3\nE = "word"\nF = f(3)\n__all__ = ["A"]\n', encoding="utf-8"
+    )
+    assert list(bare_numbers(module)) == ["A", "(B, C)", "D"]
+
+
+def test_groups_are_frozen() -> None:
+    group = constants.groups()[0]
+    with pytest.raises(AttributeError, match="cannot assign"):
+        setattr(group(), entries(group)[0].name, 0)
+    assert issubclass(group, Constants)
