@@ -141,7 +141,7 @@ def _place_tool_of_run(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
 
 def _axes_of_tool(recordings: Recordings) -> tuple[str, ...]:
     """How a tool that moved on the flange is seen to have moved: its point, and its turn where that was measured."""
-    return AXES[:3] if recordings.orientation is None else AXES
+    return AXES if recordings.oriented.any() else AXES[:3]
 
 
 def base_shift(recordings: Recordings, row: int, multiplicity: int) -> Placed:
