@@ -4,25 +4,40 @@ All rules run in the environment of requirements.txt (pip, pinned), which `make`
 container per rule would be a second one to keep in step.
 """
 
-import json
+import re
 import subprocess
 import sys
 
 ACCEPTED = "Specify a conda environment or container for each rule."
 
 
+def unaccepted(printed: str) -> list[str]:
+    """Where each other message stands, and what it says.
+
+    Args:
+        printed: what `snakemake --lint` printed.
+
+    Returns:
+        One line per message, in their order.
+    """
+    messages, place = [], ""
+    for line in printed.splitlines():
+        if line.startswith("Lints for "):
+            place = line.removeprefix("Lints for ").rstrip(":")
+        title = re.match(r"    \* (.*?):?$", line)
+        if title and title[1].rstrip(":") != ACCEPTED:
+            messages.append(f"{place}: {title[1]}")
+    return messages
+
+
 def main() -> int:
-    """Print every other message; 1 if there is any."""
-    command = [sys.executable, "-m", "snakemake", "--lint", "json"]
-    printed = subprocess.run(command, capture_output=True, text=True, check=False).stdout
-    found = json.loads(printed[printed.index("{") :]) if "{" in printed else {}
-    messages = [
-        f"{place.get('rule') or place.get('snakefile')}: {lint['title']}"
-        for places in found.values()
-        for place in places
-        for lint in place["lints"]
-        if lint["title"] != ACCEPTED
-    ]
+    """Print every message that is not accepted; 1 if there is any, or if the linter did not get to its end."""
+    run = subprocess.run([sys.executable, "-m", "snakemake", "--lint"], capture_output=True, text=True, check=False)
+    printed = run.stdout + run.stderr
+    if ACCEPTED not in printed:
+        print(printed)
+        return 1
+    messages = unaccepted(printed)
     print("\n".join(messages) or f"Nothing but what is accepted: {ACCEPTED!r}")
     return 1 if messages else 0
 

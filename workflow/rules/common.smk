@@ -1,4 +1,5 @@
 # What all rules share: the checked configuration, where results go, and which sources a rule depends on.
+import hashlib
 import json
 import shlex
 import sys
@@ -44,6 +45,22 @@ def fit_settings(step, **changes):
     """What a fit follows, with some of the swarm's settings changed."""
     swarm = CONFIG.paper.swarm.model_copy(update=changes)
     return settings(step, seed=CONFIG.seed, models=CONFIG.paper.models, swarm=swarm)
+
+
+def require_reach(robot, others, chosen):
+    """Stop unless all test paths are within reach under every assumption that will be tried; checked when one changed."""
+    files = [robot, *others, chosen]
+    seen = hashlib.sha256(b"".join(Path(file).read_bytes() for file in files)).hexdigest()
+    mark = Path(RESULTS) / "settings" / "reach.checked"
+    if mark.is_file() and mark.read_text(encoding="utf-8") == seen:
+        return
+    from armscope.cli.paper_settings import follow_all  # slow to import, and seldom needed
+
+    try:
+        follow_all(robot, chosen)
+    except InputError as error:
+        raise WorkflowError(str(error)) from None
+    write_text(mark, seen)
 
 
 def code(*modules):

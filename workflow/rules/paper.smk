@@ -12,27 +12,17 @@ STUDY = dict(
 )
 
 
-rule reach:
-    # a geometry, path or corner that can't be reached is told before anything else of the paper runs
-    input:
-        robot=CONFIG.paper.robot.value,
-        others=CONFIG.paper.sensitivity.geometry.value,
-        settings=settings("reach", sensitivity=CONFIG.paper.sensitivity, **STUDY),
-    output:
-        f"{PAPER}/reach.csv",
-    params:
-        code=code("armscope.cli.paper_judging:reach"),
-    log:
-        f"{RESULTS}/logs/reach.log",
-    priority: 100
-    shell:
-        "armscope paper reach {input.robot} --settings {input.settings} -o {output} > {log} 2>&1"
+# a geometry, path or corner that can't be reached is told before anything runs
+require_reach(
+    CONFIG.paper.robot.value,
+    CONFIG.paper.sensitivity.geometry.value,
+    settings("reach", sensitivity=CONFIG.paper.sensitivity, **STUDY),
+)
 
 
 rule measure:
     input:
         robot=CONFIG.paper.robot.value,
-        reach=ancient(rules.reach.output),
         settings=settings("measure", **STUDY),
     output:
         poses=f"{PAPER}/poses.csv",

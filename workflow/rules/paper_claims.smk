@@ -8,7 +8,6 @@ rule scenario:
     input:
         robot=CONFIG.paper.robot.value,
         others=VARIED.geometry.value,
-        reach=ancient(rules.reach.output),
         settings=settings("scenario", sensitivity=VARIED, models=CONFIG.paper.models, swarm=CONFIG.paper.swarm, **STUDY),
     output:
         f"{PAPER}/sensitivity/{{part}}.csv",
@@ -146,7 +145,6 @@ rule why:
 
 rule audit:
     input:
-        reach=ancient(rules.reach.output),
         settings=settings("audit", seed=CONFIG.seed, trajectories=CONFIG.paper.trajectories, audit=CONFIG.paper.audit),
     output:
         report(f"{PAPER}/audit.csv", caption="../report/audit.rst", category="Audit"),

@@ -5,11 +5,6 @@ NEEDS = {"fig06": "cartesian", "fig07": "angular", "fig10": "cartesian", "fig11"
 FIGURES = [f"fig{number:02}" for number in range(1, 12) if NEEDS.get(f"fig{number:02}") in {None, *SPACES}]
 
 
-def figure_files(suffix):
-    """The files of all figures in one format."""
-    return [f"{PAPER}/figures/{figure}.{suffix}" for figure in FIGURES]
-
-
 rule figure:
     # all in one job: drawing one takes less than starting
     input:
@@ -20,9 +15,9 @@ rule figure:
         bands=rules.ensemble_residuals.output.bands,
         settings=settings("figure", tracker=CONFIG.paper.tracker, figures=FIGURES),
     output:
-        report(figure_files("png"), caption="../report/figure.rst", category="Figures"),
-        figure_files("svg"),
-        figure_files("pdf"),
+        report(expand(f"{PAPER}/figures/{{figure}}.png", figure=FIGURES), caption="../report/figure.rst", category="Figures"),
+        expand(f"{PAPER}/figures/{{figure}}.svg", figure=FIGURES),
+        expand(f"{PAPER}/figures/{{figure}}.pdf", figure=FIGURES),
     params:
         folder=subpath(output[0], parent=True),
         code=code("armscope.cli.paper_pages:figures"),

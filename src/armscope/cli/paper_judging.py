@@ -28,14 +28,10 @@ Robot = Annotated[Path, typer.Argument(help="robot.yaml")]
 @app.command()
 def reach(robot: Robot, settings: Settings, output: Output) -> None:
     """Follow the test paths under all assumptions that will be tried, before anything else is done with them."""
-    from armscope.cli.paper_settings import ReachSettings, plan_of, scenarios_of
+    from armscope.cli.paper_settings import follow_all
     from armscope.core.files import write_table
-    from armscope.paper.scenarios import check_reach
-    from armscope.robot import load_arm
 
-    chosen, arm = parsed(ReachSettings, settings), load_arm(robot)
-    varied = [(f"{each.factor}: {each.level}", each.plan) for each in scenarios_of(chosen, arm)]
-    write_table(output, check_reach([("configured study", plan_of(chosen, arm)), *varied]))
+    write_table(output, follow_all(robot, settings))
 
 
 @app.command()

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+import pandas as pd
+
+from armscope.cli.studies import parsed
 from armscope.core.config import (
     Audit,
     Count,
@@ -19,7 +24,7 @@ from armscope.core.inputs import Strict
 from armscope.core.variants import Variant
 from armscope.errormodels import ModelSpec
 from armscope.paper.audit import AuditScope
-from armscope.paper.scenarios import Scenario, Varied, scenarios
+from armscope.paper.scenarios import Scenario, Varied, check_reach, scenarios
 from armscope.paper.sensitivity import Fitting
 from armscope.paper.study import PlannedPaths, PlannedPoses, Sizes, StudyPlan
 from armscope.robot import Arm, load_arm
@@ -175,6 +180,24 @@ def scenarios_of(settings: ReachSettings, arm: Arm) -> list[Scenario]:
     """Every scenario of the sensitivity study."""
     base = plan_of(settings, arm, settings.sensitivity.robots)
     return scenarios(base, varied_of(settings.sensitivity, settings.seed))
+
+
+def follow_all(robot: Path | str, settings: Path | str) -> pd.DataFrame:
+    """Follow the test paths of a study and of all its scenarios.
+
+    Args:
+        robot: robot.yaml.
+        settings: file of `ReachSettings`.
+
+    Returns:
+        See `armscope.paper.scenarios.check_reach`.
+
+    Raises:
+        InputError: a point that can't be reached; it names scenario, arm, path, point and reason.
+    """
+    chosen, arm = parsed(ReachSettings, str(settings)), load_arm(robot)
+    varied = [(f"{each.factor}: {each.level}", each.plan) for each in scenarios_of(chosen, arm)]
+    return check_reach([("configured study", plan_of(chosen, arm)), *varied])
 
 
 def fitting_of(settings: ScenarioSettings) -> Fitting:
