@@ -10,7 +10,7 @@ import pytest
 from armscope.diagnosis import Settings, diagnose
 from armscope.diagnosis.held_out import Rows, left_over, split
 from armscope.diagnosis.selection_loop import SelectionLoop
-from armscope.fitting.linearisation import residuals
+from armscope.fitting.linearisation import point_residuals
 from armscope.fitting.registration import fit_frames
 from armscope.measurement.noise import Noise
 from armscope.physics.frames import free_frames
@@ -28,7 +28,7 @@ def test_held_out_errors_are_those_of_models_fitted_without_the_rows() -> None:
     layout = split(table, np.random.default_rng(VALIDATED.seed))
     fold = layout.fold[layout.of_row]
     errors = [
-        residuals(fit_frames(arm, table.rows(fold != k)), table.rows(np.flatnonzero(fold == k))) for k in range(5)
+        point_residuals(fit_frames(arm, table.rows(fold != k)), table.rows(np.flatnonzero(fold == k))) for k in range(5)
     ]
     assert verdict.held_out.before_all_rows == pytest.approx(np.sqrt(np.mean(np.concatenate(errors) ** 2)), rel=0.02)
     assert verdict.held_out.folds == 5
@@ -61,7 +61,7 @@ def test_readings_are_told_at_the_point_where_their_columns_were_taken() -> None
     rows = Rows(found.point, table, found.fit.weights, found.space.layout)
     left = left_over(rows, values[None])[0]
     np.testing.assert_allclose(left, found.fit.residuals, atol=0.004)
-    assert np.abs(residuals(off, table) - residuals(found.fit.model, table)).max() > 0.2
+    assert np.abs(point_residuals(off, table) - point_residuals(found.fit.model, table)).max() > 0.2
 
 
 def test_a_run_held_out_whole_gets_a_base_of_its_own() -> None:

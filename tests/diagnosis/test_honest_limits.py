@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from armscope.check import check
 from armscope.compensation.physical import identified_on
 from armscope.core.inputs import InputError
 from armscope.diagnosis import Settings, diagnose
@@ -158,3 +159,16 @@ def test_a_diagnosis_keeps_the_table_as_it_was_used(clean: tuple[Arm, Recordings
     far = np.full((1, len(identified_on(arm, used).domain.names)), 0.0)
     far[0, 0] = 9.0
     assert identified_on(arm, whole).domain.outside(far)[0] < identified_on(arm, used).domain.outside(far)[0]
+
+
+def test_a_mistake_is_told_once_and_as_the_check_tells_it(clean: tuple[Arm, Recordings]) -> None:
+    arm, table = clean
+    for wrong in (
+        replace(table, positions=table.positions * [1, -1, 1]),
+        replace(table, positions=table.positions / 25.4),
+        replace(table, motor_angles=table.motor_angles[:, [0, 2, 1, 3, 4, 5]]),
+    ):
+        (problem,) = (each for each in check(wrong, arm).suspicions if each.weight == "problem")
+        told = [notice.text for notice in diagnose(arm, wrong, QUICK).notices if problem.statement[1:] in notice.text]
+        assert len(told) == 1
+        assert problem.cure in told[0]

@@ -16,7 +16,7 @@ from armscope.diagnosis.summary.parameters import parameters
 from armscope.fitting.joint_scatter import find_scatter, motor_jacobians, whitening
 from armscope.measurement import robust
 from armscope.measurement.noise import known_noise, relative_uncertainty
-from armscope.measurement.row_weights import RowWeights
+from armscope.measurement.row_weights import whitened
 from armscope.physics.model import Base, FittedModel
 from armscope.physics.registry import library
 
@@ -99,7 +99,7 @@ def test_scatter_is_found_at_its_joint_and_noise_has_no_place() -> None:
     assert found.motor == 3
     assert found.size == pytest.approx(1e-4, rel=0.6)
     turn = whitening([found], moved, 0.02)
-    white = RowWeights(np.ones(150), turn).whitened(scattered)
+    white = whitened(scattered, turn)
     assert np.sqrt(np.mean(white**2)) < 1.2 * 0.02 < 0.5 * np.sqrt(np.mean(scattered**2))
 
 

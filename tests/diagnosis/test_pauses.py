@@ -79,5 +79,5 @@ def test_pauses_make_the_order_of_rows_the_time():
         # a constant between them is the base's own place
         ratio = 1000 * ROW_S / 3600
         off = hours.column(one) - ratio * rows.column(other)
-        still = rows.lever(one.products[0].direction)
+        still = rows.displacement(one.products[0].direction)
         np.testing.assert_allclose(off, off[0].sum() / still[0].sum() * still, atol=1e-12)

@@ -5,53 +5,57 @@ import pytest
 
 from armscope.fitting.design_matrix import StructuredDesign, component_rows, grouped_columns, structured_design
 from armscope.fitting.registration import fit_frames
+from armscope.measurement.orientations import ORIENTATIONS
+from armscope.measurement.positions import POSITIONS
+from armscope.measurement.whitening import WhitenedPosture, Whitener
 from armscope.physics.effect import Driver, Term, motor, term
-from armscope.physics.lens import Lens
 from armscope.physics.registry import library
-from armscope.physics.scene import Posture
 from tests.diagnosis.planted import planted
 
 ROWS = 30
+Seen = tuple[WhitenedPosture, tuple[Term, ...]]
 
 
 @pytest.fixture(scope="module", params=[False, True], ids=["points", "with orientations"])
-def seen(request: pytest.FixtureRequest) -> tuple[Posture, tuple[Term, ...]]:
-    """An arm's posture through a lens of uneven weights, and the library's terms."""
+def seen(request: pytest.FixtureRequest) -> Seen:
+    """An arm's posture under uneven weights, and the library's terms."""
     arm, table = planted("six-axis", {}, ROWS, 0.03, seed=2)
     model = fit_frames(arm, table)
     rng = np.random.default_rng(0)
-    turn = rng.uniform(0.1, 2.0, ROWS) if request.param else None
-    lens = Lens(rng.normal(size=(ROWS, 3, 3)), turn)
+    turns = ((ORIENTATIONS, rng.uniform(0.1, 2.0, ROWS)),) if request.param else ()
+    whitener = Whitener(((POSITIONS, rng.normal(size=(ROWS, 3, 3))), *turns))
     terms = tuple(dict.fromkeys(t for placed in library(arm, table) for t in placed.terms))
-    return model.posture(model.scene(table)).through(lens), terms
+    return WhitenedPosture(model.posture(model.scene(table)), whitener), terms
 
 
-def written_out(posture: Posture, terms: tuple[Term, ...]) -> np.ndarray:
+def written_out(posture: WhitenedPosture, terms: tuple[Term, ...]) -> np.ndarray:
     return component_rows(posture, terms).reshape(len(terms), -1)
 
 
-def test_the_library_turns_motors_by_many_drivers(seen: tuple[Posture, tuple[Term, ...]]) -> None:
+def test_the_library_turns_motors_by_many_drivers(seen: Seen) -> None:
     column_order = grouped_columns(seen[1])
     assert {group.direction.axis for group in column_order.groups} == {"turn"}
     assert sorted(column_order.order) == list(range(len(seen[1])))
     assert len(column_order.others) < len(seen[1]) / 2
 
 
-def test_products_of_columns_are_those_of_the_columns_written_out(seen: tuple[Posture, tuple[Term, ...]]) -> None:
+def test_products_of_columns_are_those_of_the_columns_written_out(
+    seen: Seen,
+) -> None:
     posture, terms = seen
     X, column_order = written_out(posture, terms), grouped_columns(terms)
     stack, size = structured_design(posture, column_order), np.abs(X).max() ** 2 * X.shape[1]
     total = np.zeros((len(terms), len(terms)))
     stack.add_products(total)
     np.testing.assert_allclose(column_order.whole(total), X @ X.T, atol=1e-12 * size)
-    y = np.random.default_rng(1).normal(size=(posture.numbers, ROWS))
+    y = np.random.default_rng(1).normal(size=(posture.width, ROWS))
     np.testing.assert_allclose(stack.rmatvec(y)[column_order.back], X @ y.reshape(-1), atol=1e-12 * size)
     values = np.random.default_rng(2).normal(size=(2, len(terms)))
     combined = stack.matvec(values[:, column_order.order])
     np.testing.assert_allclose(combined.reshape(2, -1), values @ X, atol=1e-12 * size)
 
 
-def test_products_with_other_columns(seen: tuple[Posture, tuple[Term, ...]]) -> None:
+def test_products_with_other_columns(seen: Seen) -> None:
     posture, terms = seen
     waves = tuple(term(f"{n}", "", (motor(2), Driver("sine", (2, n)))) for n in range(1, 20))
     few = (*terms[:5], *waves)
@@ -64,7 +68,7 @@ def test_products_with_other_columns(seen: tuple[Posture, tuple[Term, ...]]) -> 
     np.testing.assert_allclose(products, expected, atol=1e-12 * np.abs(expected).max())
 
 
-def test_some_rows_and_their_rest_make_all_rows(seen: tuple[Posture, tuple[Term, ...]]) -> None:
+def test_some_rows_and_their_rest_make_all_rows(seen: Seen) -> None:
     posture, terms = seen
     stack = structured_design(posture, grouped_columns(terms))
 

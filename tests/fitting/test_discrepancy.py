@@ -13,7 +13,7 @@ from scipy.stats import multivariate_normal
 from armscope.diagnosis import Settings, diagnose
 from armscope.fitting import discrepancy as uncertainty
 from armscope.fitting.discrepancy import SIZES, model_error
-from armscope.fitting.linearisation import residuals
+from armscope.fitting.linearisation import point_residuals
 from armscope.fitting.refit import Refit, refit
 from armscope.fitting.registration import fit_frames
 from armscope.measurement.row_weights import RowNoise
@@ -172,6 +172,6 @@ def test_a_noise_that_is_known_is_no_model_error() -> None:
     arm, table = planted("six-axis", WANTED, 120, NOISE_MM, seed=49)
     table = wandering(table, 0.005, np.random.default_rng(3))
     fit = fitted(arm, table)
-    assert residuals(fit.model, table).std() < 0.1
+    assert point_residuals(fit.model, table).std() < 0.1
     found = model_error(replace(fit, covariance=fit.covariance * (0.1 / fit.noise) ** 2), table, 0.1)
     assert np.allclose(found.covariance, fit.covariance * (0.1 / fit.noise) ** 2, rtol=0.05)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
-from armscope.fitting.linearisation import residuals
+from armscope.fitting.linearisation import point_residuals
 from armscope.fitting.registration import fit_frames
 from armscope.recordings import Recordings, read_recordings
 from armscope.robot import Arm, chain, load_arm
@@ -26,7 +26,7 @@ def test_a_base_metres_away_is_found_from_nothing() -> None:
     arm = arm_named("six-axis")
     table = recorded(arm, one_run(arm, 40, seed=2), {}, 0.0, seed=7, far=True)
     assert np.linalg.norm(table.positions.mean(axis=0)) > 3
-    assert np.abs(residuals(fit_frames(arm, table), table)).max() < 1e-5
+    assert np.abs(point_residuals(fit_frames(arm, table), table)).max() < 1e-5
 
 
 def test_every_run_has_its_base_and_every_target_its_tool() -> None:
@@ -36,7 +36,7 @@ def test_every_run_has_its_base_and_every_target_its_tool() -> None:
     moved[table.run == "2"] = moved[table.run == "2"] @ np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1.0]]).T + 5.0
     table = replace(table, positions=moved)
     model = fit_frames(arm, table)
-    assert np.abs(residuals(model, table)).max() < 1e-5
+    assert np.abs(point_residuals(model, table)).max() < 1e-5
     assert len(model.bases) == 2
     assert len(model.tools) == 2
 
@@ -44,9 +44,9 @@ def test_every_run_has_its_base_and_every_target_its_tool() -> None:
 def test_a_few_wild_rows_do_not_drag_the_frames() -> None:
     arm = arm_named("six-axis")
     table = recorded(arm, one_run(arm, 60, seed=2), {}, 0.01, seed=7)
-    clean = residuals(fit_frames(arm, table), table)
+    clean = point_residuals(fit_frames(arm, table), table)
     table.positions[5] += 0.02
-    wild = residuals(fit_frames(arm, table), table)
+    wild = point_residuals(fit_frames(arm, table), table)
     others = np.arange(60) != 5
     assert np.sqrt(np.mean(wild[others] ** 2)) < 1.3 * np.sqrt(np.mean(clean[others] ** 2))
 

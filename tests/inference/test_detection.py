@@ -9,7 +9,7 @@ import pytest
 
 from armscope.diagnosis import diagnose
 from armscope.diagnosis.model_space import build_model_space
-from armscope.fitting.design_matrix import columns
+from armscope.fitting.design_matrix import point_columns
 from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.fitting.registration import fit_frames
 from armscope.inference.constants import DETECTION, PRIORS
@@ -37,9 +37,10 @@ def setting() -> tuple[Problem, np.ndarray]:
     arm, table = planted("six-axis", {}, ROWS, NOISE_MM, seed=5)
     model = fit_frames(arm, table)
     parts = build_model_space(free_frames(table, False), list(backgrounds(arm, table).values()), library(arm, table))
-    gram = total(normal_equations_by_block(parts.layout, model, table, RowWeights(np.ones(ROWS)), np.arange(ROWS) % 5))
+    weights = RowWeights.of_positions(np.ones(ROWS))
+    gram = total(normal_equations_by_block(parts.layout, model, table, weights, np.arange(ROWS) % 5))
     problem = build_problem(parts, gram, 0.97 * NOISE_MM)
-    return problem, columns(model.posture(model.scene(table)), parts.layout.terms) / problem.scale
+    return problem, point_columns(model.posture(model.scene(table)), parts.layout.terms) / problem.scale
 
 
 def read(problem: Problem, X: np.ndarray, y: np.ndarray) -> Problem:

@@ -7,8 +7,8 @@ import pytest
 from scipy.stats import multivariate_normal, norm
 
 from armscope.diagnosis.model_space import build_model_space
-from armscope.fitting.design_matrix import columns
-from armscope.fitting.linearisation import normal_equations_by_block, residuals
+from armscope.fitting.design_matrix import point_columns
+from armscope.fitting.linearisation import normal_equations_by_block, point_residuals
 from armscope.fitting.registration import fit_frames
 from armscope.inference.additions import best_additions, group_candidates
 from armscope.inference.evidence import evaluate, removal_log_bayes_factors, savage_dickey
@@ -32,10 +32,12 @@ def setting() -> tuple[Problem, np.ndarray, np.ndarray]:
     arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [2e-7]}, ROWS, 0.03, seed=1)
     model = fit_frames(arm, table)
     parts = build_model_space(free_frames(table, False), list(backgrounds(arm, table).values()), library(arm, table))
-    blocks = normal_equations_by_block(parts.layout, model, table, RowWeights(np.ones(ROWS)), np.arange(ROWS) % 5)
+    blocks = normal_equations_by_block(
+        parts.layout, model, table, RowWeights.of_positions(np.ones(ROWS)), np.arange(ROWS) % 5
+    )
     problem = build_problem(parts, total(blocks), 0.0)
-    X = columns(model.posture(model.scene(table)), parts.layout.terms) / problem.scale
-    return problem, X, residuals(model, table).reshape(-1)
+    X = point_columns(model.posture(model.scene(table)), parts.layout.terms) / problem.scale
+    return problem, X, point_residuals(model, table).reshape(-1)
 
 
 def numbers(problem: Problem, *keys: tuple[str, str]) -> tuple[SelectedEffect, ...]:

@@ -31,7 +31,8 @@ def setting() -> Problem:
     arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [2e-7]}, ROWS, 0.03, seed=1)
     model = fit_frames(arm, table)
     parts = build_model_space(free_frames(table, False), list(backgrounds(arm, table).values()), library(arm, table))
-    gram = total(normal_equations_by_block(parts.layout, model, table, RowWeights(np.ones(ROWS)), np.arange(ROWS) % 5))
+    weights = RowWeights.of_positions(np.ones(ROWS))
+    gram = total(normal_equations_by_block(parts.layout, model, table, weights, np.arange(ROWS) % 5))
     return replace(build_problem(parts, gram, 0.0), least_noise=NOISE)
 
 

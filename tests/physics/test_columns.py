@@ -8,12 +8,14 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from armscope.measurement.orientations import ORIENTATIONS
+from armscope.measurement.positions import POSITIONS
+from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.backgrounds import backgrounds
 from armscope.physics.drift import base_shift, tool_shift
 from armscope.physics.effect import Placed
 from armscope.physics.elastic import JOINT_COMPLIANCE
 from armscope.physics.frames import free_frames
-from armscope.physics.lens import Lens
 from armscope.physics.payload import payload_errors
 from armscope.physics.registry import EFFECTS, library
 from armscope.physics.scene import Part, Scene
@@ -70,7 +72,7 @@ def test_columns_of_turns_are_the_slope_of_the_exact_orientation(name: str) -> N
     arm = arm_named(name)
     scene = Scene(arm, with_orientations(full_table(arm, 24, seed=5)))
     posture = scene.posture()
-    seen = posture.through(Lens(np.tile(np.eye(3), (24, 1, 1)), np.ones(24)))
+    seen = WhitenedPosture.plain(posture, (POSITIONS, ORIENTATIONS))
     turning = set()
     for placed in every_placed(scene):
         for n, term in enumerate(placed.terms):

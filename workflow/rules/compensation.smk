@@ -27,8 +27,6 @@ rule closed_loop:
         f"{RESULTS}/logs/closed_loop.log",
     benchmark:
         f"{RESULTS}/logs/benchmarks/closed_loop.tsv"
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope closed-loop {input.robot} --poses {input.poses} --errors {input.errors} --robots {input.robots} "
         "--fits {input.fits} {params.extended} -o {output.table} --points {output.points} --figure {output.png} > {log} 2>&1"
@@ -49,8 +47,6 @@ rule regions:
         f"{RESULTS}/logs/regions.log",
     benchmark:
         f"{RESULTS}/logs/benchmarks/regions.tsv"
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope regions --poses {input.poses} --errors {input.errors} --seed {params.seed} -o {output.table} "
         "--figure {output.png} > {log} 2>&1"
@@ -69,8 +65,6 @@ rule products:
         f"{RESULTS}/logs/products.log",
     benchmark:
         f"{RESULTS}/logs/benchmarks/products.tsv"
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope products --poses {input.poses} --errors {input.errors} --seed {params.seed} -o {output} > {log} 2>&1"
 
@@ -92,8 +86,6 @@ rule full_pose:
         f"{RESULTS}/logs/full_pose.log",
     benchmark:
         f"{RESULTS}/logs/benchmarks/full_pose.tsv"
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope full-pose {input.robot} --poses {input.poses} --errors {input.errors} --robots {input.robots} "
         "{params.extended} --seed {params.seed} -o {output} > {log} 2>&1"
@@ -112,8 +104,6 @@ rule cross_table:
         code=code("armscope.cli.outlook:cross_table_"),
     log:
         f"{RESULTS}/logs/cross_table.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope cross-table {input.virtual} {params.folders} {params.extended} -o {output} > {log} 2>&1"
 

@@ -21,8 +21,6 @@ rule choose_poses:
         f"{RESULTS}/logs/poses/{{arm}}.log",
     benchmark:
         f"{RESULTS}/logs/benchmarks/poses/{{arm}}.tsv"
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope poses --robot {input} {params.options} --all-criteria -o {output.poses} > {log} 2>&1"
 

@@ -22,8 +22,6 @@ rule proof_seed:
         code=code("armscope.cli.proof:diagnose"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/seed.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope proof seed {params.fixed} -o {output} > {log} 2>&1"
 
@@ -43,8 +41,6 @@ rule proof_worlds:
         f"{RESULTS}/logs/proof/{{size}}/worlds-{{half}}-{{part}}.log",
     benchmark:
         f"{RESULTS}/logs/benchmarks/proof/{{size}}/worlds-{{half}}-{{part}}.tsv"
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope proof worlds {input.robots} --size {wildcards.size} --half {wildcards.half} "
         "--part {wildcards.part}/{params.parts} {params.seed} --visible {output.visible} --sealed {output.sealed} "
@@ -66,8 +62,6 @@ rule proof_diagnose:
         f"{RESULTS}/logs/proof/{{size}}/diagnose-{{batch}}.log",
     benchmark:
         f"{RESULTS}/logs/benchmarks/proof/{{size}}/diagnose-{{batch}}.tsv"
-    conda:
-        "../envs/armscope.yaml"
     shadow:
         "minimal"
     shell:
@@ -94,8 +88,6 @@ rule proof_score:
         f"{RESULTS}/logs/proof/{{size}}/score.log",
     benchmark:
         f"{RESULTS}/logs/benchmarks/proof/{{size}}/score.tsv"
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope proof score {params.folder} -o {params.folder}/tables > {log} 2>&1"
 
@@ -110,8 +102,6 @@ rule proof_figures:
         code=code("armscope.cli.proof:figures"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/figures.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope proof figures {params.folder}/tables -o {params.folder}/figures > {log} 2>&1"
 
@@ -128,8 +118,6 @@ rule proof_report:
         code=code("armscope.cli.proof:report"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/report.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope proof report {params.folder}/tables {params.folder}/figures {input.seed} --size {wildcards.size} "
         "-o {output} > {log} 2>&1"

@@ -16,8 +16,6 @@ rule example:
         f"{RESULTS}/logs/examples/{{example}}.log",
     benchmark:
         f"{RESULTS}/logs/benchmarks/examples/{{example}}.tsv"
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope diagnose {input.recordings} --robot {input.robot} -o {params.folder} --force > {log} 2>&1"
 
@@ -34,10 +32,8 @@ rule readme:
     params:
         folder=subpath(input.claims, parent=True),
         proof=subpath(input.aims, parent=True),
-        code=code("armscope.cli.paper:readme_"),
+        code=code("armscope.cli.paper_pages:readme_"),
     log:
         f"{RESULTS}/logs/readme.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "(armscope paper readme README.md {params.folder} {params.proof} && cp {input.arm} docs/figures/five-effects.png) > {log} 2>&1"

@@ -5,27 +5,26 @@ rule measure_real:
     input:
         recordings=recordings_of,
         robot=robot_of,
+        settings=lambda wildcards: settings(
+            f"measure_real/{wildcards.set}",
+            seed=CONFIG.seed,
+            poses=CONFIG.paper.identification.poses.value,
+            run=CONFIG.real[wildcards.set].run,
+            first_id=CONFIG.real[wildcards.set].first_id,
+        ),
     output:
         poses=f"{RESULTS}/real/{{set}}/paper/poses.csv",
         errors=f"{RESULTS}/real/{{set}}/paper/errors.csv",
         observability=f"{RESULTS}/real/{{set}}/paper/observability.csv",
     params:
         folder=subpath(output.poses, parent=True),
-        settings=lambda wildcards: settings(
-            seed=CONFIG.seed,
-            poses=CONFIG.paper.identification.poses.value,
-            run=CONFIG.real[wildcards.set].run,
-            first_id=CONFIG.real[wildcards.set].first_id,
-        ),
         code=code("armscope.cli.paper:measure_real"),
     log:
         f"{RESULTS}/logs/real/{{set}}/measure.log",
     benchmark:
         f"{RESULTS}/logs/benchmarks/real/{{set}}/measure.tsv"
-    conda:
-        "../envs/armscope.yaml"
     shell:
-        "armscope paper measure-real {input.recordings} {input.robot} --settings {params.settings:q} -o {params.folder} > {log} 2>&1"
+        "armscope paper measure-real {input.recordings} {input.robot} --settings {input.settings} -o {params.folder} > {log} 2>&1"
 
 
 rule diagnose_real:
@@ -47,8 +46,6 @@ rule diagnose_real:
         f"{RESULTS}/logs/real/{{set}}/diagnose.log",
     benchmark:
         f"{RESULTS}/logs/benchmarks/real/{{set}}/diagnose.tsv"
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope diagnose {input.recordings} --robot {input.robot} {params.run} {params.first} -o {params.folder} --force > {log} 2>&1"
 
@@ -74,8 +71,6 @@ rule protocol_real:
         f"{RESULTS}/logs/real/{{set}}/protocol.log",
     benchmark:
         f"{RESULTS}/logs/benchmarks/real/{{set}}/protocol.tsv"
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope real protocol {input.recordings} {input.robot} {input.reference} {params.splits} -o {params.folder} "
         "> {log} 2>&1"
@@ -97,8 +92,6 @@ rule compliances_real:
         f"{RESULTS}/logs/real/{{set}}/compliances.log",
     benchmark:
         f"{RESULTS}/logs/benchmarks/real/{{set}}/compliances.tsv"
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope real compliances {input.recordings} {input.robot} {input.reference} --seed {params.seed} "
         "-o {params.folder} > {log} 2>&1"
@@ -115,10 +108,8 @@ rule real_arms:
         expand(f"{RESULTS}/real/{{set}}/protocol.csv", set=PAGED),
         expand(f"{RESULTS}/real/{{set}}/compliances.csv", set=COMPARED),
         proof=f"{RESULTS}/proof_real/tables/rates.csv",
-    output:
-        touch(f"{RESULTS}/real_arms.done"),
-    params:
         settings=settings(
+            "real_arms",
             arms=[
                 {
                     "name": name,
@@ -132,13 +123,14 @@ rule real_arms:
             ],
             proof=f"{RESULTS}/proof_real/tables",
         ),
+    output:
+        touch(f"{RESULTS}/real_arms.done"),
+    params:
         code=code("armscope.cli.real:page"),
     log:
         f"{RESULTS}/logs/real_arms.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
-        "armscope real page docs/real-arms.md --settings {params.settings:q} --force > {log} 2>&1"
+        "armscope real page docs/real-arms.md --settings {input.settings} --force > {log} 2>&1"
 
 
 rule real:

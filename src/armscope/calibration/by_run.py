@@ -9,8 +9,9 @@ import numpy as np
 import pandas as pd
 
 from armscope.calibration.fit import placed, rms_distance
-from armscope.calibration.model import SetUp, State
+from armscope.calibration.model import SetUp
 from armscope.calibration.splits import foretold, split
+from armscope.calibration.state import State
 from armscope.recordings import Recordings
 
 ALL = "all"

@@ -15,11 +15,12 @@ from armscope.calibration.by_run import misses_by_run
 from armscope.calibration.fit import rms_distance
 from armscope.calibration.geometry import nominal_values
 from armscope.calibration.imitation import Imitation, imitations
-from armscope.calibration.model import Level, SetUp, State, set_up
+from armscope.calibration.model import Level, SetUp, set_up
 from armscope.calibration.sanity import lost, no_gain, odd_loads, require_loads
 from armscope.calibration.sharing import sharing
 from armscope.calibration.solve import Priors, Redundancy, Solved, scales_of, solve
 from armscope.calibration.splits import foretold, split
+from armscope.calibration.state import State
 from armscope.calibration.words import in_words
 from armscope.core.inputs import InputError
 from armscope.core.types import Array

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from armscope.calibration.fit import Fitted, least_squares, placed, robust_least_squares
 from armscope.calibration.identifiability import identifiable
-from armscope.calibration.model import Level, SetUp, State
+from armscope.calibration.model import Level, SetUp
+from armscope.calibration.state import State
 from armscope.core.types import Array
 from armscope.measurement.robust import scale_of
 

@@ -3,27 +3,23 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from armscope.calibration.model import SetUp, State
+from armscope.calibration.model import SetUp
+from armscope.calibration.state import State
 from armscope.check.suspicion import Suspicion
 from armscope.core.types import Array
+from armscope.measurement.channel import Channel, ChannelResiduals
+from armscope.measurement.orientations import FEWEST, NOT_THE_TOOLS_RAD
 from armscope.recordings import Recordings
 from armscope.verdict.schema import Notice
 
-FEWEST = 15
-"""Fewer orientations are not used: the frames of the tools take up too much of what they tell."""
-
 CLEARLY_BETTER = 0.3
 """Another reading must bring the scatter below this share."""
-
-NOT_THE_TOOLS_RAD = np.radians(5)
-"""Median turn on the flange beyond which orientations are not the tool's; joint zeros two degrees off leave less."""
 
 Reading = tuple[str, str, Callable[[Array], Array]]
 """What is wrong, how to mend it, and quaternions (N, 4) read so."""
@@ -58,27 +54,25 @@ READINGS: tuple[Reading, ...] = (
 )
 
 
-def with_orientations(recordings: Recordings, turns: Array | None) -> tuple[Recordings, list[Notice]]:
-    """The table with its orientations, if they are the arm's; and what to say of them.
+def trusted_channels(
+    channels: Sequence[Channel], recordings: Recordings, left: ChannelResiduals
+) -> tuple[tuple[Channel, ...], Recordings, list[Notice]]:
+    """Channels whose readings are the arm's, the table without the others' readings, and what to say of those.
 
     Args:
+        channels: that were measured.
         recordings: the table.
-        turns: (N, 3) rad, between modelled and measured orientations after the free frames, NaN where not measured.
+        left: what the free frames leave in every channel.
     """
-    if turns is None:
-        return recordings, []
-    size = np.linalg.norm(turns[np.isfinite(turns).all(axis=1)], axis=1)
-    bare = replace(recordings, orientation=None)
-    if len(size) < FEWEST:
-        text = f"Only {len(size)} rows hold an orientation: positions alone were used."
-        return bare, [Notice("few orientations", text)]
-    if np.median(size) > NOT_THE_TOOLS_RAD:
-        text = (
-            f"The measured orientations lie {np.degrees(np.median(size)):.3g} degrees (median) from the arm's, however "
-            "the tool is turned: positions alone were used. Are the quaternions in the order w, x, y, z?"
-        )
-        return bare, [Notice("orientations not the arm's", text)]
-    return recordings, []
+    kept, notices = [], []
+    for channel in channels:
+        doubt = channel.doubt(left[channel.name])
+        if doubt is None:
+            kept.append(channel)
+        else:
+            recordings = channel.without(recordings)
+            notices.append(Notice(*doubt))
+    return tuple(kept), recordings, notices
 
 
 def orientation_mistakes(rows: SetUp, state: State, quaternions: Array | None) -> list[Suspicion]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.check.report import check
+from armscope.check.suspicion import Suspicion
 from armscope.check.suspicions import explanation
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
@@ -60,10 +62,16 @@ def check_table(arm: Arm, recordings: Recordings) -> Checked:
     return Checked(table, tuple(notices))
 
 
-def suspected(arm: Arm, recordings: Recordings) -> tuple[Notice, ...]:
+def suspected(arm: Arm, recordings: Recordings) -> tuple[Suspicion, ...]:
     """What looks wrong with units, signs, orders and frames of the rows that are used, as `armscope check` finds it."""
-    texts = [found.text() for found in check(recordings, arm).suspicions if found.weight == "problem"]
-    return tuple(Notice("check", text[0].upper() + text[1:]) for text in texts)
+    return tuple(found for found in check(recordings, arm).suspicions if found.weight == "problem")
+
+
+def as_notices(problems: Sequence[Suspicion], obstacle: Notice | None) -> tuple[Notice, ...]:
+    """Problems as notices, but for the one that an obstacle names already."""
+    texts = [each.text() for each in problems]
+    said = "" if obstacle is None else obstacle.text
+    return tuple(Notice("check", text[0].upper() + text[1:]) for text in texts if text not in said)
 
 
 def _without_empty_context(recordings: Recordings) -> Recordings:
@@ -136,20 +144,21 @@ def _limits(arm: Arm, recordings: Recordings) -> list[Notice]:
     return notices
 
 
-def too_far(arm: Arm, recordings: Recordings, residuals: Array) -> Notice | None:
-    """Why the arm's model can't be the recordings' at all, if so; ``residuals`` (N, 3) mm after the free frames.
+def too_far(arm: Arm, recordings: Recordings, residuals: Array, problems: Sequence[Suspicion]) -> Notice | None:
+    """Why the arm's model can't be the recordings' at all, if so.
 
     Args:
         arm: the nominal arm.
         recordings: the rows.
         residuals: (N, 3) mm after the free frames.
+        problems: what looks wrong, see `suspected`.
 
     Returns:
-        The notice; None where the model may be theirs.
+        The problem that explains it, or that none does; None where residuals may be calibration errors.
     """
     size = float(np.median(np.linalg.norm(residuals, axis=1))) / np.sqrt(3)
     if size < TOO_FAR * arm.reach * 1e3:
         return None
     start = f"After fitting base and tool the residual is still {size:.0f} mm per axis"
-    found = explanation(arm, recordings)
+    found = next((each for each in problems if each.kind != "check"), None) or explanation(arm, recordings)
     return Notice(found.kind, f"{start}: {found.text()}")

@@ -13,7 +13,8 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from armscope.calibration.fit import placed, rms_distance, robust_least_squares
-from armscope.calibration.model import SetUp, State, set_up
+from armscope.calibration.model import SetUp, set_up
+from armscope.calibration.state import State
 from armscope.check.orientations import orientation_mistakes
 from armscope.check.suspicion import Suspicion
 from armscope.check.trials import trials

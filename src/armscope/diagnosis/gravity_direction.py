@@ -17,7 +17,7 @@ from scipy.special import log_ndtr
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.diagnosis.model_space import build_model_space
-from armscope.fitting.linearisation import normal_equations_by_block, residuals
+from armscope.fitting.linearisation import normal_equations_by_block, point_residuals
 from armscope.inference.constants import PRIORS
 from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.normal_equations import total
@@ -103,8 +103,8 @@ class _Valley:
     def __init__(self, start: FittedModel, recordings: Recordings, noise: Noise, tool_per_run: bool) -> None:
         self.start, self.recordings, self.noise = start, recordings, noise
         self.frames = free_frames(recordings, tool_per_run)
-        left = residuals(start, recordings)
-        self.weights = RowWeights(robust.huber_weights(left, np.ones(len(left)), noise.least_mm))
+        left = point_residuals(start, recordings)
+        self.weights = RowWeights.of_positions(robust.huber_weights(left, np.ones(len(left)), noise.least_mm))
         self.known: dict[tuple[float, ...], float] = {}
 
     def depth(self, tilt: Array) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import columns, structured_design
-from armscope.fitting.linearisation import chunks, current_parameters, response
+from armscope.fitting.linearisation import current_parameters, linearised
 from armscope.fitting.parameter_layout import ParameterLayout
 from armscope.inference.constants import BUDGET
 from armscope.inference.evidence import Hypothesis, evaluate
@@ -18,10 +19,9 @@ from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, SelectedEffect
 from armscope.inference.search import Search
 from armscope.measurement.row_weights import INLIER_WEIGHT, RowWeights
+from armscope.measurement.whitening import WhitenedPosture, Whitener
 from armscope.physics.effect import Term
-from armscope.physics.lens import Lens
 from armscope.physics.model import FittedModel
-from armscope.physics.scene import Posture
 from armscope.recordings import Recordings
 from armscope.verdict.schema import HeldOut, WaterfallStep
 
@@ -99,7 +99,7 @@ def cross_validate(
         [_rms(errors[:, told & (fold_of == fold)]) for fold in folds if (told & (fold_of == fold)).any()]
     )
     held, held_all = _rms(errors[:, told]), _rms(errors[:, np.isin(fold_of, folds)])
-    turns = _rms(errors[:, told], TURNS)
+    turns = _rms(errors[:, told], rows.slices.get("orientation", slice(0)))
     spread = per_fold.std(axis=0, ddof=1) if len(per_fold) > 1 else np.full(len(held), np.nan)
     labels = ["free frames", *[problem.space.candidates[c].label for c in order], "tolerances everywhere"]
     waterfall = tuple(
@@ -157,13 +157,24 @@ class Rows:
     layout: ParameterLayout
 
     @property
+    def slices(self) -> dict[str, slice]:
+        """Where the numbers of each channel stand in a row."""
+        ends = itertools.accumulate((channel.width for channel in self.weights.channels), initial=0)
+        return {c.name: slice(*at) for c, at in zip(self.weights.channels, itertools.pairwise(ends), strict=True)}
+
+    @property
+    def width(self) -> int:
+        """How many numbers a row has in all channels."""
+        return sum(channel.width for channel in self.weights.channels)
+
+    @property
     def trusted(self) -> NDArray[np.bool_]:
         """(N,) rows that do not look like bad shots."""
         return np.asarray(self.weights.robust_weight > INLIER_WEIGHT)
 
 
 def left_over(rows: Rows, values: Array, number: Indices | None = None) -> Array:
-    """(K, N, 3) what K readings leave of every row, base axes, mm; (K, N, 6) with turns, mrad, where measured.
+    """(K, N, c) what K readings leave of every row in all channels, base axes, mm and mrad; NaN where not measured.
 
     Args:
         values: (K, p) values of the layout's terms, SI units; or (F, K, p): each row takes those of its ``number``.
@@ -173,30 +184,23 @@ def left_over(rows: Rows, values: Array, number: Indices | None = None) -> Array
     number = np.zeros(len(rows.recordings), dtype=np.intp) if number is None else number
     column_order, current = rows.layout.column_order, current_parameters(rows.layout, rows.point)
     added = (values - current)[:, :, column_order.order]
-    left = np.empty((values.shape[1], len(rows.recordings), 3 if rows.recordings.orientation is None else 6))
-    for part, posture in chunks(rows.point, rows.recordings):
-        lens = _plain(posture)
-        seen, y = structured_design(posture.through(lens), column_order), response(rows.point, posture, lens)
+    left = np.empty((values.shape[1], len(rows.recordings), rows.width))
+    for part, posture in linearised(rows.recordings).chunks(rows.point):
+        plain = Whitener.plain(rows.weights.channels, len(part))
+        seen, y = structured_design(WhitenedPosture(posture, plain), column_order), plain.response(rows.point, posture)
         for f in np.unique(number[part]):
             inside = np.flatnonzero(number[part] == f)
             modelled = seen.at(inside).matvec(added[f])
             left[:, part[inside]] = y[inside] - np.swapaxes(modelled, 1, 2)
-    if rows.recordings.orientation is not None:
-        left[:, ~np.isfinite(rows.recordings.orientation).all(axis=1), 3:] = np.nan
+    for channel in rows.weights.channels:
+        left[:, ~channel.measured(rows.recordings), rows.slices[channel.name]] = np.nan
     return left
-
-
-def _plain(posture: Posture) -> Lens:
-    """Every row as it is: mm, and mrad where orientations were measured."""
-    count = len(posture.scene)
-    turns = None if posture.scene.recordings.orientation is None else np.ones(count)
-    return Lens(np.broadcast_to(np.eye(3), (count, 3, 3)), turns)
 
 
 def _held_out_errors(
     problem: Problem, blocks: Sequence[NormalEquations], split: Blocks, rows: Rows, values: Mapping[int, Array]
 ) -> Array:
-    """(K, N, 3 or 6) errors, mm and mrad, of every row under the readings of the fold that it took no part in.
+    """(K, N, c) errors, mm and mrad, of every row under the readings of the fold that it took no part in.
 
     Where whole runs are held out, the frames that only they have are refitted on them.
     """
@@ -219,23 +223,23 @@ def _held_out_errors(
 
 
 def _refitted(rows: Rows, terms: Sequence[Term], at: Indices, errors: Array) -> Array:
-    """Errors (K, n, 3 or 6) of rows ``at`` once their own frames are fitted to them."""
+    """Errors (K, n, c) of rows ``at`` once their own frames are fitted to them."""
     table = rows.recordings.rows(at)
-    X = np.concatenate([columns(posture.through(_plain(posture)), terms) for _, posture in chunks(rows.point, table)])
+    postures = (posture for _, posture in linearised(table).chunks(rows.point))
+    X = np.concatenate([columns(WhitenedPosture.plain(each, rows.weights.channels), terms) for each in postures])
     y = np.moveaxis(errors, 0, 2).reshape(len(X), -1)
-    weights = [np.sqrt(rows.weights.weight[at])] * 3
-    if rows.weights.turns is not None:
-        weights += [rows.weights.lever * np.sqrt(rows.weights.turns.weight[at])] * 3
-    root = np.stack(weights, axis=1).reshape(-1, 1)
+    alone = rows.weights.unwhitened.of_channels
+    roots = [np.repeat(each.factor(at)[:, None], each.channel.width, axis=1) for each in alone]
+    root = np.concatenate(roots, axis=1).reshape(-1, 1)
     values = np.linalg.lstsq(root * X, root * np.nan_to_num(y), rcond=1e-12)[0]
     return np.asarray(np.moveaxis((y - X @ values).reshape(len(at), -1, y.shape[1]), 2, 0))
 
 
-POINTS, TURNS = slice(0, 3), slice(3, 6)
+POINTS = slice(0, 3)
 
 
 def _rms(errors: Array, which: slice = POINTS) -> Array:
-    """(K,) RMS per axis of the points, or of the turns, of errors (K, n, 3 or 6); NaN where none was measured."""
+    """(K,) RMS per axis of the points, or of other numbers, of errors (K, n, c); NaN where none was measured."""
     squares = errors[:, :, which] ** 2
     known = np.isfinite(squares)
     sums = np.sum(np.where(known, squares, 0.0), axis=(1, 2))

@@ -112,7 +112,7 @@ def judge(
         unexplained=unexplained,
         held_out=held_out,
         waterfall=waterfall,
-        atlas=atlas(fit.pool, fit.model, state.recordings, replace(fit.weights, turns=None)),
+        atlas=atlas(fit.pool, fit.model, state.recordings, fit.weights.of_reference),
         residuals=_residuals(state),
         suspects=_suspects(state),
         next_poses=separating,
@@ -137,10 +137,12 @@ def _held(model: FittedModel, recordings: Recordings) -> FittedModel:
 def _plain_gram(state: DiagnosisState) -> NormalEquations:
     """The fit's sums over the points as they were measured: without whitening and orientations."""
     fit = state.fit
-    if fit.weights.whitening is None and fit.weights.turns is None:
+    if fit.weights.is_plain:
         return fit.gram
     one_block = np.zeros(len(state.recordings), dtype=np.intp)
-    return normal_equations_by_block(fit.pool, fit.model, state.recordings, fit.weights.of_points, one_block)[0]
+    return normal_equations_by_block(
+        fit.pool, fit.model, state.recordings, fit.weights.of_reference.unwhitened, one_block
+    )[0]
 
 
 def _weighted_rms(fit: Refit) -> float:
@@ -170,7 +172,7 @@ def _residuals(state: DiagnosisState) -> Residuals:
     table, fit = state.recordings, state.fit
     return Residuals(
         points=fit.model.to_base(table.positions, table.run) * 1e3,
-        before=state.first.shift,
+        before=state.first.points_mm,
         after=fit.residuals,
         weight=fit.weights.robust_weight,
         id=table.id,
@@ -179,16 +181,17 @@ def _residuals(state: DiagnosisState) -> Residuals:
 
 
 def _orientations(state: DiagnosisState) -> Orientations | None:
-    fit, before = state.fit, state.first.turn
-    if fit.missed.turn is None or fit.weights.turns is None or before is None:
-        return None
-    trusted = fit.weights.turns.weight > SUSPECT_WEIGHT * np.asarray(fit.weights.turns.nominal_weight)
-    return Orientations(
-        rows=int(np.isfinite(fit.missed.turn).all(axis=1).sum()),
-        noise_mrad=1e3 * float(np.sqrt(np.mean(fit.missed.turn[trusted] ** 2))),
-        lever_mm=1e3 * fit.weights.lever,
-        before_mrad=1e3 * float(np.sqrt(np.mean(before[trusted] ** 2))),
-    )
+    """How well the channel of orientations is explained, where it took part."""
+    for weights in state.fit.weights.of_channels:
+        if weights.channel.name == "orientation":
+            left, before = state.fit.left["orientation"], state.first["orientation"]
+            return Orientations(
+                rows=int(np.isfinite(left).all(axis=1).sum()),
+                noise_mrad=1e3 * float(np.sqrt(np.mean(left[weights.counts] ** 2))),
+                lever_mm=1e3 * weights.scale,
+                before_mrad=1e3 * float(np.sqrt(np.mean(before[weights.counts] ** 2))),
+            )
+    return None
 
 
 def _suspects(state: DiagnosisState) -> tuple[SuspectRow, ...]:

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from armscope.check.orientations import with_orientations
-from armscope.check.preconditions import FEWEST_ROWS, check_table, suspected, too_far
+from armscope.check.orientations import trusted_channels
+from armscope.check.preconditions import FEWEST_ROWS, as_notices, check_table, suspected, too_far
 from armscope.core.types import Progress
 from armscope.diagnosis.gravity_direction import lean
 from armscope.diagnosis.held_out import split
@@ -17,11 +17,12 @@ from armscope.diagnosis.judgement import judge, undecided
 from armscope.diagnosis.selection import select
 from armscope.diagnosis.state import DiagnosisState
 from armscope.fitting.exchanged_tool import exchanged_tool
-from armscope.fitting.linearisation import missed
+from armscope.fitting.linearisation import LinearisedTable, residuals
 from armscope.fitting.registration import fit_frames
+from armscope.measurement.channel import Channel, nuisances
 from armscope.measurement.noise import Noise, known_noise
+from armscope.measurement.registry import CHANNELS, supported
 from armscope.physics.effect import Placed
-from armscope.physics.frames import free_frames
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -54,6 +55,7 @@ def diagnose(
     recordings: Recordings,
     settings: Settings | None = None,
     progress: Progress | None = None,
+    channels: Sequence[Channel] = CHANNELS,
 ) -> Diagnosis:
     """Find where in the arm the mismatch arises, which physics was left out, and how large it is.
 
@@ -62,6 +64,7 @@ def diagnose(
         recordings: measured rows.
         settings: see `Settings`.
         progress: called with a sentence and the share done, 0 ... 1.
+        channels: kinds of reading that are used where the table holds them; the first is the reference.
 
     Raises:
         InputError: the recordings don't fit the arm or hold no usable rows.
@@ -72,20 +75,21 @@ def diagnose(
     table = checked.recordings if settings.orientation else replace(checked.recordings, orientation=None)
     tell("fitting base and tool", 0.02)
     start, tool_per_run, told = _frames(arm, table, settings.tool_per_run)
-    first = missed(start, table)
-    table, told_of_turns = with_orientations(table, first.turn)
-    notices = (*suspected(arm, checked.recordings), *checked.notices, *told, *told_of_turns)
+    first = residuals(start, LinearisedTable(table, supported(table, channels)))
+    channels, table, doubts = trusted_channels(tuple(first.by_channel), table, first)
     noise = known_noise(arm, table)
-    frames = free_frames(table, tool_per_run)
-    obstacle = too_far(arm, table, first.shift) or _too_few(table, frames)
+    frames = nuisances(channels, table, tool_per_run)
+    problems = suspected(arm, checked.recordings)
+    obstacle = too_far(arm, table, first.points_mm, problems) or _too_few(table, frames)
+    notices = (*as_notices(problems, obstacle), *checked.notices, *told, *doubts)
     if obstacle is not None:
-        return undecided(start, table, first.shift, noise, (*notices, obstacle), time.perf_counter() - started)
+        return undecided(start, table, first.points_mm, noise, (*notices, obstacle), time.perf_counter() - started)
     if settings.estimate_gravity:
         arm, told = _gravity(start, table, noise, tool_per_run)
         start, notices = replace(start, arm=arm), (*notices, *told)
     rng = np.random.default_rng(settings.seed)
     layout = split(table, rng)
-    found = select(start, table, noise, frames, layout.of_row, tell)
+    found = select(start, LinearisedTable(table, channels), noise, frames, layout.of_row, tell)
     verdict = judge(
         DiagnosisState(
             **vars(found), start=start, recordings=table, first=first, noise=noise, notices=notices, layout=layout

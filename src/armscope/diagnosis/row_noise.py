@@ -7,7 +7,9 @@ import numpy as np
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.fitting.joint_scatter import Scattered, find_scatter, motor_jacobians, noise_between, whitening
+from armscope.fitting.linearisation import LinearisedTable
 from armscope.measurement import robust
+from armscope.measurement.channel import ChannelResiduals
 from armscope.measurement.noise import (
     Growth,
     Noise,
@@ -17,9 +19,8 @@ from armscope.measurement.noise import (
     poses,
     relative_uncertainty,
 )
-from armscope.measurement.row_weights import INLIER_WEIGHT, Missed, RowNoise
+from armscope.measurement.row_weights import INLIER_WEIGHT, RowNoise
 from armscope.physics.model import FittedModel
-from armscope.recordings import Recordings
 
 SCATTER_ROWS = 4000
 """Scatter is looked for on this many rows at most."""
@@ -30,7 +31,7 @@ class NoiseOfRows:
 
     Args:
         start: the arm with its frames fitted.
-        recordings: the rows.
+        table: the rows.
         noise: what is known of it beforehand.
         residuals: what the model leaves of every row.
 
@@ -41,23 +42,24 @@ class NoiseOfRows:
         growth: with the distance, where there is such.
     """
 
-    def __init__(self, start: FittedModel, recordings: Recordings, noise: Noise, residuals: Missed) -> None:
+    def __init__(self, start: FittedModel, table: LinearisedTable, noise: Noise, residuals: ChannelResiduals) -> None:
+        recordings = table.recordings
         self.recordings, self.least_mm = recordings, noise.least_mm
-        self.moved, self.pose = motor_jacobians(start, recordings), poses(recordings)
+        self.moved, self.pose = motor_jacobians(start, table), poses(recordings)
         self.residuals = residuals
         self.scatter: list[Scattered] = []
         self.growth: Growth | None = None
-        uncertainty = relative_uncertainty(recordings, robust.scale_of(residuals.shift))
+        uncertainty = relative_uncertainty(recordings, robust.scale_of(residuals.points_mm))
         near = np.ones(len(recordings), dtype=bool)
-        self.rows = RowNoise(uncertainty, independence_weights(residuals.shift, self.pose, near))
+        self.rows = RowNoise(uncertainty, independence_weights(residuals.points_mm, self.pose, near))
         self.weights = self.rows.first_weights(residuals, self.least_mm)
 
-    def follow(self, other: NoiseOfRows, residuals: Missed, noise_mm: float) -> None:
+    def follow(self, other: NoiseOfRows, residuals: ChannelResiduals, noise_mm: float) -> None:
         """Go on from what other rows told."""
         self.scatter, self.growth = other.scatter, other.growth
         self.weigh(residuals, noise_mm, whitening(self.scatter, self.moved, noise_mm))
 
-    def weigh(self, residuals: Missed, noise_mm: float, white: Array | None) -> None:
+    def weigh(self, residuals: ChannelResiduals, noise_mm: float, white: Array | None) -> None:
         """What the residuals tell about the rows' noise, and their weights by it."""
         self.residuals = residuals
         by_distance = None
@@ -66,7 +68,7 @@ class NoiseOfRows:
         uncertainty = relative_uncertainty(self.recordings, noise_mm, by_distance)
         alone = RowNoise(uncertainty, np.ones(len(uncertainty))).weights(residuals, self.least_mm)
         self.rows = RowNoise(
-            uncertainty, independence_weights(residuals.shift, self.pose, alone.robust_weight > INLIER_WEIGHT)
+            uncertainty, independence_weights(residuals.points_mm, self.pose, alone.robust_weight > INLIER_WEIGHT)
         )
         self.weights = self.rows.weights(residuals, self.least_mm, white)
 
@@ -91,7 +93,9 @@ class NoiseOfRows:
         if self.recordings.sigma is not None or self.growth is not None or self.scatter:
             return False
         away = distances(model, self.recordings)
-        found = None if away is None else growth(self.residuals.shift, away, self.weights.robust_weight > INLIER_WEIGHT)
+        found = (
+            None if away is None else growth(self.residuals.points_mm, away, self.weights.robust_weight > INLIER_WEIGHT)
+        )
         if found is None or found.evidence < sum(each.evidence for each in self._find_scatter()):
             return False
         self.growth = found
@@ -100,7 +104,7 @@ class NoiseOfRows:
 
     def _find_scatter(self) -> list[Scattered]:
         """Scatter in what is left, on as many rows as it takes."""
-        left = self.residuals.shift
+        left = self.residuals.points_mm
         rows = spread_evenly(len(left), SCATTER_ROWS)
         relative = self.rows.uncertainty[rows, None]
         return find_scatter(left[rows] / relative, self.moved[:, rows] / relative, self.least_mm)
@@ -108,6 +112,6 @@ class NoiseOfRows:
     def _take(self, found: list[Scattered]) -> None:
         """Whiten the rows by scatter of these places and sizes, and weigh them anew."""
         self.scatter = found
-        between = noise_between(self.residuals.shift, self.moved, found, self.least_mm)
+        between = noise_between(self.residuals.points_mm, self.moved, found, self.least_mm)
         white = whitening(found, self.moved, between)
         self.weights = self.rows.weights(self.residuals, self.least_mm, white)

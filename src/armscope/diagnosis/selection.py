@@ -11,6 +11,7 @@ import numpy as np
 
 from armscope.core.types import Indices, Progress
 from armscope.diagnosis.selection_loop import Selected, SelectionLoop
+from armscope.fitting.linearisation import LinearisedTable
 from armscope.inference.additions import best_additions
 from armscope.inference.search import Search
 from armscope.measurement.noise import Noise
@@ -29,19 +30,19 @@ PROMISING = 60
 
 def select(
     start: FittedModel,
-    recordings: Recordings,
+    table: LinearisedTable,
     noise: Noise,
     frames: Sequence[Placed],
     block_of_row: Indices,
     tell: Progress,
 ) -> Selected:
     """The effects that the evidence asks for, fitted with the exact model."""
-    if len(recordings) <= SAMPLE_ROWS:
-        return SelectionLoop(start, recordings, noise, frames, block_of_row, tell).run()
-    rows = _sample(recordings)
-    small = SelectionLoop(start, recordings.rows(rows), noise, frames, block_of_row[rows], tell)
+    if len(table) <= SAMPLE_ROWS:
+        return SelectionLoop(start, table, noise, frames, block_of_row, tell).run()
+    rows = _sample(table.recordings)
+    small = SelectionLoop(start, table.rows(rows), noise, frames, block_of_row[rows], tell)
     found = small.run(of_a_sample=True)
-    whole = SelectionLoop(start, recordings, noise, frames, block_of_row, tell, _promising(found))
+    whole = SelectionLoop(start, table, noise, frames, block_of_row, tell, _promising(found))
     whole.follow(small)
     tell("weighing all rows", 0.45)
     whole.round((found.best.background,))

@@ -17,7 +17,7 @@ from armscope.diagnosis.scans.context import ScanContext
 from armscope.diagnosis.scans.gear_mesh import mesh_lines
 from armscope.diagnosis.scans.pauses import pauses
 from armscope.fitting.joint_scatter import Scattered
-from armscope.fitting.linearisation import keep_drivers, missed, normal_equations_by_block
+from armscope.fitting.linearisation import LinearisedTable, Measured, linearised, normal_equations_by_block, residuals
 from armscope.fitting.refit import Refit, refit
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import BackgroundSizes
@@ -78,7 +78,7 @@ class SelectionLoop:
 
     Args:
         start: the arm with its frames fitted.
-        recordings: the rows.
+        rows: a table, or recordings.
         noise: what is known of it.
         frames: the free frames.
         block_of_row: (N,) which block of rows each row is in.
@@ -89,20 +89,22 @@ class SelectionLoop:
     def __init__(
         self,
         start: FittedModel,
-        recordings: Recordings,
+        rows: Measured,
         noise: Noise,
         frames: Sequence[Placed],
         block_of_row: Indices,
         tell: Progress,
         candidates: Sequence[Placed] | None = None,
     ) -> None:
-        self.recordings = keep_drivers(recordings, np.argsort(block_of_row, kind="stable"))
+        recordings = linearised(rows).recordings
+        self.table = LinearisedTable(recordings, linearised(rows).channels, np.argsort(block_of_row, kind="stable"))
+        self.recordings = recordings
         self.frames, self.tell = frames, tell
         self.block_of_row = block_of_row
         self.candidates = library(start.arm, recordings) if candidates is None else list(candidates)
         self.families = list(backgrounds(start.arm, recordings).values())
         self.model = start
-        self.noise = NoiseOfRows(start, self.recordings, noise, missed(start, self.recordings))
+        self.noise = NoiseOfRows(start, self.table, noise, residuals(start, self.table))
         self.last: tuple[Hypothesis, EffectSpace] | None = None
 
     def run(self, of_a_sample: bool = False) -> Selected:
@@ -138,7 +140,7 @@ class SelectionLoop:
     def follow(self, other: SelectionLoop) -> None:
         """Go on from where the rounds on a sample of the rows ended."""
         self.model, self.last = other.model, other.last
-        self.noise.follow(other.noise, missed(self.model, self.recordings), other.fit.noise)
+        self.noise.follow(other.noise, residuals(self.model, self.table), other.fit.noise)
 
     def _where_it_ended(self) -> list[BackgroundSizes] | None:
         """The background from which the next search starts."""
@@ -154,9 +156,7 @@ class SelectionLoop:
         self.point, payload = _payload(self.model, self.recordings)
         self.space = build_model_space(self.frames, self.families, [*self.candidates, *payload])
         weights = self.noise.weights
-        self.blocks = normal_equations_by_block(
-            self.space.layout, self.point, self.recordings, weights, self.block_of_row
-        )
+        self.blocks = normal_equations_by_block(self.space.layout, self.point, self.table, weights, self.block_of_row)
         self.problem = build_problem(self.space, total(self.blocks), self.noise.least_mm)
         search = Search.on(self.problem)
         found = search.best(starts, None if self.last is None else search.transferred(*self.last))
@@ -169,7 +169,7 @@ class SelectionLoop:
             self.fit = self._fitted()
         new = self._scanned(search) if scanning else []
         self.model = self.fit.model
-        self.noise.weigh(self.fit.missed, self.fit.noise, self.fit.weights.whitening)
+        self.noise.weigh(self.fit.left, self.fit.noise, self.fit.weights.whitening)
         return new
 
     def _fitted(self) -> Refit:
@@ -180,7 +180,7 @@ class SelectionLoop:
         ]
         small = list(zip(self.families, background_sizes(self.problem, self.best.background), strict=True))
         rows, white = self.noise.rows, self.noise.weights.whitening
-        return refit(self.point, self.recordings, self.frames, small, effects, rows, self.noise.least_mm, white)
+        return refit(self.point, self.table, self.frames, small, effects, rows, self.noise.least_mm, white)
 
     def _against_their_load(self) -> list[int]:
         """Names within a background whose fitted values turned out negative where they can't be."""

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from armscope.diagnosis.held_out import Blocks
 from armscope.diagnosis.selection_loop import Selected
+from armscope.measurement.channel import ChannelResiduals
 from armscope.measurement.noise import Noise
-from armscope.measurement.row_weights import Missed
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 from armscope.verdict.schema import Notice
@@ -19,7 +19,7 @@ class DiagnosisState(Selected):
 
     start: FittedModel
     recordings: Recordings
-    first: Missed
+    first: ChannelResiduals
     noise: Noise
     notices: tuple[Notice, ...]
     layout: Blocks

@@ -8,13 +8,13 @@ import numpy as np
 
 from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import grouped_columns, structured_design
-from armscope.fitting.linearisation import chunks, current_parameters, response
+from armscope.fitting.linearisation import Measured, current_parameters, linearised
 from armscope.fitting.parameter_layout import ParameterLayout
 from armscope.inference.linear_algebra import ColumnBlocks
 from armscope.measurement.row_weights import RowWeights
+from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.effect import Term
 from armscope.physics.model import FittedModel
-from armscope.recordings import Recordings
 
 
 def column_blocks(
@@ -22,7 +22,7 @@ def column_blocks(
     layout: ParameterLayout,
     inside: Indices,
     model: FittedModel,
-    recordings: Recordings,
+    rows: Measured,
     weights: RowWeights,
 ) -> ColumnBlocks:
     """Sums over rows for blocks of equally many terms against some of a layout's columns, mm per SI unit.
@@ -42,10 +42,10 @@ def column_blocks(
     column_order = grouped_columns(present)
     k = len(inside)
     own, cross, b = np.zeros((m * c, m * c)), np.zeros((k, m * c)), np.zeros(m * c)
-    for rows, posture in chunks(model, recordings):
-        lens = weights.lens(rows)
-        seen = posture.through(lens)
-        y = response(model, posture, lens).T + structured_design(seen, column_order).matvec(
+    for chunk, posture in linearised(rows).chunks(model):
+        whitener = weights.whitener(chunk)
+        seen = WhitenedPosture(posture, whitener)
+        y = whitener.response(model, posture).T + structured_design(seen, column_order).matvec(
             values[active][column_order.order]
         )
         E = structured_design(seen, beside)

@@ -16,6 +16,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from armscope.core.types import Array, Indices
+from armscope.measurement.positions import POSITIONS
+from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.effect import Direction, Driver, Term
 from armscope.physics.scene import Posture
 
@@ -92,7 +94,7 @@ def _group(terms: Sequence[Term], direction: Direction, members: list[int]) -> S
 
 @dataclass(frozen=True, eq=False)
 class StructuredDesign:
-    """Columns in a given order on n rows of c numbers, mm per SI unit, as a lens shows them.
+    """Columns in a given order on n rows of c numbers, mm per SI unit, as all channels see them.
 
     Attributes:
         column_order: of the terms.
@@ -173,9 +175,9 @@ def _across(sensitivity: Array, other: Array) -> Array:
     return np.asarray(np.einsum("cn,cn->n", sensitivity, other))
 
 
-def structured_design(posture: Posture, column_order: ColumnOrder) -> StructuredDesign:
-    """Columns in a given order at a posture's rows, as its lens shows them."""
-    sensitivities = tuple(1e3 * posture.lever(group.direction).T for group in column_order.groups)
+def structured_design(posture: WhitenedPosture, column_order: ColumnOrder) -> StructuredDesign:
+    """Columns in a given order at a posture's rows, as all channels see them."""
+    sensitivities = tuple(1e3 * posture.sensitivity(group.direction).T for group in column_order.groups)
     drivers = tuple(
         np.array([posture.scene.driver(driver) for driver in group.drivers]) * group.factors
         for group in column_order.groups
@@ -183,18 +185,23 @@ def structured_design(posture: Posture, column_order: ColumnOrder) -> Structured
     return StructuredDesign(column_order, component_rows(posture, column_order.others), sensitivities, drivers)
 
 
-def columns(posture: Posture, terms: Sequence[Term]) -> Array:
-    """(3N or 6N, p) columns in mm per SI unit of each term, as the posture's lens shows them."""
-    stacked = np.empty((len(terms), len(posture.scene), posture.numbers))
+def columns(posture: WhitenedPosture, terms: Sequence[Term]) -> Array:
+    """(N c, p) columns in mm per SI unit of each term, side by side as all channels see them."""
+    stacked = np.empty((len(terms), len(posture.scene), posture.width))
     for number, term in enumerate(terms):
         stacked[number] = posture.column(term)
     stacked *= 1e3
     return stacked.reshape(len(terms), -1).T
 
 
-def component_rows(posture: Posture, terms: Sequence[Term]) -> Array:
-    """(p, 3 or 6, N) the same columns, lying, a component of all rows side by side: fast to fill and to multiply."""
-    stacked = np.empty((len(terms), posture.numbers, len(posture.scene)))
+def point_columns(posture: Posture, terms: Sequence[Term]) -> Array:
+    """(3N, p) columns in mm per SI unit of each term, as tool points show them."""
+    return columns(WhitenedPosture.plain(posture, (POSITIONS,)), terms)
+
+
+def component_rows(posture: WhitenedPosture, terms: Sequence[Term]) -> Array:
+    """(p, c, N) the same columns, lying, a component of all rows side by side: fast to fill and to multiply."""
+    stacked = np.empty((len(terms), posture.width, len(posture.scene)))
     for number, term in enumerate(terms):
         stacked[number] = posture.column(term).T
     stacked *= 1e3

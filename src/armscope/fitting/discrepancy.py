@@ -28,10 +28,11 @@ from scipy.linalg import solve_triangular
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import component_rows
-from armscope.fitting.linearisation import chunks, response
+from armscope.fitting.linearisation import linearised
 from armscope.fitting.refit import Refit
 from armscope.inference.constants import PRIORS
 from armscope.inference.linear_algebra import lower_cholesky, quadratic_and_logdet, solve_lower
+from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.effect import AXES, ONE, Direction, motor, term
 from armscope.physics.placing import moving_joints
 from armscope.recordings import Recordings
@@ -160,17 +161,17 @@ def _sums(fit: Refit, recordings: Recordings, rows: Indices) -> _Sums:
     of = {what: slice(*at) for what, at in zip(_named(motors), pairwise(starts), strict=True) if at[0] < at[1]}
     count = starts[-1]
     normal, own, cross, pull = np.zeros((p, p)), np.zeros((count, count)), np.zeros((p, count)), np.zeros(count)
-    for part, posture in chunks(fit.model, table):
-        lens = fit.weights.lens(rows[part])
-        X = component_rows(posture.through(lens), (*fit.pool.terms, *base, *turns))
+    for part, posture in linearised(table).chunks(fit.model):
+        whitener = fit.weights.whitener(rows[part])
+        X = component_rows(WhitenedPosture(posture, whitener), (*fit.pool.terms, *base, *turns))
         moved = (X[p : p + 6, None] * slow[part].T[:, None], X[p + 6 :, None] * shapes[part].T[:, None])
         fitted = X[:p].reshape(p, -1)
         Z = np.concatenate([each.reshape(-1, fitted.shape[1]) for each in moved])
         normal += fitted @ fitted.T
         own += Z @ Z.T
         cross += fitted @ Z.T
-        pull += Z @ response(fit.model, posture, lens).T.reshape(-1)
-    size, numbers = np.ones(count), fit.weights.lens(rows).numbers * len(rows)
+        pull += Z @ whitener.response(fit.model, posture).T.reshape(-1)
+    size, numbers = np.ones(count), fit.weights.whitener(rows).width * len(rows)
     for what, at in list(of.items()):
         size[at] = np.sqrt(np.trace(own[at, at]) / numbers)
         if size[at.start] < TINY_MM:

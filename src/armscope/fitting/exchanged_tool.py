@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from armscope.core.types import Array
-from armscope.fitting.linearisation import missed
+from armscope.fitting.linearisation import residuals
 from armscope.fitting.registration import fit_frames
 from armscope.measurement import robust
 from armscope.physics.model import FittedModel
@@ -63,34 +62,21 @@ def exchanged_tool(shared: FittedModel, recordings: Recordings) -> ExchangedTool
     if len(free.tools) == len(shared.tools) or measured < LEAST_NUMBERS * spent:
         return None
     cost = float(np.sqrt(measured / (measured - spent)))
-    before, after = missed(shared, recordings), missed(free, recordings)
-    targets = [str(target) for target in np.unique(recordings.target)]
-    point = turn = None
-    moved = 1e3 * max(_points_apart(free, target) for target in targets)
-    if _exchanged(moved, before.shift, after.shift, cost):
-        point = moved
-    if before.turn is not None and after.turn is not None:
-        known = np.isfinite(before.turn).all(axis=1)
-        turned = max(_turns_apart(free, target) for target in targets)
-        if known.any() and _exchanged(turned, before.turn[known], after.turn[known], cost):
-            turn = turned
-    if point is None and turn is None:
+    before, after = residuals(shared, recordings), residuals(free, recordings)
+    apart: dict[str, float] = {}
+    for channel, left in before.by_channel.items():
+        known = np.isfinite(left).all(axis=1)
+        moved = max(channel.tools_apart(free, str(target)) for target in np.unique(recordings.target))
+        if known.any() and _exchanged(1e3 * moved, 1e3 * left[known], 1e3 * after[channel.name][known], cost):
+            apart[channel.name] = moved
+    if not apart:
         return None
-    return ExchangedTool(free, robust.scale_of(before.shift), robust.scale_of(after.shift), point, turn)
+    point, turn = apart.get("position"), apart.get("orientation")
+    shared_mm, own_mm = (robust.scale_of(each.points_mm) for each in (before, after))
+    return ExchangedTool(free, shared_mm, own_mm, None if point is None else 1e3 * point, turn)
 
 
 def _exchanged(apart: float, before: Array, after: Array, cost: float) -> bool:
-    """Whether tools lie apart, seen by residuals (N, 3) with one tool for all runs and with one per run."""
+    """Whether tools lie apart, seen by residuals (N, c) with one tool for all runs and with one per run."""
     left = robust.scale_of(after)
     return robust.scale_of(before) > WORSE * cost * left and apart > APART * left
-
-
-def _points_apart(model: FittedModel, target: str) -> float:
-    """Largest difference of a coordinate between a target's tool points, m."""
-    return float(np.ptp([part.values for part in model.tools if part.placed.variant == target], axis=0).max())
-
-
-def _turns_apart(model: FittedModel, target: str) -> float:
-    """Largest angle between a target's tool and its tool in the first run, rad."""
-    turns = Rotation.from_matrix([turn for (of, _), turn in model.tool_turns.items() if of == target] or [np.eye(3)])
-    return float((turns[0].inv() * turns).magnitude().max())

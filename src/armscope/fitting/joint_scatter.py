@@ -13,10 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.fitting.linearisation import chunks
+from armscope.fitting.linearisation import Measured, linearised
 from armscope.physics.effect import motor
 from armscope.physics.model import FittedModel
-from armscope.recordings import Recordings
 
 RATIOS = (0.5, 1.0, 2.0, 4.0, 8.0, 16.0)
 """Scatter at the tool in multiples of the noise that compete."""
@@ -38,12 +37,13 @@ class Scattered:
     evidence: float
 
 
-def motor_jacobians(model: FittedModel, recordings: Recordings) -> Array:
+def motor_jacobians(model: FittedModel, table: Measured) -> Array:
     """(m, N, 3) displacement of the tool by each motor, base axes, mm/rad."""
-    moved = np.empty((model.arm.n_motors, len(recordings), 3))
-    for rows, posture in chunks(model, recordings):
+    moved = np.empty((model.arm.n_motors, len(table), 3))
+    for rows, posture in linearised(table).chunks(model):
         for j in range(model.arm.n_motors):
-            moved[j, rows] = posture.lever(motor(j + 1)) * 1e3
+            moved[j, rows] = posture.displacement(motor(j + 1))
+    moved *= 1e3
     return moved
 
 

@@ -8,8 +8,7 @@ Lengths are mm here: y and the columns are displacements of the tool in base axe
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
-from weakref import WeakKeyDictionary
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +17,11 @@ from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import structured_design
 from armscope.fitting.parameter_layout import ParameterLayout
 from armscope.inference.normal_equations import NormalEquations
-from armscope.measurement.row_weights import Missed, RowWeights
-from armscope.physics.lens import Lens
+from armscope.measurement.channel import Channel, ChannelResiduals
+from armscope.measurement.positions import POSITIONS
+from armscope.measurement.registry import supported
+from armscope.measurement.row_weights import RowWeights
+from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.model import FittedModel
 from armscope.physics.scene import Posture, Scene
 from armscope.recordings import Recordings
@@ -30,93 +32,82 @@ KEPT_ROWS = 15_000
 
 
 @dataclass(eq=False)
-class Kept:
-    """What is kept of a table between passes: the order of its rows, and chunk by chunk what was computed last.
+class LinearisedTable:
+    """A table's rows with what is computed on them, chunk by chunk, for a model that they are linearised about.
 
     Attributes:
-        order: (N,) of the rows.
-        scenes: (rows, scene) of each chunk, once they were computed.
-        model: whose postures are kept.
-        postures: how that model stands at each chunk.
+        recordings: the rows.
+        channels: what was measured there; the reference comes first.
+        order: (N,) of the rows in which chunks take them, rows of one block side by side. Where it is given, what
+            drives the effects is computed once, unless the table is long, and so is how the last model stands.
     """
 
-    order: Indices
-    scenes: list[tuple[Indices, Scene]] = field(default_factory=list)
-    model: FittedModel | None = None
-    postures: list[Posture] = field(default_factory=list)
+    recordings: Recordings
+    channels: tuple[Channel, ...] = ()
+    order: Indices | None = None
+    _scenes: list[tuple[Indices, Scene]] = field(default_factory=list, repr=False)
+    _model: FittedModel | None = field(default=None, repr=False)
+    _postures: list[Posture] = field(default_factory=list, repr=False)
+
+    def __post_init__(self) -> None:
+        self.channels = self.channels or supported(self.recordings)
+
+    def __len__(self) -> int:
+        return len(self.recordings)
+
+    @property
+    def keeps(self) -> bool:
+        """Whether what was computed is kept between passes."""
+        return self.order is not None and len(self) <= KEPT_ROWS
+
+    def rows(self, rows: Indices) -> LinearisedTable:
+        """Some of the rows; nothing is kept of them."""
+        return LinearisedTable(self.recordings.rows(rows), self.channels)
+
+    def chunks(self, model: FittedModel, order: Indices | None = None) -> Iterator[tuple[Indices, Posture]]:
+        """(rows, posture) of the model, chunk by chunk; in an order of rows (N,), unless the table has its own."""
+        if not self.keeps:
+            yield from ((rows, model.posture(scene)) for rows, scene in self._made(model, order))
+            return
+        self._scenes = self._scenes or list(self._made(model, self.order))
+        if self._model is not model:
+            self._postures = [model.posture(scene) for _, scene in self._scenes]
+            self._model = model
+        yield from ((rows, posture) for (rows, _), posture in zip(self._scenes, self._postures, strict=True))
+
+    def _made(self, model: FittedModel, order: Indices | None) -> Iterator[tuple[Indices, Scene]]:
+        order = np.arange(len(self)) if order is None else order
+        for start in range(0, len(self), CHUNK_ROWS):
+            rows = order[start : start + CHUNK_ROWS]
+            yield rows, model.scene(self.recordings.rows(rows))
 
 
-_KEPT: WeakKeyDictionary[Recordings, Kept] = WeakKeyDictionary()
+Measured = LinearisedTable | Recordings
+"""Rows; of recordings all channels count that they support."""
 
 
-def keep_drivers(recordings: Recordings, order: Indices) -> Recordings:
-    """A copy of a table; what drives the effects on its rows is computed once, unless it is long.
-
-    Args:
-        order: (N,) of the rows in which chunks take them: rows of one block side by side.
-    """
-    table = replace(recordings)
-    if len(table) <= KEPT_ROWS:
-        _KEPT[table] = Kept(order)
-    return table
+def linearised(rows: Measured) -> LinearisedTable:
+    """The rows as a table to linearise."""
+    return rows if isinstance(rows, LinearisedTable) else LinearisedTable(rows)
 
 
-def chunks(
-    model: FittedModel, recordings: Recordings, order: Indices | None = None
-) -> Iterator[tuple[Indices, Posture]]:
-    """(rows, posture) of the model, chunk by chunk; in an order of rows, where one is given."""
-    kept = _KEPT.get(recordings)
-    if kept is None:
-        order = np.arange(len(recordings)) if order is None else order
-        yield from ((rows, model.posture(scene)) for rows, scene in _scenes(model, recordings, order))
-        return
-    kept.scenes = kept.scenes or list(_scenes(model, recordings, kept.order))
-    if kept.model is not model:
-        kept.postures = [model.posture(scene) for _, scene in kept.scenes]
-        kept.model = model
-    yield from ((rows, posture) for (rows, _), posture in zip(kept.scenes, kept.postures, strict=True))
+def residuals(model: FittedModel, rows: Measured) -> ChannelResiduals:
+    """What a model leaves of every row in every channel: measured minus modelled."""
+    table = linearised(rows)
+    left = {channel: np.empty((len(table), channel.width)) for channel in table.channels}
+    for at, posture in table.chunks(model):
+        for channel, values in left.items():
+            values[at] = channel.residual(model, posture)
+    return ChannelResiduals(left)
 
 
-def _scenes(model: FittedModel, recordings: Recordings, order: Indices) -> Iterator[tuple[Indices, Scene]]:
-    for start in range(0, len(recordings), CHUNK_ROWS):
-        rows = order[start : start + CHUNK_ROWS]
-        yield rows, model.scene(recordings.rows(rows))
-
-
-def residuals(model: FittedModel, recordings: Recordings) -> Array:
+def point_residuals(model: FittedModel, recordings: Recordings) -> Array:
     """(N, 3) measured minus modelled tool points, base axes, mm."""
-    left = np.empty((len(recordings), 3))
-    for rows, posture in chunks(model, recordings):
-        left[rows] = _shift(model, posture)
-    return left
-
-
-def missed(model: FittedModel, recordings: Recordings) -> Missed:
-    """What a model leaves of every row: measured minus modelled tool points, and the turns between orientations."""
-    if recordings.orientation is None:
-        return Missed(residuals(model, recordings))
-    shift, turn = np.empty((len(recordings), 3)), np.empty((len(recordings), 3))
-    for rows, posture in chunks(model, recordings):
-        shift[rows], turn[rows] = _shift(model, posture), model.missed_turns(posture)
-    return Missed(shift, turn)
-
-
-def _shift(model: FittedModel, posture: Posture) -> Array:
-    """(n, 3) measured minus modelled tool points of a posture's rows, base axes, mm."""
-    table = posture.scene.recordings
-    return np.asarray((model.to_base(table.positions, table.run) - posture.tool) * 1e3)
-
-
-def response(model: FittedModel, posture: Posture, lens: Lens) -> Array:
-    """(n, 3 or 6) what a model leaves of a posture's rows, as a lens shows it: W^1/2 y, mm."""
-    shift = _shift(model, posture)
-    if lens.turn is None:
-        return lens.through(shift, shift)
-    return lens.through(shift, 1e3 * np.nan_to_num(model.missed_turns(posture)))
+    return residuals(model, LinearisedTable(recordings, (POSITIONS,))).points_mm
 
 
 def normal_equations_by_block(
-    pool: ParameterLayout, model: FittedModel, recordings: Recordings, weights: RowWeights, blocks: Indices
+    pool: ParameterLayout, model: FittedModel, rows: Measured, weights: RowWeights, blocks: Indices
 ) -> list[NormalEquations]:
     """Gram matrices per block of rows.
 
@@ -124,7 +115,8 @@ def normal_equations_by_block(
     starts from no effects while the linearisation stands where the model stands.
 
     Args:
-        weights: of the rows.
+        rows: a table, or recordings.
+        weights: of the rows; only the channels that they are of count.
         blocks: (N,) number of each row's block, from 0.
     """
     column_order = pool.column_order
@@ -132,12 +124,13 @@ def normal_equations_by_block(
     count, p = int(blocks.max()) + 1, len(pool.terms)
     G = [np.zeros((p, p)) for _ in range(count)]
     b, yy, n = np.zeros((count, p)), np.zeros(count), np.zeros(count)
-    order = np.argsort(blocks, kind="stable") if count > 1 and recordings not in _KEPT else None
-    for rows, posture in chunks(model, recordings, order):
-        lens = weights.lens(rows)
-        seen = structured_design(posture.through(lens), column_order)
-        y = response(model, posture, lens).T + seen.matvec(current)
-        numbers, inside = weights.numbers(rows), blocks[rows]
+    table = linearised(rows)
+    order = np.argsort(blocks, kind="stable") if count > 1 and not table.keeps else None
+    for chunk, posture in table.chunks(model, order):
+        whitener = weights.whitener(chunk)
+        seen = structured_design(WhitenedPosture(posture, whitener), column_order)
+        y = whitener.response(model, posture).T + seen.matvec(current)
+        numbers, inside = weights.numbers(chunk), blocks[chunk]
         for block in np.unique(inside):
             at = _where(inside == block)
             part, yb = seen.at(at), y[:, at]

@@ -2,27 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from armscope.core.types import Array
 from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic, gauss_newton
-from armscope.fitting.linearisation import current_parameters, missed, normal_equations_by_block
+from armscope.fitting.linearisation import (
+    Measured,
+    current_parameters,
+    linearised,
+    normal_equations_by_block,
+    residuals,
+)
 from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
-from armscope.fitting.registration import moved_base
 from armscope.inference.constants import PRIORS
 from armscope.inference.normal_equations import NormalEquations, column_scales
 from armscope.measurement import robust
-from armscope.measurement.row_weights import Missed, RowNoise, RowWeights
+from armscope.measurement.channel import ChannelResiduals, retracted
+from armscope.measurement.row_weights import RowNoise, RowWeights
 from armscope.physics.backgrounds import TOLERANCE
-from armscope.physics.effect import AXES, Placed, Term
-from armscope.physics.frames import ToolKey, tool_key
+from armscope.physics.effect import Placed, Term
 from armscope.physics.model import FittedModel
 from armscope.physics.scene import Part
-from armscope.recordings import Recordings
 
 STEPS = 6
 CONVERGED_MM, CONVERGED = 1e-6, 0.05
@@ -44,7 +47,7 @@ class Refit:
         covariance: (p, p) of all values, SI units.
         noise: mm per axis.
         spent: effective number of fitted values.
-        missed: what the model leaves.
+        left: what the model leaves.
     """
 
     model: FittedModel
@@ -55,12 +58,12 @@ class Refit:
     noise: float
     spent: float
     weights: RowWeights
-    missed: Missed
+    left: ChannelResiduals
 
     @property
     def residuals(self) -> Array:
         """(N, 3) mm, base axes."""
-        return self.missed.shift
+        return self.left.points_mm
 
     def covariance_of(self, placed: Placed) -> Array:
         """Covariance of one effect's terms, SI units."""
@@ -68,12 +71,12 @@ class Refit:
         return np.asarray(self.covariance[np.ix_(at, at)])
 
 
-class ModelFit(NonlinearProblem[FittedModel, Missed]):
+class ModelFit(NonlinearProblem[FittedModel, ChannelResiduals]):
     """A model's frames, background and effects fitted to recordings with the exact model; noise found on the way.
 
     Args:
         parts: the columns that are fitted: all of the model's.
-        recordings: the rows.
+        rows: a table, or recordings.
         weigh: weights of the rows by what the model leaves.
         precision: (p,) prior precisions, SI units, by the columns' sums.
         least_noise: mm; 0 where nothing is known.
@@ -85,13 +88,13 @@ class ModelFit(NonlinearProblem[FittedModel, Missed]):
     def __init__(
         self,
         parts: ParameterLayout,
-        recordings: Recordings,
-        weigh: Callable[[Missed], RowWeights],
+        rows: Measured,
+        weigh: Callable[[ChannelResiduals], RowWeights],
         precision: Callable[[NormalEquations], Array],
         least_noise: float,
         negligible: float,
     ) -> None:
-        self.parts, self.recordings = parts, recordings
+        self.parts, self.table = parts, linearised(rows)
         self.weigh, self.prior = weigh, precision
         self.noise, self.negligible = least_noise, negligible
         self.weights: RowWeights
@@ -100,16 +103,16 @@ class ModelFit(NonlinearProblem[FittedModel, Missed]):
         self.inverse: Array
         self.spent: float
 
-    def residual(self, state: FittedModel) -> Missed:
+    def residual(self, state: FittedModel) -> ChannelResiduals:
         """What a model leaves of every row, mm and rad."""
-        return missed(state, self.recordings)
+        return residuals(state, self.table)
 
-    def quadratic(self, state: FittedModel, residual: Missed) -> Quadratic:
+    def quadratic(self, state: FittedModel, residual: ChannelResiduals) -> Quadratic:
         """Sums over weighted rows; with the noise that they leave once all is fitted."""
         self.weights = self.weigh(residual)
-        blocks = np.zeros(len(self.recordings), dtype=np.intp)
-        self.gram = normal_equations_by_block(self.parts, state, self.recordings, self.weights, blocks)[0]
-        noise = self.noise or robust.scale_of(residual.shift)
+        blocks = np.zeros(len(self.table), dtype=np.intp)
+        self.gram = normal_equations_by_block(self.parts, state, self.table, self.weights, blocks)[0]
+        noise = self.noise or robust.scale_of(residual.points_mm)
         self.precision = self.prior(self.gram)
         solved = Quadratic(
             self.gram.G + np.diag(noise**2 * self.precision), self.gram.b, current_parameters(self.parts, state)
@@ -120,34 +123,34 @@ class ModelFit(NonlinearProblem[FittedModel, Missed]):
         self.noise = max(float(np.sqrt(max(left, 0.0) / max(self.gram.n - self.spent, 1.0))), 1e-9)
         return solved
 
-    def misfit(self, state: FittedModel, residual: Missed) -> float:
+    def misfit(self, state: FittedModel, residual: ChannelResiduals) -> float:
         """The usual row's size, whatever its weight."""
-        return robust.scale_of(residual.shift)
+        return robust.scale_of(residual.points_mm)
 
     def moved(self, state: FittedModel, step: Array) -> FittedModel:
         """The model a step further; frame columns are increments where it stands."""
         values = current_parameters(self.parts, state) + step
-        moved = moved_frames(state, dict(zip(self.parts.terms, step, strict=True)))
+        moved = retracted(self.table.channels, state, dict(zip(self.parts.terms, step, strict=True)))
         background, parts = (
             tuple(Part(part.placed, values[self.parts.of(part.placed)]) for part in some)
             for some in (state.background, state.parts)
         )
         return replace(moved, background=background, parts=parts)
 
-    def settled(self, before: Missed, after: Missed) -> bool:
+    def settled(self, before: ChannelResiduals, after: ChannelResiduals) -> bool:
         """Whether points move by next to nothing beside what noise leaves uncertain."""
         uncertain = self.noise * np.sqrt(self.spent / max(self.gram.n, 1.0))
-        moved = np.sqrt(np.mean((after.shift - before.shift) ** 2))
+        moved = np.sqrt(np.mean((after.points_mm - before.points_mm) ** 2))
         return bool(moved < max(CONVERGED_MM, self.negligible * uncertain))
 
 
 def refit(
     model: FittedModel,
-    recordings: Recordings,
+    rows: Measured,
     frames: Sequence[Placed],
     backgrounds: Sequence[tuple[Sequence[Placed], float]],
     effects: Sequence[tuple[Placed, float]],
-    rows: RowNoise,
+    row_noise: RowNoise,
     least_noise: float,
     whitening: Array | None = None,
 ) -> Refit:
@@ -158,7 +161,8 @@ def refit(
         backgrounds: per family (effects, size): a share of the tolerance for the first, mm at the tool for the others;
             families of size 0 are left out.
         effects: (effect, size at the tool, mm).
-        rows: relative uncertainty of the rows, and which are independent.
+        rows: a table, or recordings.
+        row_noise: relative uncertainty of the rows, and which are independent.
         whitening: (N, 3, 3) of rows that scatter along known directions.
     """
     named = {term for placed, _ in effects for term in placed.terms}
@@ -167,8 +171,8 @@ def refit(
     parts = parameter_layout(frames, kept, [placed for placed, _ in effects])
     problem = ModelFit(
         parts,
-        recordings,
-        lambda left: rows.weights(left, least_noise, whitening),
+        rows,
+        lambda left: row_noise.weights(left, least_noise, whitening),
         lambda gram: _precision(parts, gram, [size for _, size in backgrounds], effects),
         least_noise,
         CONVERGED,
@@ -223,26 +227,3 @@ def _precision(
         variance[at] = np.minimum(variance[at], PRIORS.frame_mm**2 * gram.n / np.maximum(np.diag(gram.G)[at], 1e-24))
     variance[parts.frames] = (PRIORS.frame_mm / scale[parts.frames]) ** 2
     return np.asarray(1 / variance)
-
-
-def moved_frames(model: FittedModel, steps: Mapping[Term, float]) -> FittedModel:
-    """The model with its bases and tools moved by steps (SI units) of the free frames' terms; others don't count."""
-    twists: dict[str, Array] = {}
-    turns: dict[ToolKey, Array] = {}
-    for term, value in steps.items():
-        product = term.products[0]
-        axis = AXES.index(product.direction.axis) if product.direction.axis in AXES else -1
-        if product.driver.kind == "in run" and product.direction.location == "base":
-            twists.setdefault(str(product.driver.arguments[0]), np.zeros(6))[axis] = value
-        elif product.driver.kind.startswith("on target") and product.direction.location == "tool" and axis >= 3:
-            turns.setdefault(tool_key(product.driver), np.zeros(3))[axis - 3] = value
-    bases = {run: moved_base(base, twists.get(run, np.zeros(6))) for run, base in model.bases.items()}
-    tools = tuple(
-        Part(part.placed, part.values + np.array([steps.get(term, 0.0) for term in part.placed.terms]))
-        for part in model.tools
-    )
-    turned = {
-        key: Rotation.from_rotvec(turns.get(key, np.zeros(3))).as_matrix() @ turn
-        for key, turn in model.tool_turns.items()
-    }
-    return replace(model, bases=bases, tools=tools, tool_turns=turned)

@@ -49,16 +49,13 @@ def _tool_turns(
     which_tool: NDArray[np.intp],
 ) -> dict[ToolKey, Array]:
     """How each tool is turned on the last frame (N, 3, 3): the mean of its rows without those far off."""
-    if recordings.orientation is None:
-        return {}
-    known = np.isfinite(recordings.orientation).all(axis=1)
     turns = {}
     for number, key in enumerate(keys):
-        rows = np.flatnonzero(known & (which_tool == number))
+        rows = np.flatnonzero(recordings.oriented & (which_tool == number))
         if not len(rows):
             continue
         placed = np.array([bases[r].rotation for r in which_run[rows]]) @ modelled[rows]
-        measured = Rotation.from_quat(recordings.orientation[rows], scalar_first=True)
+        measured = Rotation.from_quat(recordings.quaternions[rows], scalar_first=True)
         on_flange = Rotation.from_matrix(placed).inv() * measured
         mean = on_flange.mean()
         for _ in range(TURN_STEPS):
@@ -85,9 +82,3 @@ def _tool_of_row(recordings: Recordings, keys: list[tuple[str, str | None]]) -> 
 def _weights(residual: Array) -> Array:
     """(N,) Huber's."""
     return robust.huber_weights(residual, np.ones(len(residual)), 0.0)
-
-
-def moved_base(base: Base, twist: Array) -> Base:
-    """The base after a twist (translation m, rotation rad) in its own axes."""
-    turn = Rotation.from_rotvec(twist[3:]).as_matrix()
-    return Base(base.rotation @ turn, base.translation + base.rotation @ twist[:3])

@@ -10,12 +10,13 @@ import numpy as np
 
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
-from armscope.fitting.design_matrix import columns
+from armscope.fitting.design_matrix import point_columns
 from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic, gauss_newton
-from armscope.fitting.linearisation import chunks, residuals
-from armscope.fitting.refit import moved_frames
+from armscope.fitting.linearisation import linearised, point_residuals
 from armscope.fitting.registration import fit_frames
 from armscope.measurement import robust
+from armscope.measurement.channel import retracted
+from armscope.measurement.registry import supported
 from armscope.physics.drivers import follows
 from armscope.physics.effect import Placed, Term
 from armscope.physics.frames import free_frames
@@ -91,7 +92,7 @@ def transfer(
     if "tool" not in frames:
         _check_targets(model, recordings)
     own, bare = (_placed_anew(each, recordings, frames, tool_per_run) for each in (own, bare))
-    left, before = residuals(own, recordings), residuals(bare, recordings)
+    left, before = point_residuals(own, recordings), point_residuals(bare, recordings)
     return Transferred(
         rows=len(recordings),
         applied=_words(parts, background),
@@ -185,20 +186,20 @@ class _Frames(NonlinearProblem[FittedModel, Array]):
         self.recordings, self.terms = recordings, terms
 
     def residual(self, state: FittedModel) -> Array:
-        return residuals(state, self.recordings)
+        return point_residuals(state, self.recordings)
 
     def quadratic(self, state: FittedModel, residual: Array) -> Quadratic:
         weight = robust.huber_weights(residual, np.ones(len(residual)), 0.0)
         G, b = np.zeros((len(self.terms), len(self.terms))), np.zeros(len(self.terms))
-        for rows, posture in chunks(state, self.recordings):
-            X = columns(posture, self.terms)
+        for rows, posture in linearised(self.recordings).chunks(state):
+            X = point_columns(posture, self.terms)
             weighted = X * np.repeat(weight[rows], 3)[:, None]
             G += weighted.T @ X
             b += weighted.T @ residual[rows].reshape(-1)
         return Quadratic(G, b, np.zeros(len(b)))
 
     def moved(self, state: FittedModel, step: Array) -> FittedModel:
-        return moved_frames(state, dict(zip(self.terms, step, strict=True)))
+        return retracted(supported(self.recordings), state, dict(zip(self.terms, step, strict=True)))
 
     def settled(self, before: Array, after: Array) -> bool:
         return float(np.abs(after - before).max()) < NEGLIGIBLE_MM

@@ -2,43 +2,57 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 
 import numpy as np
+from scipy.stats import chi
 
 from armscope.core.types import Array
 
 Rule = Callable[[Array, Array, float], Array]
-"""(N,) weights of residuals (N, 3), by their relative uncertainty (N,) and the least noise."""
+"""(N,) weights of residuals (N, c), by their relative uncertainty (N,) and the least noise."""
 
 MEDIAN_OF_CHI3 = 1.5381722
 """Median length of a 3-vector of unit normals."""
 TUNING_CONSTANT = 4.5
-"""Scales beyond which a row is weighted down: one clean row in 6000."""
-SUSPECT_WEIGHT = 0.5
+"""Scales beyond which a row of three numbers is weighted down: one clean row in 6000."""
 
 
 def scale_of(residuals: Array, least: float = 0.0) -> float:
-    """Noise per axis from the median length of residuals (N, 3), at least ``least``."""
-    return max(float(np.median(np.linalg.norm(residuals, axis=1))) / MEDIAN_OF_CHI3, least, 1e-9)
+    """Noise per axis from the median length of residuals (N, c), at least ``least``."""
+    median = _median_length(residuals.shape[1])
+    return max(float(np.median(np.linalg.norm(residuals, axis=1))) / median, least, 1e-9)
+
+
+@functools.cache
+def _median_length(width: int) -> float:
+    """Median length of a vector of so many unit normals."""
+    return MEDIAN_OF_CHI3 if width == 3 else float(chi(width).median())
+
+
+@functools.cache
+def tuning_constant(width: int) -> float:
+    """`TUNING_CONSTANT` for rows of so many numbers: as many clean rows lie beyond."""
+    return TUNING_CONSTANT if width == 3 else float(chi(width).isf(chi(3).sf(TUNING_CONSTANT)))
 
 
 def huber_weights(residuals: Array, uncertainty: Array, least: float) -> Array:
     """(N,) weights while structure may still be in the residuals: Huber's, so that nothing is silenced yet."""
     far = _distance(residuals, uncertainty, least)
-    return np.minimum(1.0, TUNING_CONSTANT / far) / uncertainty**2
+    return np.minimum(1.0, tuning_constant(residuals.shape[1]) / far) / uncertainty**2
 
 
 def quartic_weights(residuals: Array, uncertainty: Array, least: float) -> Array:
-    """(N,) weights against the fitted model: 1 up to `TUNING_CONSTANT` scales, then falling with the fourth power.
+    """(N,) weights against the fitted model: 1 up to `tuning_constant` scales, then falling with the fourth power.
 
     Args:
-        residuals: (N, 3).
+        residuals: (N, c).
         uncertainty: (N,) relative stated uncertainty of the rows (1 where not stated).
         least: the noise is not taken to be below this.
     """
     far = _distance(residuals, uncertainty, least)
-    return np.minimum(1.0, TUNING_CONSTANT / far) ** 4 / uncertainty**2
+    return np.minimum(1.0, tuning_constant(residuals.shape[1]) / far) ** 4 / uncertainty**2
 
 
 def _distance(residuals: Array, uncertainty: Array, least: float) -> Array:

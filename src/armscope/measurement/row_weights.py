@@ -1,4 +1,4 @@
-"""How much each row counts: a weight, and a whitening where rows scatter along known directions."""
+"""How much each row counts: per channel a weight, and a whitening where rows scatter along known directions."""
 
 from __future__ import annotations
 
@@ -8,27 +8,12 @@ import numpy as np
 
 from armscope.core.types import Array, Indices
 from armscope.measurement import robust
-from armscope.physics.lens import Lens
+from armscope.measurement.channel import Channel, ChannelResiduals
+from armscope.measurement.positions import POSITIONS
+from armscope.measurement.whitening import Whitener
 
 INLIER_WEIGHT = 0.5
-"""Rows with a smaller part of their clean weight do not count as measurements."""
-
-
-FINEST_TURN_RAD = 1e-6
-"""No instrument resolves less: orientations that fit better are as good as that."""
-
-
-@dataclass(frozen=True, eq=False)
-class Missed:
-    """What a model leaves of N rows, base axes.
-
-    Attributes:
-        shift: (N, 3) mm.
-        turn: (N, 3) rad, NaN where the orientation was not measured; None where it was not in any row.
-    """
-
-    shift: Array
-    turn: Array | None = None
+"""Rows with a smaller part of their nominal weight do not count as measurements."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +21,7 @@ class RowNoise:
     """What is known of N rows' noise beside its size.
 
     Attributes:
-        uncertainty: (N,) relative to the usual row's.
+        uncertainty: (N,) of the reference channel, relative to the usual row's.
         independence_weight: (N,) of an independent row that each stands for: a pose visited again is no new pose.
     """
 
@@ -48,29 +33,77 @@ class RowNoise:
         """(N,) weights of rows that are no bad shots."""
         return np.asarray(self.independence_weight / self.uncertainty**2)
 
-    def weights(self, missed: Missed, least: float, whitening: Array | None = None) -> RowWeights:
-        """Weights against what a fitted model leaves, its shifts whitened."""
-        white = RowWeights(self.nominal_weight, whitening).whitened(missed.shift)
-        return self._weights(robust.quartic_weights, white, missed.turn, least, whitening)
+    def weights(self, left: ChannelResiduals, least: float, whitening: Array | None = None) -> RowWeights:
+        """Weights against what a fitted model leaves, the reference channel whitened.
 
-    def first_weights(self, missed: Missed, least: float) -> RowWeights:
+        Args:
+            least: mm, below which the reference channel's noise is not taken to be.
+            whitening: (N, width, width) of the reference channel.
+        """
+        return self._weights(robust.quartic_weights, left, least, whitening)
+
+    def first_weights(self, left: ChannelResiduals, least: float) -> RowWeights:
         """Weights while structure may still be in the residuals."""
-        return self._weights(robust.huber_weights, missed.shift, missed.turn, least, None)
+        return self._weights(robust.huber_weights, left, least, None)
 
-    def _weights(
-        self, rule: robust.Rule, white: Array, turn: Array | None, least: float, whitening: Array | None
-    ) -> RowWeights:
-        row = rule(white, self.uncertainty, least) * self.independence_weight
-        shifts = RowWeights(row, whitening, self.nominal_weight, self.independence_weight)
-        if turn is None:
-            return shifts
-        known = np.isfinite(turn).all(axis=1)
-        clean = np.where(known, self.independence_weight, 0.0)
-        of_turns = clean.copy()
-        of_turns[known] *= rule(turn[known], np.ones(int(known.sum())), FINEST_TURN_RAD)
-        noise = robust.scale_of(white / self.uncertainty[:, None], least)
-        lever = 1e-3 * noise / robust.scale_of(turn[known], FINEST_TURN_RAD)
-        return replace(shifts, turns=RowWeights(of_turns, None, clean, self.independence_weight), lever=lever)
+    def _weights(self, rule: robust.Rule, left: ChannelResiduals, least: float, whitening: Array | None) -> RowWeights:
+        (reference, residual), *others = left.by_channel.items()
+        white = whitened(1e3 * residual, whitening)
+        weight = rule(white, self.uncertainty, least) * self.independence_weight
+        of_channels = [ChannelWeights(reference, weight, self.nominal_weight, whitening)]
+        for channel, residual in others:
+            noise = robust.scale_of(white / self.uncertainty[:, None], least)
+            of_channels.append(self._beside(channel, residual, rule, noise))
+        return RowWeights(tuple(of_channels), self.independence_weight)
+
+    def _beside(self, channel: Channel, residual: Array, rule: robust.Rule, noise: float) -> ChannelWeights:
+        """Weights of another channel beside the reference, whose noise (mm) it is scaled to."""
+        known = np.isfinite(residual).all(axis=1)
+        nominal = np.where(known, self.independence_weight, 0.0)
+        weight = nominal.copy()
+        weight[known] *= rule(residual[known], np.ones(int(known.sum())), channel.floor)
+        scale = 1e-3 * noise / robust.scale_of(residual[known], channel.floor)
+        return ChannelWeights(channel, weight, nominal, scale=scale)
+
+
+@dataclass(frozen=True, eq=False)
+class ChannelWeights:
+    """Weights of one channel's N rows.
+
+    Attributes:
+        weight: (N,), 0 where not measured.
+        nominal_weight: (N,) the weights if no row were a bad shot; None: ones.
+        whitening: (N, width, width) of each row, or None.
+        scale: m per unit of the channel, by which it counts beside the reference: the ratio of their noises.
+    """
+
+    channel: Channel
+    weight: Array
+    nominal_weight: Array | None = None
+    whitening: Array | None = None
+    scale: float = 1.0
+
+    @property
+    def robust_weight(self) -> Array:
+        """(N,) 1 for rows that look like the others, less for bad shots."""
+        return self.weight if self.nominal_weight is None else np.asarray(self.weight / self.nominal_weight)
+
+    @property
+    def counts(self) -> Array:
+        """(N,) whether each row's reading does not look like a bad shot."""
+        nominal = 1.0 if self.nominal_weight is None else self.nominal_weight
+        return np.asarray(self.weight > INLIER_WEIGHT * nominal)
+
+    def factor(self, rows: Indices) -> Array:
+        """(n,) or (n, width, width) what readings of ``rows`` are multiplied by."""
+        root = self.scale * np.sqrt(self.weight[rows])
+        return root if self.whitening is None else np.asarray(root[:, None, None] * self.whitening[rows])
+
+    def take(self, rows: Indices, share: float) -> ChannelWeights:
+        """The weights of some rows, each standing for 1 / ``share`` rows."""
+        nominal = None if self.nominal_weight is None else self.nominal_weight[rows] / share
+        whitening = None if self.whitening is None else self.whitening[rows]
+        return replace(self, weight=self.weight[rows] / share, nominal_weight=nominal, whitening=whitening)
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,60 +111,71 @@ class RowWeights:
     """Weights of N rows.
 
     Attributes:
-        weight: (N,) weights.
-        whitening: (N, 3, 3) of each row's shift, or None.
-        nominal_weight: (N,) the weights if no row were a bad shot; None: ones.
+        of_channels: per channel; the reference first.
         independence_weight: (N,) of an independent row that each row stands for; None: ones.
-        turns: weights of the rows' orientations, 0 where not measured; None: orientations don't count.
-        lever: m/rad by which a turn counts beside a shift: the ratio of their noises.
     """
 
-    weight: Array
-    whitening: Array | None = None
-    nominal_weight: Array | None = None
+    of_channels: tuple[ChannelWeights, ...]
     independence_weight: Array | None = None
-    turns: RowWeights | None = None
-    lever: float = 0.0
+
+    @classmethod
+    def of_positions(cls, weight: Array) -> RowWeights:
+        """Weights (N,) of positions that are all there is."""
+        return cls((ChannelWeights(POSITIONS, weight),))
+
+    @property
+    def reference(self) -> ChannelWeights:
+        """The weights of the reference channel."""
+        return self.of_channels[0]
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        """What was measured."""
+        return tuple(each.channel for each in self.of_channels)
 
     @property
     def robust_weight(self) -> Array:
-        """(N,) 1 for rows that look like the others, less for bad shots."""
-        return self.weight if self.nominal_weight is None else np.asarray(self.weight / self.nominal_weight)
+        """(N,) 1 for rows whose reference reading looks like the others', less for bad shots."""
+        return self.reference.robust_weight
 
-    def count(self, rows: Indices) -> Array:
-        """(n,) how many independent measurements each of ``rows`` is: none, if it looks like a bad shot."""
-        clean = 1.0 if self.nominal_weight is None else self.nominal_weight[rows]
-        share = np.ones(len(rows)) if self.independence_weight is None else self.independence_weight[rows]
-        return np.where(self.weight[rows] > INLIER_WEIGHT * clean, share, 0.0)
+    @property
+    def whitening(self) -> Array | None:
+        """(N, width, width) of the reference channel."""
+        return self.reference.whitening
 
     def numbers(self, rows: Indices) -> Array:
         """(n,) how many independent numbers each of ``rows`` holds."""
-        shifts = 3 * self.count(rows)
-        return shifts if self.turns is None else shifts + 3 * self.turns.count(rows)
+        share = np.ones(len(rows)) if self.independence_weight is None else self.independence_weight[rows]
+        held = sum(each.channel.width * np.where(each.counts[rows], share, 0.0) for each in self.of_channels)
+        return np.asarray(held)
 
-    def lens(self, rows: Indices) -> Lens:
-        """W^1/2 of ``rows``: roots of the weights, times the whitening and the lever."""
-        root = np.sqrt(self.weight[rows])[:, None, None]
-        shift = root * (np.eye(3) if self.whitening is None else self.whitening[rows])
-        return Lens(shift, None if self.turns is None else self.lever * np.sqrt(self.turns.weight[rows]))
+    def whitener(self, rows: Indices) -> Whitener:
+        """W^1/2 of ``rows``."""
+        return Whitener(tuple((each.channel, each.factor(rows)) for each in self.of_channels))
 
     @property
-    def of_points(self) -> RowWeights:
-        """The weights of the points alone, as they are measured: without whitening and orientations."""
-        return replace(self, whitening=None, turns=None)
+    def of_reference(self) -> RowWeights:
+        """The weights of the reference channel alone."""
+        return replace(self, of_channels=self.of_channels[:1])
+
+    @property
+    def unwhitened(self) -> RowWeights:
+        """The same weights of readings as they were measured."""
+        return replace(self, of_channels=tuple(replace(each, whitening=None) for each in self.of_channels))
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether nothing but the reference channel counts, as it was measured."""
+        return len(self.of_channels) == 1 and self.whitening is None
 
     def take(self, rows: Indices, share: float = 1.0) -> RowWeights:
         """The weights of some rows, each standing for 1 / ``share`` rows."""
-        white, clean, independent = (
-            None if x is None else x[rows] for x in (self.whitening, self.nominal_weight, self.independence_weight)
-        )
-        turns = None if self.turns is None else self.turns.take(rows, share)
-        clean = None if clean is None else clean / share
-        return RowWeights(self.weight[rows] / share, white, clean, independent, turns, self.lever)
+        independent = None if self.independence_weight is None else self.independence_weight[rows]
+        return RowWeights(tuple(each.take(rows, share) for each in self.of_channels), independent)
 
-    def whitened(self, residuals: Array) -> Array:
-        """Residuals (N, 3) without the known scatter."""
-        if self.whitening is None:
-            return residuals
-        white: Array = (self.whitening @ residuals[:, :, None])[:, :, 0]
-        return white
+
+def whitened(residuals: Array, whitening: Array | None) -> Array:
+    """Residuals (N, width) without the known scatter."""
+    if whitening is None:
+        return residuals
+    return np.asarray((whitening @ residuals[:, :, None])[:, :, 0])

@@ -67,6 +67,12 @@ def swings(what: str) -> Clause:
     return clause
 
 
+def waves_column(told: Told) -> str:
+    """The atlas' column of a wave once or twice per turn."""
+    count = round(told.numbers["per_turn"].value) if "per_turn" in told.numbers else 0
+    return {1: "once per turn", 2: "twice per turn"}.get(count, "")
+
+
 def say(clauses: Iterable[Clause], told: Told) -> str:
     """The first of an effect's clauses whose numbers are all told, else its name and place."""
     for clause in (*clauses, GENERAL):

@@ -122,6 +122,7 @@ BASE_DRIFT = Effect(
         "at each time, stated frame + drift x time: command what the corrected model's inverse kinematics asks for."
     ),
     clauses=(_drifts, "the base drifts"),
+    atlas="time",
     needs=("time_s, or rows in order",),
     contained_in=("time",),
 )
@@ -140,7 +141,7 @@ def _place_tool_of_run(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
 
 def _axes_of_tool(recordings: Recordings) -> tuple[str, ...]:
     """How a tool that moved on the flange is seen to have moved: its point, and its turn where that was measured."""
-    return AXES[:3] if recordings.orientation is None else AXES
+    return AXES if recordings.oriented.any() else AXES[:3]
 
 
 def base_shift(recordings: Recordings, row: int, multiplicity: int) -> Placed:

@@ -16,7 +16,7 @@ from armscope.core.location import Location
 
 if TYPE_CHECKING:
     from armscope.core.types import Array
-    from armscope.physics.clause import Clause
+    from armscope.physics.clause import Clause, Told
     from armscope.physics.cure import Cure
     from armscope.physics.drivers import DriverKind
     from armscope.physics.scene import Part, Scene
@@ -170,7 +170,8 @@ class Effect:
         cure: how to take it out, in words and as code (`armscope.physics.cure`).
         clauses: what a headline says of it (`armscope.physics.clause`); the first whose numbers are told is said.
         labels: its parameters' names on a card, where their own don't say it.
-        atlas: the atlas' column in which it is weighed as a whole; "" where the cells of its place show it.
+        atlas: the atlas' column in which it shows, or a function that gives it; "" for none. Elsewhere than at a joint
+            or the base, and in a column of its own, it is weighed there as a whole.
         drivers: kinds of drivers that it brings along, by name (`armscope.physics.drivers`).
         needs: context columns without which it can't be seen.
         requires: family without which it does nothing: a payload's error shows through what gives way.
@@ -188,7 +189,7 @@ class Effect:
     cure: Cure = field(compare=False)
     clauses: tuple[Clause, ...] = field(default=(), repr=False, compare=False)
     labels: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
-    atlas: str = ""
+    atlas: str | Callable[[Told], str] = field(default="", repr=False, compare=False)
     drivers: Mapping[str, DriverKind] = field(default_factory=dict, repr=False, compare=False)
     needs: tuple[str, ...] = ()
     requires: str = ""

@@ -102,6 +102,7 @@ JOINT_COMPLIANCE = Effect(
         "commanded = wanted - compliance x load (load: gravity's torque on this motor, positive along its pull)."
     ),
     clauses=("{location} gives way by {compliance} under gravity", "{location} gives way under gravity"),
+    atlas="gravity load",
     nonnegative=True,
     contained_in=("load",),
 )
@@ -136,6 +137,7 @@ BEARING_COMPLIANCE = Effect(
         "the bearing of {location} tilts by {compliance} under gravity",
         "the bearing of {location} tilts under gravity",
     ),
+    atlas="gravity load",
     nonnegative=True,
 )
 
@@ -156,6 +158,7 @@ BASE_COMPLIANCE = Effect(
         "model asks for (base tilted by + compliance x moment; `armscope compensate`)."
     ),
     clauses=("the base tilts by {compliance} under the arm's moment", "the base tilts under the arm's moment"),
+    atlas="gravity load",
     nonnegative=True,
 )
 

@@ -41,7 +41,13 @@ TOOL_TURN = Effect(
 
 def free_frames(recordings: Recordings, tool_per_run: bool) -> list[Placed]:
     """A base twist per run, and per target (and run, where asked) a tool translation, and its turn where measured."""
-    return [*_bases(recordings), *_tools(recordings, tool_per_run), *_tool_turns(recordings, tool_per_run)]
+    return [*bases_and_tools(recordings, tool_per_run), *tool_turns(recordings, tool_per_run)]
+
+
+def bases_and_tools(recordings: Recordings, tool_per_run: bool) -> Iterator[Placed]:
+    """A base twist per run, and a tool translation per target (and run, where asked)."""
+    yield from _bases(recordings)
+    yield from _tools(recordings, tool_per_run)
 
 
 def _bases(recordings: Recordings) -> Iterator[Placed]:
@@ -57,10 +63,9 @@ def _tools(recordings: Recordings, per_run: bool) -> Iterator[Placed]:
         yield Placed(TOOL_FRAME, "tool", terms, (1.0,) * 3, "target", variant=key[0])
 
 
-def _tool_turns(recordings: Recordings, per_run: bool) -> Iterator[Placed]:
-    if recordings.orientation is None:
-        return
-    oriented = recordings.rows(np.flatnonzero(np.isfinite(recordings.orientation).all(axis=1)))
+def tool_turns(recordings: Recordings, per_run: bool) -> Iterator[Placed]:
+    """A turn of the tool per target (and run, where asked) whose orientation was measured."""
+    oriented = recordings.rows(np.flatnonzero(recordings.oriented))
     for key in tool_keys(oriented, per_run):
         terms = six_terms("tool", _with_tool(key), axes=AXES[3:])
         yield Placed(TOOL_TURN, "tool", terms, (1.0,) * 3, "target", variant=key[0])

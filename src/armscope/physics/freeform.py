@@ -9,6 +9,7 @@ import numpy as np
 
 from armscope.core.location import Location
 from armscope.core.types import Array
+from armscope.physics.clause import Told
 from armscope.physics.cure import command
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
@@ -210,6 +211,12 @@ def _knots(values: Array, count: int) -> list[tuple[float, float]]:
     return [(low + n * width, width) for n in range(count)]
 
 
+def _column(told: Told) -> str:
+    """The atlas' column of what a curve follows."""
+    starts = {"angle of": "own angle", "load of": "gravity load", "time": "time", "temperature": "temperature"}
+    return next((column for start, column in starts.items() if told.driver.startswith(start)), "")
+
+
 UNKNOWN = Effect(
     "unknown",
     "unknown",
@@ -223,6 +230,7 @@ UNKNOWN = Effect(
         "something unexplained at {location} follows the {driver}",
     ),
     labels={"scatter": "scatter (1 sigma)"},
+    atlas=_column,
     several=True,
 )
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.physics.clause import Told, swings
+from armscope.physics.clause import Told, swings, waves_column
 from armscope.physics.cure import Cure, command
 from armscope.physics.effect import AXES, ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.placing import moving_joints
@@ -64,6 +64,7 @@ JOINT_OFFSET = Effect(
     ),
     clauses=("the zero of {location} is off by {offset:+}",),
     labels={"offset": "zero is off by"},
+    atlas="constant",
     contained_in=("angle", "load", "time", "temperature"),
 )
 
@@ -167,6 +168,7 @@ AXIS_WOBBLE = Effect(
         "kinematics of the corrected model asks for (nominal axis + fitted tilt; `armscope compensate`)."
     ),
     clauses=(swings("the axis of {location} tilts"),),
+    atlas=waves_column,
 )
 
 

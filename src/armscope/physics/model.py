@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
@@ -52,9 +51,14 @@ class FittedModel:
         """The arm at the rows of a table."""
         return Scene(self.arm, recordings)
 
+    @property
+    def everything(self) -> tuple[Part, ...]:
+        """All that moves the arm or its readings: tools, background and effects."""
+        return (*self.tools, *self.background, *self.parts)
+
     def posture(self, scene: Scene) -> Posture:
         """The arm at a scene's rows with all effects in place."""
-        return scene.posture((*self.tools, *self.background, *self.parts))
+        return scene.posture(self.everything)
 
     def base_of(self, run: str) -> Base:
         """The base of a run; of the last known one for a run that the model does not know."""
@@ -82,26 +86,12 @@ class FittedModel:
             points[rows] = (measured[rows] - base.translation) @ base.rotation
         return points
 
-    def missed_turns(self, posture: Posture) -> Array:
-        """(N, 3) rotation vectors from modelled to measured orientations, base axes, rad; NaN where not measured."""
-        recordings = posture.scene.recordings
-        missed = np.full((len(recordings), 3), np.nan)
-        if recordings.orientation is None:
-            return missed
-        known = np.isfinite(recordings.orientation).all(axis=1)
-        measured = Rotation.from_quat(recordings.orientation[known], scalar_first=True).as_matrix()
-        bases = self._base_turns(recordings.run[known])
-        modelled = posture.frames.tool_rotation[known] @ self._tool_turns(recordings)[known]
-        turned = np.swapaxes(bases, 1, 2) @ measured @ np.swapaxes(modelled, 1, 2)
-        missed[known] = Rotation.from_matrix(turned).as_rotvec()
-        return missed
-
-    def _base_turns(self, runs: NDArray[np.str_]) -> Array:
+    def base_turns(self, runs: NDArray[np.str_]) -> Array:
         """(N, 3, 3) measurement frame from base frame."""
         names, which = np.unique(runs, return_inverse=True)
         return np.array([self.base_of(str(run)).rotation for run in names])[which] if len(runs) else np.empty((0, 3, 3))
 
-    def _tool_turns(self, recordings: Recordings) -> Array:
+    def tool_turns_of(self, recordings: Recordings) -> Array:
         """(N, 3, 3) last frame from measured tool frame; unturned where the model knows none."""
         tools = np.stack([recordings.target, recordings.run], axis=1)
         keys, which = np.unique(tools, axis=0, return_inverse=True)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from copy import copy
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -17,8 +17,7 @@ import numpy as np
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics import drivers
-from armscope.physics.effect import AXES, Direction, Driver, Placed, Term
-from armscope.physics.lens import Lens
+from armscope.physics.effect import AXES, Direction, Driver, Placed, Term, motor
 from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain, twist_jacobian
 from armscope.robot.gravity import gravity_wrenches
@@ -217,8 +216,8 @@ class Scene:
         angle: Array = self.chain_angles[:, LINKAGE_JOINT - 1] + offset
         return angle
 
-    def twists(self, parts: Sequence[Part]) -> dict[str, Array]:
-        """Twists (N, 6) by frame of all parts together, SI units; motor turns become turns of the chain's joints."""
+    def amounts(self, parts: Sequence[Part]) -> dict[Direction, Array]:
+        """How much (N,) of every direction all parts together do, SI units."""
         amounts: dict[Direction, Array] = {}
 
         def add(direction: Direction, amount: Array) -> None:
@@ -232,19 +231,23 @@ class Scene:
             for value, term in zip(part.values, part.placed.terms, strict=True):
                 for product in term.products if value else ():
                     add(product.direction, value * product.factor * self.driver(product.driver))
+        return amounts
+
+    def twists(self, parts: Sequence[Part]) -> dict[str, Array]:
+        """Twists (N, 6) by frame of all parts together, SI units; motor turns become turns of the chain's joints."""
         twists: dict[str, Array] = {}
-        for direction, amount in amounts.items():
+        for direction, amount in self.amounts(parts).items():
             for location, axis, share in self._moved_by(direction):
                 twists.setdefault(location, np.zeros((len(self), 6)))[:, axis] += share * amount
         return twists
 
     def _moved_by(self, direction: Direction) -> Iterator[tuple[str, int, float]]:
-        """The frames that move in a direction, the axes along or about which they do, and by how much."""
+        """The frames that move in a direction, the axes along or about which they do, and by how much; maybe none."""
         place = Location.of(direction.location)
-        if place.kind == "motor":
+        if place.kind == "motor" and direction.axis == "turn":
             for joint in np.flatnonzero(self.arm.actuation[:, place.index]):
                 yield f"joint {joint + 1}", AXES.index("rz"), float(self.arm.actuation[joint, place.index])
-        elif direction.location != "instrument":
+        elif place.kind in FRAMES:
             yield direction.location, AXES.index(direction.axis), 1.0
 
     def stretch(self, parts: Sequence[Part]) -> float:
@@ -274,6 +277,8 @@ class Scene:
         return Posture(bent, frames, self.stretch(parts))
 
 
+FRAMES = ("base", "joint", "link", "tool")
+"""Kinds of places that a twist moves; other directions are seen by instruments that do not look at the tool."""
 FARTHEST_M = 0.2
 """An arm that a fit on its way bends farther than this is loaded as if it were rigid."""
 
@@ -293,62 +298,61 @@ class Posture:
         scene: rows and drivers.
         frames: where the frames stand, base axes.
         stretch: relative length error of the instrument.
-        lens: through which displacements and turns are seen; None: displacements as they are.
+        moved, turned: what was computed of `displacement` and `turn`.
     """
 
     scene: Scene
     frames: Chain
     stretch: float = 0.0
-    lens: Lens | None = None
-    _levers: dict[Direction, Array] = field(default_factory=dict, repr=False)
+    moved: dict[Direction, Array] = field(default_factory=dict, repr=False)
+    turned: dict[Direction, Array] = field(default_factory=dict, repr=False)
 
     @property
     def tool(self) -> Array:
         """(N, 3) tool points as the instrument sees them, in base axes, m."""
         return self.frames.tool * (1 + self.stretch)
 
-    def lever(self, direction: Direction) -> Array:
-        """(N, 3) displacement of the tool point per unit of a direction, m; (N, 3 or 6) as a lens shows it."""
-        if direction not in self._levers:
-            for each, moved, turned in self._levers_at(direction.location):
-                seen = moved if self.lens is None else self.lens.through(moved, turned)
-                # one component of all rows side by side: products with drivers run along the rows
-                self._levers[each] = np.asfortranarray(seen)
-        return self._levers[direction]
+    def displacement(self, direction: Direction) -> Array | None:
+        """(N, 3) displacement of the tool point per unit of a direction, m; None where nothing moves."""
+        if direction not in self.moved:
+            self.moved.update(self._displacements(direction.location))
+        return self.moved.get(direction)
 
-    def _levers_at(self, location: str) -> Iterator[tuple[Direction, Array, Array]]:
-        """Each direction at a location, the tool point's displacement and the tool's turn per unit of it."""
-        if location == "instrument":
-            yield Direction(location, "scale"), self.frames.tool, np.zeros_like(self.frames.tool)
-        elif Location.of(location).kind == "motor":
-            by_motor = joint_jacobian(self.frames) @ self.scene.arm.actuation
-            turned = joint_axes(self.frames) @ self.scene.arm.actuation
-            for j in range(by_motor.shape[2]):
-                yield Direction(f"motor {j + 1}", "turn"), by_motor[:, :, j], turned[:, :, j]
-        else:
-            jacobian, turned = twist_jacobian(self.frames, location), turn_jacobian(self.frames, location)
-            for axis, name in enumerate(AXES):
-                yield Direction(location, name), jacobian[:, :, axis], turned[:, :, axis]
-
-    @property
-    def numbers(self) -> int:
-        """How many numbers a row's motion has, as it is seen."""
-        return 3 if self.lens is None else self.lens.numbers
-
-    def through(self, lens: Lens) -> Posture:
-        """The same frames, their motions seen through a lens."""
-        return replace(self, lens=lens, _levers={})
+    def turn(self, direction: Direction) -> Array | None:
+        """(N, 3) turn of the tool per unit of a direction, rad; None where nothing turns."""
+        if direction not in self.turned:
+            self.turned.update(self._turns(direction.location))
+        return self.turned.get(direction)
 
     def column(self, term: Term) -> Array:
-        """(N, 3) displacement of the tool point per SI unit of a term, m; (N, 3 or 6) as a lens shows it."""
-        products = term.products
-        total = self._product(0, products)
-        for number in range(1, len(products)):
-            total = total + self._product(number, products)
+        """(N, 3) displacement of the tool point per SI unit of a term, m."""
+        total = np.zeros_like(self.frames.tool)
+        for product in term.products:
+            moved = self.displacement(product.direction)
+            if moved is not None:
+                total += moved * (product.factor * self.scene.driver(product.driver))[:, None]
         return total
 
-    def _product(self, number: int, products: tuple[Any, ...]) -> Array:
-        product = products[number]
-        amount = product.factor * self.scene.driver(product.driver)
-        moved: Array = self.lever(product.direction) * amount[:, None]
-        return moved
+    def _displacements(self, location: str) -> dict[Direction, Array]:
+        kind = Location.of(location).kind
+        if kind == "instrument":
+            return {Direction(location, "scale"): self.frames.tool}
+        if kind == "motor":
+            return _by_motor(joint_jacobian(self.frames) @ self.scene.arm.actuation)
+        return _by_axis(location, twist_jacobian(self.frames, location)) if kind in FRAMES else {}
+
+    def _turns(self, location: str) -> dict[Direction, Array]:
+        kind = Location.of(location).kind
+        if kind == "motor":
+            return _by_motor(joint_axes(self.frames) @ self.scene.arm.actuation)
+        return _by_axis(location, turn_jacobian(self.frames, location)) if kind in FRAMES else {}
+
+
+def _by_motor(jacobian: Array) -> dict[Direction, Array]:
+    """Columns (N, 3) of a Jacobian (N, 3, m) by the motors' directions."""
+    return {motor(j + 1): jacobian[:, :, j] for j in range(jacobian.shape[2])}
+
+
+def _by_axis(location: str, jacobian: Array) -> dict[Direction, Array]:
+    """Columns (N, 3) of a Jacobian (N, 3, 6) by the directions of a frame."""
+    return {Direction(location, name): jacobian[:, :, axis] for axis, name in enumerate(AXES)}

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from armscope.core.numerals import rounded
-from armscope.physics.clause import Told, swings
+from armscope.physics.clause import Told, swings, waves_column
 from armscope.physics.cure import command
 from armscope.physics.effect import Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.placing import moving_joints, varying_columns
@@ -52,6 +52,7 @@ GEAR_RATIO = Effect(
     ),
     clauses=(_turns,),
     labels={"ratio": "turns further by"},
+    atlas="own angle",
     contained_in=("angle",),
 )
 
@@ -87,6 +88,7 @@ GEAR_ECCENTRICITY = Effect(
         "commanded = wanted - amplitude x cos(per_turn x wanted - phase)."
     ),
     clauses=(swings("the angle of {location} swings"),),
+    atlas=waves_column,
     contained_in=("angle",),
 )
 
@@ -141,6 +143,7 @@ BACKLASH = Effect(
     ),
     clauses=("{location} has {gap} of play", "{location} has play"),
     labels={"gap": "play"},
+    atlas="side of approach",
     contained_in=("load", "approach"),
 )
 
@@ -163,6 +166,7 @@ SERVO_LAG = Effect(
     ),
     clauses=("{location} runs behind by {delay}",),
     labels={"delay": "runs behind by"},
+    atlas="speed",
     needs=("dq_rad_s",),
 )
 

@@ -66,7 +66,7 @@ def compare_runs(
     pairs: list[dict[str, object]] = []
     for learned in (POINTS, ORIENTATIONS):
         rows = replace(recordings, orientation=None) if learned == POINTS else recordings
-        if learned == ORIENTATIONS and recordings.orientation is None:
+        if learned == ORIENTATIONS and not recordings.oriented.any():
             continue
         found = {run: fit_give(arm, rows_of_run(rows, run), run) for run in reference.runs}
         for name, runs in reference.together.items():

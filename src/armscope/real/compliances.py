@@ -22,16 +22,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.stats import f as f_distribution
 
-from armscope.check.orientations import with_orientations
+from armscope.check.orientations import trusted_channels
 from armscope.check.preconditions import check_table
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.fitting.gauss_newton import Quadratic, gauss_newton
-from armscope.fitting.linearisation import missed, normal_equations_by_block
+from armscope.fitting.linearisation import normal_equations_by_block, residuals
 from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
 from armscope.fitting.refit import ModelFit
 from armscope.fitting.registration import fit_frames
 from armscope.inference.normal_equations import NormalEquations, total
+from armscope.measurement.registry import supported
 from armscope.measurement.row_weights import RowNoise
 from armscope.physics import elastic, geometric
 from armscope.physics.backgrounds import TOLERANCE
@@ -107,7 +108,7 @@ def fit_give(arm: Arm, recordings: Recordings, run: str) -> Give:
     arm, masses = as_heavy_as_recorded(arm, table)
     table = replace(table, torque=gravity_as_recorded(arm, table))
     model = fit_frames(arm, table, tool_per_run)
-    table = with_orientations(table, missed(model, table).turn)[0]
+    _, table, _ = trusted_channels(supported(table), table, residuals(model, table))
     drives = [placed for placed in elastic.JOINT_COMPLIANCE.place(arm, table) if placed.variant == ""]
     bearings = list(elastic.BEARING_COMPLIANCE.place(arm, table))
     waves = [mesh(j, per_turn) for j in moving_joints(table) for per_turn in WAVES]

@@ -114,9 +114,9 @@ def moved_table(stage: Stage, planted: Planted) -> pd.DataFrame:
     """The recordings with every measured point, and orientation, moved by what the effect does there."""
     points = stage.table[AXES_MM].to_numpy(dtype=float) + planted.moved * 1e3
     table = stage.table.assign(**{name: points[:, axis].round(5) for axis, name in enumerate(AXES_MM)})
-    if stage.recordings.orientation is None:
+    if not stage.recordings.oriented.any():
         return table
-    quaternions = stage.recordings.orientation.copy()
+    quaternions = stage.recordings.quaternions.copy()
     known = np.isfinite(quaternions).all(axis=1)
     measured = Rotation.from_quat(quaternions[known], scalar_first=True)
     turned = Rotation.from_matrix(planted.turned[known]) * measured

@@ -20,6 +20,7 @@ from armscope.calibration.splits import split
 from armscope.core.types import Array
 from armscope.diagnosis import Diagnosis, Settings, diagnose
 from armscope.errormodels import PAPER_MODELS, fit_least_squares
+from armscope.measurement.orientations import ORIENTATIONS
 from armscope.paper.printed import IDENTIFICATION
 from armscope.paper.real import real_measurements
 from armscope.physics.model import predict
@@ -77,7 +78,7 @@ def measure_run(
     ]
     names: list[dict[str, object]] = []
     diagnosed = list(seeds)[:diagnosed_splits]
-    models = {ARMSCOPE: diagnosed} | ({} if table.orientation is None else {ORIENTED: diagnosed[:oriented_splits]})
+    models = {ARMSCOPE: diagnosed} | ({} if not table.oriented.any() else {ORIENTED: diagnosed[:oriented_splits]})
     for model, seed in ((model, seed) for model, chosen in models.items() for seed in chosen):
         train, test = split(table, seed)
         settings = Settings(seed=seed, resamples=0, cross_validation=False, orientation=model == ORIENTED)
@@ -105,7 +106,7 @@ def rms_turn_mrad(verdict: Diagnosis, recordings: Recordings) -> float:
     """RMS of the angle between predicted and measured orientations, mrad; NaN where the diagnosis learned none."""
     if not verdict.model.tool_turns:
         return float("nan")
-    turns = verdict.model.missed_turns(verdict.model.posture(verdict.model.scene(recordings)))
+    turns = ORIENTATIONS.residual(verdict.model, verdict.model.posture(verdict.model.scene(recordings)))
     return 1e3 * float(np.sqrt(np.nanmean(np.sum(turns**2, axis=1))))
 
 

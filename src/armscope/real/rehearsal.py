@@ -110,7 +110,7 @@ def record(arm: Arm, rows: Recordings, drawn: Drawn, softer: float, rng: np.rand
     points, turns = predict(model, loaded), Rotation.from_matrix(predict_orientation(model, loaded))
     noise = np.where(rng.random(len(rows)) < BAD_SHOTS, FAR_MM, POINT_MM)[:, None]
     points = points + 1e-3 * noise * rng.normal(size=points.shape)
-    if rows.orientation is None:
+    if not rows.oriented.any():
         return replace(rows, positions=points, torque=recorded)
     turned = Rotation.from_rotvec(1e-3 * TURN_MRAD * rng.normal(size=points.shape)) * turns * Rotation.random(1, rng)[0]
     return replace(rows, positions=points, torque=recorded, orientation=turned.as_quat(scalar_first=True))
@@ -165,7 +165,7 @@ def rehearse_runs(
     """
     one, other = reference.runs[:2]
     found = []
-    for learned in (POINTS, ORIENTATIONS) if recordings.orientation is not None else (POINTS,):
+    for learned in (POINTS, ORIENTATIONS) if recordings.oriented.any() else (POINTS,):
         rows = replace(recordings, orientation=None) if learned == POINTS else recordings
         first, second = rows_of_run(rows, one), rows_of_run(rows, other)
         table = rehearse(arm, first, second, list(reference.microrad_per_nm), arms, seed)

@@ -91,6 +91,16 @@ class Recordings:
         return len(self.motor_angles)
 
     @property
+    def quaternions(self) -> Array:
+        """(N, 4) orientations (w, x, y, z), NaN where not measured."""
+        return np.full((len(self), 4), np.nan) if self.orientation is None else self.orientation
+
+    @property
+    def oriented(self) -> NDArray[np.bool_]:
+        """(N,) rows that hold an orientation."""
+        return np.asarray(np.isfinite(self.quaternions).all(axis=1))
+
+    @property
     def n_motors(self) -> int:
         """Number of motor angles per row."""
         return int(self.motor_angles.shape[1])

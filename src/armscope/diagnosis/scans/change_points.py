@@ -10,10 +10,11 @@ from armscope.core.types import Indices
 from armscope.diagnosis.scans.context import WORTH_A_LOOK, ScanContext, columns_of, scores_given
 from armscope.fitting.column_blocks import active_effects
 from armscope.fitting.design_matrix import columns
-from armscope.fitting.linearisation import chunks, response
+from armscope.fitting.linearisation import linearised
 from armscope.inference.additions import block_scores
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.linear_algebra import ColumnBlocks
+from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.drift import BASE_SHIFT, base_shift, row_number, tool_shift
 from armscope.physics.effect import Placed
 from armscope.recordings import Recordings
@@ -100,9 +101,9 @@ def step_sums(context: ScanContext, inside: Indices, rows: Indices, cuts: Indice
     values, active, present = active_effects(context.space.layout, context.model)
     segment = np.searchsorted(cuts, np.arange(len(rows)), side="right")
     own, cross, b = np.zeros((len(cuts) + 1, c, c)), np.zeros((len(cuts) + 1, k, c)), np.zeros((len(cuts) + 1, c))
-    for part, posture in chunks(context.model, context.recordings.rows(rows)):
-        lens = context.weights.lens(rows[part])
-        seen, y = posture.through(lens), response(context.model, posture, lens)
+    for part, posture in linearised(context.recordings.rows(rows)).chunks(context.model):
+        whitener = context.weights.whitener(rows[part])
+        seen, y = WhitenedPosture(posture, whitener), whitener.response(context.model, posture)
         if present:
             # the response before any effect
             y = y + (columns(seen, present) @ values[active]).reshape(y.shape)

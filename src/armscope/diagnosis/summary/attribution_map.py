@@ -24,6 +24,21 @@ DIRECTIONS = (*AXES, TOGETHER)
 Cell = tuple[int, int, int]
 
 
+GENERAL = {
+    "constant": "one",
+    "own angle": "angle",
+    "once per turn": "1",
+    "twice per turn": "2",
+    "gravity load": "load",
+    "side of approach": "approach",
+    "speed": "speed",
+    "temperature": "warmth",
+    "time": "hours",
+    "payload": "payload",
+}
+"""Columns that every joint and the base have, where the recordings hold what drives them, and their kind of driver."""
+
+
 def atlas(layout: ParameterLayout, model: FittedModel, recordings: Recordings, weights: RowWeights) -> Atlas:
     """The atlas on top of the free frames and on top of the fitted model.
 
@@ -59,12 +74,16 @@ def atlas(layout: ParameterLayout, model: FittedModel, recordings: Recordings, w
 
 
 def _whole_effects(model: FittedModel, recordings: Recordings) -> list[tuple[str, str, tuple[Term, ...]]]:
-    """(location, driver, terms) of the library's effects that are weighed as a whole: `Effect.atlas`."""
+    """(location, driver, terms) of the library's effects that are weighed as a whole.
+
+    Those elsewhere than at a joint or the base, and those with a column of their own.
+    """
     return [
         (placed.location, effect.atlas, placed.terms)
         for effect in effects()
-        if effect.atlas
+        if isinstance(effect.atlas, str) and effect.atlas
         for placed in effect.place(model.arm, recordings)
+        if effect.atlas not in GENERAL or Location.of(placed.location).kind not in ("base", "joint")
     ]
 
 
@@ -79,20 +98,15 @@ def _locations(model: FittedModel, whole: list[tuple[str, str, tuple[Term, ...]]
 
 def _drivers(model: FittedModel, recordings: Recordings) -> list[tuple[str, str]]:
     """(name, kind) of the drivers that the recordings hold."""
-    drivers = [("constant", "one"), ("own angle", "angle"), ("once per turn", "1"), ("twice per turn", "2")]
-    if has_load(model.arm) or recordings.torque is not None:
-        drivers.append(("gravity load", "load"))
-    if recordings.approach is not None:
-        drivers.append(("side of approach", "approach"))
-    if recordings.speed is not None:
-        drivers.append(("speed", "speed"))
-    if varies(recordings.temperature, 0.1):
-        drivers.append(("temperature", "warmth"))
-    if varies(recordings.time, 1.0):
-        drivers.append(("time", "hours"))
-    if varies(recordings.payload, 1e-6):
-        drivers.append(("payload", "payload"))
-    return drivers
+    there = {
+        "gravity load": has_load(model.arm) or recordings.torque is not None,
+        "side of approach": recordings.approach is not None,
+        "speed": recordings.speed is not None,
+        "temperature": varies(recordings.temperature, 0.1),
+        "time": varies(recordings.time, 1.0),
+        "payload": varies(recordings.payload, 1e-6),
+    }
+    return [(name, kind) for name, kind in GENERAL.items() if there.get(name, True)]
 
 
 def _cells(

@@ -10,7 +10,7 @@ import numpy as np
 from armscope.design.separation import nats_apart, separating
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.alternatives import Rival, discriminability
-from armscope.fitting.design_matrix import columns
+from armscope.fitting.design_matrix import point_columns
 from armscope.inference.constants import PRIORS
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import ONE
@@ -54,9 +54,9 @@ def next_poses(
     table = _reachable(arm, state.recordings, rng)
     scene = Scene(arm, table)
     posture = scene.posture()
-    X = columns(posture, state.space.layout.terms).reshape(len(table), 3, -1) / state.problem.scale
+    X = point_columns(posture, state.space.layout.terms).reshape(len(table), 3, -1) / state.problem.scale
     # the poses will be a run of their own, with a base that is fitted anew
-    new_base = columns(posture, six_terms("base", ONE)).reshape(len(table), 3, 6)
+    new_base = point_columns(posture, six_terms("base", ONE)).reshape(len(table), 3, 6)
     p = X.shape[2]
     between = X @ (best.coefficients(p) - other.coefficients(p))
     covariance = other.noise**2 * other.inverse.T @ other.inverse

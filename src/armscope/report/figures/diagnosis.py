@@ -26,6 +26,7 @@ from armscope.report.style import save_figure
 from armscope.robot import Arm, chain, position_jacobian
 from armscope.verdict.schema import INTERVAL, Atlas, Diagnosis, FoundEffect, Verdict, WaterfallStep
 from armscope.verdict.schema import Curve as FoundCurve
+from armscope.verdict.sentences import atlas_column
 from armscope.verdict.wording import plain
 
 FORMATS = ("png", "svg")
@@ -151,40 +152,8 @@ def atlas_tables(
     there = tables[0].notna()
     rows, columns = there.index[there.any(axis=1)], there.columns[there.any(axis=0)]
     shares, left = (table.reindex(index=rows, columns=columns) for table in tables)
-    marked = [cell for effect in effects if (cell := _cell(effect)) is not None]
+    marked = [(effect.location, column) for effect in effects if (column := atlas_column(effect))]
     return shares, left, marked
-
-
-ATLAS_DRIVERS = {
-    "joint_offset": "constant",
-    "link_geometry": "constant",
-    "gear_ratio": "own angle",
-    "joint_compliance": "gravity load",
-    "bearing_compliance": "gravity load",
-    "base_compliance": "gravity load",
-    "link_bending": "gravity load",
-    "backlash": "side of approach",
-    "servo_lag": "speed",
-    "parallelogram_geometry": "constant",
-    "instrument_scale": "constant",
-    "payload_error": "gravity load",
-    "thermal_expansion": "temperature",
-    "base_drift": "time",
-}
-FOLLOWED = {"angle of": "own angle", "load of": "gravity load", "time": "time", "temperature": "temperature"}
-"""Columns of the atlas by how the driver of an unexplained curve begins."""
-WAVES = {1: "once per turn", 2: "twice per turn"}
-
-
-def _cell(effect: FoundEffect) -> tuple[str, str] | None:
-    """Where in the atlas an effect shows; None: nowhere."""
-    driver = ATLAS_DRIVERS.get(effect.effect)
-    if effect.effect == "unknown":
-        driver = next((column for start, column in FOLLOWED.items() if effect.driver.startswith(start)), None)
-    if effect.effect in ("gear_eccentricity", "axis_wobble"):
-        count = next((p.value for p in effect.parameters if p.name == "per_turn"), 0)
-        driver = WAVES.get(round(count))
-    return None if driver is None else (effect.location, driver)
 
 
 def curve_of(effect: FoundEffect, found: FoundCurve) -> Curve:

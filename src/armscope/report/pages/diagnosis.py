@@ -13,12 +13,12 @@ import pandas as pd
 
 from armscope.core.files import write_text
 from armscope.core.numerals import rounded
+from armscope.errormodels.reference_models import held_out_rms
 from armscope.recordings import Recordings
 from armscope.recordings.motion import moving
 from armscope.report.figures.diagnosis import SavedFigure, location_shares, save_all, waterfall_steps
 from armscope.report.figures.error_field import MOST_ROWS, ErrorField, turnable
 from armscope.report.html import render_page
-from armscope.report.reference_models import held_out_rms
 from armscope.report.sections.effect_cards import Card, card
 from armscope.robot import Arm
 from armscope.verdict.schema import Diagnosis, FoundEffect, NextPoses, SuspectRow
