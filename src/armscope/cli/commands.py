@@ -13,7 +13,8 @@ from typing import Annotated, Any, get_type_hints
 import typer
 
 from armscope.cli.endings import told_to_end
-from armscope.core.outputs import Delivery, is_stream
+from armscope.core.outputs import Delivery
+from armscope.core.streams import is_stream
 
 OUTPUTS = ("output", "figure", "points", "visible", "sealed")
 """Parameters of this name are files or folders to write, and those marked `WRITTEN`; all other paths are read."""
