@@ -34,6 +34,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from armscope.calibration.fit import rms_distance
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.proof.answers import Answer, NamedEffect, read_answer
@@ -249,18 +250,14 @@ def _held_out(world: Sealed, original: Sealed) -> dict[str, float]:
     if world.answer.predicted is None or original.answer.predicted is None:
         return {}
     own, left = _missed(original), world.readings[LEFT_MM].to_numpy()
-    floor, without, found = _rms(own), _rms(own + left), _rms(_missed(world))
-    share = (without**2 - found**2) / _rms(left) ** 2
+    floor, without, found = rms_distance(own), rms_distance(own + left), rms_distance(_missed(world))
+    share = (without**2 - found**2) / rms_distance(left) ** 2
     return {"floor_mm": floor, "without_mm": without, "with_mm": found, "recovered": share}
 
 
 def _missed(world: Sealed) -> Array:
     assert world.answer.predicted is not None
     return np.asarray(world.readings[AXES_MM].to_numpy() - world.answer.predicted[AXES_MM].to_numpy())
-
-
-def _rms(missed: Array) -> float:
-    return float(np.sqrt(np.mean(np.sum(missed**2, axis=1))))
 
 
 def _listed(names: Sequence[Name]) -> str:
@@ -282,6 +279,6 @@ def _withheld(world: Sealed) -> dict[str, Any]:
         "all_names": _listed([c.name for c in world.answer.claims]),
         "background_mm": world.answer.background_mm,
         "load_rms_mm": float(np.sqrt(sum(c.rms_mm**2 for c in loaded))),
-        "held_out_mm": _rms(_missed(world)) if world.answer.predicted is not None else float("nan"),
+        "held_out_mm": rms_distance(_missed(world)) if world.answer.predicted is not None else float("nan"),
         "failed": world.answer.failed,
     }
