@@ -38,7 +38,7 @@ READERS = [
     "paper coefficients BAD -o OUT",
     "paper cross-check BAD --fits BAD -o OUT",
     "paper sub-volumes BAD --errors BAD -o OUT",
-    "paper claims BAD --fits BAD --as-printed BAD --sub-volumes BAD --outlook BAD -o OUT",
+    "paper claims BAD --sensitivity BAD -o OUT",
     "paper reading BAD -o OUT",
     "paper figure fig04 BAD BAD BAD -o OUT",
     "paper convergence-figure BAD -o OUT",

@@ -390,7 +390,7 @@ def test_a_run_that_was_killed_while_it_put_its_files_in_place_is_finished_by_th
     assert run("folder", "-o", out, "a", "b", "old").exit_code == 0
     (out / "mine").write_text("mine")
     code = (
-        "import os, signal, sys\nimport armscope.core.outputs as outputs\n"
+        "import os, signal, sys\nimport armscope.core.records as outputs\n"
         "move, count = outputs._move, []\n"
         "def dying(source, target):\n"
         "    count.append(1)\n    len(count) == 3 and os.kill(os.getpid(), signal.SIGKILL)\n    move(source, target)\n"

@@ -132,7 +132,7 @@ rule real_arms:
     benchmark:
         f"{RESULTS}/logs/benchmarks/real_arms.tsv"
     shell:
-        "armscope real page docs/real-arms.md --settings {input.settings} > {log} 2>&1"
+        "armscope real page docs/real-arms.md --settings {input.settings} --force > {log} 2>&1"
 
 
 rule real:

@@ -6,17 +6,19 @@ import contextlib
 import functools
 import inspect
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Annotated, Any, get_type_hints
 
 import typer
 
 from armscope.cli.endings import told_to_end
-from armscope.core.outputs import Delivery, is_stream
+from armscope.core.outputs import Delivery
+from armscope.core.streams import is_stream
 
 OUTPUTS = ("output", "figure", "points", "visible", "sealed")
-"""Parameters of this name are files or folders to write; all other paths are read."""
+"""Parameters of this name are files or folders to write, and those marked `WRITTEN`; all other paths are read."""
+WRITTEN = object()
 
 Force = Annotated[bool, typer.Option("--force", help="overwrite files that armscope did not write (never an input)")]
 
@@ -50,13 +52,15 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
     hints = get_type_hints(function, include_extras=True)
     signature = inspect.signature(function)
     parameters = [each.replace(annotation=hints[each.name]) for each in signature.parameters.values()]
-    if not set(OUTPUTS) & set(signature.parameters):
+    outputs = {name for name, hint in hints.items() if name in OUTPUTS or WRITTEN in getattr(hint, "__metadata__", ())}
+    if not outputs:
         return function
     forced = inspect.Parameter("force", inspect.Parameter.KEYWORD_ONLY, default=False, annotation=Force)
 
     @functools.wraps(function)
     def run(*, force: bool = False, **values: Any) -> None:
-        reads, writes = _paths(values, reading=True), _paths(values, reading=False)
+        reads = _paths(value for name, value in values.items() if name not in outputs)
+        writes = _paths(value for name, value in values.items() if name in outputs)
         delivery = Delivery(command, reads, writes, force)
         with told_to_end(), _stdout_kept_for_data(writes), delivery.running():
             try:
@@ -71,13 +75,9 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
     return run
 
 
-def _paths(values: dict[str, Any], reading: bool) -> list[Path]:
-    found: list[Path] = []
-    for name, value in values.items():
-        if (name in OUTPUTS) != reading:
-            several = value if isinstance(value, list | tuple) else [value]
-            found += [each for each in several if isinstance(each, Path)]
-    return found
+def _paths(values: Iterable[Any]) -> list[Path]:
+    several = (value if isinstance(value, list | tuple) else [value] for value in values)
+    return [each for value in several for each in value if isinstance(each, Path)]
 
 
 @contextlib.contextmanager

@@ -57,7 +57,7 @@ def compensate(
         read_path,
     )
     from armscope.compensation.output import FORMATS, write_commands
-    from armscope.core.outputs import is_stream
+    from armscope.core.streams import is_stream
     from armscope.physics.model_file import load_model
     from armscope.robot.inverse import LARGEST_STEP_RAD
 

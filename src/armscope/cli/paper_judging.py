@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from armscope.cli.commands import Commands
+from armscope.cli.commands import WRITTEN, Commands
 from armscope.cli.studies import (
     ManyErrors,
     ManyFits,
@@ -75,7 +75,7 @@ def method_(
     errors: ManyErrors,
     settings: Settings,
     output: Annotated[Path, typer.Option("--output", "-o", help="method.csv")],
-    claims: Annotated[Path, typer.Option(help="table of what becomes of the claims about the swarm")],
+    claims: Annotated[Path, typer.Option(help="table of what becomes of the claims about the swarm"), WRITTEN],
 ) -> None:
     """Excess over least squares for every basis, layout and update rule."""
     from armscope.cli.paper_settings import MethodSettings, specs_of, swarm_settings_of
@@ -101,7 +101,7 @@ def judge_(
     outlook: Annotated[Path, typer.Option(help="outlook.csv")],
     enough_poses: Annotated[Path, typer.Option(help="enough_poses.csv")],
     output: Annotated[Path, typer.Option("--output", "-o", help="judged.csv")],
-    per_robot: Annotated[Path, typer.Option(help="table of the outcome for every robot")],
+    per_robot: Annotated[Path, typer.Option(help="table of the outcome for every robot"), WRITTEN],
 ) -> None:
     """Whether each claim of the paper holds, for which share of the robots, by the method as printed and improved."""
     from armscope.core.files import read_table, write_table

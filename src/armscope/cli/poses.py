@@ -50,7 +50,7 @@ def poses(
     """Choose the poses that show a set of effects best, and say what they are worth beside random ones and a grid."""
     from armscope.core.files import write_table
     from armscope.core.inputs import nearest
-    from armscope.core.outputs import is_stream
+    from armscope.core.streams import is_stream
     from armscope.design.indices import SOURCES
     from armscope.poses.choose import by_other_criteria, choose
     from armscope.poses.compare import compare_sets

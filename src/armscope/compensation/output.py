@@ -11,7 +11,7 @@ from armscope.compensation.rapid import write_rapid
 from armscope.compensation.result import Compensated
 from armscope.core.files import write_json, write_table
 from armscope.core.inputs import InputError
-from armscope.core.outputs import is_stream
+from armscope.core.streams import is_stream
 
 FORMATS = (".csv", ".csv.gz", ".json", ".mod")
 

@@ -10,6 +10,7 @@ import json
 import os
 import shutil
 import socket
+import sys
 import tempfile
 import zlib
 from collections.abc import Iterable, Iterator
@@ -23,6 +24,7 @@ import yaml
 from armscope.core import outputs
 from armscope.core.inputs import InputError, nearest, note_read
 from armscope.core.locks import alive
+from armscope.core.streams import copy_into, is_stream
 
 LARGEST_UNPACKED_SHARE = 200
 """Bytes for each packed one: recordings unpack to ten times their size, a bomb to a thousand times."""
@@ -153,11 +155,11 @@ def replacing(path: Path | str, at_once: bool = False) -> Iterator[Path]:
         InputError: the command may not write there.
     """
     delivery = outputs.current()
-    if outputs.is_stream(path):
+    if is_stream(path):
         with tempfile.TemporaryDirectory() as folder:
             made = Path(folder) / "content"
             yield made
-            outputs.copy_into(made, path)
+            copy_into(made, path, sys.stdout if delivery is None else delivery.stdout)
         return
     if delivery is not None and not at_once and (staged := delivery.stage(path)) is not None:
         yield staged

@@ -9,33 +9,19 @@ finished by the next run, if it had begun to put its files in place, and else re
 from __future__ import annotations
 
 import contextlib
-import hashlib
-import json
 import os
 import shutil
-import stat
 import sys
 from collections.abc import Iterable, Iterator
 from contextvars import ContextVar
 from pathlib import Path
-from typing import TextIO
 
 from armscope.core.inputs import FILES_READ, InputError, identity
 from armscope.core.locks import Lock
+from armscope.core.records import HIDDEN, carry_out, digest_of, read_record, tidy, write_record
+from armscope.core.streams import is_stream
 
-HIDDEN = ".armscope"
 _CURRENT: ContextVar[Delivery | None] = ContextVar("delivery", default=None)
-
-
-def is_stream(path: Path | str) -> bool:
-    """Whether an output is no file to be replaced, but something to write into: "-", a device, a pipe."""
-    text = os.path.abspath(path)
-    if str(path) == "-" or text in ("/dev/stdout", "/dev/stderr") or text.startswith(("/dev/fd/", "/proc/")):
-        return True
-    with contextlib.suppress(OSError):
-        mode = os.stat(path).st_mode
-        return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
-    return False
 
 
 def current() -> Delivery | None:
@@ -104,7 +90,7 @@ class Result:
 
     def own(self) -> dict[str, str]:
         """What this command put here the last time: digest by name."""
-        return _record(self._hidden(".json"))
+        return read_record(self._hidden(".json"))
 
     def check(self, name: str, inputs: set[tuple[int, int]], force: bool) -> None:
         """Whether a name may be written.
@@ -126,8 +112,8 @@ class Result:
             raise InputError(path, "", "a folder", "a file is written under this name")
         if force or is_stream(path):
             return
-        made, digest = self.staged(name), _digest(path)
-        if digest == self.own().get(name) or (made.is_file() and digest == _digest(made)):
+        made, digest = self.staged(name), digest_of(path)
+        if digest == self.own().get(name) or (made.is_file() and digest == digest_of(made)):
             return
         cure = "Choose another output, or give --force to overwrite it."
         raise InputError(path, "", self._whose(name), "armscope overwrites only what it wrote itself", cure)
@@ -136,21 +122,21 @@ class Result:
         if name in self.own():
             return "a file that was changed since armscope wrote it"
         for record in (self.home / HIDDEN).glob("*.json"):
-            if name in _record(record):
+            if name in read_record(record):
                 return f"a file of another armscope result ({record.stem})"
         return "a file that armscope did not write"
 
     def put(self) -> None:
         """Put what was made ready in its place, and take away what an earlier run of this command left there."""
         stage = self._hidden(".new")
-        digests = {name: _digest(self.staged(name)) for name in sorted(self.names)}
+        digests = {name: digest_of(self.staged(name)) for name in sorted(self.names)}
         inside = f"{self.place.name}/"
         if self.is_new and all(name.startswith(inside) for name in digests):
             # a new folder appears whole, in one step
             record = {name.removeprefix(inside): digest for name, digest in digests.items()}
             records = stage / self.place.name / HIDDEN
             records.mkdir()
-            _write_record(records / f"{self.command.replace(' ', '-')}.json", {"files": record})
+            write_record(records / f"{self.command.replace(' ', '-')}.json", {"files": record})
             try:
                 os.rename(stage / self.place.name, self.place)
             except OSError as error:
@@ -158,8 +144,8 @@ class Result:
                 raise InputError(self.place, "", "something that came meanwhile", rule) from error
             return
         drop = {name: digest for name, digest in self.own().items() if name not in digests}
-        _write_record(self._hidden(".plan"), {"files": digests, "drop": drop})
-        _carry_out(self.home, self.key)
+        write_record(self._hidden(".plan"), {"files": digests, "drop": drop})
+        carry_out(self.home, self.key)
 
     def close(self) -> None:
         """Leave nothing behind but what was put in place."""
@@ -286,94 +272,3 @@ class Delivery:
             if (name := result.name_of(Path(path))) is not None:
                 return result, name
         return None
-
-
-def tidy(home: Path, locked: str | None = None) -> None:
-    """Finish or remove what killed runs left in a folder.
-
-    Args:
-        home: the folder.
-        locked: the key of the result whose lock the caller holds.
-    """
-    for left in sorted((home / HIDDEN).glob("*")):
-        key = left.name.removesuffix(".part").removesuffix(".plan").removesuffix(".new").removesuffix(".lock")
-        if key == left.name:
-            continue
-        lock = Lock(home / HIDDEN / f"{key}.lock", key)
-        if key == locked or lock.free():
-            _carry_out(home, key)
-            lock.give_back()
-
-
-def _carry_out(home: Path, key: str) -> None:
-    """What a plan says, from wherever it was left; without one, only what was made ready is removed."""
-    hidden = home / HIDDEN
-    plan, stage, record = hidden / f"{key}.plan", hidden / f"{key}.new", hidden / f"{key}.json"
-    if plan.is_file():
-        files, drop = _record(plan), _record(plan, "drop")
-        for name in files:
-            if (stage / name).exists():
-                _move(stage / name, Path(os.path.realpath(home / name)))
-        for name, digest in drop.items():
-            path = home / name
-            if path.is_file() and not path.is_symlink() and _digest(path) == digest:  # changed: it is the user's now
-                path.unlink()
-                with contextlib.suppress(OSError):
-                    path.parent.rmdir()
-        _write_record(record, {"files": files})
-        plan.unlink()
-    for left in (plan, record):
-        _draft(left).unlink(missing_ok=True)
-    shutil.rmtree(stage, ignore_errors=True)
-
-
-def _move(source: Path, target: Path) -> None:
-    target.parent.mkdir(parents=True, exist_ok=True)
-    try:
-        source.replace(target)
-    except OSError:  # a link to another file system
-        beside = target.with_name(f".{target.name}.part")
-        shutil.copyfile(source, beside)
-        beside.replace(target)
-
-
-def copy_into(source: Path, path: Path | str) -> None:
-    """Write a file's content into a device, a pipe or standard output ("-")."""
-    standard = {"-": "stdout", "/dev/stdout": "stdout", "/dev/stderr": "stderr"}.get(str(path))
-    with source.open("rb") as content:
-        if standard is None:
-            with open(path, "ab") as stream:  # what a shell has redirected to may hold something already
-                shutil.copyfileobj(content, stream)
-            return
-        delivery = current()
-        out: TextIO = delivery.stdout if delivery is not None and standard == "stdout" else getattr(sys, standard)
-        out.flush()
-        shutil.copyfileobj(content, out.buffer)
-        out.flush()
-
-
-def _digest(path: Path) -> str:
-    with path.open("rb") as stream:
-        return hashlib.file_digest(stream, "sha256").hexdigest()
-
-
-def _record(path: Path, key: str = "files") -> dict[str, str]:
-    """Names below the folder that a record is of, with digests; nothing from what is no record."""
-    with contextlib.suppress(OSError, ValueError, AttributeError):
-        files = json.loads(path.read_text(encoding="utf-8")).get(key)
-        return {
-            name: digest
-            for name, digest in files.items()
-            if isinstance(digest, str) and not Path(name).is_absolute() and ".." not in Path(name).parts
-        }
-    return {}
-
-
-def _write_record(path: Path, content: dict[str, dict[str, str]]) -> None:
-    text = json.dumps({"written by": "armscope", **content}, indent=1) + "\n"
-    _draft(path).write_text(text, encoding="utf-8")
-    _draft(path).replace(path)
-
-
-def _draft(path: Path) -> Path:
-    return path.with_name(path.name + ".part")

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from armscope.core.files import write_json, write_table
-from armscope.core.outputs import is_stream
+from armscope.core.streams import is_stream
 from armscope.design.indices import SOURCES
 from armscope.physics.effect import Driver
 from armscope.poses.choose import Choice
