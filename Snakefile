@@ -1,9 +1,19 @@
 # The experiments of armscope. `snakemake -j2` runs the whole reproduction; see README.md for the other targets.
+from snakemake.utils import min_version
+
+min_version("9.0")
+
+
 configfile: "config/config.yaml"
+
+
+report: "workflow/report/description.rst"
 
 
 include: "workflow/rules/common.smk"
 include: "workflow/rules/paper.smk"
+include: "workflow/rules/paper_claims.smk"
+include: "workflow/rules/paper_report.smk"
 include: "workflow/rules/real.smk"
 include: "workflow/rules/recordings.smk"
 include: "workflow/rules/sweep.smk"
@@ -23,7 +33,6 @@ rule all:
     input:
         rules.paper.input,
         rules.proof_small.input,
-        rules.poses.input,
 
 
 onsuccess:

@@ -65,6 +65,13 @@ def test_a_deleted_figure_is_redrawn_without_refitting(finished):
     assert figure.read_bytes() == before
 
 
+def test_settings_travel_as_small_files(finished):
+    printed = snakemake(finished, "-n", "-p", "--forceall", *(f"results/small/{target}" for target in TARGETS))
+    assert "--settings results/small/settings/fit.json" in printed
+    assert "--settings '{" not in printed
+    assert (finished / "results/small/settings/fit.json").is_file()
+
+
 @pytest.mark.parametrize(
     ("override", "expected"),
     [

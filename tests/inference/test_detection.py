@@ -86,7 +86,11 @@ def test_a_name_that_is_not_worth_its_price_goes(setting: tuple[Problem, np.ndar
     search = Search.on(read(problem, X, y))
     both = evaluate(search.problem, (SelectedEffect(strong, 4), SelectedEffect(weak, 0)), PERFECT, NOISE_MM)
     assert search.log_odds(both, weak) < PRIORS.sure_nats < search.log_odds(both, strong)
-    assert search.pruned_to_worthwhile(both).candidates == {strong}
+    weakest = search.weakest(both)
+    assert weakest is not None
+    left = search.without(both, [weakest.candidate])
+    assert left.candidates == {strong}
+    assert search.weakest(left) is None
 
 
 def test_a_faint_effect_is_told_without_a_name() -> None:

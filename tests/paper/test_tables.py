@@ -4,14 +4,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from armscope.errormodels import FDP_AI, FDP_CI, FOURIER_2_AI, fit_swarms
-from armscope.paper.claims import claims
+from armscope.errormodels import FDP_CI, FOURIER_2_AI
 from armscope.paper.cross_check import cross_check
 from armscope.paper.outlook import outlook
 from armscope.paper.residuals import residual_table
 from armscope.paper.sub_volumes import _region, _split, sub_volumes
 from armscope.paper.table2 import table2
-from armscope.swarm import SwarmSettings
 from tests.paper.conftest import ENSEMBLE, rss
 
 
@@ -60,7 +58,16 @@ def test_table2_has_the_median_seed_its_spread_and_the_printed_cell(residuals):
     assert row["rss_ratio"] == pytest.approx(row["rss_median"] / 2.5)
     assert row["rms_median"] == pytest.approx(row["rss_median"] / np.sqrt(200))
     assert row["rss_ensemble_low"] <= row["rss_ensemble_median"] <= row["rss_ensemble_high"]
+    assert row["rss_ensemble_ratio"] == pytest.approx(row["rss_ensemble_median"] / 2.5)
     assert np.isnan(cell(table, model="Fourier 2 (AI)", trajectory="test 1", axis="x")["printed"])
+
+
+def test_the_rank_of_the_anchored_robot_is_its_place_among_all(residuals):
+    found = cell(table2(residuals), model="FDP(CI)", trajectory="identification", axis="3D")
+    rows = residuals[(residuals["trajectory"] == "identification") & (residuals["axis"] == "3D")]
+    by_robot = rows[(rows["model"] == "FDP(CI)") & (rows["method"] == "swarm")].groupby("robot")["rms_mm"].median()
+    assert found["robots"] == 1 + ENSEMBLE
+    assert found["rank"] == sorted(by_robot).index(by_robot["anchored"]) + 1
 
 
 def test_table2_of_a_single_robot_has_no_ensemble(residuals):
@@ -147,62 +154,6 @@ def test_products_find_a_law_that_is_a_product_and_leave_sums_alone(study):
     assert found["product"]["products"] < 1e-6 < 1e-2 < found["product"]["sums"]
     assert found["sum"]["sums"] < 1e-9
     assert found["sum"]["products"] < 1e-6
-
-
-def test_the_verdict_on_products_and_chosen_regions_is_that_of_the_table(study, fits, residuals, extended):
-    table = claims(residuals, fits, sub_volumes(study.measurements), extended).set_index("claim")
-    row = table.loc["Products improve accuracy: two harmonics, angular input"]
-    rows = extended[(extended["robot"] == "anchored") & (extended["model"] == "Fourier 2 (AI)")]
-    tests = rows[rows["trajectory"] != "identification"]
-    by_kind = {kind: np.sqrt(np.mean(part["rms_mm"] ** 2)) for kind, part in tests.groupby("kind")}
-    assert row["number_anchored"] == pytest.approx(by_kind["sums"] / by_kind["products"])
-    chosen = table.loc["Sub-volumes are called for: cross-validation divides the workspace"]
-    sizes = extended[(extended["model"] == "FDP(CI)") & (extended["kind"] == "sub-volumes")].groupby("robot")["size"]
-    assert chosen["share_of_robots"] == pytest.approx(np.mean(sizes.first() > 1))
-
-
-def test_claims_say_what_the_numbers_say(study, fits, residuals, extended):
-    table = claims(residuals, fits, sub_volumes(study.measurements), extended).set_index("claim")
-    assert table["verdict"].isin(["holds", "does not hold", "depends"]).all()
-    assert (table["robots"] == 1 + ENSEMBLE).all()
-    assert table["share_of_robots"].between(0, 1).all()
-    pso = table.loc["PSO is an alternative to least squares"]
-    assert pso["verdict"] == "holds"
-    assert pso["number_anchored"] == pytest.approx(max(f.excess_percent.max() for f in fits if f.label == "anchored"))
-    first = table.loc["Cartesian input beats angular input on trajectory I"]
-    keys = {"robot": "anchored", "trajectory": "test 1", "axis": "3D", "method": "least squares"}
-    ratio = min(
-        cell(residuals, model=f"{degree}(AI)", **keys)["rms_mm"]
-        / cell(residuals, model=f"{degree}(CI)", **keys)["rms_mm"]
-        for degree in ("FDP", "SDP")
-    )
-    assert first["number_anchored"] == pytest.approx(ratio, rel=1e-3)
-    assert first["anchored"] == ("yes" if ratio > 1 else "no")
-    assert first["number_printed"] == pytest.approx(1.03, abs=0.01)
-
-
-def test_the_update_as_printed_is_judged_by_its_own_fits(study, fits, residuals, extended):
-    problems = study.measurements.fit_problems((FDP_CI, FDP_AI), ["anchored"])
-    settings = SwarmSettings(update="original", iterations=50)
-    as_printed = fit_swarms(problems, seeds=[0, 1], settings=settings)
-    table = claims(residuals, fits, sub_volumes(study.measurements), extended, as_printed).set_index("claim")
-    row = table.loc["200 iterations suffice with the velocity update as printed"]
-    assert row["verdict"] == "does not hold"
-    assert row["robots"] == 1
-    assert row["number"] > 10
-
-
-def test_a_claim_turns_when_the_numbers_turn(study, fits, residuals, extended):
-    """Negative control: with angular and Cartesian rows exchanged, the verdict on 'Cartesian beats angular' turns."""
-    swapped = residuals.copy()
-    names = {"FDP(CI)": "FDP(AI)", "FDP(AI)": "FDP(CI)", "SDP(CI)": "SDP(AI)", "SDP(AI)": "SDP(CI)"}
-    swapped["model"] = swapped["model"].map(lambda name: names.get(name, name))
-    volumes = sub_volumes(study.measurements)
-    before = claims(residuals, fits, volumes, extended).set_index("claim")
-    after = claims(swapped, fits, volumes, extended).set_index("claim")
-    name = "Cartesian input beats angular input on trajectory I"
-    assert before.loc[name, "share_of_robots"] > 0.5
-    assert after.loc[name, "share_of_robots"] < 0.5
 
 
 def test_residuals_of_robots_without_fits_are_uncompensated_only(study, fits):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
-from armscope.proof.answers import Answer, Claim
+from armscope.proof.answers import Answer, NamedEffect
 from armscope.proof.scoring import World
 from armscope.proof.truth import Concealed, Truth
 
@@ -31,7 +31,7 @@ def concealed(
 
 
 def claim(effect, location, minor=False, alternatives=(), parameters=None, rms=0.1):
-    return Claim(
+    return NamedEffect(
         effect=effect,
         location=location,
         driver="angle of joint 2",

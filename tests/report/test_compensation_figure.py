@@ -5,9 +5,9 @@ import pytest
 
 from armscope.compensation.closed_loop import NO_MODEL, cross_table
 from armscope.errormodels import FDP_CI, FOURIER_2_AI, fit_swarms
+from armscope.paper.closed_loop import paper_closed_loop
 from armscope.paper.measurements import Measurements, PoseSet
 from armscope.paper.outlook import paper_products, paper_regions
-from armscope.report.closed_loop import paper_closed_loop
 from armscope.report.figures.compensation import cross_table_figure, regions_figure
 from armscope.report.style import save_figure
 from armscope.robot import chain

@@ -5,13 +5,15 @@ import pytest
 from matplotlib.colors import to_rgb
 
 from armscope.core.sampling import spread_evenly
+from armscope.report.figures.along_joints import draw_along_joints, running_mean
+from armscope.report.figures.arm import location_shares
 from armscope.report.figures.arm_picture import draw_arm, share_colours, shares_by_place
 from armscope.report.figures.arm_shape import arm_shape, typical_pose
-from armscope.report.figures.atlas import draw_atlas
-from armscope.report.figures.diagnosis import atlas_tables, curve_of, gathered, location_shares, waterfall_steps
+from armscope.report.figures.atlas import atlas_tables, draw_atlas
+from armscope.report.figures.effect_curve import curve_of
 from armscope.report.figures.next_poses import draw_poses
-from armscope.report.figures.residual_vectors import draw_along_joints, draw_vectors, nice, running_mean
-from armscope.report.figures.waterfall import draw_waterfall
+from armscope.report.figures.residual_vectors import draw_vectors, nice
+from armscope.report.figures.waterfall import draw_waterfall, gathered, waterfall_steps
 from armscope.robot import load_arm
 from armscope.verdict.schema import Parameter
 from tests.report import verdicts

@@ -6,7 +6,9 @@ import subprocess
 import numpy as np
 import pytest
 
-from armscope.report.pages.diagnosis import assumptions, write_report
+from armscope.report.pages.diagnosis import write_report
+from armscope.report.sections.assumed import assumptions
+from armscope.report.sections.registry import SECTIONS
 from armscope.verdict.sentences import headline
 from tests.report import verdicts
 from tests.report.test_error_field import browsed
@@ -226,3 +228,24 @@ def test_the_error_field_of_a_report_says_what_the_verdict_says(five, tmp_path):
     for name in ("before", "after"):
         rms = np.sqrt(np.mean(np.sum(getattr(verdict.residuals, name) ** 2, axis=1)))
         assert f"RMS {rms:.3g} mm 3D distance" in seen[name]
+
+
+def test_every_section_that_applies_stands_on_the_page_in_its_order_and_is_linked(written):
+    case, _, _, page = written
+    wanted = [section.name for section in SECTIONS if section.applies(case.verdict)]
+    assert [name for name in page.ids if name in {section.name for section in SECTIONS}] == wanted
+    assert [ref[1:] for ref in page.references if ref[1:] in wanted][: len(wanted)] == wanted
+
+
+def test_a_section_is_a_file_of_its_own_and_its_figures_are():
+    names = [section.name for section in SECTIONS]
+    assert len(set(names)) == len(names)
+    drawing = [figure for section in SECTIONS for figure in section.figures]
+    assert len({figure.__module__ for figure in drawing}) == len(drawing)
+
+
+def test_without_an_atlas_there_is_no_section_for_it(tmp_path):
+    case = verdicts.case(rows=40, atlas=None, waterfall=())
+    page = Page(write_report(case.verdict, tmp_path).read_text())
+    assert "atlas" not in page.ids
+    assert "#atlas" not in page.references

@@ -7,10 +7,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from armscope.core.numerals import UNITS, rounded, shown_unit, size_of
+from armscope.errormodels.reference_models import held_out_rms
 from armscope.physics.registry import EFFECTS
-from armscope.report.figures.diagnosis import location_shares
+from armscope.report.figures.arm import location_shares
 from armscope.report.html import unbroken
-from armscope.report.reference_models import held_out_rms
 from armscope.report.sections.effect_cards import card, chosen_how_often, title_of, told_parameters
 from armscope.robot import forward_kinematics
 from armscope.verdict.schema import Alternative, Curve, Parameter

@@ -5,8 +5,8 @@ import pytest
 
 from armscope.compensation.closed_loop import NO_MODEL
 from armscope.errormodels import FDP_CI, FOURIER_2_AI
+from armscope.paper.full_pose import BENT_WRIST, paper_full_pose
 from armscope.paper.measurements import Measurements, PoseSet
-from armscope.report.full_pose import BENT_WRIST, paper_full_pose
 from armscope.robot import chain
 from armscope.robot.inverse import follow_path
 from armscope.world.tolerances import geometric_errors

@@ -11,7 +11,7 @@ import pytest
 
 from armscope.compensation.closed_loop import NO_MODEL
 from armscope.paper.measurements import pose_table
-from armscope.report.pages.paper import error_field
+from armscope.report.pages.paper_field import error_field
 from armscope.robot import forward_kinematics, load_arm
 
 ARM = load_arm(Path(__file__).parents[2] / "config" / "robots" / "sk120.yaml")

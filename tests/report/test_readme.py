@@ -11,13 +11,30 @@ TEXT = "# before\n<!-- results: begin (by a rule) -->\nold numbers\n<!-- results
 
 @pytest.fixture
 def results(tmp_path):
-    claim = {"claim": "It works", "verdict": "holds", "share_of_robots": 0.97, "robots": 101}
-    pd.DataFrame([claim]).to_csv(tmp_path / "claims.csv", index=False)
+    claim = {"key": "alternative", "claim": "It works", "robots": 100, "depends_on": "", "share_least": 0.0}
+    shares = {"share": 1.0, "share_low": 0.96, "share_high": 1.0, "share_most": 1.0}
+    rows = [
+        {**claim, **shares, "method": "improved", "verdict": "holds", "under_assumptions": "holds under all"},
+        {**claim, **shares, "method": "as printed", "verdict": "fails", "under_assumptions": "fails under all"},
+        {
+            **claim,
+            **shares,
+            "key": "second_degree",
+            "claim": "NOT FOR THE README",
+            "method": "improved",
+            "verdict": "holds",
+        },
+    ]
+    pd.DataFrame(rows).to_csv(tmp_path / "claims.csv", index=False)
+    joint = {"trajectory": "test 1", "reading": "rss", "check": "all together", "possible": False}
+    pd.DataFrame([joint]).to_csv(tmp_path / "audit.csv", index=False)
     names = ("identification", "test 1", "test 2", "test 3")
     rows = [
-        ("FDP(CI)", name, axis, 3.0 if axis != "3D" else None, 6.0) for name in names for axis in ("x", "y", "z", "3D")
+        ("FDP(CI)", name, axis, 3.0 if axis != "3D" else None, 6.0, 4.0, 9.0)
+        for name in names
+        for axis in ("x", "y", "z", "3D")
     ]
-    columns = ["model", "trajectory", "axis", "printed", "rss_median"]
+    columns = ["model", "trajectory", "axis", "printed", "rss_ensemble_median", "rss_ensemble_low", "rss_ensemble_high"]
     pd.DataFrame(rows, columns=columns).to_csv(tmp_path / "table2.csv", index=False)
     aim = {
         "aim": "no name on clean arms",
@@ -43,8 +60,10 @@ def test_numbers_between_the_marks_are_replaced_by_those_of_the_results(results)
     assert text.startswith("# before\n<!-- results: begin (by a rule) -->\n")
     assert text.endswith("<!-- results: end -->\nafter\n")
     assert "old numbers" not in text
-    assert "| It works | holds | 97 % |" in text
-    assert "| FDP(CI) | 6.0 / 5.2 |" in text  # 5.2 = sqrt(3) * 3, the length of the printed x, y, z
+    assert "| It works | fails: 100 % (96–100) | holds: 100 % (96–100) | holds under all (0–100 %) |" in text
+    assert "NOT FOR THE README" not in text
+    assert "*No path that the text allows" in text
+    assert "| FDP(CI) | 6.0 (4.0–9.0) / 5.2 |" in text  # 5.2 = sqrt(3) * 3, the length of the printed x, y, z
     assert "| no name on clean arms | 24 | 100 % (86–100) | met |" in text
     assert "NOT TO BE SHOWN" not in text
 

@@ -1,10 +1,12 @@
 # What all rules share: the checked configuration, where results go, and which sources a rule depends on.
+import hashlib
 import json
 import shlex
 import sys
 from pathlib import Path
 
 from armscope.core.config import Config
+from armscope.core.files import write_text
 from armscope.core.inputs import InputError, validate
 from armscope.core.provenance import digest
 from armscope.recordings.importing.fetching import load_source
@@ -21,9 +23,16 @@ RESULTS = CONFIG.results
 RECORDINGS = CONFIG.recordings_dir
 
 
-def settings(**parts):
-    """Parts of the configuration as JSON: what a command is told, and what reruns it when it changes."""
-    return json.dumps({name: _plain(part) for name, part in parts.items()})
+def settings(step, **parts):
+    """The file with the parts of the configuration that a step follows: an input, so that a change reruns this step.
+
+    It is written only when its content changes, beside and then renamed; a rule that names it says by its reason what changed.
+    """
+    content = json.dumps({name: _plain(part) for name, part in parts.items()}, indent=1) + "\n"
+    path = Path(RESULTS) / "settings" / f"{step}.json"
+    if not path.is_file() or path.read_text(encoding="utf-8") != content:
+        write_text(path, content)
+    return str(path)
 
 
 def _plain(part):
@@ -32,10 +41,26 @@ def _plain(part):
     return part.model_dump(mode="json") if hasattr(part, "model_dump") else part
 
 
-def fit_settings(**changes):
+def fit_settings(step, **changes):
     """What a fit follows, with some of the swarm's settings changed."""
     swarm = CONFIG.paper.swarm.model_copy(update=changes)
-    return settings(seed=CONFIG.seed, models=CONFIG.paper.models, swarm=swarm)
+    return settings(step, seed=CONFIG.seed, models=CONFIG.paper.models, swarm=swarm)
+
+
+def require_reach(robot, others, chosen):
+    """Stop unless all test paths are within reach under every assumption that will be tried; checked when one changed."""
+    files = [robot, *others, chosen]
+    seen = hashlib.sha256(b"".join(Path(file).read_bytes() for file in files)).hexdigest()
+    mark = Path(RESULTS) / "settings" / "reach.checked"
+    if mark.is_file() and mark.read_text(encoding="utf-8") == seen:
+        return
+    from armscope.cli.paper_settings import follow_all  # slow to import, and seldom needed
+
+    try:
+        follow_all(robot, chosen)
+    except InputError as error:
+        raise WorkflowError(str(error)) from None
+    write_text(mark, seen)
 
 
 def code(*modules):
@@ -78,6 +103,7 @@ def plant_settings(wildcards):
     """What effects are planted in the recordings of a real set, and how large."""
     arm, chosen = CONFIG.real[wildcards.set], CONFIG.proof_real
     return settings(
+        f"plant/{wildcards.set}",
         seed=CONFIG.seed,
         title=wildcards.set,
         run=arm.run,

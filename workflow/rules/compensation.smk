@@ -25,8 +25,6 @@ rule closed_loop:
         code=code("armscope.cli.outlook:closed_loop"),
     log:
         f"{RESULTS}/logs/closed_loop.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope closed-loop {input.robot} --poses {input.poses} --errors {input.errors} --robots {input.robots} "
         "--fits {input.fits} {params.extended} -o {output.table} --points {output.points} --figure {output.png} > {log} 2>&1"
@@ -45,8 +43,6 @@ rule regions:
         code=code("armscope.cli.outlook:regions_"),
     log:
         f"{RESULTS}/logs/regions.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope regions --poses {input.poses} --errors {input.errors} --seed {params.seed} -o {output.table} "
         "--figure {output.png} > {log} 2>&1"
@@ -63,8 +59,6 @@ rule products:
         code=code("armscope.cli.outlook:products_"),
     log:
         f"{RESULTS}/logs/products.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope products --poses {input.poses} --errors {input.errors} --seed {params.seed} -o {output} > {log} 2>&1"
 
@@ -84,8 +78,6 @@ rule full_pose:
         code=code("armscope.cli.outlook:full_pose"),
     log:
         f"{RESULTS}/logs/full_pose.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope full-pose {input.robot} --poses {input.poses} --errors {input.errors} --robots {input.robots} "
         "{params.extended} --seed {params.seed} -o {output} > {log} 2>&1"
@@ -104,8 +96,6 @@ rule cross_table:
         code=code("armscope.cli.outlook:cross_table_"),
     log:
         f"{RESULTS}/logs/cross_table.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope cross-table {input.virtual} {params.folders} {params.extended} -o {output} > {log} 2>&1"
 

@@ -19,8 +19,6 @@ rule choose_poses:
         code=code("armscope.cli.poses:poses"),
     log:
         f"{RESULTS}/logs/poses/{{arm}}.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope poses --robot {input} {params.options} --all-criteria -o {output.poses} > {log} 2>&1"
 

@@ -22,8 +22,6 @@ rule proof_seed:
         code=code("armscope.cli.proof:diagnose"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/seed.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope proof seed {params.fixed} -o {output} > {log} 2>&1"
 
@@ -41,8 +39,6 @@ rule proof_worlds:
         code=code("armscope.cli.proof:worlds"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/worlds-{{half}}-{{part}}.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope proof worlds {input.robots} --size {wildcards.size} --half {wildcards.half} "
         "--part {wildcards.part}/{params.parts} {params.seed} --visible {output.visible} --sealed {output.sealed} "
@@ -62,8 +58,6 @@ rule proof_diagnose:
         code=code("armscope.cli.proof:diagnose"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/diagnose-{{batch}}.log",
-    conda:
-        "../envs/armscope.yaml"
     shadow:
         "minimal"
     shell:
@@ -86,8 +80,6 @@ rule proof_score:
         code=code("armscope.cli.proof:score"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/score.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope proof score {params.folder} -o {params.folder}/tables > {log} 2>&1"
 
@@ -102,8 +94,6 @@ rule proof_figures:
         code=code("armscope.cli.proof:figures"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/figures.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope proof figures {params.folder}/tables -o {params.folder}/figures > {log} 2>&1"
 
@@ -120,8 +110,6 @@ rule proof_report:
         code=code("armscope.cli.proof:report"),
     log:
         f"{RESULTS}/logs/proof/{{size}}/report.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope proof report {params.folder}/tables {params.folder}/figures {input.seed} --size {wildcards.size} "
         "-o {output} > {log} 2>&1"

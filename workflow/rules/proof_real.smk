@@ -20,20 +20,18 @@ rule proof_real_original:
     input:
         recordings=recordings_of,
         robot=robot_of,
+        settings=plant_settings,
     output:
         visible=directory(f"{PROOF_REAL}/visible/{{set}}-{{part_real}}"),
         sealed=f"{PROOF_REAL}/sealed/{{set}}-{{part_real}}.tar.gz",
     params:
-        settings=plant_settings,
         code=code("armscope.cli.real:plant"),
     wildcard_constraints:
         part_real="original|withheld",
     log:
         f"{RESULTS}/logs/proof_real/plant-{{set}}-{{part_real}}.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
-        "armscope real plant {input.recordings} {input.robot} --settings {params.settings:q} --part {wildcards.part_real} "
+        "armscope real plant {input.recordings} {input.robot} --settings {input.settings} --part {wildcards.part_real} "
         "--visible {output.visible} --sealed {output.sealed} > {log} 2>&1"
 
 
@@ -43,19 +41,17 @@ rule proof_real_plant:
         robot=robot_of,
         verdicts=f"{PROOF_REAL}/verdicts/{{set}}-original",
         seed=lambda wildcards: rules.proof_real_seed.output if wildcards.half_real == "fresh" else [],
+        settings=plant_settings,
     output:
         visible=directory(f"{PROOF_REAL}/visible/{{set}}-{{half_real}}"),
         sealed=f"{PROOF_REAL}/sealed/{{set}}-{{half_real}}.tar.gz",
     params:
-        settings=plant_settings,
         seed=lambda wildcards, input: f"--seed-file {input.seed}" if input.seed else "",
         code=code("armscope.cli.real:plant"),
     log:
         f"{RESULTS}/logs/proof_real/plant-{{set}}-{{half_real}}.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
-        "armscope real plant {input.recordings} {input.robot} --settings {params.settings:q} --part {wildcards.half_real} "
+        "armscope real plant {input.recordings} {input.robot} --settings {input.settings} --part {wildcards.half_real} "
         "--verdict {input.verdicts}/original/verdict.json {params.seed} "
         "--visible {output.visible} --sealed {output.sealed} > {log} 2>&1"
 
@@ -85,8 +81,6 @@ rule proof_real_score:
         code=code("armscope.cli.real:score"),
     log:
         f"{RESULTS}/logs/proof_real/score.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope real score {params.folder} -o {params.folder}/tables > {log} 2>&1"
 
@@ -106,8 +100,6 @@ rule proof_real_report:
         code=code("armscope.cli.real:report"),
     log:
         f"{RESULTS}/logs/proof_real/report.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope real report {params.folder}/tables {input.seed} --titles {params.titles:q} -o {params.folder} > {log} 2>&1"
 

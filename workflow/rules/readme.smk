@@ -14,8 +14,6 @@ rule example:
         code=code("armscope.cli.diagnosis:diagnose"),
     log:
         f"{RESULTS}/logs/examples/{{example}}.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope diagnose {input.recordings} --robot {input.robot} -o {params.folder} > {log} 2>&1"
 
@@ -32,10 +30,8 @@ rule readme:
     params:
         folder=subpath(input.claims, parent=True),
         proof=subpath(input.aims, parent=True),
-        code=code("armscope.cli.paper:readme_"),
+        code=code("armscope.cli.paper_pages:readme_"),
     log:
         f"{RESULTS}/logs/readme.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "(armscope paper readme README.md {params.folder} {params.proof} && cp {input.arm} docs/figures/five-effects.png) > {log} 2>&1"

@@ -5,25 +5,24 @@ rule measure_real:
     input:
         recordings=recordings_of,
         robot=robot_of,
+        settings=lambda wildcards: settings(
+            f"measure_real/{wildcards.set}",
+            seed=CONFIG.seed,
+            poses=CONFIG.paper.identification.poses.value,
+            run=CONFIG.real[wildcards.set].run,
+            first_id=CONFIG.real[wildcards.set].first_id,
+        ),
     output:
         poses=f"{RESULTS}/real/{{set}}/paper/poses.csv",
         errors=f"{RESULTS}/real/{{set}}/paper/errors.csv",
         observability=f"{RESULTS}/real/{{set}}/paper/observability.csv",
     params:
         folder=subpath(output.poses, parent=True),
-        settings=lambda wildcards: settings(
-            seed=CONFIG.seed,
-            poses=CONFIG.paper.identification.poses.value,
-            run=CONFIG.real[wildcards.set].run,
-            first_id=CONFIG.real[wildcards.set].first_id,
-        ),
         code=code("armscope.cli.paper:measure_real"),
     log:
         f"{RESULTS}/logs/real/{{set}}/measure.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
-        "armscope paper measure-real {input.recordings} {input.robot} --settings {params.settings:q} -o {params.folder} > {log} 2>&1"
+        "armscope paper measure-real {input.recordings} {input.robot} --settings {input.settings} -o {params.folder} > {log} 2>&1"
 
 
 rule diagnose_real:
@@ -43,8 +42,6 @@ rule diagnose_real:
         code=code("armscope.cli.diagnosis:diagnose"),
     log:
         f"{RESULTS}/logs/real/{{set}}/diagnose.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope diagnose {input.recordings} --robot {input.robot} {params.run} {params.first} -o {params.folder} > {log} 2>&1"
 
@@ -68,8 +65,6 @@ rule protocol_real:
         code=code("armscope.cli.real:protocol"),
     log:
         f"{RESULTS}/logs/real/{{set}}/protocol.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope real protocol {input.recordings} {input.robot} {input.reference} {params.splits} -o {params.folder} "
         "> {log} 2>&1"
@@ -89,8 +84,6 @@ rule compliances_real:
         code=code("armscope.cli.real:compliances"),
     log:
         f"{RESULTS}/logs/real/{{set}}/compliances.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope real compliances {input.recordings} {input.robot} {input.reference} --seed {params.seed} "
         "-o {params.folder} > {log} 2>&1"
@@ -107,10 +100,8 @@ rule real_arms:
         expand(f"{RESULTS}/real/{{set}}/protocol.csv", set=PAGED),
         expand(f"{RESULTS}/real/{{set}}/compliances.csv", set=COMPARED),
         proof=f"{RESULTS}/proof_real/tables/rates.csv",
-    output:
-        touch(f"{RESULTS}/real_arms.done"),
-    params:
         settings=settings(
+            "real_arms",
             arms=[
                 {
                     "name": name,
@@ -124,13 +115,14 @@ rule real_arms:
             ],
             proof=f"{RESULTS}/proof_real/tables",
         ),
+    output:
+        touch(f"{RESULTS}/real_arms.done"),
+    params:
         code=code("armscope.cli.real:page"),
     log:
         f"{RESULTS}/logs/real_arms.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
-        "armscope real page docs/real-arms.md --settings {params.settings:q} > {log} 2>&1"
+        "armscope real page docs/real-arms.md --settings {input.settings} > {log} 2>&1"
 
 
 rule real:

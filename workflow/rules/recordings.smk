@@ -20,8 +20,6 @@ rule fetch_raw:
         code=code("armscope.cli.recordings:fetch"),
     log:
         f"{RESULTS}/logs/recordings/{{public_set}}/fetch.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope fetch {input.source} -o {params.folder}/raw {params.stand_in} > {output} 2> {log}"
 
@@ -39,8 +37,6 @@ rule import_raw:
         code=code("armscope.cli.recordings:import_"),
     log:
         f"{RESULTS}/logs/recordings/{{public_set}}/import.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "(armscope import {params.raw:q} --mapping {input.mapping} -o {output.recordings} && cp {input.robot} {output.robot}) "
         "> {log} 2>&1"

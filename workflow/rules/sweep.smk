@@ -13,22 +13,22 @@ rule sweep_variant:
     input:
         poses=rules.measure.output.poses,
         errors=rules.measure.output.errors,
-    output:
-        f"{SWEEP}/variants/{{variant}}.csv",
-    params:
         settings=lambda wildcards: settings(
+            f"sweep/{wildcards.variant}",
             seed=CONFIG.seed,
             basis=CONFIG.paper.swarm.basis,
+            layout=CONFIG.paper.swarm.layout,
             engine=CONFIG.paper.swarm.engine,
             variant=VARIANTS[wildcards.variant],
         ),
+    output:
+        f"{SWEEP}/variants/{{variant}}.csv",
+    params:
         code=code("armscope.cli.sweep:run"),
     log:
         f"{RESULTS}/logs/sweep/{{variant}}.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
-        "armscope sweep run {input.poses} {input.errors} --settings {params.settings:q} -o {output} > {log} 2>&1"
+        "armscope sweep run {input.poses} {input.errors} --settings {input.settings} -o {output} > {log} 2>&1"
 
 
 rule sweep:
@@ -41,7 +41,5 @@ rule sweep:
         code=code("armscope.cli.sweep:draw"),
     log:
         f"{RESULTS}/logs/sweep.log",
-    conda:
-        "../envs/armscope.yaml"
     shell:
         "armscope sweep draw {input} -o {output.table} > {log} 2>&1"

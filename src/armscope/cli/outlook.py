@@ -49,7 +49,7 @@ def closed_loop(
     from armscope.cli.studies import read_fits, read_measurements
     from armscope.compensation.closed_loop import cross_table
     from armscope.core.files import write_table
-    from armscope.report.closed_loop import paper_closed_loop
+    from armscope.paper.closed_loop import paper_closed_loop
     from armscope.report.figures.compensation import cross_table_figure
     from armscope.report.style import save_figure
     from armscope.robot import load_arm
@@ -82,7 +82,7 @@ def full_pose(
     """Position and orientation by every model, predicted and in closed loop, with the virtual arm's wrist bent."""
     from armscope.cli.studies import read_measurements
     from armscope.core.files import write_table
-    from armscope.report.full_pose import paper_full_pose
+    from armscope.paper.full_pose import paper_full_pose
     from armscope.robot import load_arm
 
     measurements, arm = read_measurements(poses, errors), load_arm(robot)
@@ -108,7 +108,7 @@ def cross_table_(
     from armscope.cli.studies import read_fits, read_measurements
     from armscope.compensation.closed_loop import cross_table
     from armscope.core.files import read_table, write_table
-    from armscope.report.closed_loop import real_left_over
+    from armscope.paper.closed_loop import real_left_over
 
     specs, divided = [model_named(name) for name in products or ()], _divided(regions)
     tables = [read_table(virtual).assign(arm="virtual")]

@@ -20,7 +20,8 @@ def run(poses: Poses, errors: Errors, settings: Settings, output: Output) -> Non
     from armscope.paper.sweep import run_variant
 
     chosen = parsed(SweepSettings, settings)
-    table = run_variant(read_measurements(poses, errors), chosen.variant, chosen.seed, chosen.basis, chosen.engine)
+    measurements = read_measurements(poses, errors)
+    table = run_variant(measurements, chosen.variant, chosen.seed, chosen.basis, chosen.layout, chosen.engine)
     write_table(output, table, digits=6)
 
 

@@ -83,6 +83,7 @@ class Swarm(Strict):
     velocity_clamp: Annotated[float, Field(gt=0)] | None = None
     threshold_mm: Annotated[float, Field(gt=0)] | None = None
     basis: Literal["raw", "standardised", "qr"] = "qr"
+    layout: Literal["per axis", "joint"] = Field("per axis", description="one swarm per axis, or one for all axes")
     engine: Literal["auto", "numba", "numpy"] = "auto"
 
 
@@ -94,6 +95,29 @@ class Audit(Strict):
     largest_rise_mm: Stated[Positive]
     rise_step_mm: Stated[Positive]
     corner_samples: Stated[Count]
+
+
+class Method(Strict):
+    """The table of all bases, layouts and update rules: on how many robots, with how many swarms each."""
+
+    robots: Count = 30
+    seeds: Count = 1
+
+
+class Sensitivity(Strict):
+    """Other values of what is assumed, each tried by itself and all together."""
+
+    robots: Count = Field(100, description="drawn in each scenario; fewer than 72 can't support a verdict")
+    seeds: Count = Field(1, description="swarms for each fit")
+    geometry: Stated[tuple[str, ...]] = Field(description="robot.yaml of other arms")
+    tolerance_factors: Stated[tuple[Positive, ...]]
+    margins_rad: Stated[tuple[Annotated[float, Field(ge=0)], ...]]
+    motor_6_rad: Stated[tuple[Positive, ...]]
+    corners_mm: Stated[tuple[tuple[Point, Point, Point, Point], ...]]
+    rises_mm: Stated[tuple[float, ...]]
+    repeats_mm: Stated[tuple[Positive, ...]] = Field(description="how well the arm repeats, 1-sigma per axis")
+    together: Annotated[int, Field(ge=0)] = Field(4, description="scenarios of the joint, space-filling design")
+    everything: bool = Field(False, description="also random search and cross-validated extensions: much slower")
 
 
 class Model(Strict):
@@ -114,6 +138,8 @@ class Paper(Strict):
     trajectories: Trajectories
     tracker: Tracker
     audit: Audit
+    sensitivity: Sensitivity
+    method: Method = Method()
     models: tuple[Model, ...] = Field(min_length=1)
     swarm: Swarm = Swarm()
 

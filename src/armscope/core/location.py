@@ -6,7 +6,7 @@ import functools
 import re
 from dataclasses import dataclass
 
-_WORDS = re.compile(r"(joint|link|motor) (\d+)(?: from (?:joint|motor) (\d+))?")
+_WORDS = re.compile(r"(joint|link|motor) (\d+)(?: from joint (\d+))?")
 
 
 @dataclass(frozen=True)
@@ -41,9 +41,9 @@ class Location:
 
         Link j of a standard D-H row lies between joints j and j+1; "joint 6 from joint 5" counts as joint 6.
         """
-        return str(self.number) if self.kind in ("joint", "link") else self.kind
+        return str(self.number) if self.number and self.kind in ("joint", "link") else self.kind
 
     def __str__(self) -> str:
         if not self.number:
             return self.kind
-        return f"{self.kind} {self.number}" + (f" from {self.kind} {self.source}" if self.source else "")
+        return f"{self.kind} {self.number}" + (f" from joint {self.source}" if self.source else "")

@@ -11,12 +11,18 @@ from pydantic import Field
 
 from armscope.core.inputs import InputError, Strict, nearest
 
-VARIED = {"particles": "particles", "iterations": "iterations", "update": "update", "harmonics": "order"}
+VARIED = {
+    "particles": "particles", "iterations": "iterations", "update": "update", "harmonics": "order", "basis": "basis",
+    "layout": "layout",
+}  # fmt: skip
 """What is on the horizontal axis of a sweep, by the first word of its name; all others vary the model's order."""
+
+OPTIONAL = ("basis", "layout")
+"""Columns that may be left out or empty."""
 
 
 class Variant(Strict):
-    """One row of a sweep's table."""
+    """One row of a sweep's table; basis and layout may be left out or empty: then they are the study's."""
 
     id: str = Field(pattern=r"^\w+$")
     sweep: str
@@ -27,6 +33,8 @@ class Variant(Strict):
     iterations: int = Field(ge=0)
     update: Literal["constriction", "inertia", "original"]
     neighbourhood: Literal["gbest", "ring"]
+    basis: Literal["raw", "standardised", "qr"] | None = None
+    layout: Literal["per axis", "joint"] | None = None
     seeds: int = Field(ge=1)
 
     @property
@@ -58,7 +66,9 @@ def read_variants(path: Path | str) -> list[Variant]:
 
 def _variant(path: Path | str, number: int, row: dict[str, str]) -> Variant:
     try:
-        return Variant.model_validate(row)
+        return Variant.model_validate(
+            {column: value for column, value in row.items() if value or column not in OPTIONAL}
+        )
     except pydantic.ValidationError as error:
         problem = error.errors()[0]
         place = f"row {number}, column {problem['loc'][0]}"

@@ -34,17 +34,17 @@ def select(
     noise: Noise,
     frames: Sequence[Placed],
     block_of_row: Indices,
-    tell: Progress,
+    progress: Progress,
 ) -> Selected:
     """The effects that the evidence asks for, fitted with the exact model."""
     if len(table) <= SAMPLE_ROWS:
-        return SelectionLoop(start, table, noise, frames, block_of_row, tell).run()
+        return SelectionLoop(start, table, noise, frames, block_of_row, progress).run()
     rows = _sample(table.recordings)
-    small = SelectionLoop(start, table.rows(rows), noise, frames, block_of_row[rows], tell)
+    small = SelectionLoop(start, table.rows(rows), noise, frames, block_of_row[rows], progress)
     found = small.run(of_a_sample=True)
-    whole = SelectionLoop(start, table, noise, frames, block_of_row, tell, _promising(found))
-    whole.follow(small)
-    tell("weighing all rows", 0.45)
+    whole = SelectionLoop(start, table, noise, frames, block_of_row, progress)
+    whole.follow(small, _promising(found))
+    progress("weighing all rows", 0.45)
     whole.round((found.best.background,))
     return whole.selected()
 

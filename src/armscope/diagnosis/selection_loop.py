@@ -82,8 +82,7 @@ class SelectionLoop:
         noise: what is known of it.
         frames: the free frames.
         block_of_row: (N,) which block of rows each row is in.
-        tell: told of the progress.
-        candidates: effects that compete; the whole library where not given.
+        progress: told how far it is.
     """
 
     def __init__(
@@ -93,15 +92,14 @@ class SelectionLoop:
         noise: Noise,
         frames: Sequence[Placed],
         block_of_row: Indices,
-        tell: Progress,
-        candidates: Sequence[Placed] | None = None,
+        progress: Progress,
     ) -> None:
         recordings = linearised(rows).recordings
         self.table = LinearisedTable(recordings, linearised(rows).channels, np.argsort(block_of_row, kind="stable"))
         self.recordings = recordings
-        self.frames, self.tell = frames, tell
+        self.frames, self.progress = frames, progress
         self.block_of_row = block_of_row
-        self.candidates = library(start.arm, recordings) if candidates is None else list(candidates)
+        self.candidates = library(start.arm, recordings)
         self.families = list(backgrounds(start.arm, recordings).values())
         self.model = start
         self.noise = NoiseOfRows(start, self.table, noise, residuals(start, self.table))
@@ -112,7 +110,7 @@ class SelectionLoop:
         previous: State | None = None
         settled = False
         for number in range(ROUNDS):
-            self.tell("looking for effects", 0.05 + 0.05 * number)
+            self.progress("looking for effects", 0.05 + 0.05 * number)
             new = self.round(None if number < FULL_ROUNDS else self._where_it_ended(), number < SCANNING_ROUNDS)
             state = self._state()
             same = previous is not None and self._alike(state, previous)
@@ -137,8 +135,9 @@ class SelectionLoop:
         if not of_a_sample:
             self.round(self._where_it_ended())
 
-    def follow(self, other: SelectionLoop) -> None:
-        """Go on from where the rounds on a sample of the rows ended."""
+    def follow(self, other: SelectionLoop, candidates: Sequence[Placed]) -> None:
+        """Go on from where the rounds on a sample of the rows ended, with fewer candidates."""
+        self.candidates = list(candidates)
         self.model, self.last = other.model, other.last
         self.noise.follow(other.noise, residuals(self.model, self.table), other.fit.noise)
 

@@ -12,7 +12,7 @@ from armscope.errormodels.features import (
     FeatureSet,
     ModelSpec,
 )
-from armscope.errormodels.fitted import FittedModel
+from armscope.errormodels.fitted import FittedModel, Layout
 from armscope.errormodels.least_squares import fit_least_squares
 from armscope.errormodels.swarm_fit import FitProblem, fit_random_search, fit_swarms
 
@@ -29,6 +29,7 @@ __all__ = [
     "FeatureSet",
     "FitProblem",
     "FittedModel",
+    "Layout",
     "ModelSpec",
     "fit_least_squares",
     "fit_random_search",

@@ -73,6 +73,12 @@ class Basis:
         rms_columns = np.linalg.norm(self.triangular, axis=0)
         return np.asarray(rms_errors[:, None] / rms_columns)
 
+    def residual_rms(self, errors: Array, coordinates: Array) -> Array:
+        """(S x axes) RMS residual of ``errors`` (N x axes) at coordinates z (S x axes x m)."""
+        targets, rests = self.targets(errors)
+        gaps = coordinates @ self.triangular.T - targets
+        return np.asarray(np.sqrt(np.sum(gaps**2, axis=2) + rests))
+
     def raw_coefficients(self, coordinates: Array) -> Array:
         """Raw coefficients (... x n) of coordinates z (... x m)."""
         return coordinates @ self.to_raw.T

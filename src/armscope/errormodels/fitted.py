@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import base64
 from dataclasses import dataclass
+from enum import StrEnum
 from typing import Any
 
 import numpy as np
@@ -14,9 +16,16 @@ from armscope.errormodels.features import FeatureSet
 from armscope.swarm import StopReason
 
 
+class Layout(StrEnum):
+    """Which coefficients one swarm looks for."""
+
+    PER_AXIS = "per axis"
+    JOINT = "joint"
+
+
 @dataclass(frozen=True)
 class FittedModel:
-    """One model fitted to one set of rows, for each axis by itself, by one swarm per seed; S seeds, A axes, n terms.
+    """One model fitted to one set of rows, by swarms of several seeds; S seeds, A axes, n terms.
 
     Attributes:
         label: whose rows: the robot, recording or sub-volume.
@@ -28,12 +37,15 @@ class FittedModel:
         dropped: terms whose coefficients are 0 because they can't be told from earlier ones.
         coefficients: in raw units (mm per unit of the term), S x A x n.
         fitness_mm: RMS residual on the identification rows, S x A.
+        layout: "per axis" (a swarm for each axis) or "joint" (one swarm in 3 n dimensions, as the paper describes).
         least_squares: the least-squares coefficients, A x n.
         least_squares_mm: their RMS residual, A.
-        reasons: why each swarm stopped, S x A of `StopReason`.
-        iterations: how many iterations each used, S x A.
-        history_mm: best RMS residual at the start and after each iteration, S x A x (T + 1).
+        reasons: why each swarm stopped, S x H of `StopReason`; H swarms per seed: A, or one for all axes together.
+        iterations: how many iterations each used, S x H.
+        history_mm: what each swarm minimised, at the start and after each iteration, S x H x (T + 1): the RMS residual
+            of its axis, or of the error vector (3D) in the joint layout.
         rows: the number of identification rows.
+        particles: evaluations per iteration.
     """
 
     label: str
@@ -51,6 +63,8 @@ class FittedModel:
     iterations: NDArray[np.int64]
     history_mm: Array
     rows: int
+    particles: int
+    layout: Layout = Layout.PER_AXIS
 
     @property
     def name(self) -> str:
@@ -58,15 +72,29 @@ class FittedModel:
         return self.features.spec.name
 
     @property
+    def reached_mm(self) -> Array:
+        """What each swarm ended with: the RMS residual of its axis, or of the error vector (joint layout), S x H."""
+        if self.layout is Layout.PER_AXIS:
+            return self.fitness_mm
+        return np.asarray(np.sqrt(np.sum(self.fitness_mm**2, axis=1, keepdims=True)))
+
+    @property
+    def optimum_mm(self) -> Array:
+        """The same by least squares, H."""
+        if self.layout is Layout.PER_AXIS:
+            return self.least_squares_mm
+        return np.asarray(np.sqrt(np.sum(self.least_squares_mm**2, keepdims=True)))
+
+    @property
     def excess_mm(self) -> Array:
-        """How far each fit stays above the least-squares RMS residual, mm, S x A."""
-        return self.fitness_mm - self.least_squares_mm
+        """How far each swarm stays above the least-squares RMS residual, mm, S x H."""
+        return self.reached_mm - self.optimum_mm
 
     @property
     def excess_percent(self) -> Array:
-        """The same in % of the least-squares residual, S x A (0 where both are 0; inf where only that one is)."""
+        """The same in % of the least-squares residual, S x H (0 where both are 0; inf where only that one is)."""
         with np.errstate(divide="ignore", invalid="ignore"):
-            percent = 100 * self.excess_mm / self.least_squares_mm
+            percent = 100 * self.excess_mm / self.optimum_mm
         return np.where(self.excess_mm == 0, 0.0, percent)
 
     @property
@@ -108,7 +136,9 @@ class FittedModel:
             "terms": list(self.features.term_names),
             "basis": self.basis.value,
             "method": self.method,
+            "layout": self.layout.value,
             "rows": self.rows,
+            "particles": self.particles,
             "seeds": list(self.seeds),
             "axes": list(self.axes),
             "dropped": list(self.dropped),
@@ -120,14 +150,16 @@ class FittedModel:
             "iterations": self.iterations.tolist(),
         }
         if history:
-            content["history_mm"] = self.history_mm.tolist()
+            content["history_mm"] = _packed(self.history_mm)
         return content
 
     @staticmethod
     def from_dict(content: dict[str, Any]) -> FittedModel:
         """The inverse of `to_dict`; histories that were not kept come back as their first axes with no columns."""
         fitness = np.array(content["fitness_mm"], dtype=float)
-        reasons = np.empty(fitness.shape, dtype=object)
+        iterations = np.array(content["iterations"], dtype=np.int64)
+        shape = iterations.shape
+        reasons = np.empty(shape, dtype=object)
         reasons[:] = [[StopReason(sentence) for sentence in of_seed] for of_seed in content["reasons"]]
         return FittedModel(
             label=content["label"],
@@ -142,7 +174,22 @@ class FittedModel:
             least_squares=np.array(content["least_squares"], dtype=float),
             least_squares_mm=np.array(content["least_squares_mm"], dtype=float),
             reasons=reasons,
-            iterations=np.array(content["iterations"], dtype=np.int64),
-            history_mm=np.array(content.get("history_mm", np.empty((*fitness.shape, 0))), dtype=float),
+            iterations=iterations,
+            history_mm=_unpacked(content["history_mm"])
+            if "history_mm" in content
+            else np.empty((*iterations.shape, 0)),
             rows=content["rows"],
+            particles=content["particles"],
+            layout=Layout(content["layout"]),
         )
+
+
+def _packed(history: Array) -> dict[str, Any]:
+    """Histories are long, and seven digits of them are enough: single precision, as text."""
+    bits = history.astype("<f4").tobytes()
+    return {"shape": list(history.shape), "float32": base64.b64encode(bits).decode()}
+
+
+def _unpacked(content: dict[str, Any]) -> Array:
+    bits = np.frombuffer(base64.b64decode(content["float32"]), dtype="<f4")
+    return bits.reshape(content["shape"]).astype(float)

@@ -1,7 +1,8 @@
 """Fitting error models by particle swarm: all models, axes, robots and seeds of a study in one batch.
 
-Each axis has a swarm of its own: the axes share no coefficient, so one swarm in 3 n dimensions would look for the same
-optimum with three times the dimensions.
+In the layout "per axis" each axis has a swarm of its own: the axes share no coefficient, so that the split is exact.
+In the layout "joint" one swarm looks for all 3 n coefficients and minimises the RMS of the error vector: "15 dimensions
+in this case", as section 5 of the paper has it.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 import zlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,7 +18,7 @@ from numpy.typing import ArrayLike
 from armscope.core.types import Array
 from armscope.errormodels.basis import Basis, BasisKind, make_basis
 from armscope.errormodels.features import FeatureSet, ModelSpec, checked_inputs
-from armscope.errormodels.fitted import FittedModel
+from armscope.errormodels.fitted import FittedModel, Layout
 from armscope.errormodels.least_squares import fit_least_squares
 from armscope.swarm import LeastSquares, SwarmResult, SwarmSettings, minimise_least_squares
 from armscope.swarm.random_search import random_search
@@ -47,8 +49,9 @@ def fit_swarms(
     settings: SwarmSettings | None = None,
     basis: BasisKind | str = BasisKind.QR,
     engine: str = "auto",
+    layout: Layout | str = Layout.PER_AXIS,
 ) -> list[FittedModel]:
-    """Fit every problem by one swarm per axis and seed.
+    """Fit every problem by swarms, one per seed and axis, or one per seed.
 
     A fit depends on its own problem, label, seed and settings only, not on what else is in the batch or in which order.
 
@@ -58,6 +61,7 @@ def fit_swarms(
         settings: of the swarm; the threshold is in mm.
         basis: the coordinates to search in; the search box follows from the data (`Basis.half_widths`).
         engine: see `minimise_least_squares`.
+        layout: what one swarm looks for.
 
     Returns:
         One fit per problem, in the order of the problems, with every seed's coefficients.
@@ -70,7 +74,7 @@ def fit_swarms(
     def search(objective: LeastSquares, low: Array, high: Array, generators: list[np.random.Generator]) -> SwarmResult:
         return minimise_least_squares(objective, low, high, generators, settings, engine)
 
-    return _fit(problems, seeds, BasisKind(basis), search, "swarm")
+    return _fit(problems, seeds, _Job("swarm", BasisKind(basis), Layout(layout), settings.particles), search)
 
 
 def fit_random_search(
@@ -78,6 +82,7 @@ def fit_random_search(
     seeds: Sequence[int],
     settings: SwarmSettings | None = None,
     basis: BasisKind | str = BasisKind.QR,
+    layout: Layout | str = Layout.PER_AXIS,
 ) -> list[FittedModel]:
     """The baseline: as `fit_swarms`, in the same box, with as many evaluations, but of independent random points.
 
@@ -86,6 +91,7 @@ def fit_random_search(
         seeds: at least one; the same seed gives the same fit.
         settings: of the swarm that it stands beside; the threshold is in mm.
         basis: the coordinates to search in.
+        layout: what one search looks for.
 
     Returns:
         One fit per problem, in the order of the problems.
@@ -98,7 +104,16 @@ def fit_random_search(
     def search(objective: LeastSquares, low: Array, high: Array, generators: list[np.random.Generator]) -> SwarmResult:
         return random_search(objective, low, high, generators, settings)
 
-    return _fit(problems, seeds, BasisKind(basis), search, "random search")
+    return _fit(problems, seeds, _Job("random search", BasisKind(basis), Layout(layout), settings.particles), search)
+
+
+class _Job(NamedTuple):
+    """What searches, in which coordinates, for how many axes together, with how many evaluations per iteration."""
+
+    method: str
+    kind: BasisKind
+    layout: Layout
+    particles: int
 
 
 @dataclass(frozen=True)
@@ -110,22 +125,45 @@ class _Prepared:
     inputs: Array
     errors: Array
     basis: Basis
+    layout: Layout
 
     @property
     def axes(self) -> tuple[str, ...]:
         return ("x", "y", "z") if self.errors.shape[1] == 3 else ("error",)
 
+    @property
+    def swarms_per_seed(self) -> int:
+        return len(self.axes) if self.layout is Layout.PER_AXIS else 1
+
+    @property
+    def dimensions(self) -> int:
+        """Of one swarm."""
+        return self.basis.dimensions * len(self.axes) // self.swarms_per_seed
+
+    @property
+    def factor(self) -> Array:
+        """R of one swarm's objective |R z - b|^2 + rest: the basis's, once for each axis on the diagonal if joint."""
+        axes_together = np.eye(len(self.axes) // self.swarms_per_seed)
+        return np.asarray(np.kron(axes_together, self.basis.triangular), dtype=float)
+
+    def of_one_seed(self) -> tuple[Array, Array, Array]:
+        """b (H x D), rest (H) and half the width of the search box (H x D) of the swarms of one seed."""
+        target, rest = self.basis.targets(self.errors)
+        shape = (self.swarms_per_seed, self.dimensions)
+        box = self.basis.half_widths(self.errors)
+        return target.reshape(shape), rest.reshape(self.swarms_per_seed, -1).sum(axis=1), box.reshape(shape)
+
     def generators(self, seeds: Sequence[int]) -> list[np.random.Generator]:
-        """One per seed and axis, seeds first; keyed by label and model, so that neighbours in a batch don't matter."""
+        """One per swarm, seeds first; keyed by label and model, so that neighbours in a batch don't matter."""
         key = zlib.crc32(f"{self.problem.label}|{self.problem.spec.name}".encode())
         return [
-            np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=(key, axis))))
+            np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=(key, swarm))))
             for seed in seeds
-            for axis in range(len(self.axes))
+            for swarm in range(self.swarms_per_seed)
         ]
 
 
-def _prepared(problem: FitProblem, kind: BasisKind) -> _Prepared:
+def _prepared(problem: FitProblem, job: _Job) -> _Prepared:
     inputs = checked_inputs(problem.inputs)
     errors = np.asarray(problem.errors_mm, dtype=float)
     if errors.ndim == 1:
@@ -138,25 +176,24 @@ def _prepared(problem: FitProblem, kind: BasisKind) -> _Prepared:
         row = int(np.argwhere(~np.isfinite(errors))[0, 0])
         raise ValueError(f"error {errors[row]!r} in row {row}: all must be finite")
     features = problem.spec.features(inputs)
-    return _Prepared(problem, features, inputs, errors, make_basis(kind, features.matrix(inputs), features.term_names))
+    basis = make_basis(job.kind, features.matrix(inputs), features.term_names)
+    return _Prepared(problem, features, inputs, errors, basis, job.layout)
 
 
-def _fit(
-    problems: Sequence[FitProblem], seeds: Sequence[int], kind: BasisKind, search: Search, method: str
-) -> list[FittedModel]:
+def _fit(problems: Sequence[FitProblem], seeds: Sequence[int], job: _Job, search: Search) -> list[FittedModel]:
     if not len(problems):
         return []
     if not len(seeds) or len(set(seeds)) < len(seeds) or any(seed < 0 for seed in seeds):
         raise ValueError(f"seeds = {list(seeds)!r}: must be different whole numbers, 0 or more, at least one")
-    prepared = [_prepared(problem, kind) for problem in problems]
+    prepared = [_prepared(problem, job) for problem in problems]
     fitted: dict[int, FittedModel] = {}
-    for dimensions in sorted({each.basis.dimensions for each in prepared}):
-        chosen = [k for k, each in enumerate(prepared) if each.basis.dimensions == dimensions]
+    for dimensions in sorted({each.dimensions for each in prepared}):
+        chosen = [k for k, each in enumerate(prepared) if each.dimensions == dimensions]
         result = _search_together([prepared[k] for k in chosen], seeds, search)
         first = 0
         for k in chosen:
-            swarms = slice(first, first + len(seeds) * len(prepared[k].axes))
-            fitted[k] = _fitted(prepared[k], seeds, result, swarms, method)
+            swarms = slice(first, first + len(seeds) * prepared[k].swarms_per_seed)
+            fitted[k] = _fitted(prepared[k], seeds, result, swarms, job)
             first = swarms.stop
     return [fitted[k] for k in range(len(problems))]
 
@@ -165,14 +202,14 @@ def _search_together(group: list[_Prepared], seeds: Sequence[int], search: Searc
     """One batch for problems with equally many coordinates: problem by problem, seed by seed, axis by axis."""
     targets, rests, widths, factor_of, generators = [], [], [], [], []
     for number, each in enumerate(group):
-        target, rest = each.basis.targets(each.errors)
+        target, rest, width = each.of_one_seed()
         targets.append(np.tile(target, (len(seeds), 1)))
         rests.append(np.tile(rest, len(seeds)))
-        widths.append(np.tile(each.basis.half_widths(each.errors), (len(seeds), 1)))
-        factor_of.append(np.full(len(seeds) * len(each.axes), number))
+        widths.append(np.tile(width, (len(seeds), 1)))
+        factor_of.append(np.full(len(seeds) * each.swarms_per_seed, number))
         generators += each.generators(seeds)
     objective = LeastSquares(
-        np.stack([each.basis.triangular for each in group]),
+        np.stack([each.factor for each in group]),
         np.concatenate(factor_of),
         np.concatenate(targets),
         np.concatenate(rests),
@@ -181,24 +218,27 @@ def _search_together(group: list[_Prepared], seeds: Sequence[int], search: Searc
     return search(objective, -box, box, generators)
 
 
-def _fitted(each: _Prepared, seeds: Sequence[int], result: SwarmResult, swarms: slice, method: str) -> FittedModel:
-    shape = (len(seeds), len(each.axes))
-    coordinates = result.positions[swarms].reshape(*shape, -1)
+def _fitted(each: _Prepared, seeds: Sequence[int], result: SwarmResult, swarms: slice, job: _Job) -> FittedModel:
+    shape = (len(seeds), each.swarms_per_seed)
+    coordinates = result.positions[swarms].reshape(len(seeds), len(each.axes), -1)
+    fitness = result.fitness[swarms].reshape(shape)
     least_squares, least_squares_mm = fit_least_squares(each.features, each.inputs, each.errors)
     return FittedModel(
         label=each.problem.label,
         features=each.features,
         basis=each.basis.kind,
-        method=method,
+        method=job.method,
         seeds=tuple(int(seed) for seed in seeds),
         axes=each.axes,
         dropped=each.basis.dropped,
         coefficients=each.basis.raw_coefficients(coordinates),
-        fitness_mm=result.fitness[swarms].reshape(shape),
+        fitness_mm=fitness if each.layout is Layout.PER_AXIS else each.basis.residual_rms(each.errors, coordinates),
         least_squares=least_squares,
         least_squares_mm=least_squares_mm,
         reasons=result.reasons[swarms].reshape(shape),
         iterations=result.iterations[swarms].reshape(shape),
         history_mm=result.history[swarms].reshape(*shape, -1),
         rows=len(each.inputs),
+        particles=job.particles,
+        layout=each.layout,
     )

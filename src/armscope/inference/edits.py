@@ -214,12 +214,6 @@ class Edits:
             approximate_removal_loss(self.problem, hypothesis, self.kept(hypothesis, [candidate])) < BUDGET.slack_nats
         )
 
-    def pruned_to_worthwhile(self, hypothesis: Hypothesis) -> Hypothesis:
-        """Without the names that are not worth their price, the weakest first."""
-        while (weakest := self.weakest(hypothesis)) is not None:
-            hypothesis = self.without(hypothesis, [weakest.candidate])
-        return hypothesis
-
 
 def replaced(members: tuple[T, ...], number: int, member: T) -> tuple[T, ...]:
     """A tuple with another member in one place.

@@ -66,6 +66,12 @@ class AnchoredRobots:
             }
         )
 
+    def in_tolerances(self) -> pd.DataFrame:
+        """One row per robot: its name and each geometric error in tolerances."""
+        table = pd.DataFrame(self.in_sigmas, columns=list(self.errors.names))
+        table.insert(0, "robot", self.names)
+        return table
+
 
 def anchor(
     errors: GeometricErrors, motor_angles: Array, noise_m: Array, ensemble: int, rng: np.random.Generator

@@ -50,7 +50,7 @@ def convergence(
 
 
 def _history(rule: str, fit: FittedModel) -> pd.DataFrame:
-    optimum = fit.least_squares_mm[None, :, None]
+    optimum = fit.optimum_mm[None, :, None]
     excess = (100 * (fit.history_mm / optimum - 1)).clip(min=SMALLEST_PERCENT).reshape(-1, fit.history_mm.shape[2])
     return pd.DataFrame(
         {

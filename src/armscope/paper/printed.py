@@ -51,6 +51,16 @@ def _unit(model: str, term: str) -> str:
     return f"mm/{'mm' if model.endswith('(CI)') else 'rad'}{power}{exponent}"
 
 
+def printed_texts() -> dict[tuple[str, str, str], str]:
+    """Eqs. (9)-(20) to the letter: (model, axis, term) -> coefficient as printed, trailing zeros and all."""
+    return {
+        (_model_name(key), axis, term): text
+        for key, by_axis in _equation_texts().items()
+        for axis in AXES
+        for term, text in by_axis[axis].items()
+    }
+
+
 def printed_matrix(model: str) -> Array:
     """(3, terms) printed coefficients of "FDP(CI)", ..., in the order of `printed_features`."""
     by_axis = _equations()[model.replace("(", "_").rstrip(")")]
@@ -60,8 +70,7 @@ def printed_matrix(model: str) -> Array:
 
 def printed_half_digits(model: str) -> Array:
     """(3, terms) half of the last printed digit of each coefficient, in the order of `printed_features`."""
-    text: dict[str, Any] = yaml.load(_data("equations.yaml").read_text(encoding="utf-8"), Loader=yaml.BaseLoader)
-    by_axis = text[model.replace("(", "_").rstrip(")")]
+    by_axis = _equation_texts()[model.replace("(", "_").rstrip(")")]
     terms = printed_features(model).term_names
     decimals = [[len(by_axis[axis][term].partition(".")[2]) for term in terms] for axis in AXES]
     return 0.5 * 10.0 ** -np.array(decimals)
@@ -85,6 +94,11 @@ def predict_printed(model: str, inputs: ArrayLike) -> Array:
 def _equations() -> dict[str, dict[str, dict[str, float]]]:
     content: dict[str, Any] = yaml.safe_load(_data("equations.yaml").read_text(encoding="utf-8"))
     return content
+
+
+def _equation_texts() -> dict[str, dict[str, dict[str, str]]]:
+    text: dict[str, Any] = yaml.load(_data("equations.yaml").read_text(encoding="utf-8"), Loader=yaml.BaseLoader)
+    return text
 
 
 def _model_name(key: str) -> str:

@@ -87,3 +87,38 @@ def typical(residuals: pd.DataFrame, method: str = "swarm", value: str = "rms_mm
     chosen = residuals[residuals["method"].isin(["none", method])]
     medians = chosen.groupby(["robot", "model", "trajectory", "axis"], sort=False)[value].median()
     return medians.unstack(["model", "trajectory", "axis"]).reindex(residuals["robot"].unique())
+
+
+def spatial_rms(measurements: Measurements, fits: Sequence[FittedModel], least_squares: bool = False) -> pd.DataFrame:
+    """What fits leave of the errors, one row per robot with fits, in the order of the fits.
+
+    Args:
+        measurements: of the robots.
+        fits: one per robot and model, labelled with the robot.
+        least_squares: of the least-squares coefficients instead of the swarms'.
+
+    Returns:
+        Columns (model, trajectory, axis); RMS in mm, the median over the seeds; "Uncompensated" is one of the models.
+    """
+    robots = list(dict.fromkeys(fit.label for fit in fits))
+    rows = {robot: measurements.robots.index(robot) for robot in robots}
+    values: dict[tuple[str, str, str], dict[str, float]] = {}
+
+    def note(robot: str, model: str, trajectory: str, left: Array) -> None:
+        squares = np.einsum("sna,sna->sa", left, left) / left.shape[1]
+        rms = np.sqrt(np.column_stack([squares, squares.sum(axis=1)]))
+        for axis, value in zip((*AXES, SPATIAL), np.median(rms, axis=0), strict=True):
+            values.setdefault((model, trajectory, axis), {})[robot] = float(value)
+
+    for each in measurements.sets:
+        terms: dict[str, Array] = {}
+        for robot in robots:
+            note(robot, UNCOMPENSATED, each.name, each.errors_mm[rows[robot]][None])
+        for fit in fits:
+            if fit.name not in terms:
+                terms[fit.name] = fit.features.matrix(each.inputs(fit.features.spec))
+            chosen = fit.least_squares[None] if least_squares else fit.coefficients
+            left = each.errors_mm[rows[fit.label]] - np.matmul(terms[fit.name], chosen.transpose(0, 2, 1))
+            note(fit.label, fit.name, each.name, left)
+    table = pd.DataFrame(values, index=robots)
+    return table.rename_axis(columns=["model", "trajectory", "axis"])

@@ -11,8 +11,10 @@ from armscope.paper.residuals import SPATIAL, residual_table
 from armscope.swarm import SwarmSettings
 
 
-def run_variant(measurements: Measurements, variant: Variant, first_seed: int, basis: str, engine: str) -> pd.DataFrame:
-    """What a variant leaves of the first robot's errors.
+def run_variant(
+    measurements: Measurements, variant: Variant, first_seed: int, basis: str, layout: str, engine: str
+) -> pd.DataFrame:
+    """What a variant leaves of the first robot's errors; basis and layout where the variant does not say.
 
     Args:
         measurements: of a study; the first robot counts.
@@ -23,14 +25,16 @@ def run_variant(measurements: Measurements, variant: Variant, first_seed: int, b
 
     Returns:
         Columns id, sweep, varied, model, trajectory, seed, rms_mm (3D), least_squares_mm (3D, of the same model),
-        excess_percent (of the fit's RMS over least squares on the identification rows, the worst axis).
+        excess_percent (of the fit's RMS over least squares on the identification rows, the worst swarm).
     """
     robot = measurements.robots[0]
     rows = measurements.identification
     spec = ModelSpec(variant.family, variant.order, variant.space)
     problem = FitProblem(spec, rows.inputs(spec), rows.errors_mm[0], robot)
     settings = SwarmSettings(variant.particles, variant.iterations, variant.update, variant.neighbourhood)
-    (fit,) = fit_swarms([problem], range(first_seed, first_seed + variant.seeds), settings, basis, engine)
+    seeds = range(first_seed, first_seed + variant.seeds)
+    basis, layout = variant.basis or basis, variant.layout or layout
+    (fit,) = fit_swarms([problem], seeds, settings, basis, engine, layout)
     table = residual_table(measurements, [fit])
     spatial = table[(table["axis"] == SPATIAL) & (table["robot"] == robot)]
     optimum = spatial[spatial["method"] == "least squares"].set_index("trajectory")["rms_mm"]

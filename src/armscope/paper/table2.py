@@ -26,8 +26,9 @@ def table2(residuals: pd.DataFrame, robot: str | None = None) -> pd.DataFrame:
         Columns model, trajectory, axis, points, printed (as in the paper, no unit; NaN for models, sets and axes that
         it does not have, and throughout for studies of other arms), and for each reading r of "RMS" ("rss", "rms"), in
         mm: r_median, r_low, r_high (over the seeds), r_least_squares, r_ensemble_low, r_ensemble_median,
-        r_ensemble_high (5, 50, 95 % of the other robots, each with its median seed; NaN without an ensemble), and
-        r_ratio = r_median / printed.
+        r_ensemble_high (5, 50, 95 % of the other robots, each with its median seed; NaN without an ensemble),
+        r_ratio = r_median / printed, r_ensemble_ratio = r_ensemble_median / printed; and robots (in all) and rank (of
+        the one shown among them, 1 the smallest error).
     """
     robots = residuals["robot"].unique()
     shown = robots[0] if robot is None else robot
@@ -51,4 +52,8 @@ def table2(residuals: pd.DataFrame, robot: str | None = None) -> pd.DataFrame:
             quantile = ensemble.quantile(per_cent / 100) if len(ensemble) else pd.Series(dtype=float)
             table[f"{reading}_ensemble_{name}"] = quantile.reindex(table.index) if len(quantile) else np.nan
         table[f"{reading}_ratio"] = table[f"{reading}_median"] / table["printed"]
+        table[f"{reading}_ensemble_ratio"] = table[f"{reading}_ensemble_median"] / table["printed"]
+    all_robots = typical(residuals)
+    table["robots"] = len(robots)
+    table["rank"] = ((all_robots < all_robots.loc[shown]).sum() + 1).reindex(table.index)
     return table.reset_index()

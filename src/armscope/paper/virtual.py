@@ -72,7 +72,8 @@ def trajectory_poses(arm: Arm, paths_mm: Mapping[str, Array]) -> pd.DataFrame:
     held = {motor: angle for motor, angle in HELD.items() if motor <= arm.n_motors}
     tables = []
     for name, path in paths_mm.items():
-        angles = follow_path(arm, path * 1e-3, np.zeros(arm.n_motors), held).require_all(f"trajectory {name}")
+        solution = follow_path(arm, path * 1e-3, np.zeros(arm.n_motors), held)
+        angles = solution.require_all(f"{arm.name}, trajectory {name}")
         tables.append(pose_table(name, angles, path))
     return pd.concat(tables, ignore_index=True)
 
@@ -100,19 +101,25 @@ def identification_poses(
     Returns:
         The pose table of "identification", and the choice with its observability index.
     """
-    angles, _ = pose_arrays(trajectories)
-    low, high = joint_ranges(angles, margin_rad)
-    if len(low) >= 6:
-        low[5], high[5] = -motor_6_rad, motor_6_rad
-    low, high = np.maximum(low, errors.arm.limits[:, 0]), np.minimum(high, errors.arm.limits[:, 1])
+    low, high = identification_ranges(errors, pose_arrays(trajectories)[0], margin_rad, motor_6_rad)
     poses = candidate_poses(low, high, candidates, seed)
     choice = choose_poses(errors.jacobian(chain(errors.arm, poses)), count, np.random.default_rng(seed))
     chosen = poses[choice.rows]
     return pose_table(IDENTIFICATION, chosen, forward_kinematics(errors.arm, chosen) * 1e3), choice
 
 
+def identification_ranges(
+    errors: GeometricErrors, path_angles: Array, margin_rad: float, motor_6_rad: float
+) -> tuple[Array, Array]:
+    """(low, high) of the motors, (m,) rad: the ranges of the test paths (N, m), widened, theta6 by itself."""
+    low, high = joint_ranges(path_angles, margin_rad)
+    if len(low) >= 6:
+        low[5], high[5] = -motor_6_rad, motor_6_rad
+    return np.maximum(low, errors.arm.limits[:, 0]), np.minimum(high, errors.arm.limits[:, 1])
+
+
 def measure_virtual(
-    errors: GeometricErrors, poses: pd.DataFrame, tracker: Tracker, ensemble: int, seed: int
+    errors: GeometricErrors, poses: pd.DataFrame, tracker: Tracker, ensemble: int, seed: int, repeat_m: float = 0.0
 ) -> VirtualStudy:
     """Anchor robots to the printed equations and measure them at all poses.
 
@@ -122,14 +129,19 @@ def measure_virtual(
         tracker: measures each set of poses in a session of its own, with the same errors for every robot.
         ensemble: robots besides the anchored one.
         seed: of the tracker's errors and of the ensemble.
+        repeat_m: how well the arm itself repeats, 1-sigma per axis and point, m.
 
     Returns:
         The robots and what was measured of them.
     """
     names = [IDENTIFICATION, *(name for name in TEST_TRAJECTORIES if name in set(poses["trajectory"]))]
     arrays = {name: pose_arrays(poses[poses["trajectory"] == name]) for name in names}
-    for_tracker, for_ensemble = np.random.default_rng(seed).spawn(2)
-    noise = {name: tracker.measurement_errors(nominal * 1e-3, for_tracker) for name, (_, nominal) in arrays.items()}
+    for_tracker, for_ensemble, for_arm = np.random.default_rng(seed).spawn(3)
+    noise = {
+        name: tracker.measurement_errors(nominal * 1e-3, for_tracker)
+        + repeat_m * for_arm.standard_normal(nominal.shape)
+        for name, (_, nominal) in arrays.items()
+    }
     robots = anchor(errors, arrays[IDENTIFICATION][0], noise[IDENTIFICATION], ensemble, for_ensemble)
     sets = []
     for name, (angles, nominal) in arrays.items():

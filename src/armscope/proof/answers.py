@@ -15,7 +15,7 @@ PREDICTED, FAILURE, TIMES = "test_predicted.csv", "failed.txt", "times.csv"
 
 
 @dataclass(frozen=True)
-class Claim:
+class NamedEffect:
     """An effect of a verdict; ``parameters`` are (value, standard error, unit) by name, file units."""
 
     effect: str
@@ -42,7 +42,7 @@ class Answer:
     """
 
     world: str
-    claims: tuple[Claim, ...] = ()
+    claims: tuple[NamedEffect, ...] = ()
     mismatch: bool | None = None
     answer: str = "failed"
     noise_mm: float = float("nan")
@@ -70,8 +70,8 @@ def read_answer(folder: Path) -> Answer:
     )
 
 
-def _claim(effect: FoundEffect) -> Claim:
-    return Claim(
+def _claim(effect: FoundEffect) -> NamedEffect:
+    return NamedEffect(
         effect=effect.effect,
         location=effect.location,
         driver=effect.driver,

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from armscope.proof.answers import Claim
+from armscope.proof.answers import NamedEffect
 from armscope.proof.truth import Concealed
 
 NORMAL_95 = 1.959964
@@ -28,7 +28,7 @@ class Compared:
     right: bool | None
 
 
-def compare_numbers(truth: Concealed, claims: Sequence[Claim], times: pd.Series | None) -> list[Compared]:
+def compare_numbers(truth: Concealed, claims: Sequence[NamedEffect], times: pd.Series | None) -> list[Compared]:
     """The numbers of a concealed effect beside those of the claims under its own name.
 
     Args:
@@ -57,7 +57,7 @@ def compare_numbers(truth: Concealed, claims: Sequence[Claim], times: pd.Series 
     return found
 
 
-def _scanned_apart(true: dict[str, float], claim: Claim) -> float:
+def _scanned_apart(true: dict[str, float], claim: NamedEffect) -> float:
     return sum(
         abs(claim.parameters[name][0] - true[name]) for name in SCANNED if name in true and name in claim.parameters
     )

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from armscope.proof.answers import Claim
+from armscope.proof.answers import NamedEffect
 from armscope.proof.definitions import Name, place
 from armscope.proof.truth import Concealed
 
@@ -21,7 +21,7 @@ class Match:
     """A concealed effect, the claim that stands for it, and how: see the outcomes in `definitions`."""
 
     truth: Concealed
-    claim: Claim | None
+    claim: NamedEffect | None
     outcome: str
 
     @property
@@ -30,9 +30,9 @@ class Match:
         return self.outcome in ("named", "acceptable")
 
 
-def distinct(claims: Sequence[Claim]) -> list[Claim]:
+def distinct(claims: Sequence[NamedEffect]) -> list[NamedEffect]:
     """One claim per name: the largest; minor only if all of that name are."""
-    by_name: dict[Name, Claim] = {}
+    by_name: dict[Name, NamedEffect] = {}
     for claim in sorted(claims, key=lambda claim: -claim.rms_mm):
         first = by_name.setdefault(claim.name, claim)
         if first.minor and not claim.minor:
@@ -40,7 +40,7 @@ def distinct(claims: Sequence[Claim]) -> list[Claim]:
     return list(by_name.values())
 
 
-def match(concealed: Sequence[Concealed], claims: Sequence[Claim]) -> tuple[list[Match], list[Claim]]:
+def match(concealed: Sequence[Concealed], claims: Sequence[NamedEffect]) -> tuple[list[Match], list[NamedEffect]]:
     """Concealed effects with the claims that stand for them, and the claims left over.
 
     As many as possible in all; among those, own names before alternatives, and the story before the background.
@@ -65,13 +65,13 @@ def match(concealed: Sequence[Concealed], claims: Sequence[Claim]) -> tuple[list
     return matches, left
 
 
-def _price(truth: Concealed, claim: Claim) -> float:
+def _price(truth: Concealed, claim: NamedEffect) -> float:
     if claim.name == truth.name:
         return _BACKGROUND if truth.minor else _OWN
     return _ALTERNATIVE if claim.name in truth.alternatives else _NEVER
 
 
-def _unmatched(truth: Concealed, claims: Sequence[Claim], left: Sequence[Claim]) -> Match:
+def _unmatched(truth: Concealed, claims: Sequence[NamedEffect], left: Sequence[NamedEffect]) -> Match:
     listing = next((claim for claim in claims if truth.name in claim.alternatives), None)
     if listing is not None:
         return Match(truth, listing, "listed")
@@ -79,6 +79,6 @@ def _unmatched(truth: Concealed, claims: Sequence[Claim], left: Sequence[Claim])
     return Match(truth, there[0], "located") if there else Match(truth, None, "missed")
 
 
-def among_all(truth: Concealed, claims: Sequence[Claim]) -> bool:
+def among_all(truth: Concealed, claims: Sequence[NamedEffect]) -> bool:
     """Whether the truth is among the effects, or among the alternatives that the verdict itself lists."""
     return any(truth.name == claim.name or truth.name in claim.alternatives for claim in claims)

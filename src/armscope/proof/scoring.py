@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from armscope.proof.answers import Answer, Claim
+from armscope.proof.answers import Answer, NamedEffect
 from armscope.proof.definitions import AXES_MM, HELD_OUT_TOLERANCE, Name, place
 from armscope.proof.intervals import compare_numbers
 from armscope.proof.matching import UNKNOWN, Match, among_all, distinct, match
@@ -100,7 +100,9 @@ def score(worlds: Iterable[World]) -> Cases:
     return Cases(**{name: pd.DataFrame(found, columns=list(COLUMNS[name])) for name, found in rows.items()})
 
 
-def _world(world: World, claims: Sequence[Claim], matches: Sequence[Match], left: Sequence[Claim]) -> dict[str, object]:
+def _world(
+    world: World, claims: Sequence[NamedEffect], matches: Sequence[Match], left: Sequence[NamedEffect]
+) -> dict[str, object]:
     truth, answer = world.truth, world.answer
     story = [m for m in matches if not m.truth.minor]
     wrong = [claim for claim in left if truth.category != REAL or claim.effect != UNKNOWN]
@@ -147,7 +149,7 @@ def held_out_ratio(truth: Truth, answer: Answer) -> float:
     return float(np.sqrt(np.mean(off**2)) / truth.true_rms_mm)
 
 
-def outside_outcome(truth: Truth, answer: Answer, claims: Sequence[Claim]) -> str:
+def outside_outcome(truth: Truth, answer: Answer, claims: Sequence[NamedEffect]) -> str:
     """How a world outside the library was answered; see `definitions`.
 
     Args:
@@ -174,7 +176,7 @@ def outside_outcome(truth: Truth, answer: Answer, claims: Sequence[Claim]) -> st
     return "cannot tell" if answer.answer == CANNOT_TELL else "missed"
 
 
-def _effect(world: World, found: Match, claims: Sequence[Claim]) -> dict[str, object]:
+def _effect(world: World, found: Match, claims: Sequence[NamedEffect]) -> dict[str, object]:
     truth, rows = found.truth, world.truth.rows
     tested = np.isfinite(truth.noncentrality) and truth.columns > 0
     test = truth.noncentrality, truth.columns, rows, truth.frame_numbers
@@ -204,7 +206,7 @@ def _effect(world: World, found: Match, claims: Sequence[Claim]) -> dict[str, ob
     }
 
 
-def same_driver(truth: Concealed, claim: Claim) -> bool:
+def same_driver(truth: Concealed, claim: NamedEffect) -> bool:
     """Whether a claim follows what the concealed effect follows."""
     words = {
         "joint angle": ("angle",), "gravity load": ("load", "gravity", "moment"), "side of approach": ("approach",),
@@ -214,7 +216,7 @@ def same_driver(truth: Concealed, claim: Claim) -> bool:
     return any(word in claim.driver for word in words[truth.driver])
 
 
-def _name(truth: Truth, claim: Claim, right: bool) -> dict[str, object]:
+def _name(truth: Truth, claim: NamedEffect, right: bool) -> dict[str, object]:
     acceptable = {name for effect in truth.effects for name in (effect.name, *effect.alternatives)}
     return {
         "effect": claim.effect,
@@ -240,7 +242,7 @@ def _numbers(world: World, found: Match) -> list[dict[str, object]]:
     ]
 
 
-def _pairs(matches: Sequence[Match], left: Sequence[Claim]) -> list[tuple[str, str]]:
+def _pairs(matches: Sequence[Match], left: Sequence[NamedEffect]) -> list[tuple[str, str]]:
     """(true effect, effect said) for the confusion matrix; what is left over on either side pairs with `nothing`."""
     waiting = list(left)
     pairs = []

@@ -16,6 +16,7 @@ import numpy as np
 import pandas as pd
 
 from armscope.calibration import held_out
+from armscope.calibration.fit import rms_distance
 from armscope.calibration.splits import split
 from armscope.core.types import Array
 from armscope.diagnosis import Diagnosis, Settings, diagnose
@@ -99,7 +100,7 @@ def measure_run(
 def rms_distance_mm(verdict: Diagnosis, recordings: Recordings) -> float:
     """RMS of the 3D distance between what a diagnosis predicts and what was measured, mm."""
     missed = predict(verdict.model, recordings) - recordings.positions
-    return 1e3 * float(np.sqrt(np.mean(np.sum(missed**2, axis=1))))
+    return 1e3 * rms_distance(missed)
 
 
 def rms_turn_mrad(verdict: Diagnosis, recordings: Recordings) -> float:
@@ -148,9 +149,7 @@ def paper_models(arm: Arm, table: Recordings, seed: int = 0) -> list[dict[str, o
             left = test.errors_mm[0] - features.matrix(test.inputs(spec)) @ coefficients.T
             found.append((spec.name, left))
     sizes = {"split": 0, "train": len(train.motor_angles), "test": len(test.motor_angles)}
-    return [
-        {"model": name, "rms_mm": float(np.sqrt(np.mean(np.sum(left**2, axis=1)))), **sizes} for name, left in found
-    ]
+    return [{"model": name, "rms_mm": rms_distance(left), **sizes} for name, left in found]
 
 
 def protocol_table(splits: pd.DataFrame, reference: ReferenceRun) -> pd.DataFrame:

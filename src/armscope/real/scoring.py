@@ -34,9 +34,10 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from armscope.calibration.fit import rms_distance
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
-from armscope.proof.answers import Answer, Claim, read_answer
+from armscope.proof.answers import Answer, NamedEffect, read_answer
 from armscope.proof.definitions import AXES_MM, Name, place
 from armscope.proof.intervals import Compared, compare_numbers
 from armscope.proof.matching import UNKNOWN
@@ -169,8 +170,8 @@ def _concealed(content: dict[str, Any]) -> Concealed:
 
 
 def _outcome(
-    truth: Concealed, content: dict[str, Any], now: Sequence[Claim], before: Sequence[Claim]
-) -> tuple[str, Claim | None]:
+    truth: Concealed, content: dict[str, Any], now: Sequence[NamedEffect], before: Sequence[NamedEffect]
+) -> tuple[str, NamedEffect | None]:
     changed = [claim for claim in now if _changed(claim, truth, content, before)]
     for outcome, fits in (
         ("named", lambda claim: claim.name == truth.name),
@@ -184,7 +185,7 @@ def _outcome(
     return "missed", None
 
 
-def _changed(claim: Claim, truth: Concealed, content: dict[str, Any], before: Sequence[Claim]) -> bool:
+def _changed(claim: NamedEffect, truth: Concealed, content: dict[str, Any], before: Sequence[NamedEffect]) -> bool:
     same = [each for each in before if each.name == claim.name and _scanned(each) == _scanned(claim)]
     if not same:
         return True
@@ -197,12 +198,12 @@ def _changed(claim: Claim, truth: Concealed, content: dict[str, Any], before: Se
     return bool(abs(claim.rms_mm**2 - same[0].rms_mm ** 2) >= (CHANGED_SHARE * content["rms_mm"]) ** 2)
 
 
-def _scanned(claim: Claim) -> tuple[float, ...]:
+def _scanned(claim: NamedEffect) -> tuple[float, ...]:
     return tuple(claim.parameters[name][0] for name in ("per_turn", ROW, "time") if name in claim.parameters)
 
 
 def _numbers(
-    truth: Concealed, content: dict[str, Any], now: Sequence[Claim], before: Sequence[Claim]
+    truth: Concealed, content: dict[str, Any], now: Sequence[NamedEffect], before: Sequence[NamedEffect]
 ) -> list[Compared]:
     """The planted numbers, on top of the original's under the same name, beside the altered verdict's."""
     claims = [claim for claim in now if claim.name == truth.name]
@@ -219,19 +220,19 @@ def _numbers(
     return compare_numbers(replace(truth, parameters=expected), claims, None)
 
 
-def _waves_together(planted: dict[str, tuple[float, str]], own: Claim) -> dict[str, tuple[float, str]]:
+def _waves_together(planted: dict[str, tuple[float, str]], own: NamedEffect) -> dict[str, tuple[float, str]]:
     """Amplitude and phase of the planted wave and the arm's own of the same count."""
     wave = planted["amplitude"][0] * np.exp(1j * planted["phase"][0])
     wave += own.parameters["amplitude"][0] * np.exp(1j * own.parameters["phase"][0])
     return planted | {"amplitude": (float(abs(wave)), "rad"), "phase": (float(np.angle(wave)), "rad")}
 
 
-def _in_jump(content: dict[str, Any], claim: Claim) -> bool:
+def _in_jump(content: dict[str, Any], claim: NamedEffect) -> bool:
     low, high = content[JUMP]
     return ROW in claim.parameters and low < claim.parameters[ROW][0] <= high
 
 
-def _row_right(truth: Concealed, content: dict[str, Any], now: Sequence[Claim]) -> bool:
+def _row_right(truth: Concealed, content: dict[str, Any], now: Sequence[NamedEffect]) -> bool:
     return any(_in_jump(content, claim) for claim in now if claim.name == truth.name)
 
 
@@ -249,18 +250,14 @@ def _held_out(world: Sealed, original: Sealed) -> dict[str, float]:
     if world.answer.predicted is None or original.answer.predicted is None:
         return {}
     own, left = _missed(original), world.readings[LEFT_MM].to_numpy()
-    floor, without, found = _rms(own), _rms(own + left), _rms(_missed(world))
-    share = (without**2 - found**2) / _rms(left) ** 2
+    floor, without, found = rms_distance(own), rms_distance(own + left), rms_distance(_missed(world))
+    share = (without**2 - found**2) / rms_distance(left) ** 2
     return {"floor_mm": floor, "without_mm": without, "with_mm": found, "recovered": share}
 
 
 def _missed(world: Sealed) -> Array:
     assert world.answer.predicted is not None
     return np.asarray(world.readings[AXES_MM].to_numpy() - world.answer.predicted[AXES_MM].to_numpy())
-
-
-def _rms(missed: Array) -> float:
-    return float(np.sqrt(np.mean(np.sum(missed**2, axis=1))))
 
 
 def _listed(names: Sequence[Name]) -> str:
@@ -282,6 +279,6 @@ def _withheld(world: Sealed) -> dict[str, Any]:
         "all_names": _listed([c.name for c in world.answer.claims]),
         "background_mm": world.answer.background_mm,
         "load_rms_mm": float(np.sqrt(sum(c.rms_mm**2 for c in loaded))),
-        "held_out_mm": _rms(_missed(world)) if world.answer.predicted is not None else float("nan"),
+        "held_out_mm": rms_distance(_missed(world)) if world.answer.predicted is not None else float("nan"),
         "failed": world.answer.failed,
     }

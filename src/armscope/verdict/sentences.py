@@ -61,12 +61,23 @@ def phrase(effect: FoundEffect) -> str:
 
 def exact_phrase(effect: FoundEffect) -> str:
     """The clause at the level of the single effect, however sure that is."""
+    known = effect_named(effect.effect)
+    return say(known.clauses if known else (), _told(effect))
+
+
+def atlas_column(effect: FoundEffect) -> str:
+    """The column of the atlas in which an effect shows; "" for none."""
+    known = effect_named(effect.effect)
+    column = known.atlas if known else ""
+    return column if isinstance(column, str) else column(_told(effect))
+
+
+def _told(effect: FoundEffect) -> Told:
     numbers = {p.name: Number(p.value, p.unit, p.stderr) for p in effect.parameters}
     if effect.curve is not None and len(effect.curve.value):
         farthest = reach(effect.curve)
         numbers[farthest.name] = Number(farthest.value, farthest.unit, farthest.stderr)
-    known = effect_named(effect.effect)
-    return say(known.clauses if known else (), Told(effect.effect, effect.location, effect.driver, numbers))
+    return Told(effect.effect, effect.location, effect.driver, numbers)
 
 
 def _of_what(position: int) -> str:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+import warnings
+from collections.abc import Collection, Iterator, Sequence
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -12,6 +13,9 @@ from matplotlib.patches import Rectangle
 
 from armscope.report.figures.arm_picture import share_colours
 from armscope.report.style import BLACK, styled
+from armscope.report.subject import Drawn, Subject
+from armscope.verdict.schema import Atlas, Diagnosis, FoundEffect
+from armscope.verdict.sentences import atlas_column
 
 WORTH_A_NUMBER = 0.03
 """Cells below this share are coloured but carry no number."""
@@ -74,3 +78,34 @@ def _frame(panel: plt.Axes, column: int, row: int) -> None:
     panel.add_patch(
         Rectangle((column - 0.5, row - 0.5), 1, 1, fill=False, edgecolor=BLACK, linewidth=1.8, zorder=5, clip_on=False)
     )
+
+
+def attribution(verdict: Diagnosis) -> bool:
+    """Whether there is anything in the atlas."""
+    return verdict.atlas is not None and bool(np.isfinite(verdict.atlas.share).any())
+
+
+def atlas_figure(subject: Subject) -> Iterator[Drawn]:
+    """The atlas with the named effects framed."""
+    verdict = subject.verdict
+    if verdict.atlas is not None and attribution(verdict):
+        shares, left, marked = atlas_tables(verdict.atlas, verdict.effects)
+        drawn = draw_atlas(shares, marked, left)
+        yield Drawn("atlas", drawn, "Map of the share of the mismatch by location and driver")
+
+
+def atlas_tables(
+    atlas: Atlas, effects: Sequence[FoundEffect]
+) -> tuple[pd.DataFrame, pd.DataFrame, list[tuple[str, str]]]:
+    """Location x driver tables of the best direction's share, on top of the frames and of the model; named cells."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # all directions NaN: there is no such effect
+        tables = [
+            pd.DataFrame(np.nanmax(values, axis=1), index=atlas.locations, columns=atlas.drivers)
+            for values in (atlas.share, atlas.left)
+        ]
+    there = tables[0].notna()
+    rows, columns = there.index[there.any(axis=1)], there.columns[there.any(axis=0)]
+    shares, left = (table.reindex(index=rows, columns=columns) for table in tables)
+    marked = [(effect.location, column) for effect in effects if (column := atlas_column(effect))]
+    return shares, left, marked

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
@@ -9,6 +11,7 @@ from matplotlib.figure import Figure
 from armscope.core.types import Array
 from armscope.report.figures.arm_shape import ArmShape, View, arm_shape, view_from
 from armscope.report.style import BLACK, BLUE, GREY, VERMILION, styled
+from armscope.report.subject import Drawn, Subject
 from armscope.robot import Arm
 
 MOST_POSES = 8
@@ -50,3 +53,10 @@ def _from_the_side(shape: ArmShape) -> View:
     """From where the tool is at the right of the base."""
     azimuth = np.arctan2(shape.tool[1], shape.tool[0]) - np.pi / 2
     return view_from(float(azimuth), float(ELEVATION))
+
+
+def next_poses_figure(subject: Subject) -> Iterator[Drawn]:
+    """The arm in the poses to measure next, where there are some."""
+    poses = subject.verdict.next_poses
+    if poses is not None and len(poses.motor_angles):
+        yield Drawn("next_poses", draw_poses(subject.arm, poses.motor_angles), "The arm in the poses to measure next")

@@ -1,6 +1,8 @@
-"""What was measured minus what the model says, as arrows in the workspace and along each joint's motion."""
+"""What was measured minus what the model says, as arrows in the workspace."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -12,15 +14,12 @@ from matplotlib.quiver import Quiver
 
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
-from armscope.recordings.motion import moving
 from armscope.report.figures.arm_picture import share_colours
-from armscope.report.style import BLACK, BLUE, GREY, VERMILION, legend_above, styled
+from armscope.report.style import GREY, styled
+from armscope.report.subject import Drawn, Subject
 
 MOST_ARROWS = 350
-MOST_DOTS = 1500
 MOST_INCHES = 7.0
-WINDOWS = 12
-"""The running mean along an angle has so many windows over its range."""
 
 
 def draw_vectors(points: Array, before: Array, after: Array) -> Figure:
@@ -71,50 +70,6 @@ def draw_vectors(points: Array, before: Array, after: Array) -> Figure:
     return figure
 
 
-def draw_along_joints(motor_angles: Array, jacobian: Array, before: Array, after: Array) -> Figure:
-    """The residual along the way that each joint moves the tool, against the joint's angle.
-
-    Args:
-        motor_angles: (N, m) rad; joints that never move are left out.
-        jacobian: (N, 3, m) displacement of the tool by unit turns of the motors, base axes.
-        before, after: (N, 3) residuals in base axes, mm.
-    """
-    joints = np.flatnonzero(moving(motor_angles))
-    shown = spread_evenly(len(motor_angles), MOST_DOTS)
-    ways = jacobian / np.maximum(np.linalg.norm(jacobian, axis=1, keepdims=True), 1e-9)
-    along = [np.einsum("nci,nc->ni", ways, residual) for residual in (before, after)]
-    limit = 1.15 * float(np.percentile(np.abs(along[0]), 99)) + 1e-9
-    columns = min(3, len(joints))
-    rows = -(-len(joints) // columns)
-    dot = float(np.clip(260 / np.sqrt(len(shown)) / 3, 2.5, 12))
-    with styled():
-        figure, panels = plt.subplots(
-            rows, columns, figsize=(2.9 * columns + 0.4, 2.0 * rows + 0.6), sharey=True, squeeze=False
-        )
-        for panel in panels.flat[len(joints) :]:
-            panel.set_visible(False)
-        for panel, joint in zip(panels.flat, joints, strict=False):
-            angle = np.degrees(motor_angles[:, joint])
-            panel.axhline(0, color=BLACK, linewidth=0.6)
-            for values, colour, name in zip(along, (VERMILION, BLUE), ("before", "after"), strict=True):
-                panel.scatter(angle[shown], values[shown, joint], s=dot, color=colour, alpha=0.35, linewidth=0,
-                              rasterized=True)  # fmt: skip
-                panel.plot(*running_mean(angle, values[:, joint]), color=colour, linewidth=1.8, label=name)
-            panel.set_ylim(-limit, limit)
-            panel.set_title(f"joint {joint + 1}")
-        figure.supxlabel("angle of the joint (deg)", fontsize=9)
-        figure.supylabel("residual along its motion (mm)", fontsize=9)
-        legend_above(figure)
-    return figure
-
-
-def running_mean(angle: Array, values: Array) -> tuple[Array, Array]:
-    """Means of angle and value in windows of equal numbers of rows."""
-    order = np.argsort(angle, kind="stable")
-    windows = np.array_split(order, max(2, min(WINDOWS, len(order) // 8)))
-    return np.array([angle[w].mean() for w in windows]), np.array([values[w].mean() for w in windows])
-
-
 def nice(value: float) -> float:
     """The largest of 1, 2, 5, 10, 20, ... that does not exceed the value."""
     power = 10.0 ** np.floor(np.log10(max(value, 1e-9)))
@@ -162,3 +117,10 @@ def _mark_base(panel: Axes) -> None:
     if left < 0 < right and low < 0 < high:
         panel.plot(0, 0, marker="s", markersize=7, color=GREY, zorder=2)
         panel.annotate("base", (0, 0), (5, 5), textcoords="offset points", color=GREY, fontsize=8)
+
+
+def vectors_figure(subject: Subject) -> Iterator[Drawn]:
+    """Residual vectors before and after."""
+    rows = subject.verdict.residuals
+    drawn = draw_vectors(rows.points * 1e-3, rows.before, rows.after)
+    yield Drawn("vectors", drawn, "Residual vectors in the workspace, before and after")

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import itertools
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
 from armscope.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, SKY, VERMILION, styled
+from armscope.report.subject import Drawn, Subject
+from armscope.verdict.schema import Verdict, WaterfallStep
+from armscope.verdict.wording import plain
 
 CLEAR = {"facecolor": "white", "edgecolor": "none", "pad": 0.8, "alpha": 0.85}
 """Behind numbers, so that the noise's line does not strike them out."""
@@ -98,3 +103,36 @@ def _any(spreads: Sequence[float] | None) -> bool:
 
 def _millimetres(value: float) -> str:
     return f"{value:.3f} mm" if value < 1 else f"{value:.2f} mm"
+
+
+def waterfall_figure(subject: Subject) -> Iterator[Drawn]:
+    """The held-out error as effects enter, beside the paper's models; none where nothing was held out."""
+    verdict = subject.verdict
+    known = gathered([step for step in waterfall_steps(verdict) if np.isfinite(step.held_out_mm)])
+    if known:
+        noise = verdict.noise_mm if np.isfinite(verdict.noise_mm) else None
+        steps, spreads = [(step.label, step.held_out_mm) for step in known], [step.spread_mm for step in known]
+        drawn = draw_waterfall(steps, noise, subject.references, spreads)
+        yield Drawn("waterfall", drawn, "Held-out error as effects enter the model, with its spread from fold to fold")
+
+
+def waterfall_steps(verdict: Verdict) -> list[WaterfallStep]:
+    """The verdict's steps in plain words, without a last one for tolerances that nobody asked for."""
+    steps = list(verdict.waterfall)
+    if len(steps) > 1 and not verdict.background.present and steps[-1].label.startswith("tolerances"):
+        steps.pop()
+    return [
+        replace(step, label=f"+ {plain(step.label)}" if number else "base and tool placed, no effect")
+        for number, step in enumerate(steps)
+    ]
+
+
+def gathered(steps: Sequence[WaterfallStep]) -> list[WaterfallStep]:
+    """The steps with minor effects that follow one another taken as one: together they are hardly to be seen."""
+    together: list[WaterfallStep] = []
+    for minor, group in itertools.groupby(steps, lambda step: step.minor):
+        members = list(group)
+        if minor and len(members) > 1:
+            members = [replace(members[-1], label=f"+ {len(members)} minor effects")]
+        together += members
+    return together

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
@@ -11,6 +13,7 @@ from armscope.core.inputs import InputError
 from armscope.paper.printed import AXES, TRAJECTORIES
 from armscope.paper.residuals import SPATIAL
 from armscope.report.html import significant
+from armscope.report.text.audit import audit_sentence
 
 BEGIN, END = "<!-- results: begin", "<!-- results: end -->"
 
@@ -20,7 +23,7 @@ def fill_readme(readme: Path, results: Path, proof: Path) -> None:
 
     Args:
         readme: the file; it keeps everything outside the marks.
-        results: folder with claims.csv and table2.csv.
+        results: folder with claims.csv, table2.csv and audit.csv.
         proof: folder with the tables of the full proof.
 
     Raises:
@@ -33,9 +36,10 @@ def fill_readme(readme: Path, results: Path, proof: Path) -> None:
     mark, _, rest = rest.partition("\n")
     _, _, after = rest.partition(END)
     claims, table = read_table(results / "claims.csv"), read_table(results / "table2.csv")
+    audited = f"*{audit_sentence(read_table(results / 'audit.csv'))}*"
     aims, worlds = read_table(proof / "aims.csv"), read_table(proof / "worlds.csv")
     block = "\n".join(
-        ["", *_proof_lines(aims, len(worlds)), "", *_claim_lines(claims), "", *_table_lines(table), "", ""]
+        ["", *_proof_lines(aims, len(worlds)), "", *_claim_lines(claims), "", *_table_lines(table), "", audited, "", ""]
     )
     write_text(readme, f"{before}{BEGIN}{mark}\n{block}{END}{after}")
 
@@ -59,6 +63,10 @@ def _proof_lines(aims: pd.DataFrame, worlds: int) -> list[str]:
     return lines
 
 
+README_CLAIMS = ("smaller", "as_printed", "alternative", "cartesian_1", "fourier", "remedied", "minimum_data")
+"""The claims that a reader of the README is told; all of them stand on the page of the reproduction."""
+
+
 def _percent(share: float) -> str:
     """In whole percent; with decimals where these would turn nearly all into all, or hardly any into none."""
     percent = 100 * share
@@ -70,15 +78,36 @@ def _percent(share: float) -> str:
 
 
 def _claim_lines(claims: pd.DataFrame) -> list[str]:
+    robots = int(claims["robots"].dropna().iloc[0])
     lines = [
-        f"The paper's claims, on {claims['robots'].iloc[0]} virtual robots that agree with its printed Eqs. (15)-(17) "
-        "(assumed geometry, poses and tolerances):",
+        f"The paper's main claims, on {robots} virtual robots drawn so that its printed Eqs. (15)-(17) come out "
+        "(assumed geometry, poses and tolerances): share of the robots for which each is true, with exact 95 % "
+        "intervals, and what remains under other assumptions:",
         "",
-        "| claim | verdict | robots for which it is true |",
-        "|---|---|---|",
+        "| claim | method as printed | improved | under other assumptions |",
+        "|---|---|---|---|",
     ]
-    rows = claims[["claim", "verdict", "share_of_robots"]].to_dict("records")
-    return lines + [f"| {row['claim']} | {row['verdict']} | {100 * row['share_of_robots']:.0f} % |" for row in rows]
+    for key in README_CLAIMS:
+        by_method = {row["method"]: row for row in claims[claims["key"] == key].to_dict("records")}
+        best = by_method.get("improved", by_method.get("least squares"))
+        if best is None or best["verdict"] == "skipped":
+            continue
+        printed = by_method.get("as printed")
+        cells = ["–" if printed is None else _verdict(printed), _verdict(best), _remains(best)]
+        lines.append(f"| {best['claim']} | {' | '.join(cells)} |")
+    return lines
+
+
+def _verdict(row: dict[Hashable, Any]) -> str:
+    low, high = 100 * row["share_low"], 100 * row["share_high"]
+    return f"{row['verdict']}: {100 * row['share']:.0f} % ({low:.0f}–{high:.0f})"
+
+
+def _remains(row: dict[Hashable, Any]) -> str:
+    decided = row["depends_on"] if isinstance(row["depends_on"], str) and row["depends_on"] else ""
+    shares = f"{100 * row['share_least']:.0f}–{100 * row['share_most']:.0f} %"
+    found = f"{row['under_assumptions']}: {decided}" if decided else str(row["under_assumptions"])
+    return found if found == "not varied" else f"{found} ({shares})"
 
 
 def _table_lines(table: pd.DataFrame) -> list[str]:
@@ -87,16 +116,20 @@ def _table_lines(table: pd.DataFrame) -> list[str]:
     lengths = (printed.set_index(["model", "trajectory"])["printed"] ** 2).groupby(
         level=[0, 1], sort=False
     ).sum() ** 0.5
-    ours = table[table["axis"] == SPATIAL].set_index(["model", "trajectory"])["rss_median"]
+    whole = table[table["axis"] == SPATIAL].set_index(["model", "trajectory"])
+    columns = [f"rss_ensemble_{name}" for name in ("median", "low", "high")]
+    ours = {place: [significant(value, 2) for value in row[columns]] for place, row in whole.iterrows()}
     lines = [
-        "Table 2 in short, ours / printed (3D, root of the sum of squares in mm; anchored robot, median over seeds):",
+        "Table 2 in short: median of the drawn robots (5–95 % of them) / printed; length of the x, y, z errors, each "
+        "the root of the sum of squares, mm; identification fitted, tests held out:",
         "",
         "| | " + " | ".join(TRAJECTORIES) + " |",
         "|---|" + "---|" * len(TRAJECTORIES),
     ]
     for model in lengths.index.get_level_values(0).unique():
-        cells = [
-            f"{significant(ours[model, name], 2)} / {significant(lengths[model, name], 2)}" for name in TRAJECTORIES
-        ]
+        cells = []
+        for name in TRAJECTORIES:
+            median, low, high = ours[model, name]
+            cells.append(f"{median} ({low}–{high}) / {significant(lengths[model, name], 2)}")
         lines.append(f"| {model} | {' | '.join(cells)} |")
     return lines

@@ -28,11 +28,11 @@ from armscope.compensation.result import Compensated
 from armscope.core.types import Array
 from armscope.diagnosis import Settings, diagnose
 from armscope.errormodels import ModelSpec
+from armscope.paper.closed_loop import DIAGNOSED
 from armscope.paper.measurements import Measurements
 from armscope.physics.model import predict, predict_orientation
 from armscope.recordings import Recordings
 from armscope.recordings.table import as_recordings
-from armscope.report.closed_loop import DIAGNOSED
 from armscope.robot import Arm, Chain, chain
 from armscope.robot.inverse import follow_path
 from armscope.world.poses import candidate_poses, choose_poses, joint_ranges

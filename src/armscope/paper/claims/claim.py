@@ -1,0 +1,48 @@
+"""What a claim is: words, place, criterion, and who judges it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from armscope.paper.claims.evidence import Evidence, Judged
+
+OWN, TAUTOLOGY = "the paper's own claims", "true of every nested least-squares fit"
+REGIONS, PRODUCT = "outlook: sub-volumes", "outlook: products"
+GROUPS = (OWN, TAUTOLOGY, REGIONS, PRODUCT)
+
+BY_SWARM, WITHOUT = "by swarm", "by least squares"
+FIRST_FOUR = ("FDP(CI)", "SDP(CI)", "FDP(AI)", "SDP(AI)")
+OVER_TESTS = "3D errors over trajectories I–III together"
+
+
+@dataclass(frozen=True)
+class Claim:
+    """What is claimed, where and in which words, what counts as true of one robot, and who judges.
+
+    Attributes:
+        key: short name in tables and files.
+        claim: in our words.
+        group: one of `GROUPS`.
+        source: page and section.
+        wording: of the paper; "" where the claim is read off Table 2.
+        criterion: what counts as true of one robot.
+        number_is, unit: the number that goes with it.
+        judge: from evidence; None where the evidence for it was not gathered.
+        needs: models without which it can't be judged.
+        any_of: at least one of these models is needed.
+        fitted: `BY_SWARM` (judged once per method) or `WITHOUT`.
+    """
+
+    key: str
+    claim: str
+    group: str
+    source: str
+    wording: str
+    criterion: str
+    number_is: str
+    unit: str
+    judge: Callable[[Evidence], Judged | None]
+    needs: tuple[str, ...] = ()
+    any_of: tuple[str, ...] = ()
+    fitted: str = BY_SWARM

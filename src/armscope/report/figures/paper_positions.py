@@ -1,0 +1,66 @@
+"""Figs. 3 and 4: errors of the identification positions, and what the models make of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.figure import Figure
+
+from armscope.core.types import Array
+from armscope.report.style import AXIS_NAMES, BLACK, BLUE, GREY, VERMILION, legend_above, styled
+
+
+def errors_of_positions(errors: Array, low: Array | None = None, high: Array | None = None) -> Figure:
+    """Fig. 3: errors of the identification positions.
+
+    Args:
+        errors: (N, 3) measured minus nominal, mm.
+        low, high: (N, 3) range of the drawn robots.
+    """
+    with styled():
+        figure, panels = plt.subplots(3, 1, figsize=(7, 5), sharex=True)
+        points = np.arange(1, len(errors) + 1)
+        for axis, panel in enumerate(panels):
+            panel.axhline(0, color=GREY, linewidth=0.6)
+            if low is not None and high is not None:
+                panel.vlines(
+                    points, low[:, axis], high[:, axis], color=GREY, alpha=0.45, linewidth=2.5,
+                    label="5–95 % of the drawn robots",
+                )  # fmt: skip
+            panel.plot(points, errors[:, axis], ".", color=BLUE, markersize=4, label="anchored robot")
+            panel.set_ylabel(f"$\\delta_{AXIS_NAMES[axis]}$ (mm)")
+        panels[-1].set_xlabel("identification position")
+        if low is not None:
+            legend_above(figure)
+    return figure
+
+
+def modelling_performance(errors: Array, predictions: Mapping[str, Array], axis: int = 1) -> Figure:
+    """Fig. 4: what each model makes of the identification errors along one axis.
+
+    Args:
+        errors: (N, 3) mm.
+        predictions: by model, (N, 3) mm; any number of models.
+        axis: 0, 1, 2 for x, y, z; the paper shows y.
+    """
+    rows = -(-len(predictions) // 2)
+    with styled():
+        figure, panels = plt.subplots(
+            rows, min(2, len(predictions)), figsize=(9, 0.6 + 2.2 * rows), sharex=True, sharey=True, squeeze=False
+        )
+        points = np.arange(1, len(errors) + 1)
+        for panel in panels.flat[len(predictions) :]:
+            panel.set_visible(False)
+        for panel, (model, predicted) in zip(panels.flat, predictions.items(), strict=False):
+            panel.plot(points, errors[:, axis], color=BLACK, linewidth=0.8, label="measured")
+            panel.plot(points, predicted[:, axis], color=VERMILION, linestyle="--", linewidth=1.0, label="predicted")
+            rest = np.sqrt(np.mean((errors[:, axis] - predicted[:, axis]) ** 2))
+            panel.set_title(f"{model}: {rest:.2f} mm RMS left")
+        for panel in panels[:, 0]:
+            panel.set_ylabel(f"$\\delta_{AXIS_NAMES[axis]}$ (mm)")
+        for panel in panels[-1]:
+            panel.set_xlabel("identification position")
+        legend_above(figure)
+    return figure

@@ -1,0 +1,48 @@
+"""What was found: a card per effect, minor ones in a table."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from armscope.report.figures.effect_curve import effect_curves, worth_drawing
+from armscope.report.sections.effect_cards import Card, card
+from armscope.report.subject import Section, Subject
+from armscope.verdict.schema import Diagnosis, FoundEffect, NextPoses
+from armscope.verdict.wording import main_and_minor, percent
+
+
+def findings(verdict: Diagnosis) -> dict[str, Any]:
+    """What several sections tell: cards of main and minor effects, the backgrounds, whether a main one is in doubt."""
+    number = {id(effect): n for n, effect in enumerate(verdict.effects, start=1)}
+
+    def as_card(effect: FoundEffect) -> Card:
+        return card(effect, number[id(effect)], f"curve_{number[id(effect)]}" if worth_drawing(effect) else "")
+
+    main, minor = main_and_minor(verdict.effects)
+    return {
+        "cards": [as_card(effect) for effect in main],
+        "minor": [as_card(effect) for effect in minor],
+        "minor_share": percent(sum(effect.share for effect in minor)),
+        "background": [
+            (family.family, percent(family.share), f"{100 * min(max(family.share, 0.0), 1.0):.1f}")
+            for family in verdict.background_families
+            if family.present
+        ],
+        "background_share": percent(verdict.background.share),
+        "open_question": _concerns(verdict.next_poses, main),
+    }
+
+
+def _context(subject: Subject) -> dict[str, Any]:
+    return findings(subject.verdict)
+
+
+def _concerns(poses: NextPoses | None, effects: Sequence[FoundEffect]) -> bool:
+    """Whether the two readings that could not be told apart are about one of these effects."""
+    return poses is not None and any(
+        poses.first.startswith(f"{effect.effect} at {effect.location}") for effect in effects
+    )
+
+
+EFFECTS = Section("effects", "What was found", _context, (effect_curves,))

@@ -1,0 +1,93 @@
+"""What the library's effects exclude, require and contain, as the inference is told."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from armscope.diagnosis.model_space import EffectSpace, build_model_space
+from armscope.physics.backgrounds import FAMILIES, backgrounds
+from armscope.physics.drift import Pause, drift_with_pauses
+from armscope.physics.frames import free_frames
+from armscope.physics.payload import payload_errors
+from armscope.physics.registry import library
+from armscope.physics.scene import Part
+
+from .planted import planted
+
+
+@pytest.fixture(scope="module")
+def space() -> EffectSpace:
+    """The library of an arm that carried payloads, with a wrong payload, a drift by rows and one with a pause."""
+    arm, table = planted("six-axis", {}, 60, 0.03, seed=2)
+    table = replace(table, payload=np.repeat([0.0, 4.0, 8.0], 20), time=None)
+    effects = library(arm, table)
+    gives = next(p for p in effects if p.key == ("joint_compliance", "joint 2") and not p.variant)
+    payloads = payload_errors(table, [Part(gives, np.array([1e-6]))])
+    paused = drift_with_pauses([Pause(20.0, str(table.run[0]), 5.0)], 20)
+    frames, families = free_frames(table, False), list(backgrounds(arm, table).values())
+    return build_model_space(frames, families, [*effects, *payloads, paused])
+
+
+def number(space: EffectSpace, *wanted: str) -> int:
+    """Of the candidate of a kind at a location, in a variant."""
+    return next(n for n, c in enumerate(space.candidates) if (c.kind, c.location, c.variant) == wanted)
+
+
+def test_every_candidate_has_the_columns_of_its_terms(space: EffectSpace) -> None:
+    for candidate, placed in zip(space.candidates, space.placed, strict=True):
+        assert [space.layout.terms[n] for n in candidate.columns] == list(placed.terms)
+        assert candidate.key == placed.key
+
+
+def test_what_excludes_another_is_excluded_by_it(space: EffectSpace) -> None:
+    for n, candidate in enumerate(space.candidates):
+        assert n not in candidate.excludes
+        assert all(n in space.candidates[other].excludes for other in candidate.excludes)
+        assert candidate.special_cases <= candidate.excludes
+
+
+def test_a_curve_of_the_angle_contains_what_follows_the_angle(space: EffectSpace) -> None:
+    curve = space.candidates[number(space, "unknown", "joint 3", "angle")]
+    kinds = {space.candidates[n].kind for n in curve.special_cases}
+    assert {"joint_offset", "gear_ratio", "gear_eccentricity"} <= kinds
+    assert "joint_compliance" not in kinds
+    assert curve.side_by_side == 1
+    assert {space.candidates[n].location for n in curve.special_cases} == {"joint 3"}
+
+
+def test_a_wrong_payload_shows_only_through_what_gives_way(space: EffectSpace) -> None:
+    for n, needed in space.requires.items():
+        assert space.candidates[n].kind == "payload_error"
+        assert {space.candidates[other].family for other in needed} == {"elastic"}
+        assert not space.requirements_met(frozenset({n}))
+        assert space.requirements_met(frozenset({n, min(needed)}))
+    assert space.requires
+
+
+def test_stated_masses_are_trusted_with_a_wrong_payload(space: EffectSpace) -> None:
+    (exchange,) = space.exchanges
+    assert set(exchange.entering) == set(space.requires)
+    for doubted, stated in exchange.twins.items():
+        assert stated is not None
+        assert space.candidates[doubted].key == space.candidates[stated].key
+        assert space.candidates[stated].variant == ""
+
+
+def test_a_drift_leaves_with_one_more_effect_of_the_base_where_there_are_pauses(space: EffectSpace) -> None:
+    drift = space.candidates[number(space, "base_drift", "base", "rows")]
+    assert {space.candidates[n].location for n in drift.removed_with} == {"base"}
+    assert all(not c.removed_with for c in space.candidates if c.kind != "base_drift")
+
+
+def test_tolerances_are_free_and_other_backgrounds_pay(space: EffectSpace) -> None:
+    assert [family.name for family in space.families] == list(FAMILIES)
+    assert [family.is_priced for family in space.families] == [False, True, True]
+    geometric, elastic, _ = space.families
+    scale, sizes = np.full(len(space.layout.terms), 1000.0), np.array([0.1, 0.2, 0.4])
+    # the whole tolerance of a millimetre, of columns that move the tool by a metre per metre
+    np.testing.assert_allclose(geometric.prior_variance(geometric.sizes - 1, sizes, scale), 1.0)
+    assert elastic.label(0, sizes) == 0.0
+    assert elastic.label(2, sizes) == 0.2
