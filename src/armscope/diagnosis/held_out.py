@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.grouping import same_configuration
 from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import columns, structured_design
 from armscope.fitting.linearisation import current_parameters, linearised
@@ -47,8 +48,7 @@ def split(recordings: Recordings, rng: np.random.Generator) -> Blocks:
     """
     runs, which_run, per_run = np.unique(recordings.run, return_inverse=True, return_counts=True)
     by_run = len(runs) >= FEWEST_RUNS and per_run.min() >= FEWEST_ROWS_PER_RUN and len(runs) <= BLOCKS
-    _, pose = np.unique(np.round(recordings.motor_angles, 4), axis=0, return_inverse=True)
-    pose = pose.reshape(-1)
+    pose = same_configuration(recordings.motor_angles)
     count = int(pose.max()) + 1
     order = rng.permutation(count)
     if not by_run:
