@@ -216,7 +216,7 @@ def test_a_faint_jump_has_a_wide_interval() -> None:
 
 def test_a_long_table_is_sampled_and_then_weighed_whole(monkeypatch: pytest.MonkeyPatch) -> None:
     arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [5e-7]}, 400, 0.02, seed=15)
-    monkeypatch.setattr(selection, "SAMPLE_ROWS", 120)
+    monkeypatch.setattr(selection, "LOOP", replace(selection.LOOP, sample_rows=120))
     verdict = diagnose(arm, table, QUICK)
     (found,) = verdict.effects
     assert (found.effect, found.location) == ("joint_compliance", "joint 2")

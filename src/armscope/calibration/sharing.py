@@ -9,7 +9,8 @@ import numpy as np
 from armscope.calibration.fit import placed
 from armscope.calibration.model import set_up
 from armscope.core.sampling import spread_evenly
-from armscope.fitting.exchanged_tool import LEAST_NUMBERS, WORSE, exchanged_tool
+from armscope.fitting.constants import EXCHANGE
+from armscope.fitting.exchanged_tool import exchanged_tool
 from armscope.fitting.registration import fit_frames
 from armscope.measurement.robust import scale_of
 from armscope.recordings import Recordings
@@ -44,7 +45,7 @@ def sharing(arm: Arm, recordings: Recordings, one_base: bool, tool_per_run: bool
     if one_base:
         free = bool(notes) or bool(tool_per_run)
         shared, own = (_usual_miss(arm, some, one, free) for one in (True, False))
-        if shared > WORSE * own:
+        if shared > EXCHANGE.worse * own:
             text = f"one base frame for all runs leaves {shared * 1e3:.3g} mm, one per run {own * 1e3:.3g} mm"
             doubts.append(f"{text}: it was moved")
     return notes, doubts
@@ -57,7 +58,7 @@ def _usual_miss(arm: Arm, recordings: Recordings, one_base: bool, tool_per_run: 
     """
     rows = set_up(arm, recordings, one_base, tool_per_run)
     measured, spent = 3 * len(rows), 6 * len(rows.base_names) + 3 * len(rows.tool_names)
-    if measured < LEAST_NUMBERS * spent:
+    if measured < EXCHANGE.least_numbers * spent:
         return float(np.inf)
     spread = scale_of(rows.residuals(placed(rows)))
     return spread * float(np.sqrt(measured / (measured - spent)))

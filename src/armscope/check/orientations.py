@@ -14,7 +14,8 @@ from armscope.calibration.state import State
 from armscope.check.suspicion import Suspicion
 from armscope.core.types import Array
 from armscope.measurement.channel import Channel, ChannelResiduals
-from armscope.measurement.orientations import FEWEST, NOT_THE_TOOLS_RAD
+from armscope.measurement.constants import WEIGHTS
+from armscope.measurement.orientations import NOT_THE_TOOLS_RAD
 from armscope.recordings import Recordings
 from armscope.verdict.schema import Notice
 
@@ -63,6 +64,9 @@ def trusted_channels(
         channels: that were measured.
         recordings: the table.
         left: what the free frames leave in every channel.
+
+    Returns:
+        Those channels, that table, and a notice per channel left out.
     """
     kept, notices = [], []
     for channel in channels:
@@ -89,7 +93,7 @@ def orientation_mistakes(rows: SetUp, state: State, quaternions: Array | None) -
     known = np.zeros(len(rows), bool) if quaternions is None else np.isfinite(quaternions).all(axis=1)
     if quaternions is None or not known.any():
         return []
-    if known.sum() < FEWEST:
+    if known.sum() < WEIGHTS.fewest_orientations:
         return [Suspicion("hint", f"only {known.sum()} rows hold an orientation", "Positions are used alone.")]
     _, frames = rows.frames(state)
     expected = (state.rotations[rows.base] @ frames.tool_rotation)[known]

@@ -16,6 +16,7 @@ from scipy.special import log_ndtr
 
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
+from armscope.diagnosis.constants import GRAVITY
 from armscope.diagnosis.model_space import build_model_space
 from armscope.fitting.linearisation import normal_equations_by_block, point_residuals
 from armscope.inference.constants import PRIORS
@@ -32,15 +33,8 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.robot.arm import build_arm
 
-LEANS_TRIED = (0.2, 0.5, 0.9, 1.6, 2.4, 3.1)
-AZIMUTHS = 8
-"""Where the search starts: the stated direction and these leans (rad) towards so many sides."""
-CLOSE_RAD, FIRST_STEP_RAD = 1e-3, 0.1
-STEP_RAD = 0.02
 HEMISPHERE = 2 * np.pi
 """Solid angle of the directions that compete."""
-ROWS = 400
-"""Rows that are looked at, at most."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,18 +61,21 @@ def lean(start: FittedModel, recordings: Recordings, noise: Noise, tool_per_run:
         recordings: the rows.
         noise: what is known of it.
         tool_per_run: whether the tool is free in every run.
+
+    Returns:
+        The arm with the direction found, its angle and interval, rad, and evidence, nats.
     """
     if not start.arm.has_masses:
         return None
-    rows = spread_evenly(len(recordings), ROWS)
+    rows = spread_evenly(len(recordings), GRAVITY.rows)
     valley = _Valley(start, recordings.rows(rows), noise, tool_per_run)
     tried: list[Array] = [np.zeros(2)]
-    for size in LEANS_TRIED:
-        sides = 2 * np.pi * np.arange(AZIMUTHS) / AZIMUTHS
+    for size in GRAVITY.leans_tried:
+        sides = 2 * np.pi * np.arange(GRAVITY.azimuths) / GRAVITY.azimuths
         tried += list(size * np.column_stack([np.cos(sides), np.sin(sides)]))
     first = tried[int(np.argmin([valley.depth(tilt) for tilt in tried]))]
-    simplex = first + FIRST_STEP_RAD * np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
-    options: Any = {"xatol": CLOSE_RAD, "fatol": 0.05, "initial_simplex": simplex}
+    simplex = first + GRAVITY.first_step_rad * np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    options: Any = {"xatol": GRAVITY.close_rad, "fatol": 0.05, "initial_simplex": simplex}
     best = np.asarray(minimize(valley.depth, first, method="Nelder-Mead", options=options).x, dtype=np.float64)
     covariance = np.linalg.pinv(_curvature(valley, best), hermitian=True)
     width = 2 * float(np.pi * np.sqrt(max(float(np.linalg.det(covariance)), 1e-12)))
@@ -138,14 +135,14 @@ def _gives_along(made: Problem, hypothesis: Hypothesis) -> float:
 
 def _curvature(valley: _Valley, at: Array) -> Array:
     """(2, 2) second derivatives of the valley, nats per rad^2, by differences."""
-    steps = STEP_RAD * np.eye(2)
+    steps = GRAVITY.step_rad * np.eye(2)
     here = valley.depth(at)
     H = np.empty((2, 2))
     for i in range(2):
         for j in range(2):
             if i == j:
-                H[i, i] = (valley.depth(at + steps[i]) - 2 * here + valley.depth(at - steps[i])) / STEP_RAD**2
+                H[i, i] = (valley.depth(at + steps[i]) - 2 * here + valley.depth(at - steps[i])) / GRAVITY.step_rad**2
             else:
                 mixed = sum(a * b * valley.depth(at + a * steps[0] + b * steps[1]) for a in (1, -1) for b in (1, -1))
-                H[i, j] = mixed / (4 * STEP_RAD**2)
+                H[i, j] = mixed / (4 * GRAVITY.step_rad**2)
     return H

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from armscope.core.grouping import same_configuration
 from armscope.core.types import Array, Indices
+from armscope.diagnosis.constants import FOLDING
 from armscope.fitting.design_matrix import columns, structured_design
 from armscope.fitting.linearisation import current_parameters, linearised
 from armscope.fitting.parameter_layout import ParameterLayout
@@ -19,17 +20,13 @@ from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, SelectedEffect
 from armscope.inference.search import Search
-from armscope.measurement.row_weights import INLIER_WEIGHT, RowWeights
+from armscope.measurement.constants import WEIGHTS
+from armscope.measurement.row_weights import RowWeights
 from armscope.measurement.whitening import WhitenedPosture, Whitener
 from armscope.physics.effect import Term
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 from armscope.verdict.schema import HeldOut, WaterfallStep
-
-FOLDS = 5
-BLOCKS = 20
-FEWEST_ROWS_PER_RUN = 30
-FEWEST_RUNS = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,14 +44,18 @@ def split(recordings: Recordings, rng: np.random.Generator) -> Blocks:
     Runs are held out whole where there are at least three with at least thirty rows each.
     """
     runs, which_run, per_run = np.unique(recordings.run, return_inverse=True, return_counts=True)
-    by_run = len(runs) >= FEWEST_RUNS and per_run.min() >= FEWEST_ROWS_PER_RUN and len(runs) <= BLOCKS
+    by_run = (
+        len(runs) >= FOLDING.fewest_runs
+        and per_run.min() >= FOLDING.fewest_rows_per_run
+        and len(runs) <= FOLDING.blocks
+    )
     pose = same_configuration(recordings.motor_angles)
     count = int(pose.max()) + 1
     order = rng.permutation(count)
     if not by_run:
-        blocks = min(BLOCKS, count)
-        return Blocks((order % blocks)[pose], np.arange(blocks) % FOLDS, "configuration")
-    pieces = max(1, BLOCKS // len(runs))
+        blocks = min(FOLDING.blocks, count)
+        return Blocks((order % blocks)[pose], np.arange(blocks) % FOLDING.folds, "configuration")
+    pieces = max(1, FOLDING.blocks // len(runs))
     of_row = which_run * pieces + (order % pieces)[pose]
     return Blocks(of_row, np.repeat(np.arange(len(runs)), pieces), "run")
 
@@ -75,9 +76,15 @@ def cross_validate(
     its rows, as it always is.
 
     Args:
+        problem: the sums of all rows, priors and costs.
         blocks: sums over the rows as they were fitted.
+        split: which blocks make which fold.
+        best: the hypothesis chosen on all rows.
         order: candidates of ``best`` in the order in which the waterfall adds them.
         rows: the rows at the point of linearisation of ``blocks``.
+
+    Returns:
+        Errors per axis, mm, and one step per effect.
     """
     folds = [int(k) for k in np.unique(split.fold) if 0 < np.count_nonzero(split.fold == k) < len(blocks)]
     if not folds:
@@ -170,15 +177,19 @@ class Rows:
     @property
     def trusted(self) -> NDArray[np.bool_]:
         """(N,) rows that do not look like bad shots."""
-        return np.asarray(self.weights.robust_weight > INLIER_WEIGHT)
+        return np.asarray(self.weights.robust_weight > WEIGHTS.inlier_weight)
 
 
 def left_over(rows: Rows, values: Array, number: Indices | None = None) -> Array:
     """(K, N, c) what K readings leave of every row in all channels, base axes, mm and mrad; NaN where not measured.
 
     Args:
+        rows: what they are computed from.
         values: (K, p) values of the layout's terms, SI units; or (F, K, p): each row takes those of its ``number``.
         number: (N,) 0 ... F - 1.
+
+    Returns:
+        The residuals.
     """
     values = values if number is not None else values[None]
     number = np.zeros(len(rows.recordings), dtype=np.intp) if number is None else number

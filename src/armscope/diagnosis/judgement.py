@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array, Progress
+from armscope.diagnosis.constants import TELLING
 from armscope.diagnosis.held_out import Rows, cross_validate
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary import alternatives as certainty
@@ -48,14 +49,22 @@ from armscope.verdict.schema import (
 )
 from armscope.verdict.sentences import headline
 
-SUSPECT_WEIGHT = 0.5
-LISTED_SUSPECTS = 200
-
 
 def judge(
     state: DiagnosisState, resamples: int, cross_validation: bool, rng: np.random.Generator, tell: Progress
 ) -> Diagnosis:
-    """Certainty, validation, atlas and words."""
+    """Certainty, validation, atlas and words.
+
+    Args:
+        state: the finished selection.
+        resamples: how often rows are drawn anew; 0 never.
+        cross_validation: whether the procedure is validated on held-out rows.
+        rng: draws the resamples.
+        tell: hears what is being done.
+
+    Returns:
+        The verdict.
+    """
     fit, best, problem = state.fit, state.best, state.problem
     search = Search.on(problem)
     tell("weighing alternatives", 0.55)
@@ -146,7 +155,7 @@ def _plain_gram(state: DiagnosisState) -> NormalEquations:
 
 
 def _weighted_rms(fit: Refit) -> float:
-    trusted = fit.weights.robust_weight > SUSPECT_WEIGHT
+    trusted = fit.weights.robust_weight > TELLING.suspect_weight
     return float(np.sqrt(np.mean(fit.residuals[trusted] ** 2)))
 
 
@@ -197,9 +206,9 @@ def _orientations(state: DiagnosisState) -> Orientations | None:
 def _suspects(state: DiagnosisState) -> tuple[SuspectRow, ...]:
     fit, table = state.fit, state.recordings
     relative = fit.weights.robust_weight
-    rows = np.flatnonzero(relative < SUSPECT_WEIGHT)
+    rows = np.flatnonzero(relative < TELLING.suspect_weight)
     size = np.linalg.norm(fit.residuals, axis=1)
-    worst = rows[np.argsort(-size[rows])][:LISTED_SUSPECTS]
+    worst = rows[np.argsort(-size[rows])][: TELLING.listed_suspects]
     return tuple(SuspectRow(str(table.id[r]), str(table.run[r]), float(size[r]), float(relative[r])) for r in worst)
 
 
@@ -229,7 +238,19 @@ def undecided(
     notices: tuple[Notice, ...],
     seconds: float,
 ) -> Diagnosis:
-    """The verdict where no effect can honestly be named."""
+    """The verdict where no effect can honestly be named.
+
+    Args:
+        start: the arm with its frames.
+        recordings: N rows.
+        residuals: (N, 3) mm after the frames.
+        noise: what is known of it.
+        notices: why nothing can be named.
+        seconds: taken so far.
+
+    Returns:
+        The verdict.
+    """
     rms = float(np.sqrt(np.mean(residuals**2)))
     points = start.to_base(recordings.positions, recordings.run) * 1e3
     count = len(recordings)

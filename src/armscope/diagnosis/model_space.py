@@ -10,10 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from armscope.diagnosis.constants import BACKGROUNDS
 from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
 from armscope.inference.model_space import (
     BackgroundFamily,
-    BackgroundSizes,
     Candidate,
     Exchange,
     ModelSpace,
@@ -24,15 +24,6 @@ from armscope.physics.backgrounds import FAMILIES, TOLERANCE
 from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import Placed, clash, region
 from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
-
-TOLERANCE_SHARES = (0.0, 0.03, 0.1, 0.3, 1.0)
-"""Shares of the tolerance that the geometric background may have: from a perfect arm to an ordinary one. None at all
-is among them: two dozen free values, however small, would take up any single one that is barely large enough to be
-seen."""
-FAMILY_SIZES = 4
-"""Sizes of an elastic or transmission background: none, then the smallest of the effects' sizes."""
-STARTS: tuple[BackgroundSizes, ...] = ((0, 0, 0), (2, 0, 0), (4, 0, 0), (3, 2, 2))
-"""Backgrounds to start from: a perfect arm, two with geometric tolerances, one with a little of everything."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -63,7 +54,7 @@ def build_model_space(
         frames=layout.frames,
         families=_families(layout),
         candidates=_candidates(layout, placed),
-        starts=STARTS,
+        starts=BACKGROUNDS.starts,
         exchanges=_trusting_stated_masses(placed),
         placed=tuple(placed),
         layout=layout,
@@ -75,8 +66,8 @@ def _families(layout: ParameterLayout) -> tuple[BackgroundFamily, ...]:
     (first, *others), (columns, *of_others) = FAMILIES, layout.background
     sized = zip(others, of_others, layout.background_scale[1:], strict=True)
     return (
-        ToleranceFamily(first, columns, TOLERANCE, TOLERANCE_SHARES),
-        *(SizedFamily(name, at, scale, FAMILY_SIZES) for name, at, scale in sized),
+        ToleranceFamily(first, columns, TOLERANCE, BACKGROUNDS.tolerance_shares),
+        *(SizedFamily(name, at, scale, BACKGROUNDS.family_sizes) for name, at, scale in sized),
     )
 
 

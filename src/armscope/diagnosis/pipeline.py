@@ -66,6 +66,9 @@ def diagnose(
         progress: called with a sentence and the share done, 0 ... 1.
         channels: kinds of reading that are used where the table holds them; the first is the reference.
 
+    Returns:
+        The verdict, with the arm and table that it was made from.
+
     Raises:
         InputError: the recordings don't fit the arm or hold no usable rows.
     """

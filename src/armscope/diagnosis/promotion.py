@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.diagnosis.constants import NAMING
 from armscope.diagnosis.model_space import EffectSpace
 from armscope.inference.constants import PRIORS
 from armscope.inference.edits import Edits
@@ -21,13 +22,9 @@ from armscope.inference.problem import Problem, SelectedEffect
 from armscope.physics.elastic import JOINT_COMPLIANCE
 from armscope.physics.freeform import REST_OF_LOAD
 
-STANDS_OUT_NATS, STANDS_OUT = 20.0, 0.25
-"""A background's member is named when holding it right loses this much and it is worth this share of the RMS."""
 GIVES_NATS, GIVES = PRIORS.sure_nats, 0.1
 """A joint's drive in an elastic background is named at odds of 20 to 1, if it is worth this share of the RMS at all: of
 what gives way, drives do first and most."""
-LINE_SHARE = 0.9
-"""A curve of load whose line explains this share of it is told as the line, and what is left of the curve."""
 DRIVE = JOINT_COMPLIANCE.name
 
 
@@ -54,7 +51,11 @@ def _promoted(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
     unnamed = list(_unnamed(problem, hypothesis))
     drives = [number for number in unnamed if problem.space.candidates[number].kind == DRIVE]
     others = [number for number in unnamed if number not in drives]
-    added = [number for number in others if _stands_out(problem, hypothesis, number, STANDS_OUT_NATS, STANDS_OUT)]
+    added = [
+        number
+        for number in others
+        if _stands_out(problem, hypothesis, number, NAMING.stands_out_nats, NAMING.stands_out)
+    ]
     if drives:
         free = _with_names(problem, hypothesis, drives, [problem.mismatch] * len(drives))
         added += [d for d in drives if _stands_out(problem, free, d, GIVES_NATS, GIVES)]
@@ -115,7 +116,7 @@ def _straightened(problem: Problem, space: EffectSpace, hypothesis: Hypothesis) 
         if not candidate.is_curve or candidate.variant != "load" or candidate.location not in stated:
             continue
         straight, bent = _line(problem, space, hypothesis, curve.candidate)
-        if straight**2 < LINE_SHARE * (straight**2 + bent**2):
+        if straight**2 < NAMING.line_share * (straight**2 + bent**2):
             continue
         others = tuple(c for c in hypothesis.chosen if c is not curve)
         line = SelectedEffect(stated[candidate.location], problem.nearest_size(straight), nested=True)
@@ -147,7 +148,16 @@ def _along_load(M: Array, mean: Array, line: int, constant: Sequence[int]) -> bo
 
 
 def rest_of(problem: Problem, hypothesis: Hypothesis, line: int) -> list[int]:
-    """What is left, in a hypothesis, of the curve that a named line was taken from."""
+    """What is left, in a hypothesis, of the curve that a named line was taken from.
+
+    Args:
+        problem: the sums, priors and costs.
+        hypothesis: that holds the line.
+        line: the candidate's number.
+
+    Returns:
+        Numbers of columns.
+    """
     candidates = problem.space.candidates
     if candidates[line].kind != DRIVE:
         return []

@@ -6,10 +6,12 @@ import numpy as np
 
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
+from armscope.diagnosis.constants import LOOP
 from armscope.fitting.joint_scatter import Scattered, find_scatter, motor_jacobians, noise_between, whitening
 from armscope.fitting.linearisation import LinearisedTable
 from armscope.measurement import robust
 from armscope.measurement.channel import ChannelResiduals
+from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.noise import (
     Growth,
     Noise,
@@ -19,11 +21,8 @@ from armscope.measurement.noise import (
     poses,
     relative_uncertainty,
 )
-from armscope.measurement.row_weights import INLIER_WEIGHT, RowNoise
+from armscope.measurement.row_weights import RowNoise
 from armscope.physics.model import FittedModel
-
-SCATTER_ROWS = 4000
-"""Scatter is looked for on this many rows at most."""
 
 
 class NoiseOfRows:
@@ -68,7 +67,8 @@ class NoiseOfRows:
         uncertainty = relative_uncertainty(self.recordings, noise_mm, by_distance)
         alone = RowNoise(uncertainty, np.ones(len(uncertainty))).weights(residuals, self.least_mm)
         self.rows = RowNoise(
-            uncertainty, independence_weights(residuals.points_mm, self.pose, alone.robust_weight > INLIER_WEIGHT)
+            uncertainty,
+            independence_weights(residuals.points_mm, self.pose, alone.robust_weight > WEIGHTS.inlier_weight),
         )
         self.weights = self.rows.weights(residuals, self.least_mm, white)
 
@@ -94,7 +94,9 @@ class NoiseOfRows:
             return False
         away = distances(model, self.recordings)
         found = (
-            None if away is None else growth(self.residuals.points_mm, away, self.weights.robust_weight > INLIER_WEIGHT)
+            None
+            if away is None
+            else growth(self.residuals.points_mm, away, self.weights.robust_weight > WEIGHTS.inlier_weight)
         )
         if found is None or found.evidence < sum(each.evidence for each in self._find_scatter()):
             return False
@@ -105,7 +107,7 @@ class NoiseOfRows:
     def _find_scatter(self) -> list[Scattered]:
         """Scatter in what is left, on as many rows as it takes."""
         left = self.residuals.points_mm
-        rows = spread_evenly(len(left), SCATTER_ROWS)
+        rows = spread_evenly(len(left), LOOP.scatter_rows)
         relative = self.rows.uncertainty[rows, None]
         return find_scatter(left[rows] / relative, self.moved[:, rows] / relative, self.least_mm)
 

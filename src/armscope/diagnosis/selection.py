@@ -10,6 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from armscope.core.types import Indices, Progress
+from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.selection_loop import Selected, SelectionLoop
 from armscope.fitting.linearisation import LinearisedTable
 from armscope.inference.additions import best_additions
@@ -19,13 +20,6 @@ from armscope.physics.effect import Placed
 from armscope.physics.model import FittedModel
 from armscope.physics.payload import PAYLOAD_ERROR
 from armscope.recordings import Recordings
-
-SAMPLE_ROWS = 3000
-"""Longer tables are diagnosed on this many of their rows first."""
-ROWS_OF_A_GROUP = 20
-"""Rows of every run and target that the sample holds at least."""
-PROMISING = 60
-"""How many effects beside the chosen ones are weighed again on all rows of a long table."""
 
 
 def select(
@@ -37,7 +31,7 @@ def select(
     progress: Progress,
 ) -> Selected:
     """The effects that the evidence asks for, fitted with the exact model."""
-    if len(table) <= SAMPLE_ROWS:
+    if len(table) <= LOOP.sample_rows:
         return SelectionLoop(start, table, noise, frames, block_of_row, progress).run()
     rows = _sample(table.recordings)
     small = SelectionLoop(start, table.rows(rows), noise, frames, block_of_row[rows], progress)
@@ -51,9 +45,9 @@ def select(
 
 def _sample(recordings: Recordings) -> Indices:
     """Rows spread evenly over the table, and some of every run and target."""
-    rows = [np.linspace(0, len(recordings) - 1, SAMPLE_ROWS).astype(np.intp)]
+    rows = [np.linspace(0, len(recordings) - 1, LOOP.sample_rows).astype(np.intp)]
     groups = np.char.add(np.char.add(recordings.run, "\n"), recordings.target)
-    rows += [np.flatnonzero(groups == group)[:ROWS_OF_A_GROUP] for group in np.unique(groups)]
+    rows += [np.flatnonzero(groups == group)[: LOOP.rows_of_a_group] for group in np.unique(groups)]
     return np.unique(np.concatenate(rows))
 
 
@@ -65,5 +59,5 @@ def _promising(found: Selected) -> list[Placed]:
     kept |= {coarse for n in kept if (coarse := candidates[n].refines) is not None}
     for hypothesis in (found.best, search.empty()):
         gain, _ = best_additions(found.problem, search.groups, hypothesis)
-        kept |= {int(c) for c in np.argsort(-gain)[: PROMISING // 2]}
+        kept |= {int(c) for c in np.argsort(-gain)[: LOOP.promising // 2]}
     return [found.space.placed[c] for c in sorted(kept) if found.space.placed[c].effect is not PAYLOAD_ERROR]

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Indices, Progress
+from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.row_noise import NoiseOfRows
@@ -24,8 +25,8 @@ from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, background_sizes, build_problem
 from armscope.inference.search import Search
+from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.noise import Growth, Noise
-from armscope.measurement.row_weights import INLIER_WEIGHT
 from armscope.physics.backgrounds import backgrounds
 from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import Placed
@@ -37,13 +38,6 @@ from armscope.physics.scene import Part
 from armscope.recordings import Recordings
 
 State = tuple[frozenset[str], NDArray[np.bool_]]
-
-ROUNDS, FULL_ROUNDS, SCANNING_ROUNDS = 7, 2, 4
-"""Rounds at most; the first search from all starts, later ones from where the last one ended; the last do not scan."""
-FLICKERING = 0.002
-"""Share of the rows that may still come and go when the rounds end."""
-WITHIN = 0.3
-"""Names within a background are fitted freely, but not so freely that several could run against each other."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,9 +103,11 @@ class SelectionLoop:
         """Rounds until nothing changes; those on all rows still follow where these are a sample."""
         previous: State | None = None
         settled = False
-        for number in range(ROUNDS):
+        for number in range(LOOP.rounds):
             self.progress("looking for effects", 0.05 + 0.05 * number)
-            new = self.round(None if number < FULL_ROUNDS else self._where_it_ended(), number < SCANNING_ROUNDS)
+            new = self.round(
+                None if number < LOOP.full_rounds else self._where_it_ended(), number < LOOP.scanning_rounds
+            )
             state = self._state()
             same = previous is not None and self._alike(state, previous)
             may_end = not new and same and (settled or not self._depends())
@@ -174,7 +170,7 @@ class SelectionLoop:
     def _fitted(self) -> Refit:
         """The best hypothesis fitted with the exact model."""
         effects = [
-            (self.space.placed[c.candidate], float(self.problem.sizes[c.size]) * (WITHIN if c.nested else 1.0))
+            (self.space.placed[c.candidate], float(self.problem.sizes[c.size]) * (LOOP.within if c.nested else 1.0))
             for c in self.best.chosen
         ]
         small = list(zip(self.families, background_sizes(self.problem, self.best.background), strict=True))
@@ -206,12 +202,12 @@ class SelectionLoop:
     def _state(self) -> State:
         """What must not change any more: the effects and the rows that do not count."""
         chosen = [self.space.candidates[c] for c in self.best.candidates]
-        return frozenset(c.label + c.variant for c in chosen), self.noise.weights.robust_weight < INLIER_WEIGHT
+        return frozenset(c.label + c.variant for c in chosen), self.noise.weights.robust_weight < WEIGHTS.inlier_weight
 
     def _alike(self, state: State, previous: State) -> bool:
         """Whether two rounds ended alike: the same effects, and the same rows count but for a few of very many."""
         changed = np.count_nonzero(state[1] != previous[1])
-        return state[0] == previous[0] and bool(changed <= FLICKERING * len(self.recordings))
+        return state[0] == previous[0] and bool(changed <= LOOP.flickering * len(self.recordings))
 
     def _depends(self) -> bool:
         """Whether some effect requires others, whose values then must settle, too."""

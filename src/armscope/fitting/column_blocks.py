@@ -32,8 +32,12 @@ def column_blocks(
         layout: of the model's columns.
         inside: (k,) which of them.
         model: where columns are taken; the response is that before any effect, also of those that are not ``inside``.
-        recordings: the rows.
+        rows: the table and the channels that are used.
         weights: of the rows.
+        recordings: the rows.
+
+    Returns:
+        Sums of the blocks with themselves, with the columns, and with the response.
     """
     m, c = len(blocks), len(blocks[0])
     beside = grouped_columns([term for block in blocks for term in block])

@@ -16,13 +16,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from armscope.core.types import Array, Indices
+from armscope.fitting.constants import STEPS
 from armscope.measurement.positions import POSITIONS
 from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.effect import Direction, Driver, Term
 from armscope.physics.scene import Posture
-
-SMALLEST_GROUP = 16
-"""A direction with fewer terms than this is not worth a group."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +74,7 @@ def grouped_columns(terms: Sequence[Term]) -> ColumnOrder:
     groups = [
         _group(terms, direction, members)
         for direction, members in by_direction.items()
-        if len(members) >= SMALLEST_GROUP
+        if len(members) >= STEPS.smallest_group
     ]
     inside = {int(number) for group in groups for number in group.members}
     others = [number for number in range(len(terms)) if number not in inside]

@@ -27,6 +27,7 @@ from scipy.linalg import solve_triangular
 
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
+from armscope.fitting.constants import DISCREPANCY
 from armscope.fitting.design_matrix import component_rows
 from armscope.fitting.linearisation import linearised
 from armscope.fitting.refit import Refit
@@ -37,18 +38,6 @@ from armscope.physics.effect import AXES, ONE, Direction, motor, term
 from armscope.physics.placing import moving_joints
 from armscope.recordings import Recordings
 from armscope.verdict.schema import Notice
-
-SIZES = np.exp2(np.arange(-4.0, 3.0))
-"""Sizes of a process that compete, RMS at the tool in multiples of the noise; those of all processes together are as
-likely as none at all."""
-SLOW_WAVES, ROWS_PER_WAVE = 40, 6
-"""Half waves along the rows: this many, as far as there are so many rows for each."""
-WAVES = 2
-"""Half waves over a motor's range, alone and in products of two."""
-MOST_ROWS = 2000
-"""Longer tables are looked at on this many of their rows, spread evenly."""
-TINY_MM = 1e-6
-"""A motor that moves the tool by less, per radian, does not move it."""
 
 
 @dataclass(frozen=True)
@@ -89,8 +78,11 @@ def model_error(fit: Refit, recordings: Recordings, least_mm: float) -> ModelErr
         fit: of the recordings.
         recordings: the rows.
         least_mm: the noise is never taken to be below.
+
+    Returns:
+        The covariance, SI, and the processes that it was widened by.
     """
-    rows = spread_evenly(len(recordings), MOST_ROWS)
+    rows = spread_evenly(len(recordings), DISCREPANCY.most_rows)
     share = len(rows) / len(recordings)
     sums = _sums(fit, recordings, rows)
     factor = lower_cholesky(sums.normal / share, fit.noise**2 * fit.precision)
@@ -174,9 +166,9 @@ def _sums(fit: Refit, recordings: Recordings, rows: Indices) -> _Sums:
     size, numbers = np.ones(count), fit.weights.whitener(rows).width * len(rows)
     for what, at in list(of.items()):
         size[at] = np.sqrt(np.trace(own[at, at]) / numbers)
-        if size[at.start] < TINY_MM:
+        if size[at.start] < DISCREPANCY.tiny_mm:
             del of[what]
-    size = np.maximum(size, TINY_MM)
+    size = np.maximum(size, DISCREPANCY.tiny_mm)
     return _Sums(normal, own / np.outer(size, size), cross / size, pull / size, of, numbers)
 
 
@@ -192,7 +184,7 @@ def _slow(recordings: Recordings, rows: Indices) -> Array:
     order = np.arange(count)
     if recordings.time is not None and np.isfinite(recordings.time).all():
         order[np.argsort(recordings.time, kind="stable")] = np.arange(count)
-    waves = np.arange(1, min(SLOW_WAVES, count // ROWS_PER_WAVE) + 1)
+    waves = np.arange(1, min(DISCREPANCY.slow_waves, count // DISCREPANCY.rows_per_wave) + 1)
     return np.asarray(np.cos(np.pi * np.outer((order[rows] + 0.5) / count, waves)) / waves)
 
 
@@ -200,7 +192,7 @@ def _shapes(angles: Array) -> Array:
     """(N, k) a constant, cosines over the range of each of some motor angles (N, j), and products of two angles'."""
     low = angles.min(axis=0)
     along = (angles - low) / np.ptp(angles, axis=0)
-    alone = [[np.sqrt(2) * np.cos(np.pi * k * x) / k for k in range(1, WAVES + 1)] for x in along.T]
+    alone = [[np.sqrt(2) * np.cos(np.pi * k * x) / k for k in range(1, DISCREPANCY.waves + 1)] for x in along.T]
     shapes = [np.ones(len(angles)), *(wave for waves in alone for wave in waves)]
     shapes += [one * other for first, second in combinations(alone, 2) for one in first for other in second]
     return np.column_stack(shapes)
@@ -235,18 +227,19 @@ def _weigh(own: Array, pull: Array, chi2: float, freedom: float, least: float, o
         ratio = max(np.sqrt(left / freedom), least)
         return -freedom * float(np.log(ratio)) - 0.5 * left / ratio**2 - 0.5 * logdet, left
 
+    sizes = np.array(DISCREPANCY.sizes)
     nothing, _ = likelihood(0.0, 0.0)
     nats, squares = [], []
-    for quadratic, logdet in zip(*quadratic_and_logdet(own[None], pull[None], SIZES**2), strict=True):
+    for quadratic, logdet in zip(*quadratic_and_logdet(own[None], pull[None], sizes**2), strict=True):
         value, left = likelihood(float(quadratic[0]), float(logdet[0]))
         nats.append(value - nothing)
         squares.append(left)
     most = max(0.0, *nats)
-    likely, none = odds / len(SIZES) * np.exp(np.array(nats) - most), float(np.exp(-most))
+    likely, none = odds / len(sizes) * np.exp(np.array(nats) - most), float(np.exp(-most))
     best = int(np.argmax(nats))
     return _Weighed(
-        variance=float(likely @ SIZES**2 / (likely.sum() + none)),
-        likeliest=float(SIZES[best] ** 2),
+        variance=float(likely @ sizes**2 / (likely.sum() + none)),
+        likeliest=float(sizes[best] ** 2),
         chi2=squares[best],
-        evidence=float(np.logaddexp.reduce(nats) + np.log(odds / len(SIZES))),
+        evidence=float(np.logaddexp.reduce(nats) + np.log(odds / len(sizes))),
     )

@@ -7,17 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.fitting.constants import EXCHANGE
 from armscope.fitting.linearisation import residuals
 from armscope.fitting.registration import fit_frames
 from armscope.measurement import robust
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
-
-WORSE, APART = 2.0, 3.0
-"""A tool counts as exchanged when one tool for all runs leaves this many times what one per run leaves, and the tools
-lie this many times that apart: lesser shifts are effects and compete with the others."""
-LEAST_NUMBERS = 2
-"""Measured numbers per number of a frame, for frames to tell anything."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +54,7 @@ def exchanged_tool(shared: FittedModel, recordings: Recordings) -> ExchangedTool
         return None
     free = fit_frames(shared.arm, recordings, tool_per_run=True)
     measured, spent = 3 * len(recordings), 6 * len(free.bases) + 3 * len(free.tools)
-    if len(free.tools) == len(shared.tools) or measured < LEAST_NUMBERS * spent:
+    if len(free.tools) == len(shared.tools) or measured < EXCHANGE.least_numbers * spent:
         return None
     cost = float(np.sqrt(measured / (measured - spent)))
     before, after = residuals(shared, recordings), residuals(free, recordings)
@@ -79,4 +74,4 @@ def exchanged_tool(shared: FittedModel, recordings: Recordings) -> ExchangedTool
 def _exchanged(apart: float, before: Array, after: Array, cost: float) -> bool:
     """Whether tools lie apart, seen by residuals (N, c) with one tool for all runs and with one per run."""
     left = robust.scale_of(after)
-    return robust.scale_of(before) > WORSE * cost * left and apart > APART * left
+    return robust.scale_of(before) > EXCHANGE.worse * cost * left and apart > EXCHANGE.apart * left

@@ -16,6 +16,7 @@ import numpy as np
 import scipy.linalg
 
 from armscope.core.types import Array
+from armscope.fitting.constants import STEPS
 
 State = TypeVar("State")
 Residual = TypeVar("Residual")
@@ -24,9 +25,6 @@ Reason = Literal["the step became negligible", "no step lowers the misfit", "the
 SETTLED: Reason = "the step became negligible"
 STUCK: Reason = "no step lowers the misfit"
 UNSETTLED: Reason = "the largest number of steps was made"
-
-FIRST_DAMPING, MOST_DAMPING = 1e-4, 1e8
-"""Shares of each column's own square: the first that is tried, and where trying ends."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,6 +118,9 @@ def gauss_newton(
         problem: what is fitted to what.
         start: where to begin.
         most_steps: after so many steps the fit stops where it is.
+
+    Returns:
+        State, residual, steps, and why it stopped.
     """
     state, residual = start, problem.residual(start)
     damping = problem.least_damping
@@ -133,8 +134,8 @@ def gauss_newton(
                 return FitResult(candidate, left, steps, SETTLED)
             if problem.misfit(candidate, left) <= bound:
                 break
-            damping = max(10 * damping, FIRST_DAMPING)
-            if damping > MOST_DAMPING:
+            damping = max(10 * damping, STEPS.first_damping)
+            if damping > STEPS.most_damping:
                 return FitResult(state, residual, steps, STUCK)
         state, residual = candidate, left
         damping = max(damping / 100 if damping > 1e-6 else 0.0, problem.least_damping)

@@ -13,19 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.fitting.constants import SCATTER
 from armscope.fitting.linearisation import Measured, linearised
 from armscope.physics.effect import motor
 from armscope.physics.model import FittedModel
-
-RATIOS = (0.5, 1.0, 2.0, 4.0, 8.0, 16.0)
-"""Scatter at the tool in multiples of the noise that compete."""
-PRICE_NATS = 15.0
-"""What a place of scatter costs: its share of a library of joints and sizes, and caution."""
-MOST_PLACES = 3
-LARGEST_RAD = 0.02
-"""A joint that would have to be this loose is not where the scatter is: the tool hardly sees it turn."""
-TRIMMED = 0.03
-"""The evidence must hold without this share of the farthest rows, too: bad shots have no place."""
 
 
 @dataclass(frozen=True)
@@ -54,12 +45,15 @@ def find_scatter(residuals: Array, moved: Array, least_noise: float) -> list[Sca
         residuals: (N, 3) mm, base axes.
         moved: (m, N, 3) from `motor_jacobians`.
         least_noise: mm.
+
+    Returns:
+        Joint, size at it and evidence of each.
     """
     size = np.linalg.norm(residuals, axis=1)
-    near = size <= np.quantile(size, 1 - TRIMMED)
+    near = size <= np.quantile(size, 1 - SCATTER.trimmed)
     found: dict[int, float] = {}
     told: list[Scattered] = []
-    for _ in range(min(MOST_PLACES, len(moved))):
+    for _ in range(min(SCATTER.most_places, len(moved))):
         start = [_likelihood(residuals[rows], moved[:, rows], found, least_noise) for rows in (slice(None), near)]
         best: tuple[float, int, float] | None = None
         for j, rho in _trials(residuals, moved, found, start[0][1]):
@@ -70,11 +64,11 @@ def find_scatter(residuals: Array, moved: Array, least_noise: float) -> list[Sca
             )
             if best is None or gain > best[0]:
                 best = gain, j, rho
-        if best is None or best[0] < PRICE_NATS:
+        if best is None or best[0] < SCATTER.price_nats:
             break
         found[best[1]] = best[2]
         noise = _likelihood(residuals, moved, found, least_noise)[1]
-        told.append(Scattered(best[1] + 1, best[2] * noise, best[0] - PRICE_NATS))
+        told.append(Scattered(best[1] + 1, best[2] * noise, best[0] - SCATTER.price_nats))
     return told
 
 
@@ -83,7 +77,7 @@ def _trials(residuals: Array, moved: Array, found: Mapping[int, float], noise: f
     for j, lever in enumerate(moved):
         reach = float(np.sqrt(np.mean(lever**2)))
         if j not in found and reach > 0:
-            yield from ((j, ratio / reach) for ratio in RATIOS if ratio * noise / reach < LARGEST_RAD)
+            yield from ((j, ratio / reach) for ratio in SCATTER.ratios if ratio * noise / reach < SCATTER.largest_rad)
 
 
 def _likelihood(residuals: Array, moved: Array, rho: Mapping[int, float], least: float) -> tuple[float, float]:
@@ -105,7 +99,17 @@ def _covariance(moved: Array, rho: Mapping[int, float]) -> Array:
 
 
 def noise_between(residuals: Array, moved: Array, found: Sequence[Scattered], least: float) -> float:
-    """The noise that is left once scatter of the sizes found is taken out, mm."""
+    """The noise that is left once scatter of the sizes found is taken out, mm.
+
+    Args:
+        residuals: (N, 3) mm, base axes.
+        moved: (m, N, 3) from `motor_jacobians`.
+        found: where it scatters.
+        least: mm; the noise is never taken to be below.
+
+    Returns:
+        mm per axis.
+    """
     noise = max(least, float(np.sqrt(np.mean(residuals**2))))
     for _ in range(20):
         noise = _likelihood(residuals, moved, {s.motor - 1: s.size / noise for s in found}, least)[1]
@@ -113,7 +117,16 @@ def noise_between(residuals: Array, moved: Array, found: Sequence[Scattered], le
 
 
 def whitening(found: Sequence[Scattered], moved: Array, noise: float) -> Array | None:
-    """(N, 3, 3) symmetric V^-1/2 per row; None without scatter."""
+    """(N, 3, 3) symmetric V^-1/2 per row; None without scatter.
+
+    Args:
+        found: where it scatters.
+        moved: (m, N, 3) from `motor_jacobians`.
+        noise: elsewhere, mm per axis.
+
+    Returns:
+        (N, 3, 3); rows that do not scatter keep their scale.
+    """
     if not found:
         return None
     values, vectors = np.linalg.eigh(_covariance(moved, {s.motor - 1: s.size / noise for s in found}))

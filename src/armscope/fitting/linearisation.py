@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
+from armscope.fitting.constants import STEPS
 from armscope.fitting.design_matrix import structured_design
 from armscope.fitting.parameter_layout import ParameterLayout
 from armscope.inference.normal_equations import NormalEquations
@@ -25,10 +26,6 @@ from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.model import FittedModel
 from armscope.physics.scene import Posture, Scene
 from armscope.recordings import Recordings
-
-CHUNK_ROWS = 1500
-KEPT_ROWS = 15_000
-"""Drivers of tables up to this long are kept between passes: at most some 150 MB."""
 
 
 @dataclass(eq=False)
@@ -58,7 +55,7 @@ class LinearisedTable:
     @property
     def keeps(self) -> bool:
         """Whether what was computed is kept between passes."""
-        return self.order is not None and len(self) <= KEPT_ROWS
+        return self.order is not None and len(self) <= STEPS.kept_rows
 
     def rows(self, rows: Indices) -> LinearisedTable:
         """Some of the rows; nothing is kept of them."""
@@ -77,8 +74,8 @@ class LinearisedTable:
 
     def _made(self, model: FittedModel, order: Indices | None) -> Iterator[tuple[Indices, Scene]]:
         order = np.arange(len(self)) if order is None else order
-        for start in range(0, len(self), CHUNK_ROWS):
-            rows = order[start : start + CHUNK_ROWS]
+        for start in range(0, len(self), STEPS.chunk_rows):
+            rows = order[start : start + STEPS.chunk_rows]
             yield rows, model.scene(self.recordings.rows(rows))
 
 
@@ -115,9 +112,14 @@ def normal_equations_by_block(
     starts from no effects while the linearisation stands where the model stands.
 
     Args:
+        pool: of the model's columns.
+        model: the point of linearisation.
         rows: a table, or recordings.
         weights: of the rows; only the channels that they are of count.
         blocks: (N,) number of each row's block, from 0.
+
+    Returns:
+        One per block, mm per SI unit.
     """
     column_order = pool.column_order
     current = current_parameters(pool, model)[column_order.order]

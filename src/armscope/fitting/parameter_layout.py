@@ -49,7 +49,16 @@ class ParameterLayout:
 def parameter_layout(
     frames: Sequence[Placed], backgrounds: Sequence[Sequence[Placed]], effects: Sequence[Placed]
 ) -> ParameterLayout:
-    """Gather the terms of all effects, each once."""
+    """Gather the terms of all effects, each once.
+
+    Args:
+        frames: always free.
+        backgrounds: by family.
+        effects: that compete or are named.
+
+    Returns:
+        Terms, and which of them each effect has.
+    """
     index: dict[Term, int] = {}
 
     def add(placed: Placed) -> Indices:

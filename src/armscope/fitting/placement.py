@@ -10,9 +10,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from armscope.core.types import Array, Indices
+from armscope.fitting.constants import STEPS
 from armscope.fitting.gauss_newton import FitResult, NonlinearProblem, Quadratic, gauss_newton
-
-NEGLIGIBLE_M = 1e-9
 
 
 def rigid_motion(points: Array, measured: Array) -> tuple[Array, Array]:
@@ -132,6 +131,9 @@ def frame_columns(points: Array, turned: Array, base: Indices, tool: Indices, co
         points, turned: (N, 3), (N, 3, 3) tool points and the last frame's rotations.
         base, tool: (N,) numbers of each row's base and tool.
         counts: (R, K).
+
+    Returns:
+        (N, 3, 6 R + 3 K) m per m or rad.
     """
     n_bases, n_tools = counts
     rows, axes = np.arange(len(points))[:, None], np.arange(3)
@@ -176,11 +178,21 @@ class _Placement(NonlinearProblem[Frames, Array]):
         return state.moved(step)
 
     def settled(self, before: Array, after: Array) -> bool:
-        return float(np.abs(after - before).max()) < NEGLIGIBLE_M
+        return float(np.abs(after - before).max()) < STEPS.negligible_m
 
 
 def place_frames(
     poses: FlangePoses, start: Frames, most_steps: int, weigh: Callable[[Array], Array]
 ) -> FitResult[Frames, Array]:
-    """Bases and tools together, refined from a start; rows weighed by what is left of them (N, 3), m."""
+    """Bases and tools together, refined from a start; rows weighed by what is left of them (N, 3), m.
+
+    Args:
+        poses: the last frame in N rows, and what was measured.
+        start: bases and tools to start from.
+        most_steps: after so many steps the fit stops where it is.
+        weigh: (N, 3) m to (N,) weights.
+
+    Returns:
+        Bases and tools, and what is left, m.
+    """
     return gauss_newton(_Placement(poses, weigh), start, most_steps)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.fitting.constants import STEPS
 from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic, gauss_newton
 from armscope.fitting.linearisation import (
     Measured,
@@ -26,13 +27,6 @@ from armscope.physics.backgrounds import TOLERANCE
 from armscope.physics.effect import Placed, Term
 from armscope.physics.model import FittedModel
 from armscope.physics.scene import Part
-
-STEPS = 6
-CONVERGED_MM, CONVERGED = 1e-6, 0.05
-"""Steps end when residuals (RMS) move by less: mm, or this share of what the noise leaves uncertain anyway."""
-FREE = 10.0
-"""A named effect's values are held by a prior this many times wider than its size: freely, but not where poses hardly
-tell it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,7 +135,7 @@ class ModelFit(NonlinearProblem[FittedModel, ChannelResiduals]):
         """Whether points move by next to nothing beside what noise leaves uncertain."""
         uncertain = self.noise * np.sqrt(self.spent / max(self.gram.n, 1.0))
         moved = np.sqrt(np.mean((after.points_mm - before.points_mm) ** 2))
-        return bool(moved < max(CONVERGED_MM, self.negligible * uncertain))
+        return bool(moved < max(STEPS.converged_mm, self.negligible * uncertain))
 
 
 def refit(
@@ -158,12 +152,17 @@ def refit(
 
     Args:
         model: where to start from; its effects are replaced.
+        rows: a table, or recordings.
+        frames: always free.
         backgrounds: per family (effects, size): a share of the tolerance for the first, mm at the tool for the others;
             families of size 0 are left out.
         effects: (effect, size at the tool, mm).
-        rows: a table, or recordings.
         row_noise: relative uncertainty of the rows, and which are independent.
+        least_noise: mm; the noise is never taken to be below.
         whitening: (N, 3, 3) of rows that scatter along known directions.
+
+    Returns:
+        The fitted model, its weights, noise and covariance.
     """
     named = {term for placed, _ in effects for term in placed.terms}
     kept = [[b for placed in family if size and (b := _without(placed, named))] for family, size in backgrounds]
@@ -175,9 +174,9 @@ def refit(
         lambda left: row_noise.weights(left, least_noise, whitening),
         lambda gram: _precision(parts, gram, [size for _, size in backgrounds], effects),
         least_noise,
-        CONVERGED,
+        STEPS.converged_share,
     )
-    found = gauss_newton(problem, _start(model, background, effects), STEPS)
+    found = gauss_newton(problem, _start(model, background, effects), STEPS.refit)
     # a lucky residual does not make the instrument better than it is known to be
     covariance = max(problem.noise, least_noise) ** 2 * problem.inverse
     return Refit(
@@ -221,7 +220,7 @@ def _precision(
     for number, (columns, shape, size) in enumerate(zip(parts.background, parts.background_scale, sizes, strict=True)):
         variance[columns] = (size * TOLERANCE) ** 2 if number == 0 else (size * shape / scale[columns]) ** 2
     for (placed, size), at in zip(effects, parts.columns, strict=True):
-        wide = 1.0 if placed.partly_unseen else FREE
+        wide = 1.0 if placed.partly_unseen else STEPS.free
         variance[at] = (wide * size * np.array(placed.prior_scale) / scale[at]) ** 2
         # nor farther than frames go, however much of it they would absorb
         variance[at] = np.minimum(variance[at], PRIORS.frame_mm**2 * gram.n / np.maximum(np.diag(gram.G)[at], 1e-24))

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.core.types import Array
+from armscope.fitting.constants import STEPS
 from armscope.fitting.placement import FlangePoses, place_frames
 from armscope.measurement import robust
 from armscope.physics.frames import TOOL_FRAME, ToolKey, free_frames, tool_keys
@@ -15,22 +16,27 @@ from armscope.physics.scene import Part
 from armscope.recordings import Recordings
 from armscope.robot import Arm, chain
 
-STEPS = 12
-TURN_STEPS = 3
-
 
 def fit_frames(arm: Arm, recordings: Recordings, tool_per_run: bool = False) -> FittedModel:
     """The arm with base and tool fitted to the recordings and no effects.
 
     Each run starts from the rigid motion of the nominal tool points about their medians onto the measured ones;
     Gauss-Newton with Huber weights then fits bases and tools together.
+
+    Args:
+        arm: the nominal arm.
+        recordings: N rows.
+        tool_per_run: a tool of its own in every run, where it was taken off in between.
+
+    Returns:
+        The model, its frames in SI units.
     """
     frames = chain(arm, recordings.motor_angles)
     keys = tool_keys(recordings, tool_per_run)
     which_tool = _tool_of_row(recordings, keys)
     runs, which_run = np.unique(recordings.run, return_inverse=True)
     poses = FlangePoses(frames.tool, frames.tool_rotation, recordings.positions, which_run, which_tool)
-    found = place_frames(poses, poses.start(np.zeros((len(keys), 3)), len(runs)), STEPS, _weights).state
+    found = place_frames(poses, poses.start(np.zeros((len(keys), 3)), len(runs)), STEPS.registration, _weights).state
     bases = [Base(*each) for each in zip(found.rotations, found.translations, strict=True)]
     return FittedModel(
         arm,
@@ -58,7 +64,7 @@ def _tool_turns(
         measured = Rotation.from_quat(recordings.quaternions[rows], scalar_first=True)
         on_flange = Rotation.from_matrix(placed).inv() * measured
         mean = on_flange.mean()
-        for _ in range(TURN_STEPS):
+        for _ in range(STEPS.turn_steps):
             mean = on_flange.mean(_weights((mean.inv() * on_flange).as_rotvec()))
         turns[key] = np.asarray(mean.as_matrix())
     return turns

@@ -10,6 +10,7 @@ import numpy as np
 
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
+from armscope.fitting.constants import STEPS
 from armscope.fitting.design_matrix import point_columns
 from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic, gauss_newton
 from armscope.fitting.linearisation import linearised, point_residuals
@@ -28,8 +29,6 @@ Frame = Literal["base", "tool"]
 
 BACKGROUND = "background"
 """Stands for the small errors that were allowed for everywhere and are not named."""
-STEPS = 8
-NEGLIGIBLE_MM = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,6 +80,9 @@ def transfer(
         tool_per_run: whether each run gets a tool of its own, where tools are refitted.
         without: what to compare with; the model without any effect where not given. (Where frames are kept, the bare
             arm's own fit to the rows of learning is the fair one: `fit_frames`.)
+
+    Returns:
+        The model on the other rows, and what it leaves of them.
 
     Raises:
         InputError: ``effects`` names nothing that the model has, or a kept tool is not known for a target.
@@ -173,7 +175,7 @@ def _placed_anew(
     bases = start.bases if "base" in frames else {str(r): model.base_of(str(r)) for r in np.unique(recordings.run)}
     free = [p for p in free_frames(recordings, tool_per_run) if p.location in frames]
     problem = _Frames(recordings, [term for placed in free for term in placed.terms])
-    return gauss_newton(problem, replace(model, bases=dict(bases), tools=tools), STEPS).state
+    return gauss_newton(problem, replace(model, bases=dict(bases), tools=tools), STEPS.transfer).state
 
 
 class _Frames(NonlinearProblem[FittedModel, Array]):
@@ -202,7 +204,7 @@ class _Frames(NonlinearProblem[FittedModel, Array]):
         return retracted(supported(self.recordings), state, dict(zip(self.terms, step, strict=True)))
 
     def settled(self, before: Array, after: Array) -> bool:
-        return float(np.abs(after - before).max()) < NEGLIGIBLE_MM
+        return float(np.abs(after - before).max()) < STEPS.negligible_mm
 
 
 def _distance(errors: Array) -> float:

@@ -98,7 +98,16 @@ class ChannelResiduals:
 
 
 def linear_response(channel: Channel, model: FittedModel, posture: Posture) -> Array:
-    """(n, width) what a model's effects add up to in a channel that sees them linearly."""
+    """(n, width) what a model's effects add up to in a channel that sees them linearly.
+
+    Args:
+        channel: what is looked at.
+        model: whose effects they are.
+        posture: the arm's, in n rows.
+
+    Returns:
+        (n, width) in the channel's unit, SI.
+    """
     total = np.zeros((len(posture.scene), channel.width))
     for direction, amount in posture.scene.amounts(model.everything).items():
         seen = channel.sensitivity(posture, direction)
@@ -108,12 +117,30 @@ def linear_response(channel: Channel, model: FittedModel, posture: Posture) -> A
 
 
 def nuisances(channels: Sequence[Channel], recordings: Recordings, tool_per_run: bool) -> list[Placed]:
-    """The always-free terms of all channels."""
+    """The always-free terms of all channels.
+
+    Args:
+        channels: that are used.
+        recordings: the table.
+        tool_per_run: a tool of its own in every run.
+
+    Returns:
+        Terms in place, channel by channel.
+    """
     return [placed for channel in channels for placed in channel.nuisance(recordings, tool_per_run)]
 
 
 def retracted(channels: Sequence[Channel], model: FittedModel, steps: Mapping[Term, float]) -> FittedModel:
-    """The model with the free terms of all channels moved by steps, SI units."""
+    """The model with the free terms of all channels moved by steps, SI units.
+
+    Args:
+        channels: that are used.
+        model: from which it departs.
+        steps: by free term, SI units.
+
+    Returns:
+        The model moved.
+    """
     for channel in channels:
         model = channel.retract(model, steps)
     return model

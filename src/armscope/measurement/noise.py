@@ -9,20 +9,10 @@ from numpy.typing import NDArray
 
 from armscope.core.grouping import same_configuration
 from armscope.core.types import Array, Indices
+from armscope.measurement.constants import NOISE
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-
-TRUSTED = 0.97
-"""A stated noise is a lower bound; this much below it is left to chance."""
-FEWEST_REPEATS = 6
-FEWEST_FOR_GROWTH = 60
-GROWTH_NATS = 3.0
-"""Caution (20 to 1) on top of what one number more costs."""
-LEAST_GROWTH = 1.25
-"""Noise that differs less between the nearest and the farthest rows is called constant: it changes no weight much."""
-POSES_NATS = 3.0
-"""Evidence (20 to 1) that makes errors which stay with their pose more than chance."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +27,7 @@ class Noise:
 def known_noise(arm: Arm, recordings: Recordings) -> Noise:
     """Noise from robot.yaml, else from the table's stated uncertainty, else from repeated poses, else unknown."""
     if arm.sigma is not None:
-        return Noise(TRUSTED * arm.sigma * 1e3, arm.sigma * 1e3, "stated in robot.yaml")
+        return Noise(NOISE.trusted * arm.sigma * 1e3, arm.sigma * 1e3, "stated in robot.yaml")
     if recordings.sigma is not None and np.isfinite(recordings.sigma).any():
         stated = float(np.sqrt(np.nanmedian(recordings.sigma**2))) * 1e3
         return Noise(stated, 0.0, "estimated; the instrument's stated uncertainty is its lower bound")
@@ -53,7 +43,7 @@ def _from_repeats(recordings: Recordings) -> float | None:
     which = same_configuration(recordings.motor_angles, recordings.run, recordings.target, *context)
     count = np.bincount(which)
     freedom = int((count - 1).sum())
-    if freedom < FEWEST_REPEATS:
+    if freedom < NOISE.fewest_repeats:
         return None
     means = np.stack([np.bincount(which, p) / count for p in recordings.positions.T], axis=1)
     left = recordings.positions - means[which]
@@ -71,10 +61,18 @@ def independence_weights(residuals: Array, pose: Indices, trusted: NDArray[np.bo
     A residual is what is wrong with its pose (variance u^2, the same at every visit) and the reading's noise (e^2). The
     mean of k visits has variance u^2 + e^2 / k: together they count (u^2 + e^2) / (u^2 + e^2 / k) rows, 1 where the
     pose is wrong, k where the reading is. e^2 comes from within poses, u^2 from the likelihood of their means.
+
+    Args:
+        residuals: (N, 3) mm.
+        pose: (N,) number of each row's configuration.
+        trusted: (N,) rows that are no bad shots.
+
+    Returns:
+        (N,), at most 1.
     """
     visits = np.bincount(pose[trusted], minlength=int(pose.max()) + 1)
     freedom = int((visits[visits > 0] - 1).sum())
-    if freedom < FEWEST_REPEATS:
+    if freedom < NOISE.fewest_repeats:
         return np.ones(len(pose))
     seen = visits > 0
     sums = np.stack([np.bincount(pose[trusted], r, len(visits)) for r in residuals[trusted].T], axis=1)
@@ -85,7 +83,7 @@ def independence_weights(residuals: Array, pose: Indices, trusted: NDArray[np.bo
     variance = max(within, 1e-18) * (ratios[:, None] + 1 / k)
     likelihood = -0.5 * np.sum(3 * np.log(variance) + squares / variance, axis=1)
     best = int(np.argmax(likelihood))
-    if likelihood[best] - likelihood[0] < POSES_NATS:
+    if likelihood[best] - likelihood[0] < NOISE.poses_nats:
         return np.ones(len(pose))
     every = np.bincount(pose)[pose]
     return np.asarray((ratios[best] + 1) / (every * ratios[best] + 1))
@@ -119,18 +117,26 @@ def growth(residuals: Array, distance: Array, trusted: NDArray[np.bool_]) -> Gro
 
     The likelihood of normal residuals with variance near^2 (1 + (ratio d)^2), near at its best, is compared with that
     of one variance for all.
+
+    Args:
+        residuals: (N, 3) mm.
+        distance: (N,) from the instrument, any unit.
+        trusted: (N,) rows that are no bad shots.
+
+    Returns:
+        Noise at the nearest and per distance, mm, with its evidence, nats.
     """
     squares, d = np.sum(residuals[trusted] ** 2, axis=1), distance[trusted]
-    if len(d) < FEWEST_FOR_GROWTH or squares.sum() <= 0:
+    if len(d) < NOISE.fewest_for_growth or squares.sum() <= 0:
         return None
     ratios = np.concatenate([[0.0], np.geomspace(0.01, 100.0, 81) / np.median(d)])
     shape = 1 + (ratios[:, None] * d) ** 2
     near = np.mean(squares / shape, axis=1) / 3
     likelihood = -1.5 * (len(d) * np.log(near) + np.sum(np.log(shape), axis=1))
     best = int(np.argmax(likelihood))
-    gain = float(likelihood[best] - likelihood[0]) - 0.5 * float(np.log(3 * len(d))) - GROWTH_NATS
+    gain = float(likelihood[best] - likelihood[0]) - 0.5 * float(np.log(3 * len(d))) - NOISE.growth_nats
     low, high = np.quantile(np.sqrt(shape[best]), [0.05, 0.95])
-    if gain < 0 or high < LEAST_GROWTH * low:
+    if gain < 0 or high < NOISE.least_growth * low:
         return None
     size = float(np.sqrt(near[best]))
     return Growth(size, size * float(ratios[best]), gain)
@@ -140,7 +146,12 @@ def relative_uncertainty(recordings: Recordings, noise_mm: float, known: Array |
     """(N,) uncertainty of each row relative to the usual one: stated differences on top of the common noise.
 
     Args:
+        recordings: with the uncertainties that they state.
+        noise_mm: the common noise.
         known: (N,) noise of the rows, mm, where it was found to differ; counts where none is stated.
+
+    Returns:
+        (N,), 1 for the usual row.
     """
     if recordings.sigma is None or not np.isfinite(recordings.sigma).any():
         return np.ones(len(recordings)) if known is None else np.asarray(known / np.median(known))

@@ -11,14 +11,13 @@ from scipy.spatial.transform import Rotation
 
 from armscope.core.types import Array
 from armscope.measurement.channel import Channel
+from armscope.measurement.constants import WEIGHTS
 from armscope.physics.effect import AXES, Direction, Placed, Term
 from armscope.physics.frames import ToolKey, tool_key, tool_turns
 from armscope.physics.model import FittedModel
 from armscope.physics.scene import Posture
 from armscope.recordings import Recordings
 
-FEWEST = 15
-"""Fewer orientations are not used: the frames of the tools take up too much of what they tell."""
 NOT_THE_TOOLS_RAD = np.radians(5)
 """Median turn between modelled and measured orientations beyond which they are not the tool's; joint zeros two degrees
 off leave less."""
@@ -71,7 +70,7 @@ class Orientations(Channel):
     def doubt(self, residual: Array) -> tuple[str, str] | None:
         """Too few of them, or so far from the arm's that they are another frame's."""
         size = np.linalg.norm(residual[np.isfinite(residual).all(axis=1)], axis=1)
-        if len(size) < FEWEST:
+        if len(size) < WEIGHTS.fewest_orientations:
             return "few orientations", f"Only {len(size)} rows hold an orientation: positions alone were used."
         if np.median(size) > NOT_THE_TOOLS_RAD:
             return "orientations not the arm's", (

@@ -9,14 +9,10 @@ import numpy as np
 from scipy.stats import chi
 
 from armscope.core.types import Array
+from armscope.measurement.constants import WEIGHTS
 
 Rule = Callable[[Array, Array, float], Array]
 """(N,) weights of residuals (N, c), by their relative uncertainty (N,) and the least noise."""
-
-MEDIAN_OF_CHI3 = 1.5381722
-"""Median length of a 3-vector of unit normals."""
-TUNING_CONSTANT = 4.5
-"""Scales beyond which a row of three numbers is weighted down: one clean row in 6000."""
 
 
 def scale_of(residuals: Array, least: float = 0.0) -> float:
@@ -28,17 +24,26 @@ def scale_of(residuals: Array, least: float = 0.0) -> float:
 @functools.cache
 def _median_length(width: int) -> float:
     """Median length of a vector of so many unit normals."""
-    return MEDIAN_OF_CHI3 if width == 3 else float(chi(width).median())
+    return WEIGHTS.median_of_chi3 if width == 3 else float(chi(width).median())
 
 
 @functools.cache
 def tuning_constant(width: int) -> float:
-    """`TUNING_CONSTANT` for rows of so many numbers: as many clean rows lie beyond."""
-    return TUNING_CONSTANT if width == 3 else float(chi(width).isf(chi(3).sf(TUNING_CONSTANT)))
+    """`WEIGHTS.tuning_constant` for rows of so many numbers: as many clean rows lie beyond."""
+    return WEIGHTS.tuning_constant if width == 3 else float(chi(width).isf(chi(3).sf(WEIGHTS.tuning_constant)))
 
 
 def huber_weights(residuals: Array, uncertainty: Array, least: float) -> Array:
-    """(N,) weights while structure may still be in the residuals: Huber's, so that nothing is silenced yet."""
+    """(N,) weights while structure may still be in the residuals: Huber's, so that nothing is silenced yet.
+
+    Args:
+        residuals: (N, 3).
+        uncertainty: (N,) relative stated uncertainty of the rows (1 where not stated).
+        least: the noise is not taken to be below this.
+
+    Returns:
+        (N,), 1 for a clean row of usual uncertainty.
+    """
     far = _distance(residuals, uncertainty, least)
     return np.minimum(1.0, tuning_constant(residuals.shape[1]) / far) / uncertainty**2
 
@@ -50,6 +55,9 @@ def quartic_weights(residuals: Array, uncertainty: Array, least: float) -> Array
         residuals: (N, c).
         uncertainty: (N,) relative stated uncertainty of the rows (1 where not stated).
         least: the noise is not taken to be below this.
+
+    Returns:
+        (N,), 1 for a clean row of usual uncertainty.
     """
     far = _distance(residuals, uncertainty, least)
     return np.minimum(1.0, tuning_constant(residuals.shape[1]) / far) ** 4 / uncertainty**2

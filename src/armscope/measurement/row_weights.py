@@ -9,11 +9,9 @@ import numpy as np
 from armscope.core.types import Array, Indices
 from armscope.measurement import robust
 from armscope.measurement.channel import Channel, ChannelResiduals
+from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.positions import POSITIONS
 from armscope.measurement.whitening import Whitener
-
-INLIER_WEIGHT = 0.5
-"""Rows with a smaller part of their nominal weight do not count as measurements."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,8 +35,12 @@ class RowNoise:
         """Weights against what a fitted model leaves, the reference channel whitened.
 
         Args:
+            left: residuals of the model by channel.
             least: mm, below which the reference channel's noise is not taken to be.
             whitening: (N, width, width) of the reference channel.
+
+        Returns:
+            Weights of positions and of turns.
         """
         return self._weights(robust.quartic_weights, left, least, whitening)
 
@@ -92,7 +94,7 @@ class ChannelWeights:
     def counts(self) -> Array:
         """(N,) whether each row's reading does not look like a bad shot."""
         nominal = 1.0 if self.nominal_weight is None else self.nominal_weight
-        return np.asarray(self.weight > INLIER_WEIGHT * nominal)
+        return np.asarray(self.weight > WEIGHTS.inlier_weight * nominal)
 
     def factor(self, rows: Indices) -> Array:
         """(n,) or (n, width, width) what readings of ``rows`` are multiplied by."""

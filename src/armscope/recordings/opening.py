@@ -61,6 +61,12 @@ def refuse_pickles(path: Path, start: bytes) -> None:
 def refuse_other_than_text(path: Path, start: bytes, encoding: str, cure_utf_16: str) -> None:
     """Name a file that can't be delimited text by what it is.
 
+    Args:
+        path: the file.
+        start: its first bytes.
+        encoding: as declared.
+        cure_utf_16: what to do about UTF-16.
+
     Raises:
         InputError: an archive, a workbook, a MATLAB or HDF5 file, or UTF-16 text where another encoding was declared.
     """
@@ -83,7 +89,16 @@ def open_text(path: Path, encoding: str) -> IO[str]:
 
 
 def undecodable(path: Path, encoding: str, error: UnicodeError) -> tuple[str, str]:
-    """Where a file is not text in ``encoding``, and what stands there: ("line 3", "byte 0xb0 in '20 ...'")."""
+    """Where a file is not text in ``encoding``, and what stands there: ("line 3", "byte 0xb0 in '20 ...'").
+
+    Args:
+        path: the file.
+        encoding: as declared.
+        error: what Python says of it.
+
+    Returns:
+        Place and content.
+    """
     with path.open("rb") as stream:
         packed = stream.read(len(GZIP)) == GZIP
     with gzip.open(path) if packed else path.open("rb") as lines:

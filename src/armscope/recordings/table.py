@@ -124,6 +124,9 @@ def read_recordings(path: Path | str, n_motors: int | None = None, measured: boo
         n_motors: how many motor angles the arm has; None accepts as many as there are.
         measured: whether positions must be present; False reads poses to be predicted.
 
+    Returns:
+        The rows in their order, SI units, with notes on what was passed over.
+
     Raises:
         InputError: names file, row (line of the file), column, the value found, the rule and the cure.
     """
@@ -134,7 +137,20 @@ def read_recordings(path: Path | str, n_motors: int | None = None, measured: boo
 def as_recordings(
     table: pd.DataFrame, source: Path | str = "table", n_motors: int | None = None, measured: bool = True
 ) -> Recordings:
-    """A table with the columns of the contract as `Recordings`; see `read_recordings`."""
+    """A table with the columns of the contract as `Recordings`; see `read_recordings`.
+
+    Args:
+        table: every column as text or numbers.
+        source: where it was read, for errors.
+        n_motors: how many motor angles the arm has; None accepts as many as there are.
+        measured: whether positions must be present.
+
+    Returns:
+        The rows in their order.
+
+    Raises:
+        InputError: as `read_recordings`.
+    """
     reader = _Reader(table, source)
     angles = reader.motor_angles(n_motors)
     positions = reader.positions(measured)

@@ -7,7 +7,8 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 
 from armscope.core.types import Indices
-from armscope.diagnosis.scans.context import WORTH_A_LOOK, ScanContext, columns_of, scores_given
+from armscope.diagnosis.constants import SCANS
+from armscope.diagnosis.scans.context import ScanContext, columns_of, scores_given
 from armscope.fitting.column_blocks import active_effects
 from armscope.fitting.design_matrix import columns
 from armscope.fitting.linearisation import linearised
@@ -18,10 +19,6 @@ from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.drift import BASE_SHIFT, base_shift, row_number, tool_shift
 from armscope.physics.effect import Placed
 from armscope.recordings import Recordings
-
-SHORTEST_PIECE = 8
-"""Rows on either side of a jump."""
-MOST_TIMES = 600
 
 Build = Callable[[Recordings, int, int], Placed]
 """A shift before a row, one of so many that were tried."""
@@ -42,7 +39,7 @@ def jumps(context: ScanContext, given: Sequence[Hypothesis]) -> Iterator[Placed]
                 promising = float(scores[at]), build(recordings, int(rows[cuts[at]]), tried)
                 best[number] = max((b for b in (best[number], promising) if b), key=lambda entry: entry[0])
         for found in best:
-            if found is not None and found[0] > WORTH_A_LOOK + np.log(tried):
+            if found is not None and found[0] > SCANS.worth_a_look + np.log(tried):
                 yield found[1]
 
 
@@ -80,9 +77,12 @@ def pieces_of(recordings: Recordings) -> Iterator[tuple[Indices, Indices]]:
             if np.isnan(recordings.time[rows]).any():
                 continue
             rows = rows[np.argsort(recordings.time[rows], kind="stable")]
-        if len(rows) >= 2 * SHORTEST_PIECE:
-            count = min(len(rows) - 2 * SHORTEST_PIECE + 1, MOST_TIMES)
-            yield rows, np.unique(np.linspace(SHORTEST_PIECE, len(rows) - SHORTEST_PIECE, count).astype(np.intp))
+        if len(rows) >= 2 * SCANS.shortest_piece:
+            count = min(len(rows) - 2 * SCANS.shortest_piece + 1, SCANS.most_times)
+            yield (
+                rows,
+                np.unique(np.linspace(SCANS.shortest_piece, len(rows) - SCANS.shortest_piece, count).astype(np.intp)),
+            )
 
 
 def step_sums(context: ScanContext, inside: Indices, rows: Indices, cuts: Indices, build: Build) -> ColumnBlocks:

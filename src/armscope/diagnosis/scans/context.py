@@ -17,9 +17,6 @@ from armscope.measurement.row_weights import RowWeights
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 
-WORTH_A_LOOK = 8.0
-"""Nats that a scanned number must promise before its price to go on to compete."""
-
 
 @dataclass(frozen=True, eq=False)
 class ScanContext:

@@ -6,23 +6,19 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from armscope.diagnosis.scans.context import WORTH_A_LOOK, ScanContext, columns_of, scores_given
+from armscope.diagnosis.constants import SCANS
+from armscope.diagnosis.scans.context import ScanContext, columns_of, scores_given
 from armscope.fitting.column_blocks import column_blocks
 from armscope.inference.evidence import Hypothesis
 from armscope.physics.effect import Placed
 from armscope.physics.placing import moving_joints
 from armscope.physics.transmission import MESH_COUNTS, mesh
 
-SCANNED_ROWS = 4000
-"""A scan looks at this many rows at most, spread evenly."""
-LINES_KEPT = 2
-"""Mesh counts per joint that go on to compete."""
-
 
 def mesh_lines(context: ScanContext, given: Sequence[Hypothesis]) -> Iterator[Placed]:
     """The most promising mesh counts of each joint, given each of some hypotheses."""
     count = len(context.recordings)
-    rows = np.unique(np.linspace(0, count - 1, min(count, SCANNED_ROWS)).astype(np.intp))
+    rows = np.unique(np.linspace(0, count - 1, min(count, SCANS.scanned_rows)).astype(np.intp))
     joints = moving_joints(context.recordings)
     if not joints:
         return
@@ -33,6 +29,6 @@ def mesh_lines(context: ScanContext, given: Sequence[Hypothesis]) -> Iterator[Pl
     for hypothesis in given:
         scores = scores_given(context.problem, hypothesis, sums, columns)
         for number, row in enumerate(scores.reshape(len(joints), -1)):
-            for at in np.argsort(-row)[:LINES_KEPT]:
-                if row[at] > WORTH_A_LOOK:
+            for at in np.argsort(-row)[: SCANS.lines_kept]:
+                if row[at] > SCANS.worth_a_look:
                     yield placed[number * len(MESH_COUNTS) + at]

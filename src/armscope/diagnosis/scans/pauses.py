@@ -7,20 +7,15 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.diagnosis.constants import SCANS
 from armscope.diagnosis.scans.change_points import pieces_of, step_sums
-from armscope.diagnosis.scans.context import WORTH_A_LOOK, ScanContext
+from armscope.diagnosis.scans.context import ScanContext
 from armscope.inference.additions import unscaled_factor
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.linear_algebra import solve_lower
 from armscope.physics.drift import Pause, base_shift, drift_with_pauses, pauses_of, row_number
 from armscope.physics.effect import Placed
 from armscope.recordings import Recordings
-
-LENGTHS_OF_PAUSES = 20
-"""How many lengths of a pause compete at each row: one number's price, 3 nats."""
-MOST_PAUSES = 4
-WORTH_SETTING_RIGHT = 1.0
-"""Nats that better lengths of known pauses must promise."""
 
 
 def pauses(context: ScanContext, drifting: Hypothesis, drift: int) -> Iterator[Placed]:
@@ -40,7 +35,7 @@ def pauses(context: ScanContext, drifting: Hypothesis, drift: int) -> Iterator[P
     known = pauses_of(context.space.placed[drift])
     passed = _rows_passed(recordings, known)
     pieces = list(pieces_of(recordings))
-    ways_to_pause = LENGTHS_OF_PAUSES * sum(len(cuts) for _, cuts in pieces)
+    ways_to_pause = SCANS.lengths_of_pauses * sum(len(cuts) for _, cuts in pieces)
     factor, whitened_rhs = unscaled_factor(problem, drifting)
     for rows, cuts in pieces:
         sums = step_sums(context, drifting.columns, rows, cuts, base_shift)
@@ -76,15 +71,15 @@ def _steps(
         price: nats of one step more.
     """
     chosen, size = list(fitted), _sizes(own, pull, fitted)
-    if len(chosen) and 0.5 * size @ pull[chosen] / given.noise**2 > WORTH_SETTING_RIGHT:
+    if len(chosen) and 0.5 * size @ pull[chosen] / given.noise**2 > SCANS.worth_setting_right:
         yield list(chosen), size
-    while len(chosen) < MOST_PAUSES:
+    while len(chosen) < SCANS.most_pauses:
         left, inside = pull - own[:, chosen] @ size, own[np.ix_(chosen, chosen)]
         beside = np.diag(own) - np.einsum("mi,im->m", own[:, chosen], np.linalg.pinv(inside) @ own[chosen])
         seen = beside > 1e-6 * np.diag(own)
         gain = np.where(seen & (left > 0), 0.5 * left**2 / np.where(seen, beside, 1.0) / given.noise**2, 0.0)
         best = int(np.argmax(gain))
-        if gain[best] < WORTH_A_LOOK + price:
+        if gain[best] < SCANS.worth_a_look + price:
             return
         chosen.append(best)
         size = _sizes(own, pull, chosen)

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from armscope.diagnosis.constants import NAMING
 from armscope.diagnosis.promotion import DRIVE, named, rest_of
 from armscope.diagnosis.state import DiagnosisState
 from armscope.inference.constants import BUDGET
@@ -16,14 +17,6 @@ from armscope.inference.model_space import Candidate
 from armscope.inference.normal_equations import weighted_total
 from armscope.inference.search import Search
 from armscope.verdict.schema import Alternative, Specific
-
-LISTED_NATS = 10.0
-"""Alternatives that lose more evidence than this are not listed."""
-LISTED_NATS_OF_SPECIAL_CASES = 40.0
-"""A curve's special cases are listed farther: most of it may be one of them."""
-LOOKED_AT = 12
-COARSELY = 0.25
-"""Where taking an effect out costs much, the noise is another one without it: predictions miss less than this share."""
 
 
 class Rival(NamedTuple):
@@ -39,6 +32,13 @@ def alternatives(search: Search, best: Hypothesis, number: int) -> list[Rival]:
 
     None where a background holds the effect, too: without the name, the background explains the same. A line taken from
     a curve of load is rivalled by what rivals the curve; a curve of another drive's load is told as its compliance.
+
+    Args:
+        search: the finished one.
+        best: the hypothesis chosen.
+
+    Returns:
+        Gap, effect in place, and the hypothesis with it.
     """
     candidate, rest = search.candidate(number), rest_of(search.problem, best, number)
     if search.in_background(best, number) and not rest:
@@ -49,13 +49,13 @@ def alternatives(search: Search, best: Hypothesis, number: int) -> list[Rival]:
     paid = _price_of_curve(search, candidate) if rest else 0.0
     lines = {c.location: c for c in search.space.candidates if c.kind == DRIVE and not c.variant}
     # what a coarse prediction puts far behind is not weighed
-    listed_nats = LISTED_NATS_OF_SPECIAL_CASES if candidate.is_curve else LISTED_NATS
+    listed_nats = NAMING.listed_nats_of_special_cases if candidate.is_curve else NAMING.listed_nats
     lost = best.log_posterior - base.log_posterior
-    least = lost - paid - listed_nats - COARSELY * max(lost, 0.0) - BUDGET.slack_nats
-    for other in search.additions(base, LOOKED_AT, [number], least):
+    least = lost - paid - listed_nats - NAMING.coarsely * max(lost, 0.0) - BUDGET.slack_nats
+    for other in search.additions(base, NAMING.looked_at, [number], least):
         rival, gap = search.candidate(other.chosen[-1].candidate), best.log_posterior - other.log_posterior - paid
         excluded = other.chosen[-1].candidate in candidate.excludes
-        far = LISTED_NATS_OF_SPECIAL_CASES if candidate.is_curve and excluded else LISTED_NATS
+        far = NAMING.listed_nats_of_special_cases if candidate.is_curve and excluded else NAMING.listed_nats
         if (rest and excluded) or rival.key in taken or gap > far:
             continue
         if rest and rival.variant == "load" and rival.is_curve:
@@ -76,6 +76,15 @@ def discriminability(best: Hypothesis, other: Hypothesis, effect: Candidate, riv
 
     The evidence also holds what a rival of one parameter more (a wave of free phase) pays for it; where the two fit
     alike, that is no measurement: such a rival counts by its fit alone. Larger ones fit anything and count in full.
+
+    Args:
+        best: the hypothesis with the effect.
+        other: the one with its rival.
+        effect: in place.
+        rival: in place.
+
+    Returns:
+        Nats; negative where the rival fits better.
     """
     gap = best.log_posterior - other.log_posterior
     if len(rival.columns) > len(effect.columns) + 1:
@@ -125,6 +134,13 @@ def inclusion_frequency(state: DiagnosisState, draws: int, rng: np.random.Genera
     """How often each chosen effect's place is chosen again when blocks of rows are drawn with replacement.
 
     Hypotheses of many columns (several free curves) are looked for with coarse curves, and without a local search.
+
+    Args:
+        draws: how often.
+        rng: draws them.
+
+    Returns:
+        Share of the draws, by candidate.
     """
     best, blocks = state.best, state.blocks
     if not blocks or not best.chosen or not draws:

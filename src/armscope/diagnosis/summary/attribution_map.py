@@ -6,6 +6,7 @@ import numpy as np
 
 from armscope.core.location import Location
 from armscope.core.sampling import spread_evenly
+from armscope.diagnosis.constants import TELLING
 from armscope.fitting.column_blocks import column_blocks
 from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.fitting.parameter_layout import ParameterLayout
@@ -19,7 +20,6 @@ from armscope.physics.registry import effects
 from armscope.recordings import Recordings
 from armscope.verdict.schema import TOGETHER, Atlas
 
-ATLAS_ROWS = 4000
 DIRECTIONS = (*AXES, TOGETHER)
 Cell = tuple[int, int, int]
 
@@ -44,8 +44,14 @@ def atlas(layout: ParameterLayout, model: FittedModel, recordings: Recordings, w
 
     Args:
         layout: of the fitted model.
+        model: the fitted one.
+        recordings: N rows.
+        weights: of the rows.
+
+    Returns:
+        Shares of the mean square by location, direction and driver.
     """
-    rows = spread_evenly(len(recordings), ATLAS_ROWS)
+    rows = spread_evenly(len(recordings), TELLING.atlas_rows)
     share = len(rows) / len(recordings)
     table, w = recordings.rows(rows), weights.take(rows, share)
     # columns and response must stand at one and the same point and on the same rows, or what the frames absorb does not

@@ -7,14 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.diagnosis.constants import TELLING
 from armscope.physics.drivers import KINDS, cubic_spline
 from armscope.physics.effect import ONE, Driver, Placed
 from armscope.physics.scene import Scene
 from armscope.verdict.schema import Curve
-
-GRID = 361
-TELLING = 0.7
-"""Share of a curve's variation that a simple shape must explain to be named."""
 
 
 def source_of(placed: Placed) -> Driver | None:
@@ -33,12 +30,22 @@ def _root(driver: Driver) -> Driver | None:
 
 
 def curve_of(placed: Placed, values: Array, covariance: Array, scene: Scene) -> Curve | None:
-    """The turn or shift that an effect makes over its driver's recorded range; the direction that moves most."""
+    """The turn or shift that an effect makes over its driver's recorded range; the direction that moves most.
+
+    Args:
+        placed: the effect.
+        values: (k,) of its terms, SI.
+        covariance: (k, k) of them.
+        scene: the recorded rows.
+
+    Returns:
+        Values with standard errors over the driver.
+    """
     source = source_of(placed)
     if source is None:
         return None
     recorded, unit = scene.driver(source), KINDS[source.kind].unit
-    at = np.linspace(recorded.min(), recorded.max(), GRID)
+    at = np.linspace(recorded.min(), recorded.max(), TELLING.grid)
     directions = {term.products[0].direction for term in placed.terms}
     best: tuple[float, Array, Array, str] | None = None
     for direction in sorted(directions, key=lambda d: (d.location, d.axis)):
@@ -99,7 +106,18 @@ def _periods(placed: Placed, values: Array) -> tuple[tuple[float, float], ...]:
 def describe(
     at: Array, value: Array, recorded: Array, periods: tuple[tuple[float, float], ...] = (), unit: str = ""
 ) -> str:
-    """The simple shape that comes closest to a curve over values in ``unit``, weighted by where rows were recorded."""
+    """The simple shape that comes closest to a curve over values in ``unit``, weighted by where rows were recorded.
+
+    Args:
+        at: (G,) the driver's values.
+        value: (G,) the curve.
+        recorded: (N,) the driver's values in the table.
+        periods: of the waves that it holds, with their amplitudes.
+        unit: of the values.
+
+    Returns:
+        A few words.
+    """
     density, _ = np.histogram(recorded, bins=np.append(at, at[-1] + 1e-9))
     weight = np.convolve(density, np.ones(9) / 9, mode="same") + 1e-6 * max(density.max(), 1)
     shapes: list[tuple[float, str]] = [(_explained(value, [at], weight), "a trend in proportion to its driver")]
@@ -119,7 +137,7 @@ def describe(
     trend = shapes[0]
     if trend[0] > share - 0.02:
         share, words = trend
-    return words if share > TELLING else "a free curve" + _strongest(periods)
+    return words if share > TELLING.telling_share else "a free curve" + _strongest(periods)
 
 
 def _strongest(periods: tuple[tuple[float, float], ...]) -> str:

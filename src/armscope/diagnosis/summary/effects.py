@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.diagnosis.constants import NAMING, TELLING
 from armscope.diagnosis.promotion import nested_log_odds
 from armscope.diagnosis.scans.change_points import when_stderr
 from armscope.diagnosis.scans.context import ScanContext
@@ -24,10 +25,6 @@ from armscope.physics.effect import Placed
 from armscope.physics.scene import Part, Scene
 from armscope.verdict.schema import INDISTINGUISHABLE_NATS, Background, FoundEffect, Parameter
 
-MINOR_SHARE, MINOR_SHARE_OF_PERFECT_ARM = 0.025, 0.001
-"""Effects worth less of the residual variance are apart from the story: in an arm with small errors everywhere, and in
-one that is perfect but for what is named."""
-REST_OF_A_CURVE = 2.0
 NOTHING = "nothing in the table"
 """What scatter follows."""
 
@@ -112,7 +109,7 @@ def _worth(state: DiagnosisState, search: Search, chosen: SelectedEffect) -> flo
 def with_weight(found: FoundEffect, background: Sequence[Background]) -> FoundEffect:
     """Minor or not: in an arm with small errors everywhere, a small effect is one of them."""
     ordinary = any(family.present for family in background)
-    small = found.share < (MINOR_SHARE if ordinary else MINOR_SHARE_OF_PERFECT_ARM)
+    small = found.share < (NAMING.minor_share if ordinary else NAMING.minor_share_of_perfect_arm)
     return replace(found, minor=small)
 
 
@@ -148,6 +145,6 @@ def rest_of_a_curve(scatter: FoundEffect, named: Sequence[FoundEffect]) -> bool:
     return any(
         effect.effect == "unknown"
         and effect.location == scatter.location
-        and effect.rms_at_tool_mm > REST_OF_A_CURVE * scatter.rms_at_tool_mm
+        and effect.rms_at_tool_mm > TELLING.rest_of_a_curve * scatter.rms_at_tool_mm
         for effect in named
     )

@@ -9,7 +9,7 @@ from scipy.stats import chi2
 
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Indices
-from armscope.diagnosis.held_out import FEWEST_ROWS_PER_RUN
+from armscope.diagnosis.constants import FOLDING, TELLING
 from armscope.diagnosis.state import DiagnosisState
 from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.inference.evidence import Hypothesis, evaluate
@@ -19,14 +19,13 @@ from armscope.physics.freeform import REST_OF_LOAD
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 
-CHANCE = 0.99
-MOST_PAYLOADS = 6
-MOST_ROWS = 3000
-"""Rows on which payloads and halves of the workspace are compared, spread evenly over a longer table."""
-
 
 def subset_consistency(state: DiagnosisState) -> dict[int, str]:
-    """For effects with plain parameters: whether every run, payload and half of the workspace alone gives the same."""
+    """For effects with plain parameters: whether every run, payload and half of the workspace alone gives the same.
+
+    Returns:
+        A sentence by candidate.
+    """
     told: dict[int, list[str]] = {}
     plain = [
         c.candidate
@@ -45,11 +44,11 @@ def _divisions(state: DiagnosisState) -> Iterator[tuple[list[NormalEquations], s
     if split.grouped_by == "run":
         runs = [np.flatnonzero(split.fold == run) for run in np.unique(split.fold)]
         yield [total([state.blocks[int(k)] for k in inside]) for inside in runs], "runs"
-    rows = spread_evenly(len(recordings), MOST_ROWS)
+    rows = spread_evenly(len(recordings), TELLING.homogeneity_rows)
     table, some = recordings.rows(rows), state.fit.weights.take(rows)
     for of_row, kind in ((_payloads(table), "payloads"), (_halves(table, point), "halves of the workspace")):
         counts = np.bincount(of_row[of_row >= 0])
-        if len(counts) > 1 and counts.min() >= FEWEST_ROWS_PER_RUN:
+        if len(counts) > 1 and counts.min() >= FOLDING.fewest_rows_per_run:
             known = np.flatnonzero(of_row >= 0)
             yield (
                 normal_equations_by_block(
@@ -66,7 +65,7 @@ def _payloads(recordings: Recordings) -> Indices:
         return none
     known = ~np.isnan(recordings.payload)
     values, which = np.unique(recordings.payload[known].round(3), return_inverse=True)
-    if len(values) > MOST_PAYLOADS:
+    if len(values) > TELLING.most_payloads:
         return none
     none[known] = which
     return none
@@ -92,7 +91,7 @@ def _agreements(
         variances = np.array([h.variances(columns) for h in alone])
         mean = np.sum(values / variances, axis=0) / np.sum(1 / variances, axis=0)
         misfit = float(np.sum((values - mean) ** 2 / variances))
-        agree[candidate] = misfit < chi2.ppf(CHANCE, values.size - values.shape[1])
+        agree[candidate] = misfit < chi2.ppf(TELLING.chance, values.size - values.shape[1])
     return agree
 
 

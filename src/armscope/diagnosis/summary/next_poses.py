@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.design.separation import nats_apart, separating
+from armscope.diagnosis.constants import NEXT_POSES
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.alternatives import Rival, discriminability
 from armscope.fitting.design_matrix import point_columns
@@ -20,16 +21,6 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.verdict.schema import INDISTINGUISHABLE_NATS, NextPoses
 
-TRIED = 400
-ASKED = 12
-DECISIVE_NATS = 10.5
-"""What the asked measurements should tell two readings apart by on average. An expected D nats scatter by sqrt(2 D), so
-this much exceeds the 3 nats of 20 to 1 in 95 of 100 cases."""
-MOST_REPEATS = 200
-"""Nobody measures a pose more often than this."""
-PAYLOAD_KG = 10.0
-"""Tried on top of no payload where the recordings never carried one, kg."""
-
 
 def next_poses(
     state: DiagnosisState, rivals: Mapping[int, Sequence[Rival]], rng: np.random.Generator
@@ -38,6 +29,13 @@ def next_poses(
 
     Greedy: each next pose is the one where the two predictions differ most, measured against what the rival could still
     adapt to (its posterior covariance, updated after each choice) and the noise.
+
+    Args:
+        rivals: other readings by effect.
+        rng: draws the poses that compete.
+
+    Returns:
+        Poses, payloads and how far the two predictions lie apart there, mm.
     """
     best, candidates = state.best, state.space.candidates
     pairs = [
@@ -65,12 +63,13 @@ def next_poses(
     with_base[:k, :k] = covariance
     with_base[k:, k:] = np.eye(6) * (PRIORS.frame_mm * 1e-3) ** 2
     adapting = np.concatenate([X[:, :, other.columns], new_base], axis=2)
-    chosen, separation = separating(adapting, between, with_base, other.noise, ASKED)
+    chosen, separation = separating(adapting, between, with_base, other.noise, NEXT_POSES.asked)
     repeats = next(
         (
             float(k)
-            for k in range(1, MOST_REPEATS + 1)
-            if nats_apart(adapting[chosen], between[chosen], with_base, other.noise / np.sqrt(k)) >= DECISIVE_NATS
+            for k in range(1, NEXT_POSES.most_repeats + 1)
+            if nats_apart(adapting[chosen], between[chosen], with_base, other.noise / np.sqrt(k))
+            >= NEXT_POSES.decisive_nats
         ),
         float("inf"),
     )
@@ -86,26 +85,28 @@ def _reachable(arm: Arm, recordings: Recordings, rng: np.random.Generator) -> Re
     low, high = recordings.motor_angles.min(axis=0), recordings.motor_angles.max(axis=0)
     stated = np.isfinite(arm.limits).all(axis=1)
     low, high = np.where(stated, arm.limits[:, 0], low), np.where(stated, arm.limits[:, 1], high)
-    angles = rng.uniform(low, high, (TRIED, arm.n_motors))
+    angles = rng.uniform(low, high, (NEXT_POSES.tried, arm.n_motors))
     heaviest = np.nanmax(recordings.payload) if recordings.payload is not None else 0.0
-    run = np.full(TRIED, "next")
-    shape = (TRIED, arm.n_motors)
+    run = np.full(NEXT_POSES.tried, "next")
+    shape = (NEXT_POSES.tried, arm.n_motors)
     table = replace(
         recordings,
         motor_angles=angles,
-        positions=np.full((TRIED, 3), np.nan),
+        positions=np.full((NEXT_POSES.tried, 3), np.nan),
         run=run,
-        target=np.full(TRIED, recordings.target[-1]),
-        id=np.arange(1, TRIED + 1).astype(str),
+        target=np.full(NEXT_POSES.tried, recordings.target[-1]),
+        id=np.arange(1, NEXT_POSES.tried + 1).astype(str),
         orientation=None,
         sigma=None,
         extra=None,
         torque=None,
-        payload=rng.choice([0.0, heaviest or PAYLOAD_KG], TRIED),
+        payload=rng.choice([0.0, heaviest or NEXT_POSES.payload_kg], NEXT_POSES.tried),
         approach=None if recordings.approach is None else rng.choice([-1.0, 1.0], shape),
         speed=None if recordings.speed is None else np.zeros(shape),
-        time=None if recordings.time is None else np.full(TRIED, np.nanmax(recordings.time)),
-        temperature=None if recordings.temperature is None else np.full(TRIED, np.nanmedian(recordings.temperature)),
+        time=None if recordings.time is None else np.full(NEXT_POSES.tried, np.nanmax(recordings.time)),
+        temperature=None
+        if recordings.temperature is None
+        else np.full(NEXT_POSES.tried, np.nanmedian(recordings.temperature)),
     )
     possible = refusals(arm, angles, Surroundings()) == ""
-    return table.rows(possible) if np.sum(possible) >= ASKED else table
+    return table.rows(possible) if np.sum(possible) >= NEXT_POSES.asked else table

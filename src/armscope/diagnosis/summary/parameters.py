@@ -14,7 +14,16 @@ Reading = Callable[[Array], Array]
 
 
 def parameters(placed: Placed, values: Array, covariance: Array) -> tuple[Parameter, ...]:
-    """The parameters of an effect from its terms' values and covariance, SI units."""
+    """The parameters of an effect from its terms' values and covariance, SI units.
+
+    Args:
+        placed: the effect.
+        values: (k,) of its terms, SI.
+        covariance: (k, k) of them.
+
+    Returns:
+        Values with standard errors, files' units.
+    """
     names, units, reading = _reading(placed)
     read = reading(values)
     if not names:

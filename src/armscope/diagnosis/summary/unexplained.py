@@ -6,26 +6,30 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from armscope.diagnosis.constants import TELLING
 from armscope.diagnosis.state import DiagnosisState
 from armscope.inference.detection import Detection
 from armscope.inference.edits import Edits
 from armscope.inference.normal_equations import NormalEquations, projected_rms
 from armscope.inference.problem import background_sizes
-from armscope.measurement.row_weights import INLIER_WEIGHT
+from armscope.measurement.constants import WEIGHTS
 from armscope.physics.backgrounds import FAMILIES
 from armscope.verdict.schema import Background, FoundEffect, Unexplained
-
-NOISE_EXCESS = 1.15
-"""A residual this many times the stated noise is more than the noise."""
-BACKGROUND_SEEN_NATS = 5.0
-MOST_BAD_SHOTS = 0.1
-"""A larger share of rows that fit nothing is no matter of bad shots."""
 
 
 def background_summaries(
     state: DiagnosisState, edits: Edits, gram: NormalEquations, of_families: Sequence[float]
 ) -> tuple[Background, ...]:
-    """What each family's background amounts to, and whether the evidence asks for it."""
+    """What each family's background amounts to, and whether the evidence asks for it.
+
+    Args:
+        state: the finished selection.
+        gram: sums over all rows.
+        of_families: RMS at the tool by family, mm.
+
+    Returns:
+        One per family.
+    """
     fit, best = state.fit, state.best
     sizes = background_sizes(state.problem, best.background)
     values = {t: v for part in fit.model.background for t, v in zip(part.placed.terms, part.values, strict=True)}
@@ -35,7 +39,9 @@ def background_summaries(
         coefficients[columns] = [values[fit.pool.terms[column]] for column in columns]
         rms = projected_rms(gram, fit.pool.frames, coefficients)
         without = edits.with_background(best, number, 0)
-        present = best.background[number] > 0 and best.log_posterior - without.log_posterior > BACKGROUND_SEEN_NATS
+        present = (
+            best.background[number] > 0 and best.log_posterior - without.log_posterior > TELLING.background_seen_nats
+        )
         told.append(Background(family, present, sizes[number], rms, of_families[number]))
     return tuple(told)
 
@@ -55,7 +61,7 @@ def unexplained_part(effects: Sequence[FoundEffect], state: DiagnosisState) -> U
         words = largest.curve.description if largest.curve else largest.title
         return Unexplained(True, largest.location, largest.driver, largest.rms_at_tool_mm, words)
     stated = state.noise.stated_mm
-    if stated and state.fit.noise > NOISE_EXCESS * stated and _significant(state):
+    if stated and state.fit.noise > TELLING.noise_excess * stated and _significant(state):
         extra = float(np.sqrt(state.fit.noise**2 - stated**2))
         return Unexplained(True, None, None, extra, "residual above the stated noise that follows nothing in the table")
     return Unexplained(False)
@@ -63,12 +69,12 @@ def unexplained_part(effects: Sequence[FoundEffect], state: DiagnosisState) -> U
 
 def rows_apart(state: DiagnosisState) -> Unexplained:
     """Rows that fit nothing, where they are too many to be bad shots: another unit, another frame, another arm."""
-    apart = state.fit.weights.robust_weight < INLIER_WEIGHT
-    if np.mean(apart) < MOST_BAD_SHOTS:
+    apart = state.fit.weights.robust_weight < WEIGHTS.inlier_weight
+    if np.mean(apart) < TELLING.most_bad_shots:
         return Unexplained(False)
     size = float(np.sqrt(np.mean(state.fit.residuals[apart] ** 2)))
     runs = np.unique(state.recordings.run[apart])
-    whole = [str(run) for run in runs if run and np.mean(apart[state.recordings.run == run]) > INLIER_WEIGHT]
+    whole = [str(run) for run in runs if run and np.mean(apart[state.recordings.run == run]) > WEIGHTS.inlier_weight]
     words = f"{np.count_nonzero(apart)} of {len(apart)} rows fit neither the nominal arm nor any effect"
     return Unexplained(True, None, None, size, words + (f": most of run {', '.join(whole)}" if whole else ""))
 

@@ -69,6 +69,9 @@ def url_of(source: Source, file: SourceFile, server: str | None = None) -> str:
     Args:
         source, file: what to fetch.
         server: stands in for the repository's host, e.g. "http://127.0.0.1:8000"; None takes https and that host.
+
+    Returns:
+        The address.
     """
     host, owner, name = source.repository.split("/")
     start = server.rstrip("/") if server else f"https://{host}"
@@ -103,6 +106,9 @@ def fetch_recordings(
         recordings_dir: a local folder that stands in for the network; the files are looked for in its subfolder of
             the set's name (by their path, or by their name there or under raw/).
         server: stands in for the repository's host, see `url_of`.
+
+    Returns:
+        The files' paths, and where each came from.
 
     Raises:
         InputError: no such file, no network, a wrong checksum, or a set that can't be imported.

@@ -144,7 +144,18 @@ class Piece:
         return self if which.all() else Piece(self.rows.take(np.flatnonzero(which)), self.beside)
 
     def error(self, row: int, columns: tuple[Column, ...], found: object, rule: str, cure: str = "") -> InputError:
-        """What is wrong with a row, at its place in the file that the first of the columns is taken from."""
+        """What is wrong with a row, at its place in the file that the first of the columns is taken from.
+
+        Args:
+            row: of the piece, from 0.
+            columns: those of the table that are concerned.
+            found: the value.
+            rule: what is allowed.
+            cure: how to mend it.
+
+        Returns:
+            The error, to be raised.
+        """
         rows, _ = self._where(columns[0])
         names = f"{columns[0]} ... {columns[-1]}" if len(columns) > MOST_NAMED else ", ".join(map(str, columns))
         return InputError(rows.source, f"line {rows.lines[row]}, column {names}", found, rule, cure)

@@ -179,6 +179,9 @@ def read_pieces(path: Path, style: Format, notes: Counter[str]) -> Iterator[RawR
         style: how it is written.
         notes: counts what was passed over on the way (blank lines).
 
+    Yields:
+        Rows with their line numbers.
+
     Raises:
         InputError: the file can't be read, or a row has too few or too many values.
     """

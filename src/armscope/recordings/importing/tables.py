@@ -71,6 +71,9 @@ def import_recordings(raw_files: list[Path], mapping_file: Path | str, output: P
         mapping_file: mapping.yaml.
         output: the table to write.
 
+    Returns:
+        What was read, written and passed over, by run.
+
     Raises:
         InputError: anything that can't be converted, with file, line, column, value, rule and cure.
     """
@@ -94,6 +97,14 @@ def import_recordings(raw_files: list[Path], mapping_file: Path | str, output: P
 
 def runs_for(mapping: Mapping, raw_files: list[Path], source: Path | str) -> list[tuple[Run, dict[str, Path]]]:
     """Each run with the paths of its files, by the names that the mapping uses.
+
+    Args:
+        mapping: of the set.
+        raw_files: the files.
+        source: the mapping's file, for errors.
+
+    Returns:
+        Runs with their files' paths by name.
 
     Raises:
         InputError: a run without its file, or a file that no run wants.
@@ -175,6 +186,12 @@ def convert_run(mapping: Mapping, run: Run, paths: dict[str, Path], report: RunR
         run: the run, one of `runs_for`.
         paths: its files by name.
         report: takes the counts.
+
+    Yields:
+        Pieces with the contract's columns, in the order of the file.
+
+    Raises:
+        InputError: a value that can't be converted, at its place in the raw file.
     """
     beside = BesideFiles(mapping, run, paths, report.notes)
     filters = [Filter(rule) for rule in (mapping.rows if run.rows is None else run.rows)]

@@ -1,0 +1,135 @@
+"""Numbers that decide in this room; see `armscope.core.constants`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from armscope.core.constants import Constants, constant
+
+
+@dataclass(frozen=True)
+class FittingSteps(Constants):
+    """How fits are computed, and when they end."""
+
+    first_damping: float = constant(
+        1e-4, "of Gauss-Newton, first share of each column's own square that is tried", "convention: Marquardt's, small"
+    )
+    most_damping: float = constant(1e8, "share at which trying ends", "judgement: such a step goes nowhere")
+    refit: int = constant(6, "of the exact refit", "judgement: more than it takes", unit="steps")
+    converged_mm: float = constant(
+        1e-6, "change of the residuals at which the exact refit ends", "derived: far below any instrument", unit="mm"
+    )
+    converged_share: float = constant(
+        0.05, "the same as a share of what the noise leaves uncertain", "judgement: nobody sees it"
+    )
+    free: float = constant(
+        10.0,
+        "width of the prior of a named effect's values",
+        "judgement: freely, but not where poses hardly tell it",
+        unit="sizes",
+    )
+    registration: int = constant(12, "of the fit of base and tool", "judgement: more than it takes", unit="steps")
+    turn_steps: int = constant(3, "of the robust mean of turns", "judgement: more than it takes", unit="steps")
+    negligible_m: float = constant(
+        1e-9,
+        "change of tool points that ends the fit of base and tool",
+        "derived: far above rounding, far below any instrument",
+        unit="m",
+    )
+    transfer: int = constant(8, "of the fit of another run's frames", "judgement: more than it takes", unit="steps")
+    negligible_mm: float = constant(
+        1e-6, "change of tool points that ends it", "derived: far above rounding, far below any instrument", unit="mm"
+    )
+    smallest_group: int = constant(
+        16,
+        "of one direction, from which they are multiplied together",
+        "judgement: time; the result is the same; twice and half change no golden verdict",
+        unit="terms",
+    )
+    chunk_rows: int = constant(1500, "linearised at a time", "judgement: memory; the result is the same", unit="rows")
+    kept_rows: int = constant(
+        15_000, "tables up to this long keep their drivers between passes", "derived: at most some 150 MB", unit="rows"
+    )
+
+
+@dataclass(frozen=True)
+class ExchangeRules(Constants):
+    """When a tool counts as exchanged between runs."""
+
+    worse: float = constant(
+        2.0,
+        "times what one tool per run leaves that one tool for all runs must leave",
+        "judgement: lesser shifts are effects and compete with the others",
+    )
+    apart: float = constant(
+        3.0,
+        "times that by which the tools must lie apart",
+        "judgement: lesser shifts are effects and compete with the others",
+    )
+    least_numbers: int = constant(
+        2,
+        "measured numbers per number of a frame, for frames to tell anything",
+        "judgement: with as many as there are free, anything fits",
+    )
+
+
+@dataclass(frozen=True)
+class DiscrepancyRules(Constants):
+    """How smooth errors that nobody named are looked for."""
+
+    sizes: tuple[float, ...] = constant(
+        (0.0625, 0.125, 0.25, 0.5, 1.0, 2.0, 4.0),
+        "sizes of a process that compete, RMS at the tool",
+        "judgement: from a sixteenth to four times the noise; together as likely as none",
+        unit="noise",
+    )
+    waves: int = constant(
+        2,
+        "over a motor's range, alone and in products of two",
+        "judgement: finer ones are effects' own",
+        unit="half waves",
+    )
+    slow_waves: int = constant(40, "over the order of rows", "judgement: finer ones are hardly slow", unit="half waves")
+    rows_per_wave: int = constant(
+        6, "for each of them at least", "judgement: fewer do not tell a wave from noise", unit="rows"
+    )
+    most_rows: int = constant(2000, "looked at, spread evenly", "judgement: time", unit="rows")
+    tiny_mm: float = constant(
+        1e-6,
+        "a motor that moves the tool by less does not move it",
+        "derived: far above rounding, far below any instrument",
+        unit="mm/rad",
+    )
+
+
+@dataclass(frozen=True)
+class ScatterRules(Constants):
+    """When a joint is said to scatter."""
+
+    ratios: tuple[float, ...] = constant(
+        (0.5, 1.0, 2.0, 4.0, 8.0, 16.0),
+        "scatter at the tool that competes",
+        "judgement: half the noise to sixteen times, doubling",
+        unit="noise",
+    )
+    price_nats: float = constant(
+        15.0, "of a place of scatter", "judgement: its share of a library of joints and sizes, and caution", unit="nats"
+    )
+    most_places: int = constant(3, "that may scatter", "judgement: more are better called noise", unit="joints")
+    largest_rad: float = constant(
+        0.02,
+        "a joint that would have to be this loose is not where the scatter is",
+        "judgement: the tool hardly sees it turn",
+        unit="rad",
+    )
+    trimmed: float = constant(
+        0.03,
+        "share of the farthest rows without which the evidence must hold, too",
+        "judgement: bad shots have no place",
+    )
+
+
+STEPS = FittingSteps()
+EXCHANGE = ExchangeRules()
+DISCREPANCY = DiscrepancyRules()
+SCATTER = ScatterRules()

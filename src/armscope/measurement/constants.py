@@ -1,0 +1,74 @@
+"""Numbers that decide in this room; see `armscope.core.constants`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from armscope.core.constants import Constants, constant
+
+
+@dataclass(frozen=True)
+class NoiseRules(Constants):
+    """When noise is called known, growing, or tied to the pose."""
+
+    trusted: float = constant(
+        0.97,
+        "part of a stated noise that is taken as its lower bound",
+        "judgement: this much below it is left to chance",
+    )
+    fewest_repeats: int = constant(
+        6,
+        "beyond the first to poses, from which their scatter is taken for the noise",
+        "judgement: fewer give a scale that is wrong by a third; twice and half change no golden verdict",
+        unit="visits",
+    )
+    fewest_for_growth: int = constant(
+        60,
+        "from which growth with the distance is estimated",
+        "judgement: some dozens near and far; twice and half change no golden verdict",
+        unit="rows",
+    )
+    growth_nats: float = constant(
+        3.0,
+        "caution on top of what one number more costs",
+        "convention: 20 to 1, ln 20; twice and half change no golden verdict",
+        unit="nats",
+    )
+    least_growth: float = constant(
+        1.25,
+        "noise of the farthest over that of the nearest rows, below which it is called constant",
+        "judgement: less changes no weight much; twice and half change no golden verdict",
+    )
+    poses_nats: float = constant(
+        3.0,
+        "evidence that makes errors which stay with their pose more than chance",
+        "convention: 20 to 1, ln 20; twice and half change no golden verdict",
+        unit="nats",
+    )
+
+
+@dataclass(frozen=True)
+class WeightRules(Constants):
+    """Which rows count, and how much."""
+
+    median_of_chi3: float = constant(
+        1.5381722, "median length of a 3-vector of unit normals", "derived: scipy.stats.chi(3).median()"
+    )
+    tuning_constant: float = constant(
+        4.5, "beyond which a row is weighted down", "derived: one clean row in 6000 lies farther", unit="scales"
+    )
+    inlier_weight: float = constant(
+        0.5,
+        "part of its clean weight below which a row does not count as a measurement",
+        "judgement: it then lies 5.4 scales off",
+    )
+    fewest_orientations: int = constant(
+        15,
+        "fewer orientations are not used",
+        "judgement: the frames of the tools take up too much of what they tell",
+        unit="rows",
+    )
+
+
+NOISE = NoiseRules()
+WEIGHTS = WeightRules()
