@@ -68,9 +68,9 @@ def diagnose(
 
             tell("drawing the report", 0.95)
             write_report(verdict, output)
-    for notice in verdict.notices:
-        if notice.kind == "check":
-            print(f"note: {notice.text}", file=sys.stderr)
+    obstacle = verdict.notices[-1:] if verdict.mismatch is None else ()
+    for notice in (*(each for each in verdict.notices if each.kind == "check"), *obstacle):
+        print(f"note: {notice.text}", file=sys.stderr)
     print(verdict.headline)
     print(f"{output}/{'report.html' if report else 'verdict.json'}")
 

@@ -128,8 +128,11 @@ def claims_(
     """Each claim with the paper's wording, its verdicts, and what remains of them under other assumptions."""
     from armscope.core.files import read_table, write_table
     from armscope.paper.claims import summarise
+    from armscope.paper.sensitivity import COLUMNS
 
-    write_table(output, summarise(read_table(judged), read_table(sensitivity)), digits=5)
+    found = read_table(judged, ("key", "method"), "what `armscope paper judge` writes")
+    varied = read_table(sensitivity, COLUMNS, "what `armscope paper scenario` writes, joined")
+    write_table(output, summarise(found, varied), digits=5)
 
 
 @app.command("why")
