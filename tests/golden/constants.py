@@ -7,7 +7,7 @@
 Every trial is a process of its own, in which numbers are changed before anything else is imported. It ends with the
 first golden case that changes. Several that change nothing together are not tried one by one, and what matters doubled
 is not tried halved. Shares near one are scaled by what they lack of one, ratios just above one by their excess: 0.95 is
-tried as 0.90 and 0.975, 1.15 as 1.3 and 1.075. Counts stay at least one. What OUT.jsonl holds already is not tried again.
+tried as 0.90 and 0.975, 1.15 as 1.3 and 1.075. Counts stay at least one. What OUT.jsonl holds is not tried again.
 """
 
 from __future__ import annotations
