@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.grouping import same_configuration
 from armscope.core.types import Array, Indices
 from armscope.diagnosis.constants import FOLDING
 from armscope.fitting.design_matrix import columns, structured_design
@@ -48,8 +49,7 @@ def split(recordings: Recordings, rng: np.random.Generator) -> Blocks:
         and per_run.min() >= FOLDING.fewest_rows_per_run
         and len(runs) <= FOLDING.blocks
     )
-    _, pose = np.unique(np.round(recordings.motor_angles, 4), axis=0, return_inverse=True)
-    pose = pose.reshape(-1)
+    pose = same_configuration(recordings.motor_angles)
     count = int(pose.max()) + 1
     order = rng.permutation(count)
     if not by_run:

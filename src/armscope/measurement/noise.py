@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.grouping import same_configuration
 from armscope.core.types import Array, Indices
 from armscope.measurement.constants import NOISE
 from armscope.physics.model import FittedModel
@@ -38,13 +39,9 @@ def known_noise(arm: Arm, recordings: Recordings) -> Noise:
 
 def _from_repeats(recordings: Recordings) -> float | None:
     """Scatter, m per axis, of poses visited more than once in one run under the same load and approach."""
-    context = [recordings.motor_angles.round(5)]
-    context += [c.reshape(len(recordings), -1) for c in (recordings.payload, recordings.approach) if c is not None]
-    _, run = np.unique(recordings.run, return_inverse=True)
-    _, target = np.unique(recordings.target, return_inverse=True)
-    keys = np.nan_to_num(np.column_stack([*context, run, target]))
-    _, which, count = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
-    which = which.reshape(-1)
+    context = [c for c in (recordings.payload, recordings.approach) if c is not None]
+    which = same_configuration(recordings.motor_angles, recordings.run, recordings.target, *context)
+    count = np.bincount(which)
     freedom = int((count - 1).sum())
     if freedom < NOISE.fewest_repeats:
         return None
@@ -55,10 +52,7 @@ def _from_repeats(recordings: Recordings) -> float | None:
 
 def poses(recordings: Recordings) -> Indices:
     """(N,) number of the pose at which each row was taken, within its run and for its target."""
-    _, run = np.unique(recordings.run, return_inverse=True)
-    _, target = np.unique(recordings.target, return_inverse=True)
-    keys = np.column_stack([np.round(recordings.motor_angles, 4), run, target])
-    return np.asarray(np.unique(keys, axis=0, return_inverse=True)[1].reshape(-1))
+    return same_configuration(recordings.motor_angles, recordings.run, recordings.target)
 
 
 def independence_weights(residuals: Array, pose: Indices, trusted: NDArray[np.bool_]) -> Array:

@@ -10,10 +10,13 @@ import numpy as np
 from armscope.physics.clause import Told
 from armscope.physics.cure import Cure
 from armscope.physics.drivers import follows
-from armscope.physics.effect import Driver, Effect, Placed, Product, Term
+from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term
 from armscope.physics.elastic import UNKNOWN_MASSES
 from armscope.physics.scene import Part, Scene
 from armscope.recordings import Recordings
+
+PAYLOAD_MASS = Direction("payload", "mass")
+"""The load itself, kg: it moves nothing, but instruments that feel loads see it."""
 
 
 def payload_errors(recordings: Recordings, elastic: Sequence[Part]) -> Iterator[Placed]:
@@ -29,6 +32,7 @@ def payload_errors(recordings: Recordings, elastic: Sequence[Part]) -> Iterator[
     absolute = [g for part in elastic if part.placed.variant == UNKNOWN_MASSES for g in _absolute_giving(part)]
     mass = _term("mass", "kg", 1.0, [*givings, *absolute], lambda load: Driver("heavier", (load,)))
     if mass.products:
+        mass = Term(mass.name, mass.unit, mass.si, (*mass.products, Product(PAYLOAD_MASS, ONE)))
         yield Placed(PAYLOAD_ERROR, "payload", (mass,), (1.0,), "payload", variant="mass")
     centre = tuple(
         _term(
