@@ -24,6 +24,7 @@ def background_summaries(
 
     Args:
         state: the finished selection.
+        edits: of the search.
         gram: sums over all rows.
         of_families: RMS at the tool by family, mm.
 

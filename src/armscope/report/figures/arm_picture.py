@@ -43,6 +43,9 @@ def draw_arm(arm: Arm, motor_angles: Array, shares: Mapping[str, float]) -> Figu
         motor_angles: (N, m) recorded poses to choose from, rad.
         shares: by location ("base", "joint 2", "link 3", "tool", "parallelogram", "payload", "instrument",
             "joint 6 from joint 5"), 0 to 1.
+
+    Returns:
+        The figure.
     """
     row, view = typical_pose(arm, motor_angles)
     shape = arm_shape(arm, motor_angles[row])

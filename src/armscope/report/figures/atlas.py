@@ -31,6 +31,9 @@ def draw_atlas(
         shares: index location, columns driver (in words), values 0 to 1; NaN where there is no such effect.
         marked: (location, driver) cells of the effects that were named: they get a frame.
         left: the same on top of the named effects, as a share of the original mismatch; None leaves it out.
+
+    Returns:
+        The figure.
     """
     maps = [("before any effect", shares)]
     if left is not None:

@@ -32,6 +32,9 @@ def draw_waterfall(
         noise_mm: the noise per axis, None where unknown.
         references: (model, held-out RMS in mm), for comparison.
         spreads: standard deviation of each step's RMS from fold to fold, mm: drawn as whiskers.
+
+    Returns:
+        The figure.
     """
     heights = [rms for _, rms in steps]
     largest = max(heights)
