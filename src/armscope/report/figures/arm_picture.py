@@ -301,7 +301,10 @@ def _capsule(start: Array, end: Array, radius: float) -> Array:
     along = end - start
     angle = np.arctan2(along[1], along[0])
     half = np.linspace(-np.pi / 2, np.pi / 2, 14)
-    cap = lambda centre, turn: centre + radius * np.column_stack([np.cos(turn + half), np.sin(turn + half)])
+
+    def cap(centre: Array, turn: float) -> Array:
+        return centre + radius * np.column_stack([np.cos(turn + half), np.sin(turn + half)])
+
     return np.vstack([cap(end, angle), cap(start, angle + np.pi)])
 
 
