@@ -1,13 +1,18 @@
 """Numbers that decide have a unit, a meaning and a basis, and the page about them is what the code is."""
 
 import ast
+import math
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from scipy.stats import chi
 from tools import constants
 
 from armscope.core.constants import BASES, Constants, constant, entries
+from armscope.diagnosis.constants import NEXT_POSES
+from armscope.inference.constants import BUDGET, PRIORS
+from armscope.measurement.constants import NOISE, WEIGHTS
 
 PACKAGE = Path(__file__).parents[2] / "src" / "armscope"
 
@@ -59,3 +64,13 @@ def test_groups_are_frozen() -> None:
     with pytest.raises(AttributeError, match="cannot assign"):
         setattr(group(), entries(group)[0].name, 0)
     assert issubclass(group, Constants)
+
+
+def test_derived_numbers_are_what_their_formulas_give() -> None:
+    assert WEIGHTS.median_of_chi3 == pytest.approx(chi(3).median(), rel=1e-6)
+    assert chi(3).sf(WEIGHTS.tuning_constant) == pytest.approx(1 / 6000, rel=0.15)
+    expected = NEXT_POSES.decisive_nats
+    assert expected - 1.645 * math.sqrt(2 * expected) == pytest.approx(PRIORS.sure_nats, abs=0.05)
+    assert BUDGET.most_orders == math.factorial(5)
+    for nats in (PRIORS.sure_nats, NOISE.sure_nats):
+        assert nats == pytest.approx(math.log(20), abs=0.01)

@@ -174,9 +174,6 @@ class NamingRules(Constants):
 class TellingRules(Constants):
     """What is told of the effects and of the rows."""
 
-    suspect_weight: float = constant(
-        0.5, "part of its clean weight below which a row is a suspect", "judgement: it then lies 5.4 scales off"
-    )
     listed_suspects: int = constant(200, "at most", "judgement: nobody reads more", unit="rows")
     noise_excess: float = constant(
         1.15,

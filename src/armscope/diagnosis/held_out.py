@@ -255,7 +255,7 @@ def _rms(errors: Array, which: slice = POINTS) -> Array:
     known = np.isfinite(squares)
     sums = np.sum(np.where(known, squares, 0.0), axis=(1, 2))
     counts = np.count_nonzero(known, axis=(1, 2))
-    return np.sqrt(np.divide(sums, counts, out=np.full(len(errors), np.nan), where=counts > 0))
+    return np.asarray(np.sqrt(np.divide(sums, counts, out=np.full(len(errors), np.nan), where=counts > 0)))
 
 
 def _steps(best: Hypothesis, order: Sequence[int]) -> list[tuple[SelectedEffect, ...]]:

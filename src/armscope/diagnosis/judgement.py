@@ -30,6 +30,7 @@ from armscope.inference.detection import averaged_log_odds
 from armscope.inference.normal_equations import NormalEquations
 from armscope.inference.search import Search
 from armscope.inference.shapley import shares
+from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.noise import Noise
 from armscope.physics.freeform import held
 from armscope.physics.model import FittedModel
@@ -155,7 +156,7 @@ def _plain_gram(state: DiagnosisState) -> NormalEquations:
 
 
 def _weighted_rms(fit: Refit) -> float:
-    trusted = fit.weights.robust_weight > TELLING.suspect_weight
+    trusted = fit.weights.robust_weight > WEIGHTS.inlier_weight
     return float(np.sqrt(np.mean(fit.residuals[trusted] ** 2)))
 
 
@@ -206,7 +207,7 @@ def _orientations(state: DiagnosisState) -> Orientations | None:
 def _suspects(state: DiagnosisState) -> tuple[SuspectRow, ...]:
     fit, table = state.fit, state.recordings
     relative = fit.weights.robust_weight
-    rows = np.flatnonzero(relative < TELLING.suspect_weight)
+    rows = np.flatnonzero(relative < WEIGHTS.inlier_weight)
     size = np.linalg.norm(fit.residuals, axis=1)
     worst = rows[np.argsort(-size[rows])][: TELLING.listed_suspects]
     return tuple(SuspectRow(str(table.id[r]), str(table.run[r]), float(size[r]), float(relative[r])) for r in worst)

@@ -48,6 +48,9 @@ def build_model_space(
         frames: always free.
         backgrounds: of each family, in the order of `armscope.physics.backgrounds.FAMILIES`.
         placed: effects that compete.
+
+    Returns:
+        The columns, priors and requirements, and which effect each candidate is.
     """
     layout = parameter_layout(frames, backgrounds, placed)
     return EffectSpace(

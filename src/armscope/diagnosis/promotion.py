@@ -32,6 +32,14 @@ def named(edits: Edits, space: EffectSpace, hypothesis: Hypothesis) -> Hypothesi
     """The hypothesis with lines told as compliances, with the members of backgrounds named that stand out.
 
     What then is not worth its name any more is left to the background, in which others may stand out.
+
+    Args:
+        edits: of the search.
+        space: which effect each candidate is.
+        hypothesis: that the search found.
+
+    Returns:
+        The hypothesis with those names.
     """
     while True:
         promoted = _promoted(edits.problem, _straightened(edits.problem, space, hypothesis))
@@ -167,7 +175,16 @@ def rest_of(problem: Problem, hypothesis: Hypothesis, line: int) -> list[int]:
 
 
 def nested_log_odds(problem: Problem, hypothesis: Hypothesis, name: SelectedEffect) -> float:
-    """Evidence for a name within a background or a curve, nats: lost when it is held at zero, the noise growing."""
+    """Evidence for a name within a background or a curve, nats: lost when it is held at zero, the noise growing.
+
+    Args:
+        problem: the normal equations and priors.
+        hypothesis: that holds the name.
+        name: the effect.
+
+    Returns:
+        Nats.
+    """
     members = [name.candidate, *rest_of(problem, hypothesis, name.candidate)]
     columns = np.unique(np.concatenate([problem.space.candidates[c].columns for c in members]))
     return profiled_loss(savage_dickey(hypothesis, columns), problem.n)

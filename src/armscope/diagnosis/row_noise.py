@@ -54,12 +54,24 @@ class NoiseOfRows:
         self.weights = self.rows.first_weights(residuals, self.least_mm)
 
     def follow(self, other: NoiseOfRows, residuals: ChannelResiduals, noise_mm: float) -> None:
-        """Go on from what other rows told."""
+        """Go on from what other rows told.
+
+        Args:
+            other: what was found on other rows of the same table.
+            residuals: of these rows, by channel.
+            noise_mm: per axis.
+        """
         self.scatter, self.growth = other.scatter, other.growth
         self.weigh(residuals, noise_mm, whitening(self.scatter, self.moved, noise_mm))
 
     def weigh(self, residuals: ChannelResiduals, noise_mm: float, white: Array | None) -> None:
-        """What the residuals tell about the rows' noise, and their weights by it."""
+        """What the residuals tell about the rows' noise, and their weights by it.
+
+        Args:
+            residuals: of the rows, by channel.
+            noise_mm: per axis.
+            white: (N, 3, 3) of rows that scatter along known directions; None where none does.
+        """
         self.residuals = residuals
         by_distance = None
         if self.growth is not None:

@@ -30,7 +30,19 @@ def select(
     block_of_row: Indices,
     progress: Progress,
 ) -> Selected:
-    """The effects that the evidence asks for, fitted with the exact model."""
+    """The effects that the evidence asks for, fitted with the exact model.
+
+    Args:
+        start: the arm with its frames.
+        table: the rows, and the channels that are used.
+        noise: what is known of it.
+        frames: always free.
+        block_of_row: (N,) number of each row's block.
+        progress: hears what is being done.
+
+    Returns:
+        The selection with its problem, model, weights and sums per block.
+    """
     if len(table) <= LOOP.sample_rows:
         return SelectionLoop(start, table, noise, frames, block_of_row, progress).run()
     rows = _sample(table.recordings)

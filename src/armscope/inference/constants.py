@@ -74,18 +74,6 @@ class SearchBudget(Constants):
 
     beam: int = constant(3, "that go on after every round", "judgement: time grows in proportion", unit="hypotheses")
     branches: int = constant(3, "tried from each hypothesis", "judgement: time grows in proportion", unit="additions")
-    most_effects: int = constant(
-        16,
-        "of additions",
-        "judgement: more names than any verdict has; twice and half change no golden verdict",
-        unit="rounds",
-    )
-    worth_trying_nats: float = constant(
-        2.0,
-        "a removal that loses more at the present noise is not tried at a new one",
-        "judgement: noise estimated anew gives back less; twice and half change no golden verdict",
-        unit="nats",
-    )
     slack_nats: float = constant(
         3.0,
         "a predicted value that falls short by more is not computed",

@@ -137,7 +137,7 @@ class Edits:
         while len(hypothesis.chosen) > 1:
             lost = removal_log_bayes_factors(self.problem, hypothesis)
             weakest = int(np.argmin(lost))
-            if lost[weakest] > BUDGET.worth_trying_nats:
+            if lost[weakest] > BUDGET.slack_nats:
                 break
             shorter = self.without(hypothesis, [hypothesis.chosen[weakest].candidate])
             if shorter.log_posterior <= hypothesis.log_posterior:

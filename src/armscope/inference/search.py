@@ -70,7 +70,7 @@ class Search(Edits):
         """Additions and removals, the best few hypotheses kept alive."""
         alive, best = [start], start
         seen = {start.candidates}
-        for _ in range(BUDGET.most_effects):
+        while True:  # ends: every round betters the best by something, and what can be said is finite
             children: list[Hypothesis] = []
             for parent in alive:
                 for child in self.additions(parent, self.branches, least=-BUDGET.slack_nats):
@@ -79,9 +79,8 @@ class Search(Edits):
                         children.append(self.pruned(child))
             alive = _distinct(children)[: self.beam]
             if not alive or alive[0].log_posterior <= best.log_posterior + BUDGET.gain:
-                break
+                return best
             best = alive[0]
-        return best
 
     def _local_search(self, hypothesis: Hypothesis) -> Hypothesis:
         """Sizes, backgrounds and neighbours until nothing betters the hypothesis."""

@@ -28,9 +28,9 @@ class NoiseRules(Constants):
         "judgement: some dozens near and far; twice and half change no golden verdict",
         unit="rows",
     )
-    growth_nats: float = constant(
+    sure_nats: float = constant(
         3.0,
-        "caution on top of what one number more costs",
+        "evidence that noise grows with the distance, or stays with the pose, beyond what one number more costs",
         "convention: 20 to 1, ln 20; twice and half change no golden verdict",
         unit="nats",
     )
@@ -38,12 +38,6 @@ class NoiseRules(Constants):
         1.25,
         "noise of the farthest over that of the nearest rows, below which it is called constant",
         "judgement: less changes no weight much; twice and half change no golden verdict",
-    )
-    poses_nats: float = constant(
-        3.0,
-        "evidence that makes errors which stay with their pose more than chance",
-        "convention: 20 to 1, ln 20; twice and half change no golden verdict",
-        unit="nats",
     )
 
 

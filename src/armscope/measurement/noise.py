@@ -83,7 +83,7 @@ def independence_weights(residuals: Array, pose: Indices, trusted: NDArray[np.bo
     variance = max(within, 1e-18) * (ratios[:, None] + 1 / k)
     likelihood = -0.5 * np.sum(3 * np.log(variance) + squares / variance, axis=1)
     best = int(np.argmax(likelihood))
-    if likelihood[best] - likelihood[0] < NOISE.poses_nats:
+    if likelihood[best] - likelihood[0] < NOISE.sure_nats:
         return np.ones(len(pose))
     every = np.bincount(pose)[pose]
     return np.asarray((ratios[best] + 1) / (every * ratios[best] + 1))
@@ -134,7 +134,7 @@ def growth(residuals: Array, distance: Array, trusted: NDArray[np.bool_]) -> Gro
     near = np.mean(squares / shape, axis=1) / 3
     likelihood = -1.5 * (len(d) * np.log(near) + np.sum(np.log(shape), axis=1))
     best = int(np.argmax(likelihood))
-    gain = float(likelihood[best] - likelihood[0]) - 0.5 * float(np.log(3 * len(d))) - NOISE.growth_nats
+    gain = float(likelihood[best] - likelihood[0]) - 0.5 * float(np.log(3 * len(d))) - NOISE.sure_nats
     low, high = np.quantile(np.sqrt(shape[best]), [0.05, 0.95])
     if gain < 0 or high < NOISE.least_growth * low:
         return None

@@ -45,7 +45,16 @@ def _table(trajectory: str, model: str, errors: Array) -> pd.DataFrame:
 
 
 def band_of(bands: pd.DataFrame, trajectory: str, model: str) -> tuple[Array, Array] | None:
-    """(low, high), each (N, 3) mm, of a trajectory and model; None where there is none."""
+    """(low, high), each (N, 3) mm, of a trajectory and model; None where there is none.
+
+    Args:
+        bands: table of all bands.
+        trajectory: which.
+        model: which.
+
+    Returns:
+        (low, high).
+    """
     if bands.empty:
         return None
     rows = bands[(bands["trajectory"] == trajectory) & (bands["model"] == model)]

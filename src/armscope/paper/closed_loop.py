@@ -52,6 +52,9 @@ def paper_closed_loop(
         products: add models with a sparse choice of products, by least squares.
         regions: add models of so many blended regions, by least squares.
         diagnosed: add physics diagnosed from the identification rows.
+
+    Returns:
+        Columns model, trajectory, stage, point, and the error's three components, mm.
     """
     truth = geometric_errors(arm)
     identification = measurements.identification
@@ -111,6 +114,12 @@ def real_left_over(
 
     Such an arm can't be sent anywhere: what is left of its held-out errors is what a correction would leave, to first
     order.
+
+    Args:
+        measurements: of the arm.
+        fits: the paper's models.
+        products: models of products to fit, too.
+        regions: models with their number of regions to fit, too.
 
     Returns:
         As `remaining_errors`, with the stages "fit" and "prediction" only.

@@ -29,6 +29,9 @@ def gather(
         as_printed: fits by the method as printed.
         tables: "sub_volumes", "outlook", "poses"; see `Evidence`.
         progress: told what is done.
+
+    Returns:
+        The evidence by the method's name.
     """
     found = {}
     for method, fits in ((AS_PRINTED, as_printed), (IMPROVED, improved)):

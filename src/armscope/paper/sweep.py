@@ -20,7 +20,8 @@ def run_variant(
         measurements: of a study; the first robot counts.
         variant: of the swarm or the model.
         first_seed: of as many as the variant asks for.
-        basis: the coordinates that are searched.
+        basis: the coordinates that are searched, where the variant does not say.
+        layout: see `fit_swarms`; where the variant does not say.
         engine: see `minimise_least_squares`.
 
     Returns:

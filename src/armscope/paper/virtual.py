@@ -111,7 +111,17 @@ def identification_poses(
 def identification_ranges(
     errors: GeometricErrors, path_angles: Array, margin_rad: float, motor_6_rad: float
 ) -> tuple[Array, Array]:
-    """(low, high) of the motors, (m,) rad: the ranges of the test paths (N, m), widened, theta6 by itself."""
+    """(low, high) of the motors, (m,) rad: the ranges of the test paths (N, m), widened, theta6 by itself.
+
+    Args:
+        errors: the possible geometric errors, with their arm.
+        path_angles: (N, m) rad along the test paths.
+        margin_rad: by which the paths' ranges are widened.
+        motor_6_rad: half the range of theta6.
+
+    Returns:
+        Two arrays (m,), rad.
+    """
     low, high = joint_ranges(path_angles, margin_rad)
     if len(low) >= 6:
         low[5], high[5] = -motor_6_rad, motor_6_rad

@@ -89,6 +89,9 @@ def explain(errors: Array, number: Array, names: list[str]) -> Reason:
         errors: (R, K) in tolerances.
         number: (R,).
         names: of the K errors.
+
+    Returns:
+        The errors, and how much of the number they explain on robots held out.
     """
     chosen = _chosen(errors, number)
     folds = np.arange(len(number)) % FOLDS

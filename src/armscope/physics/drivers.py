@@ -128,7 +128,7 @@ def _unit_mass_torques(scene: Scene) -> Array:
         ones = np.ones(len(scene))
         return gravity_torques(scene.arm, scene.loaded, ones) - gravity_torques(scene.arm, scene.loaded)
 
-    return scene.remember("unit mass torques", compute)
+    return np.asarray(scene.remember("unit mass torques", compute))
 
 
 def _heavier(scene: Scene, load: Driver) -> Array:
@@ -195,24 +195,24 @@ def _rows(scene: Scene) -> Array:
 
 
 def _after_time(scene: Scene, start: float, run: str) -> Array:
-    return (recorded(scene, "time") >= start) & (scene.recordings.run == run)
+    return np.asarray((recorded(scene, "time") >= start) & (scene.recordings.run == run))
 
 
 def _after_row(scene: Scene, first_row: float, run: str) -> Array:
     """Rows are counted by the table's id (its row number where it has none), within a run."""
-    return (scene.row_numbers >= first_row) & (scene.recordings.run == run)
+    return np.asarray((scene.row_numbers >= first_row) & (scene.recordings.run == run))
 
 
 def _in_run(scene: Scene, run: str) -> Array:
-    return scene.recordings.run == run
+    return np.asarray(scene.recordings.run == run)
 
 
 def _on_target(scene: Scene, target: str) -> Array:
-    return scene.recordings.target == target
+    return np.asarray(scene.recordings.target == target)
 
 
 def _on_target_in_run(scene: Scene, target: str, run: str) -> Array:
-    return (scene.recordings.target == target) & (scene.recordings.run == run)
+    return np.asarray((scene.recordings.target == target) & (scene.recordings.run == run))
 
 
 def _spline(scene: Scene, source: Driver, centre: float, width: float) -> Array:

@@ -115,7 +115,7 @@ class Scene:
         def compute() -> Array:
             _, moment = self.wrenches
             axes = self.loaded.joint_rotation[..., 2]
-            return np.einsum("nji,nji->nj", axes, moment) @ self.arm.actuation
+            return np.asarray(np.einsum("nji,nji->nj", axes, moment) @ self.arm.actuation)
 
         torques: Array = self.remember("gravity torques", compute)
         return torques
@@ -136,7 +136,7 @@ class Scene:
             if location == "base":
                 return moment[:, 0] + np.cross(self.loaded.joint_origin[:, 0], force[:, 0])
             j = Location.of(location).index
-            return np.einsum("nba,nb->na", self.loaded.joint_rotation[:, j], moment[:, j])
+            return np.asarray(np.einsum("nba,nb->na", self.loaded.joint_rotation[:, j], moment[:, j]))
 
         values: Array = self.remember(("moment", location), compute)
         return values
@@ -149,7 +149,7 @@ class Scene:
             if location == "base":
                 return force[:, 0]
             j = Location.of(location).index
-            return np.einsum("nba,nb->na", self.loaded.joint_rotation[:, j], force[:, j])
+            return np.asarray(np.einsum("nba,nb->na", self.loaded.joint_rotation[:, j], force[:, j]))
 
         values: Array = self.remember(("force", location), compute)
         return values

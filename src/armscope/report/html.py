@@ -42,7 +42,13 @@ def render_page(template: str, **content: Any) -> str:
 
 
 def write_page(path: Path | str, template: str, **content: Any) -> None:
-    """Render a page and write it, whole or not at all."""
+    """Render a page and write it, whole or not at all.
+
+    Args:
+        path: of the page.
+        template: its name.
+        content: what the template shows.
+    """
     write_text(path, render_page(template, **content))
 
 

@@ -63,6 +63,9 @@ def save_figure(figure: Figure, path: Path | str, formats: Sequence[str] = FORMA
         figure: the figure.
         path: where one of them goes; the others differ in their suffix.
         formats: which of the three are wanted.
+
+    Returns:
+        The files.
     """
     written = []
     _names_are_no_formulas(figure)
@@ -89,7 +92,13 @@ def _names_are_no_formulas(figure: Figure) -> None:
 
 
 def legend_above(figure: Figure, handles: Any = None, labels: Any = None, columns: int = 4) -> None:
-    """Put one legend above all panels, where it hides no data."""
+    """Put one legend above all panels, where it hides no data.
+
+    Args:
+        figure: with its panels drawn.
+        handles, labels: as matplotlib gives them.
+        columns: of the legend.
+    """
     if handles is None:
         handles, labels = figure.axes[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=columns)

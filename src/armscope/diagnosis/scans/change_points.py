@@ -50,6 +50,9 @@ def when_stderr(placed: Placed, context: ScanContext, without: Hypothesis) -> fl
         placed: a shift of base or tool within a run.
         context: the rows.
         without: the hypothesis without it.
+
+    Returns:
+        Rows, or s where times are recorded.
     """
     build, run = (base_shift if placed.effect is BASE_SHIFT else tool_shift), placed.terms[0].products[0].driver
     recordings = context.recordings
@@ -94,6 +97,9 @@ def step_sums(context: ScanContext, inside: Indices, rows: Indices, cuts: Indice
         rows: of a run, in order.
         cuts: positions in that order.
         build: the step.
+
+    Returns:
+        One block per cut.
     """
     terms = build(context.recordings, int(rows[0]), 1).terms
     c, k = len(terms), len(inside)

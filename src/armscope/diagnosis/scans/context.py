@@ -43,6 +43,16 @@ def columns_of(given: Sequence[Hypothesis]) -> Indices:
 
 
 def scores_given(problem: Problem, hypothesis: Hypothesis, blocks: ColumnBlocks, columns: Indices) -> Array:
-    """(m,) nats that blocks promise beside a hypothesis, from sums against ``columns``, which hold its own."""
+    """(m,) nats that blocks promise beside a hypothesis, from sums against ``columns``, which hold its own.
+
+    Args:
+        problem: the normal equations and priors.
+        hypothesis: beside which they would stand.
+        blocks: sums of the blocks with themselves, the columns and the response.
+        columns: of the problem, that the blocks' sums are against.
+
+    Returns:
+        (m,) nats.
+    """
     inside = np.isin(columns, hypothesis.columns)
     return block_scores(problem, hypothesis, ColumnBlocks(blocks.own, blocks.cross[:, inside], blocks.b))

@@ -28,6 +28,9 @@ def pauses(context: ScanContext, drifting: Hypothesis, drift: int) -> Iterator[P
         context: the rows.
         drifting: a hypothesis with the drift, without what pauses may stand for.
         drift: the drift's number among the candidates.
+
+    Yields:
+        The drift in place, with one pause more each time.
     """
     problem, recordings = context.problem, context.recordings
     at = problem.space.candidates[drift].columns

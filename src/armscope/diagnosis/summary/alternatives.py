@@ -36,6 +36,7 @@ def alternatives(search: Search, best: Hypothesis, number: int) -> list[Rival]:
     Args:
         search: the finished one.
         best: the hypothesis chosen.
+        number: of the effect's candidate.
 
     Returns:
         Gap, effect in place, and the hypothesis with it.
@@ -136,6 +137,7 @@ def inclusion_frequency(state: DiagnosisState, draws: int, rng: np.random.Genera
     Hypotheses of many columns (several free curves) are looked for with coarse curves, and without a local search.
 
     Args:
+        state: the finished selection.
         draws: how often.
         rng: draws them.
 

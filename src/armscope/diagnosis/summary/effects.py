@@ -41,7 +41,23 @@ def found_effect(
     share: float,
     wrong: ModelError,
 ) -> FoundEffect:
-    """One effect with everything that is known about it."""
+    """One effect with everything that is known about it.
+
+    Args:
+        state: the finished selection.
+        search: its search.
+        chosen: the effect, with its size.
+        part: its place in the fitted model.
+        rivals: what could stand in its place.
+        often: inclusion frequency by candidate.
+        scene: the recorded rows.
+        gram: sums over all rows.
+        share: of the mean square that it explains, 0 ... 1.
+        wrong: what no effect explains, and what it does to the covariance.
+
+    Returns:
+        The effect as the verdict has it.
+    """
     fit, placed, candidate = state.fit, part.placed, search.candidate(chosen.candidate)
     at = fit.pool.of(placed)
     coefficients = np.zeros(len(fit.pool.terms))

@@ -74,7 +74,7 @@ def _payloads(recordings: Recordings) -> Indices:
 def _halves(recordings: Recordings, point: FittedModel) -> Indices:
     """(N,) 0 for the half of the rows whose tool points lie near the base's axis, 1 for the far half."""
     reach = np.linalg.norm(point.to_base(recordings.positions, recordings.run)[:, :2], axis=1)
-    return (reach > np.median(reach)).astype(np.intp)
+    return np.asarray((reach > np.median(reach)).astype(np.intp))
 
 
 def _agreements(

@@ -31,6 +31,7 @@ def next_poses(
     adapt to (its posterior covariance, updated after each choice) and the noise.
 
     Args:
+        state: the finished selection.
         rivals: other readings by effect.
         rng: draws the poses that compete.
 

@@ -24,6 +24,7 @@ def background_summaries(
 
     Args:
         state: the finished selection.
+        edits: of the search.
         gram: sums over all rows.
         of_families: RMS at the tool by family, mm.
 
@@ -92,4 +93,4 @@ def too_faint(found: Detection) -> Unexplained:
 def _significant(state: DiagnosisState) -> bool:
     """Whether the residual's excess over the stated noise is beyond chance (five standard errors of an RMS)."""
     freedom = max(state.fit.gram.n - state.fit.spent, 1.0)
-    return state.fit.noise > state.noise.stated_mm * (1 + 5 / np.sqrt(2 * freedom))
+    return bool(state.fit.noise > state.noise.stated_mm * (1 + 5 / np.sqrt(2 * freedom)))

@@ -53,7 +53,16 @@ class Evidence:
 
     @staticmethod
     def of(measurements: Measurements, fits: Sequence[FittedModel], random: Sequence[FittedModel] = ()) -> Evidence:
-        """From the fits of one method."""
+        """From the fits of one method.
+
+        Args:
+            measurements: of a study.
+            fits: of one method.
+            random: of random search beside them.
+
+        Returns:
+            The evidence.
+        """
         cells = spatial_rms(measurements, fits)
         return Evidence(cells, spatial_rms(measurements, fits, least_squares=True), fits, random)
 
@@ -73,7 +82,16 @@ class Evidence:
         return tuple(name for name in PRINTED_MODELS if name in self.models)
 
     def spatial(self, model: str, trajectory: str, least_squares: bool = False) -> Array:
-        """(R,) 3D RMS error, mm."""
+        """(R,) 3D RMS error, mm.
+
+        Args:
+            model: which.
+            trajectory: which.
+            least_squares: of the least-squares fit instead of the method's.
+
+        Returns:
+            (R,) mm, one per robot.
+        """
         table = self.by_least_squares if least_squares else self.cells
         return np.asarray(table[model, trajectory, SPATIAL], dtype=float)
 

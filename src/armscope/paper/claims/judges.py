@@ -175,7 +175,16 @@ def poses_not_wasted(evidence: Evidence) -> Judged | None:
 
 
 def sub_volumes_help(evidence: Evidence, regions: int, held_out: bool) -> Judged | None:
-    """Several regions, each with its own FDP(CI), leave less than one."""
+    """Several regions, each with its own FDP(CI), leave less than one.
+
+    Args:
+        evidence: of one method.
+        regions: how many.
+        held_out: whether the test trajectories are looked at, or the identification poses.
+
+    Returns:
+        By robot whether they do; None where nothing was computed.
+    """
     table = evidence.sub_volumes
     if table.empty:
         return None
@@ -197,7 +206,16 @@ def chosen_by_cross_validation(evidence: Evidence) -> Judged | None:
 
 
 def extension_helps(evidence: Evidence, model: str, kind: str) -> Judged | None:
-    """A model extended by regions or products leaves less on the test trajectories than without."""
+    """A model extended by regions or products leaves less on the test trajectories than without.
+
+    Args:
+        evidence: of one method.
+        model: which.
+        kind: of extension.
+
+    Returns:
+        By robot whether it does; None where nothing was computed.
+    """
     table = evidence.outlook
     if table.empty:
         return None

@@ -39,6 +39,9 @@ def draw_along_joints(motor_angles: Array, jacobian: Array, before: Array, after
         motor_angles: (N, m) rad; joints that never move are left out.
         jacobian: (N, 3, m) displacement of the tool by unit turns of the motors, base axes.
         before, after: (N, 3) residuals in base axes, mm.
+
+    Returns:
+        The figure.
     """
     joints = np.flatnonzero(moving(motor_angles))
     shown = spread_evenly(len(motor_angles), MOST_DOTS)

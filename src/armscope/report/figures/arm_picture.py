@@ -43,6 +43,9 @@ def draw_arm(arm: Arm, motor_angles: Array, shares: Mapping[str, float]) -> Figu
         motor_angles: (N, m) recorded poses to choose from, rad.
         shares: by location ("base", "joint 2", "link 3", "tool", "parallelogram", "payload", "instrument",
             "joint 6 from joint 5"), 0 to 1.
+
+    Returns:
+        The figure.
     """
     row, view = typical_pose(arm, motor_angles)
     shape = arm_shape(arm, motor_angles[row])
@@ -298,7 +301,10 @@ def _capsule(start: Array, end: Array, radius: float) -> Array:
     along = end - start
     angle = np.arctan2(along[1], along[0])
     half = np.linspace(-np.pi / 2, np.pi / 2, 14)
-    cap = lambda centre, turn: centre + radius * np.column_stack([np.cos(turn + half), np.sin(turn + half)])
+
+    def cap(centre: Array, turn: float) -> Array:
+        return centre + radius * np.column_stack([np.cos(turn + half), np.sin(turn + half)])
+
     return np.vstack([cap(end, angle), cap(start, angle + np.pi)])
 
 

@@ -8,6 +8,7 @@ from collections.abc import Collection, Iterator, Sequence
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
@@ -31,6 +32,9 @@ def draw_atlas(
         shares: index location, columns driver (in words), values 0 to 1; NaN where there is no such effect.
         marked: (location, driver) cells of the effects that were named: they get a frame.
         left: the same on top of the named effects, as a share of the original mismatch; None leaves it out.
+
+    Returns:
+        The figure.
     """
     maps = [("before any effect", shares)]
     if left is not None:
@@ -66,7 +70,7 @@ def draw_atlas(
     return figure
 
 
-def _write_numbers(panel: plt.Axes, table: pd.DataFrame, top: float) -> None:
+def _write_numbers(panel: Axes, table: pd.DataFrame, top: float) -> None:
     for row, values in enumerate(table.to_numpy(dtype=float)):
         for column, share in enumerate(values):
             if np.isfinite(share) and share >= WORTH_A_NUMBER:
@@ -74,7 +78,7 @@ def _write_numbers(panel: plt.Axes, table: pd.DataFrame, top: float) -> None:
                 panel.text(column, row, f"{100 * share:.0f}", ha="center", va="center", fontsize=7.5, color=colour)
 
 
-def _frame(panel: plt.Axes, column: int, row: int) -> None:
+def _frame(panel: Axes, column: int, row: int) -> None:
     panel.add_patch(
         Rectangle((column - 0.5, row - 0.5), 1, 1, fill=False, edgecolor=BLACK, linewidth=1.8, zorder=5, clip_on=False)
     )

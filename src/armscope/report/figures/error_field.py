@@ -71,6 +71,9 @@ def turnable(arm: Arm, shown: ErrorField, name: str = "field") -> Markup:
         arm: the nominal arm.
         shown: what is to be turned.
         name: id of the figure.
+
+    Returns:
+        HTML.
     """
     content = json.dumps(figure_data(arm, shown), separators=(",", ":"), ensure_ascii=False).replace("<", "\\u003c")
     return Markup(

@@ -103,6 +103,9 @@ def measuring_setup(arm: Arm, poses: PoseSet, tracker_mm: Array) -> Figure:
         arm: the nominal arm.
         poses: identification poses.
         tracker_mm: (3,) where the tracker stands, base frame.
+
+    Returns:
+        The figure.
     """
     row = int(np.argmax(poses.nominal_mm[:, 0]))
     shape = arm_shape(arm, poses.motor_angles[row])

@@ -29,6 +29,9 @@ def estimation_performance(
         predictions: by model, (N, 3) median over the seeds, mm.
         true_band: range of the true errors of the drawn robots.
         bands: by model, range of the errors estimated for them.
+
+    Returns:
+        The figure.
     """
     with styled():
         figure, panels = plt.subplots(

@@ -18,6 +18,9 @@ def errors_of_positions(errors: Array, low: Array | None = None, high: Array | N
     Args:
         errors: (N, 3) measured minus nominal, mm.
         low, high: (N, 3) range of the drawn robots.
+
+    Returns:
+        The figure.
     """
     with styled():
         figure, panels = plt.subplots(3, 1, figsize=(7, 5), sharex=True)
@@ -44,6 +47,9 @@ def modelling_performance(errors: Array, predictions: Mapping[str, Array], axis:
         errors: (N, 3) mm.
         predictions: by model, (N, 3) mm; any number of models.
         axis: 0, 1, 2 for x, y, z; the paper shows y.
+
+    Returns:
+        The figure.
     """
     rows = -(-len(predictions) // 2)
     with styled():

@@ -28,6 +28,9 @@ def draw_vectors(points: Array, before: Array, after: Array) -> Figure:
     Args:
         points: (N, 3) measured tool points, base axes, m.
         before, after: (N, 3) residuals without any effect and with the fitted model, base axes, mm.
+
+    Returns:
+        The figure.
     """
     shown = spread_evenly(len(points), MOST_ARROWS)
     at = 1e3 * points[shown]

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from armscope.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, SKY, VERMILION, styled
@@ -32,6 +33,9 @@ def draw_waterfall(
         noise_mm: the noise per axis, None where unknown.
         references: (model, held-out RMS in mm), for comparison.
         spreads: standard deviation of each step's RMS from fold to fold, mm: drawn as whiskers.
+
+    Returns:
+        The figure.
     """
     heights = [rms for _, rms in steps]
     largest = max(heights)
@@ -85,14 +89,14 @@ def draw_waterfall(
     return figure
 
 
-def _drop(axes: plt.Axes, place: int, before: float, after: float) -> None:
+def _drop(axes: Axes, place: int, before: float, after: float) -> None:
     """The bar that remains, pale, and what the step took away, or added."""
     axes.barh(place, min(before, after), height=0.62, color=SKY, alpha=0.35, zorder=3)
     colour = SKY if after <= before else ORANGE
     axes.barh(place, before - after, left=after, height=0.62, color=colour, zorder=3)
 
 
-def _gain(axes: plt.Axes, place: int, before: float, after: float) -> None:
+def _gain(axes: Axes, place: int, before: float, after: float) -> None:
     """What the last step took away, beside the bar of what is left."""
     axes.barh(place, before - after, left=after, height=0.62, color=SKY if after <= before else ORANGE, zorder=3)
 

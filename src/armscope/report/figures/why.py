@@ -26,6 +26,9 @@ def why_figure(reasons: pd.DataFrame, per_robot: pd.DataFrame, geometric: pd.Dat
         reasons: see `armscope.paper.why.reasons`.
         per_robot: outcome per claim, method and robot.
         geometric: one row per drawn robot, columns robot and each geometric error in tolerances.
+
+    Returns:
+        The figure.
     """
     told = reasons[(reasons["method"] == IMPROVED) & (reasons["share"] >= SPEAKS_FROM) & (reasons["errors"] != "")]
     told = told.dropna(subset=["errors"])

@@ -22,7 +22,13 @@ FIGURES_OF_INPUT = {"cartesian": ("Figs. 6 and 10", "fig06"), "angular": ("Figs.
 
 
 def write_table2(path: Path, table: pd.DataFrame, audit: pd.DataFrame) -> None:
-    """Table 2 as a page of its own."""
+    """Table 2 as a page of its own.
+
+    Args:
+        path: of the page.
+        table: the rendered Table 2.
+        audit: what contradicts itself in the printed one.
+    """
     marks = contradictions(audit)
     blocks = shown.table2_blocks(table, marks)
     write_page(path, "table2.html.j2", blocks=blocks, trajectories=TRAJECTORIES, marks=marks, romans=ROMAN)

@@ -21,6 +21,9 @@ def error_field(arm: Arm, poses: pd.DataFrame, left_over: pd.DataFrame) -> Marku
         arm: the nominal arm.
         poses: see `armscope.paper.measurements.pose_table`.
         left_over: see `armscope.compensation.closed_loop.remaining_errors`.
+
+    Returns:
+        HTML.
     """
     left_over = left_over.assign(stage=left_over["stage"].replace("fit", "prediction"))
     vectors = left_over.set_index(["model", "stage", "trajectory", "point"])[ERROR_COLUMNS]

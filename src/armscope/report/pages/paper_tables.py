@@ -40,6 +40,9 @@ def table2_blocks(table: pd.DataFrame, marks: Contradictions, reading: str = "rs
         table: as `armscope.paper.table2` returns it.
         marks: cells of the printed table that contradict others.
         reading: of "RMS": "rss" (root of the sum of squares) or "rms" (of their mean), mm.
+
+    Returns:
+        Pairs of model and lines.
     """
     cells = table[table["axis"].isin(AXES)].set_index(["model", "trajectory", "axis"])
     columns = pd.MultiIndex.from_product([TRAJECTORIES, AXES])

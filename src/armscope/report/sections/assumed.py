@@ -26,7 +26,16 @@ def _context(subject: Subject) -> dict[str, Any]:
 
 
 def assumptions(verdict: Verdict, arm: Arm, recordings: Recordings) -> list[str]:
-    """What the verdict rests on, in sentences."""
+    """What the verdict rests on, in sentences.
+
+    Args:
+        verdict: the verdict.
+        arm: the nominal arm.
+        recordings: the rows as they were used.
+
+    Returns:
+        One sentence each.
+    """
     loads = (
         "Gravity loads come from the recorded joint torques."
         if recordings.torque is not None

@@ -65,7 +65,16 @@ class Card:
 
 
 def card(effect: FoundEffect, number: int, figure: str = "") -> Card:
-    """The card of the ``number``-th effect."""
+    """The card of the ``number``-th effect.
+
+    Args:
+        effect: what was found.
+        number: from 1.
+        figure: path of its curve's picture; empty where it has none.
+
+    Returns:
+        What the template shows.
+    """
     readings = [reading_of(p, effect) for p in told_parameters(effect)]
     shown = tuple(readings[:MOST_PARAMETERS])
     return Card(

@@ -20,7 +20,16 @@ of every drive (under gravity's torque as recorded) and every bearing (under gra
 
 
 def compliance_lines(folder: Path, title: str, picture: str) -> str:
-    """Paragraphs and a table from compliances*.csv in a folder of results; nothing where there are none."""
+    """Paragraphs and a table from compliances*.csv in a folder of results; nothing where there are none.
+
+    Args:
+        folder: of results.
+        title: of the section.
+        picture: path of the figure.
+
+    Returns:
+        Markdown.
+    """
     if not (folder / "compliances.csv").exists():
         return ""
     values, pairs, rehearsed = (

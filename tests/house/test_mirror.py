@@ -1,0 +1,175 @@
+"""Tests stand where the code stands.
+
+A module has a test file of its own name in the folder that mirrors its own, or a test file of its room takes from it.
+"""
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+PACKAGE, TESTS = ROOT / "src" / "armscope", ROOT / "tests"
+ELSEWHERE = {"golden", "house"}
+"""Folders of tests of no room."""
+STILL_FROM_ELSEWHERE = [
+    "calibration/by_run.py",
+    "calibration/identifiability.py",
+    "calibration/sanity.py",
+    "calibration/sharing.py",
+    "calibration/state.py",
+    "calibration/words.py",
+    "check/contents.py",
+    "check/orientations.py",
+    "check/preconditions.py",
+    "check/suspicion.py",
+    "check/suspicions.py",
+    "check/trials.py",
+    "compensation/branch.py",
+    "compensation/newton.py",
+    "compensation/output.py",
+    "compensation/result.py",
+    "core/constants.py",
+    "core/numerals.py",
+    "core/types.py",
+    "diagnosis/constants.py",
+    "diagnosis/judgement.py",
+    "diagnosis/row_noise.py",
+    "diagnosis/scans/change_points.py",
+    "diagnosis/scans/context.py",
+    "diagnosis/scans/gear_mesh.py",
+    "diagnosis/scans/pauses.py",
+    "diagnosis/state.py",
+    "diagnosis/summary/alternatives.py",
+    "diagnosis/summary/attribution_map.py",
+    "diagnosis/summary/effects.py",
+    "diagnosis/summary/homogeneity.py",
+    "diagnosis/summary/next_poses.py",
+    "diagnosis/summary/unexplained.py",
+    "errormodels/reference_models.py",
+    "fitting/column_blocks.py",
+    "fitting/joint_scatter.py",
+    "fitting/parameter_layout.py",
+    "inference/edits.py",
+    "measurement/channel.py",
+    "measurement/constants.py",
+    "measurement/orientations.py",
+    "measurement/positions.py",
+    "measurement/registry.py",
+    "measurement/robust.py",
+    "measurement/row_weights.py",
+    "measurement/whitening.py",
+    "paper/bands.py",
+    "paper/claims/others.py",
+    "paper/claims/own.py",
+    "paper/closed_loop.py",
+    "paper/evidence.py",
+    "paper/full_pose.py",
+    "paper/sweep.py",
+    "physics/clause.py",
+    "physics/drivers.py",
+    "physics/freeform.py",
+    "physics/geometric.py",
+    "physics/instrument.py",
+    "physics/placing.py",
+    "physics/thermal.py",
+    "poses/output.py",
+    "proof/diagnosing.py",
+    "real/settings.py",
+    "recordings/importing/conversion.py",
+    "recordings/importing/pieces.py",
+    "recordings/opening.py",
+    "recordings/orientations.py",
+    "recordings/textfile.py",
+    "report/figures/compliances.py",
+    "report/figures/convergence.py",
+    "report/figures/learned_curves.py",
+    "report/figures/paper_arm.py",
+    "report/figures/paper_estimation.py",
+    "report/figures/paper_paths.py",
+    "report/figures/paper_positions.py",
+    "report/figures/pose_choice.py",
+    "report/figures/proof.py",
+    "report/figures/protocol.py",
+    "report/figures/real_proof.py",
+    "report/figures/sweep.py",
+    "report/figures/why.py",
+    "report/pages/paper.py",
+    "report/pages/paper_claims.py",
+    "report/pages/paper_outlook.py",
+    "report/pages/paper_tables.py",
+    "report/pages/proof.py",
+    "report/pages/real_proof.py",
+    "report/sections/atlas.py",
+    "report/sections/better.py",
+    "report/sections/effects.py",
+    "report/sections/left.py",
+    "report/sections/next_poses.py",
+    "report/sections/rows.py",
+    "report/sections/terms.py",
+    "report/sections/where.py",
+    "report/sections/workspace.py",
+    "report/subject.py",
+    "report/text/compliances.py",
+    "robot/centre_line.py",
+    "robot/model.py",
+    "swarm/kernel_data.py",
+    "verdict/sentences.py",
+    "verdict/wording.py",
+    "world/choice.py",
+]
+"""Tested by what calls them only. The list only gets shorter."""
+
+
+def modules() -> list[Path]:
+    """All modules, relative to the package."""
+    return sorted(path.relative_to(PACKAGE) for path in PACKAGE.rglob("*.py") if path.name != "__init__.py")
+
+
+def taken(test: Path) -> Iterator[Path]:
+    """Modules that a test file takes from, by name or by way of their package."""
+    for node in ast.walk(ast.parse(test.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("armscope"):
+            yield from _resolved(str(node.module), [each.name for each in node.names])
+
+
+def _resolved(module: str, names: list[str]) -> Iterator[Path]:
+    home = PACKAGE.joinpath(*module.split(".")[1:])
+    if home.with_suffix(".py").exists():
+        yield home.with_suffix(".py").relative_to(PACKAGE)
+        return
+    passed_on = [
+        (str(node.module), {each.name for each in node.names})
+        for node in ast.parse((home / "__init__.py").read_text(encoding="utf-8")).body
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("armscope")
+    ]
+    for name in names:
+        if (home / f"{name}.py").exists():
+            yield (home / f"{name}.py").relative_to(PACKAGE)
+        for origin, given in passed_on:
+            if name in given and origin != module:
+                yield from _resolved(origin, [name])
+
+
+def untested_at_home() -> set[str]:
+    """Modules without a test in their own room's folder; commands are tested in the rooms that they call."""
+    by_room = {
+        room.name: {module for test in (TESTS / room.name).rglob("*.py") for module in taken(test)}
+        for room in PACKAGE.iterdir()
+        if room.is_dir()
+    }
+    return {
+        str(module)
+        for module in modules()
+        if module.parts[0] != "cli"
+        and not (TESTS / module.parent / f"test_{module.name}").exists()
+        and module not in by_room.get(module.parts[0], set())
+    }
+
+
+def test_every_module_has_a_test_in_its_room() -> None:
+    assert not untested_at_home() - set(STILL_FROM_ELSEWHERE)
+
+
+def test_every_folder_of_tests_is_a_room() -> None:
+    rooms = {path.parent.name for path in PACKAGE.glob("*/__init__.py")} | ELSEWHERE
+    assert {path.name for path in TESTS.iterdir() if path.is_dir() and path.name != "__pycache__"} <= rooms
