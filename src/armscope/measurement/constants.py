@@ -45,9 +45,6 @@ class NoiseRules(Constants):
 class WeightRules(Constants):
     """Which rows count, and how much."""
 
-    median_of_chi3: float = constant(
-        1.5381722, "median length of a 3-vector of unit normals", "derived: scipy.stats.chi(3).median()"
-    )
     tuning_constant: float = constant(
         4.5, "beyond which a row is weighted down", "derived: one clean row in 6000 lies farther", unit="scales"
     )

@@ -24,7 +24,7 @@ def scale_of(residuals: Array, least: float = 0.0) -> float:
 @functools.cache
 def _median_length(width: int) -> float:
     """Median length of a vector of so many unit normals."""
-    return WEIGHTS.median_of_chi3 if width == 3 else float(chi(width).median())
+    return float(chi(width).median())
 
 
 @functools.cache
