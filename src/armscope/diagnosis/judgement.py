@@ -13,7 +13,7 @@ from armscope.diagnosis.held_out import Rows, cross_validate
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary import alternatives as certainty
 from armscope.diagnosis.summary.attribution_map import atlas
-from armscope.diagnosis.summary.effects import found_effect, rest_of_a_curve, scattered_effects, with_weight
+from armscope.diagnosis.summary.effects import Weighed, found_effect, rest_of_a_curve, scattered_effects, with_weight
 from armscope.diagnosis.summary.homogeneity import subset_consistency
 from armscope.diagnosis.summary.next_poses import next_poses
 from armscope.diagnosis.summary.unexplained import (
@@ -69,15 +69,19 @@ def judge(
     fit, best, problem = state.fit, state.best, state.problem
     search = Search.on(problem)
     tell("weighing alternatives", 0.55)
-    rivals = {c.candidate: certainty.alternatives(search, best, c.candidate) for c in best.chosen}
-    often = certainty.inclusion_frequency(state, resamples, rng)
-    scene = fit.model.scene(state.recordings)
-    gram = _plain_gram(state)
-    variance = gram.least_rss(fit.pool.frames) / max(gram.n, 1.0)
-    shared, of_families = _shares(fit, gram)
-    wrong = model_error(fit, state.recordings, state.noise.least_mm)
+    weighed = Weighed(
+        state,
+        search,
+        {c.candidate: certainty.alternatives(search, best, c.candidate) for c in best.chosen},
+        certainty.inclusion_frequency(state, resamples, rng),
+        fit.model.scene(state.recordings),
+        _plain_gram(state),
+        model_error(fit, state.recordings, state.noise.least_mm),
+    )
+    variance = weighed.equations.least_rss(fit.pool.frames) / max(weighed.equations.n, 1.0)
+    shared, of_families = _shares(fit, weighed.equations)
     found = {
-        c.candidate: found_effect(state, search, c, part, rivals[c.candidate], often, scene, gram, share, wrong)
+        c.candidate: found_effect(weighed, c, part, share)
         for c, part, share in zip(best.chosen, fit.model.parts, shared, strict=True)
     }
     order = sorted(found, key=lambda c: -found[c].rms_at_tool_mm)
@@ -88,21 +92,16 @@ def judge(
         rows = Rows(state.point, state.recordings, fit.weights, state.space.layout)
         held_out, waterfall = cross_validate(problem, state.blocks, state.layout, best, order, rows)
     tell("drawing the atlas", 0.9)
-    background = background_summaries(state, search, gram, of_families)
+    background = background_summaries(state, search, weighed.equations, of_families)
     named = [with_weight(found[c], background) for c in order]
     waterfall = _with_weights(waterfall, named)
     scattered = [s for s in scattered_effects(state, variance) if not rest_of_a_curve(s, named)]
     over = subset_consistency(state)
     named = [replace(e, carries_over=over.get(c, "")) for c, e in zip(order, named, strict=True)]
     effects = tuple(sorted([*named, *scattered], key=lambda effect: -effect.rms_at_tool_mm))
-    named_or_spread = bool(effects) or any(family.present for family in background)
-    unexplained = unexplained_part(effects, state)
-    if not unexplained.present:
-        unexplained = rows_apart(state)
-    if not named_or_spread and not unexplained.present:
-        unexplained = too_faint(averaged_log_odds(search))
+    unexplained = _unexplained(state, search, effects, background)
     answer, mismatch = _answer(effects, background, unexplained)
-    separating = next_poses(state, rivals, rng)
+    separating = next_poses(state, weighed.rivals, rng)
     draft = Diagnosis(
         arm=fit.model.arm.name,
         source=state.recordings.source,
@@ -126,11 +125,23 @@ def judge(
         residuals=_residuals(state),
         suspects=_suspects(state),
         next_poses=separating,
-        notices=(*state.notices, *_carefully(state), *(wrong.told() if found else ())),
+        notices=(*state.notices, *_carefully(state), *(weighed.wrong.told() if found else ())),
         model=_held(fit.model, state.recordings),
         orientations=_orientations(state),
     )
     return replace(draft, headline=headline(draft))
+
+
+def _unexplained(
+    state: DiagnosisState, search: Search, effects: Sequence[FoundEffect], background: Sequence[Background]
+) -> Unexplained:
+    """Structure without a name: beside the effects, in rows that stand apart, or too faint to be named."""
+    unexplained = unexplained_part(effects, state)
+    if not unexplained.present:
+        unexplained = rows_apart(state)
+    if effects or unexplained.present or any(family.present for family in background):
+        return unexplained
+    return too_faint(averaged_log_odds(search))
 
 
 def _with_weights(waterfall: Sequence[WaterfallStep], named: Sequence[FoundEffect]) -> tuple[WaterfallStep, ...]:

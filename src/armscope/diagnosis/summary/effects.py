@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -29,41 +29,48 @@ NOTHING = "nothing in the table"
 """What scatter follows."""
 
 
-def found_effect(
-    state: DiagnosisState,
-    search: Search,
-    chosen: SelectedEffect,
-    part: Part,
-    rivals: Sequence[certainty.Rival],
-    often: dict[int, float],
-    scene: Scene,
-    gram: NormalEquations,
-    share: float,
-    wrong: ModelError,
-) -> FoundEffect:
+@dataclass(frozen=True, eq=False)
+class Weighed:
+    """What the summaries of all effects rest on.
+
+    Attributes:
+        state: the finished selection.
+        search: its search.
+        rivals: what could stand in the place of each candidate.
+        often: inclusion frequency by candidate.
+        scene: the recorded rows.
+        equations: sums over all rows as they were measured.
+        wrong: what no effect explains, and what it does to the covariance.
+    """
+
+    state: DiagnosisState
+    search: Search
+    rivals: Mapping[int, Sequence[certainty.Rival]]
+    often: Mapping[int, float]
+    scene: Scene
+    equations: NormalEquations
+    wrong: ModelError
+
+
+def found_effect(weighed: Weighed, chosen: SelectedEffect, part: Part, share: float) -> FoundEffect:
     """One effect with everything that is known about it.
 
     Args:
-        state: the finished selection.
-        search: its search.
+        weighed: what is known of all of them.
         chosen: the effect, with its size.
         part: its place in the fitted model.
-        rivals: what could stand in its place.
-        often: inclusion frequency by candidate.
-        scene: the recorded rows.
-        gram: sums over all rows.
         share: of the mean square that it explains, 0 ... 1.
-        wrong: what no effect explains, and what it does to the covariance.
 
     Returns:
         The effect as the verdict has it.
     """
+    state, search, rivals = weighed.state, weighed.search, weighed.rivals[chosen.candidate]
     fit, placed, candidate = state.fit, part.placed, search.candidate(chosen.candidate)
     at = fit.pool.of(placed)
     coefficients = np.zeros(len(fit.pool.terms))
     coefficients[at] = _sized(state, chosen, part.values, fit.covariance_of(placed))
-    covariance = wrong.covariance[np.ix_(at, at)]
-    rms = projected_rms(gram, fit.pool.frames, coefficients)
+    covariance = weighed.wrong.covariance[np.ix_(at, at)]
+    rms = projected_rms(weighed.equations, fit.pool.frames, coefficients)
     apart = [certainty.discriminability(state.best, other, candidate, rival) for _, rival, other in rivals]
     close = [rival for nats, (_, rival, _) in zip(apart, rivals, strict=True) if nats < INDISTINGUISHABLE_NATS]
     named_as, title = certainty.name(candidate, close)
@@ -80,8 +87,8 @@ def found_effect(
         share=share,
         evidence_nats=float(_worth(state, search, chosen)),
         alternatives=certainty.listed(rivals, apart),
-        inclusion=often.get(chosen.candidate),
-        curve=curve_of(placed, part.values, covariance, scene),
+        inclusion=weighed.often.get(chosen.candidate),
+        curve=curve_of(placed, part.values, covariance, weighed.scene),
         physics=placed.effect.physics,
         confirm=placed.effect.confirm,
         cure=placed.effect.cure.words,
