@@ -67,7 +67,9 @@ rule proof_diagnose:
     shadow:
         "minimal"
     shell:
-        "(find -L . {input} -type f -not -name '*.log' -not -name '.*' > ../seen.$$ && mv ../seen.$$ {output.seen} && "
+        "(seen=$(mktemp ../seen.XXXXXXXX) && chmod a+r $seen && "
+        "find -L . {input} -type f -not -name '*.log' -not -name '.*' -not -path '*/.armscope/*' > $seen && "
+        "mv $seen {output.seen} && "
         "armscope proof diagnose {input} --resamples {params.resamples} {params.cross_validation} "
         "-o {output.verdicts}) > {log} 2>&1"
 

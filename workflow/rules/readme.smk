@@ -17,7 +17,7 @@ rule example:
     benchmark:
         f"{RESULTS}/logs/benchmarks/examples/{{example}}.tsv"
     shell:
-        "armscope diagnose {input.recordings} --robot {input.robot} -o {params.folder} > {log} 2>&1"
+        "armscope diagnose {input.recordings} --robot {input.robot} -o {params.folder} --force > {log} 2>&1"
 
 
 rule readme:

@@ -47,7 +47,7 @@ rule diagnose_real:
     benchmark:
         f"{RESULTS}/logs/benchmarks/real/{{set}}/diagnose.tsv"
     shell:
-        "armscope diagnose {input.recordings} --robot {input.robot} {params.run} {params.first} -o {params.folder} > {log} 2>&1"
+        "armscope diagnose {input.recordings} --robot {input.robot} {params.run} {params.first} -o {params.folder} --force > {log} 2>&1"
 
 
 rule protocol_real:
