@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import hashlib
+import math
 import resource
 import sys
 import tempfile
@@ -45,15 +46,17 @@ def failure_of(name: str, path: Path) -> str:
     return f"took {used_mb() - before:.0f} MB" if used_mb() - before > MOST_MEMORY_MB else ""
 
 
-def fuzz(name: str, seconds: float, seed: int, keep: Path | None) -> tuple[int, dict[str, bytes]]:
-    """Bad files for one reader: how many, and those that it fails on, one for each kind of failure."""
+def fuzz(
+    name: str, seconds: float, seed: int, keep: Path | None, files: float = math.inf
+) -> tuple[int, dict[str, bytes]]:
+    """Bad files for one reader, for so long or so many: how many, and one for each kind of failure."""
     rng, seeds = np.random.default_rng([seed, *name.encode()]), [path.read_bytes() for path in READERS[name].seeds]
     found: dict[str, bytes] = {}
     count, end = 0, time.perf_counter() + seconds
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"bad{READERS[name].suffix}"
         last = None if keep is None else keep / f"{name}.last"
-        while time.perf_counter() < end:
+        while time.perf_counter() < end and count < files:
             content = mutated(seeds[rng.integers(len(seeds))], seeds, rng)
             path.write_bytes(content)
             if last is not None:  # what brings the process down is there to be looked at
@@ -74,6 +77,7 @@ def main() -> None:
     options = argparse.ArgumentParser()
     options.add_argument("readers", nargs="*")
     options.add_argument("--seconds", type=float, default=60)
+    options.add_argument("--files", type=float, default=math.inf, help="at most so many for each reader")
     options.add_argument("--seed", type=int, default=int(time.time()))
     options.add_argument("--keep", type=Path, default=CASES, help="where failing files go")
     given = options.parse_args()
@@ -81,7 +85,7 @@ def main() -> None:
     failed = 0
     given.keep.mkdir(parents=True, exist_ok=True)
     for name in names:
-        count, found = fuzz(name, given.seconds / len(names), given.seed, given.keep)
+        count, found = fuzz(name, given.seconds / len(names), given.seed, given.keep, given.files)
         print(f"{name}: {count} files, {len(found)} failures")
         failed += len(found)
         for content in found.values():
