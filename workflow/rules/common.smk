@@ -125,7 +125,7 @@ def robot_of(wildcards):
 
 def raw_files(wildcards):
     """The raw files of a set; other files may lie beside them, such as one that was kept aside."""
-    from armscope.recordings.fetching import load_source
+    from armscope.recordings.importing.fetching import load_source
 
     source = load_source(f"config/recordings/{wildcards.public_set}/source.yaml")
     return [f"{RESULTS}/recordings/{wildcards.public_set}/raw/{file.name}" for file in source.files]

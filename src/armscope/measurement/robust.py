@@ -6,7 +6,7 @@ import functools
 from collections.abc import Callable
 
 import numpy as np
-from scipy.stats import chi
+from scipy.special import gammaincc, gammainccinv, gammaincinv
 
 from armscope.core.types import Array
 from armscope.measurement.constants import WEIGHTS
@@ -24,13 +24,16 @@ def scale_of(residuals: Array, least: float = 0.0) -> float:
 @functools.cache
 def _median_length(width: int) -> float:
     """Median length of a vector of so many unit normals."""
-    return float(chi(width).median())
+    return float(np.sqrt(2 * gammaincinv(width / 2, 0.5)))
 
 
 @functools.cache
 def tuning_constant(width: int) -> float:
     """`WEIGHTS.tuning_constant` for rows of so many numbers: as many clean rows lie beyond."""
-    return WEIGHTS.tuning_constant if width == 3 else float(chi(width).isf(chi(3).sf(WEIGHTS.tuning_constant)))
+    if width == 3:
+        return WEIGHTS.tuning_constant
+    beyond = float(gammaincc(1.5, WEIGHTS.tuning_constant**2 / 2))  # the share of clean rows farther away
+    return float(np.sqrt(2 * gammainccinv(width / 2, beyond)))
 
 
 def huber_weights(residuals: Array, uncertainty: Array, least: float) -> Array:

@@ -47,13 +47,23 @@ def start_of(path: Path, what: str) -> bytes:
     return start
 
 
+def _unpacks_to_more(path: Path, size: int) -> bool:
+    """Whether a gzipped file holds more bytes than ``size``; nothing of it is kept."""
+    count = 0
+    with gzip.open(path) as stream:
+        while count <= size and (piece := stream.read(1 << 20)):
+            count += len(piece)
+    return count > size
+
+
 def _refuse_bombs(path: Path, what: str) -> None:
-    """A few bytes that would swell into all memory, by the size that a gzipped file states at its end."""
+    """A few bytes that would swell into all memory; of a file that was cut off, only what it holds counts."""
     packed = path.stat().st_size
+    most = LARGEST_UNPACKED_SHARE * packed
     with path.open("rb") as stream:
         stream.seek(-min(4, packed), os.SEEK_END)
         unpacked = int.from_bytes(stream.read(4), "little")
-    if unpacked > LARGEST_UNPACKED_SHARE * packed:
+    if unpacked > most and _unpacks_to_more(path, most):
         found = f"{unpacked} bytes packed into {packed}"
         cure = "No table packs so well; if this one does, unpack it first."
         raise InputError(path, "", found, f"{what} is needed here", cure)
