@@ -167,6 +167,7 @@ def replacing(path: Path | str, at_once: bool = False) -> Iterator[Path]:
         return
     path = Path(os.path.realpath(path))
     writable(path.parent)
+    path.parent.mkdir(parents=True, exist_ok=True)  # within a command the folder is not made before it is written to
     with _beside(path) as beside:
         yield beside
         umask = os.umask(0)
