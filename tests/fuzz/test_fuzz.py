@@ -52,7 +52,7 @@ def test_bytes_that_were_changed_are_an_answer_or_one_error(name, tmp_path):
 
 
 @pytest.mark.parametrize("name", TREES)
-@hypothesis.settings(max_examples=30, deadline=None, derandomize=True, database=None)
+@hypothesis.settings(max_examples=60, deadline=None, derandomize=True, database=None)
 @hypothesis.given(data=st.data())
 def test_values_that_were_swapped_are_an_answer_or_one_error(name, data, tmp_path_factory):
     reader = READERS[name]
