@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from armscope.core.types import Array, Indices
 from armscope.diagnosis.constants import BACKGROUNDS
 from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
 from armscope.inference.model_space import (
@@ -70,8 +71,13 @@ def _families(layout: ParameterLayout) -> tuple[BackgroundFamily, ...]:
     sized = zip(others, of_others, layout.background_scale[1:], strict=True)
     return (
         ToleranceFamily(first, columns, TOLERANCE, BACKGROUNDS.tolerance_shares),
-        *(SizedFamily(name, at, scale, BACKGROUNDS.family_sizes) for name, at, scale in sized),
+        *(SizedFamily(name, at, scale, BACKGROUNDS.family_sizes, _plausible(layout, at)) for name, at, scale in sized),
     )
+
+
+def _plausible(layout: ParameterLayout, columns: Indices) -> Array:
+    """(c,) sizes that some columns' values have on real arms, SI."""
+    return np.array([layout.terms[column].plausible for column in columns], dtype=np.float64)
 
 
 def _candidates(layout: ParameterLayout, placed: Sequence[Placed]) -> tuple[Candidate, ...]:
@@ -91,6 +97,7 @@ def _candidates(layout: ParameterLayout, placed: Sequence[Placed]) -> tuple[Cand
                 location=p.location,
                 columns=layout.columns[number],
                 prior_scale=np.array(p.prior_scale),
+                plausible=np.array([term.plausible for term in p.terms]),
                 variant=p.variant,
                 driver=p.driver,
                 label=str(p),

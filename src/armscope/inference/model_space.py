@@ -36,6 +36,8 @@ class Candidate:
         family: which background takes the place of several of its kind.
         region: coarser than the location: what is taken out together when others are tried in its place.
         multiplicity: how many values of a scanned number compete: the prior pays for them.
+        plausible: (c,) how large each coefficient is expected to be in the columns' own units; None where nothing is
+            known. The smaller of the two counts: what rows don't tell stays within what is plausible.
         nonnegative: it has one coefficient, which can't be negative.
         is_curve: a free curve, which contains special cases.
         competes: it enters a search by itself; otherwise only in another's place.
@@ -57,6 +59,7 @@ class Candidate:
     family: str = ""
     region: str = ""
     multiplicity: int = 1
+    plausible: Array | None = None
     nonnegative: bool = False
     is_curve: bool = False
     competes: bool = True
@@ -148,12 +151,16 @@ class ToleranceFamily:
 
 @dataclass(frozen=True, eq=False)
 class SizedFamily:
-    """Values that are measured by what they do; the sizes are none, then the smallest of the effects' sizes."""
+    """Values that are measured by what they do; the sizes are none, then the smallest of the effects' sizes.
+
+    ``plausible``: as of a `Candidate`.
+    """
 
     name: str
     columns: Indices
     prior_scale: Array
     sizes: int
+    plausible: Array | None = None
     is_priced: bool = True
 
     def prior_variance(self, size: int, effect_sizes: Array, scale: Array) -> Array:
@@ -162,16 +169,31 @@ class SizedFamily:
         Args:
             size: index of the background's size.
             effect_sizes: the sizes of effects that compete, mm.
-            scale: not looked at: sizes are of scaled columns.
+            scale: (p,) by which columns are divided; sizes are of scaled columns.
 
         Returns:
             (c,) mm^2.
         """
-        return np.asarray((self.label(size, effect_sizes) * self.prior_scale) ** 2)
+        expected = self.label(size, effect_sizes) * self.prior_scale
+        return np.asarray(within(expected, self.plausible, scale[self.columns]) ** 2)
 
     def label(self, size: int, effect_sizes: Array) -> float:
         """Size, mm."""
         return float(effect_sizes[size - 1]) if size else 0.0
+
+
+def within(expected: Array, plausible: Array | None, scale: Array) -> Array:
+    """(..., c) prior sizes, mm, of scaled coefficients: as expected, nor larger than is plausible in their own units.
+
+    Args:
+        expected: (..., c) mm.
+        plausible: (..., c) in the columns' own units; None: anything is.
+        scale: (..., c) mm per unit.
+
+    Returns:
+        The smaller of the two.
+    """
+    return expected if plausible is None else np.minimum(expected, plausible * scale)
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.inference.constants import PRIORS
-from armscope.inference.model_space import BackgroundSizes, ModelSpace
+from armscope.inference.model_space import BackgroundSizes, ModelSpace, within
 from armscope.inference.normal_equations import NormalEquations, column_scales
 
 
@@ -68,7 +68,10 @@ class Problem:
 
     def prior_scale(self, effect: SelectedEffect) -> Array:
         """(c,) prior standard deviations of an effect's scaled coefficients, mm."""
-        return np.asarray(self.sizes[effect.size] * self.space.candidates[effect.candidate].prior_scale)
+        candidate = self.space.candidates[effect.candidate]
+        return within(
+            self.sizes[effect.size] * candidate.prior_scale, candidate.plausible, self.scale[candidate.columns]
+        )
 
     def nearest_size(self, rms: float) -> int:
         """Index of the size nearest to an RMS at the tool; the smallest for what is held at zero."""

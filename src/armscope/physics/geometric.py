@@ -10,6 +10,7 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.physics.clause import Told, swings, waves_column
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import Cure, command
 from armscope.physics.effect import AXES, ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.placing import moving_joints
@@ -44,7 +45,8 @@ def _constant(name: str, location: str, twist: Array) -> Term:
     """A length (a, d, tx, ty, tz) in mm, or an angle, that moves a frame by a twist per SI unit."""
     length = name in ("a", "d", "tx", "ty", "tz")
     products = (Product(Direction(location, AXES[n]), ONE, float(twist[n])) for n in np.flatnonzero(twist))
-    return term(name, "mm" if length else "rad", *products, si=MILLIMETRE if length else 1.0)
+    size = PLAUSIBLE.length_m if length else PLAUSIBLE.zero_rad if name in ("theta", "rz") else PLAUSIBLE.twist_rad
+    return term(name, "mm" if length else "rad", *products, si=MILLIMETRE if length else 1.0, plausible=size)
 
 
 def _place_offsets(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
@@ -118,7 +120,8 @@ def background(arm: Arm) -> list[Placed]:
 
 
 def _offset(effect: Effect, j: int) -> Placed:
-    return Placed(effect, f"joint {j}", (term("offset", "rad", (motor(j), ONE)),), (1.0,), "constant")
+    offset = term("offset", "rad", (motor(j), ONE), plausible=PLAUSIBLE.zero_rad)
+    return Placed(effect, f"joint {j}", (offset,), (1.0,), "constant")
 
 
 BACKGROUND = Effect(
@@ -139,6 +142,7 @@ def _place_wobbles(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
                     f"{wave}_{axis}",
                     "rad",
                     (Direction(f"joint {j}", axis), Driver(f"chain {wave}", (int(j), per_turn))),
+                    plausible=PLAUSIBLE.wobble_rad,
                 )
                 for axis in ("rx", "ry")
                 for wave in ("cosine", "sine")
