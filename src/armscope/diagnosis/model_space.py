@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from armscope.core.types import Array, Indices
 from armscope.diagnosis.constants import BACKGROUNDS
 from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
 from armscope.inference.model_space import (
@@ -18,10 +17,9 @@ from armscope.inference.model_space import (
     Candidate,
     Exchange,
     ModelSpace,
-    SizedFamily,
     ToleranceFamily,
 )
-from armscope.physics.backgrounds import FAMILIES, TOLERANCE
+from armscope.physics.backgrounds import FAMILIES, GEOMETRIC
 from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import Placed, clash, region
 from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
@@ -66,18 +64,14 @@ def build_model_space(
 
 
 def _families(layout: ParameterLayout) -> tuple[BackgroundFamily, ...]:
-    """Geometric values are measured against the makers' tolerance, the others by what they do at the tool."""
-    (first, *others), (columns, *of_others) = FAMILIES, layout.background
-    sized = zip(others, of_others, layout.background_scale[1:], strict=True)
-    return (
-        ToleranceFamily(first, columns, TOLERANCE, BACKGROUNDS.tolerance_shares),
-        *(SizedFamily(name, at, scale, BACKGROUNDS.family_sizes, _plausible(layout, at)) for name, at, scale in sized),
+    """Every family is measured against its tolerances; geometric errors are free, since every arm has them."""
+    families = zip(FAMILIES, layout.background, layout.background_scale, strict=True)
+    return tuple(
+        ToleranceFamily(name, columns, tolerance, BACKGROUNDS.tolerance_shares)
+        if name == GEOMETRIC
+        else ToleranceFamily(name, columns, tolerance, BACKGROUNDS.plausible_shares, is_priced=True)
+        for name, columns, tolerance in families
     )
-
-
-def _plausible(layout: ParameterLayout, columns: Indices) -> Array:
-    """(c,) sizes that some columns' values have on real arms, SI."""
-    return np.array([layout.terms[column].plausible for column in columns], dtype=np.float64)
 
 
 def _candidates(layout: ParameterLayout, placed: Sequence[Placed]) -> tuple[Candidate, ...]:

@@ -23,7 +23,6 @@ from armscope.inference.normal_equations import NormalEquations, column_scales
 from armscope.measurement import robust
 from armscope.measurement.channel import ChannelResiduals, retracted
 from armscope.measurement.row_weights import RowNoise, RowWeights
-from armscope.physics.backgrounds import TOLERANCE
 from armscope.physics.effect import Placed, Term
 from armscope.physics.model import FittedModel
 from armscope.physics.scene import Part
@@ -154,8 +153,7 @@ def refit(
         model: where to start from; its effects are replaced.
         rows: a table, or recordings.
         frames: always free.
-        backgrounds: per family (effects, size): a share of the tolerance for the first, mm at the tool for the others;
-            families of size 0 are left out.
+        backgrounds: per family (effects, share of their tolerances); families of size 0 are left out.
         effects: (effect, size at the tool, mm).
         row_noise: relative uncertainty of the rows, and which are independent.
         least_noise: mm; the noise is never taken to be below.
@@ -217,8 +215,8 @@ def _precision(
     """(p,) prior precisions in SI units."""
     scale = column_scales(gram, parts.frames)
     variance = np.full(len(parts.terms), np.inf)
-    for number, (columns, shape, size) in enumerate(zip(parts.background, parts.background_scale, sizes, strict=True)):
-        variance[columns] = (size * TOLERANCE) ** 2 if number == 0 else (size * shape / scale[columns]) ** 2
+    for columns, tolerance, size in zip(parts.background, parts.background_scale, sizes, strict=True):
+        variance[columns] = (size * tolerance) ** 2
     for (placed, size), at in zip(effects, parts.columns, strict=True):
         wide = 1.0 if placed.partly_unseen else STEPS.free
         variance[at] = (wide * size * np.array(placed.prior_scale) / scale[at]) ** 2

@@ -100,29 +100,36 @@ class BackgroundFamily(Protocol):
     def is_priced(self) -> bool:
         """Whether it pays, as one kind of error among the others; one that everything real has is free."""
 
-    def prior_variance(self, size: int, effect_sizes: Array, scale: Array) -> Array:
+    def prior_variance(self, size: int, scale: Array) -> Array:
         """(c,) prior variances, mm^2, of the columns once they are divided by ``scale`` (p,).
 
         Args:
             size: index of the background's size.
-            effect_sizes: the sizes of effects that compete, mm.
             scale: (p,) by which columns are divided.
 
         Returns:
             (c,) mm^2.
         """
 
-    def label(self, size: int, effect_sizes: Array) -> float:
-        """The size as a number: mm, or a share of what is stated."""
+    def label(self, size: int) -> float:
+        """The size as a number: a share of what is stated."""
 
 
 @dataclass(frozen=True, eq=False)
 class ToleranceFamily:
-    """Values that have a stated tolerance each, in units of their own; the sizes are shares of it."""
+    """Values that have a tolerance each, in units of their own; the sizes are shares of it.
+
+    Attributes:
+        name: of the family.
+        columns: (c,) its columns.
+        tolerance: (c,) in the columns' own units.
+        shares: of the tolerance, none first.
+        is_priced: whether it pays.
+    """
 
     name: str
     columns: Indices
-    tolerance: float
+    tolerance: Array
     shares: tuple[float, ...]
     is_priced: bool = False
 
@@ -131,12 +138,11 @@ class ToleranceFamily:
         """How many shares compete."""
         return len(self.shares)
 
-    def prior_variance(self, size: int, effect_sizes: Array, scale: Array) -> Array:
+    def prior_variance(self, size: int, scale: Array) -> Array:
         """As of `BackgroundFamily`.
 
         Args:
             size: index of the background's size.
-            effect_sizes: not looked at: a tolerance has sizes of its own.
             scale: (p,) by which columns are divided.
 
         Returns:
@@ -144,42 +150,9 @@ class ToleranceFamily:
         """
         return np.asarray((self.shares[size] * self.tolerance * scale[self.columns]) ** 2)
 
-    def label(self, size: int, effect_sizes: Array) -> float:
+    def label(self, size: int) -> float:
         """Share of the tolerance."""
         return self.shares[size]
-
-
-@dataclass(frozen=True, eq=False)
-class SizedFamily:
-    """Values that are measured by what they do; the sizes are none, then the smallest of the effects' sizes.
-
-    ``plausible``: as of a `Candidate`.
-    """
-
-    name: str
-    columns: Indices
-    prior_scale: Array
-    sizes: int
-    plausible: Array | None = None
-    is_priced: bool = True
-
-    def prior_variance(self, size: int, effect_sizes: Array, scale: Array) -> Array:
-        """As of `BackgroundFamily`.
-
-        Args:
-            size: index of the background's size.
-            effect_sizes: the sizes of effects that compete, mm.
-            scale: (p,) by which columns are divided; sizes are of scaled columns.
-
-        Returns:
-            (c,) mm^2.
-        """
-        expected = self.label(size, effect_sizes) * self.prior_scale
-        return np.asarray(within(expected, self.plausible, scale[self.columns]) ** 2)
-
-    def label(self, size: int, effect_sizes: Array) -> float:
-        """Size, mm."""
-        return float(effect_sizes[size - 1]) if size else 0.0
 
 
 def within(expected: Array, plausible: Array | None, scale: Array) -> Array:

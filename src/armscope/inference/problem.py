@@ -136,7 +136,7 @@ def prior_variances(problem: Problem, chosen: Sequence[SelectedEffect], backgrou
     prior, space = np.zeros(len(problem.scale)), problem.space
     for family, size in zip(space.families, background, strict=True):
         if size:
-            prior[family.columns] += family.prior_variance(size, problem.sizes, problem.scale)
+            prior[family.columns] += family.prior_variance(size, problem.scale)
     prior[space.frames] = PRIORS.frame_mm**2
     for effect in chosen:
         prior[space.candidates[effect.candidate].columns] += problem.prior_scale(effect) ** 2
@@ -144,6 +144,5 @@ def prior_variances(problem: Problem, chosen: Sequence[SelectedEffect], backgrou
 
 
 def background_sizes(problem: Problem, background: BackgroundSizes) -> tuple[float, ...]:
-    """Size of each family's background as a number: share of what is stated, or mm at the tool."""
-    families = zip(problem.space.families, background, strict=True)
-    return tuple(family.label(size, problem.sizes) for family, size in families)
+    """Size of each family's background as a number: share of its tolerance."""
+    return tuple(family.label(size) for family, size in zip(problem.space.families, background, strict=True))

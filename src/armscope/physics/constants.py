@@ -51,6 +51,12 @@ class PlausibleSizes(Constants):
         "judgement: a disc off centre by 0.1 mm at 33 mm",
         unit="rad",
     )
+    waves: int = constant(
+        8,
+        "per turn of a gear up to which every arm has a little",
+        "judgement: flexible splines and discs show the first harmonics of two per turn; time",
+        unit="waves",
+    )
     mesh_rad: float = constant(
         1e-3,
         "more waves per turn",

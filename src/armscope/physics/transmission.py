@@ -97,6 +97,11 @@ GEAR_ECCENTRICITY = Effect(
 )
 
 
+def cyclic(j: int, per_turn: int) -> Placed:
+    """A wave of motor j, by the effect that makes so many per turn."""
+    return _cyclic(GEAR_ECCENTRICITY if per_turn <= ECCENTRIC_WAVES else GEAR_MESH, j, per_turn, multiplicity=1)
+
+
 def mesh(j: int, per_turn: int) -> Placed:
     """A gear mesh error of motor j with ``per_turn`` periods per joint turn."""
     return _cyclic(GEAR_MESH, j, per_turn, multiplicity=len(MESH_COUNTS))

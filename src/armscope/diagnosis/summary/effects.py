@@ -18,6 +18,7 @@ from armscope.diagnosis.summary.effect_curve import curve_of
 from armscope.diagnosis.summary.parameters import parameters
 from armscope.fitting.discrepancy import ModelError
 from armscope.fitting.joint_scatter import motor_jacobians
+from armscope.fitting.refit import Refit
 from armscope.inference.normal_equations import NormalEquations, projected_rms
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
@@ -71,6 +72,8 @@ def found_effect(weighed: Weighed, chosen: SelectedEffect, part: Part, share: fl
     coefficients[at] = _sized(state, chosen, part.values, fit.covariance_of(placed))
     covariance = weighed.wrong.covariance[np.ix_(at, at)]
     rms = projected_rms(weighed.equations, fit.pool.frames, coefficients)
+    if candidate.is_curve:
+        rms = min(rms, _own_size(fit, placed, part.values))
     apart = [certainty.discriminability(state.best, other, candidate, rival) for _, rival, other in rivals]
     close = [rival for nats, (_, rival, _) in zip(apart, rivals, strict=True) if nats < INDISTINGUISHABLE_NATS]
     named_as, title = certainty.name(candidate, close)
@@ -108,6 +111,17 @@ def _sized(state: DiagnosisState, chosen: SelectedEffect, values: Array, covaria
     # the posterior with this prior in place of a flat one
     scaled = covariance / np.outer(scale, scale)
     return np.asarray(scale * (np.linalg.solve(np.eye(len(scale)) + scaled, values / scale)))
+
+
+def _own_size(fit: Refit, placed: Placed, values: Array) -> float:
+    """RMS per axis, mm, of what a curve does that neither frames nor other effects nor backgrounds could do for it.
+
+    Low waves of a free curve look like zeros, lengths and loads of the arm: without this, an arm's small errors would
+    make any curve in it large.
+    """
+    at = fit.pool.of(placed)
+    left = np.linalg.inv(fit.covariance_of(placed)) - np.diag(fit.precision[at])
+    return float(fit.noise * np.sqrt(max(float(values @ left @ values), 0.0) / max(fit.gram.n, 1.0)))
 
 
 def _with_moment(
