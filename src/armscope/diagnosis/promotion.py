@@ -157,29 +157,33 @@ def _straightened(problem: Problem, space: EffectSpace, hypothesis: Hypothesis) 
 def _with_main_shapes(edits: Edits, hypothesis: Hypothesis) -> Hypothesis:
     """With curves of a joint's own angle that are one line or wave for the most part told as that and a rest."""
     problem = edits.problem
+    free = [set(family.columns) for family in edits.space.families if not family.is_priced]
+    # what every arm has anyway gets its name by standing out there
+    ordinary = {n for n, c in enumerate(edits.space.candidates) if any(set(c.columns) <= columns for columns in free)}
     for curve in hypothesis.chosen:
         candidate = edits.candidate(curve.candidate)
         if not candidate.is_curve or not candidate.variant.startswith("angle"):
             continue
-        shapes = {
-            n: _main_shape(edits, hypothesis, curve, n) for n in _within(problem, candidate) - hypothesis.candidates
-        }
+        asked = _within(problem, candidate) - hypothesis.candidates - ordinary
+        shapes = {n: _main_shape(edits, hypothesis, curve, n) for n in asked}
         shape = max(shapes, key=lambda n: shapes[n][0], default=None)
         if shape is None or shapes[shape][0] < NAMING.main_share:
             continue
-        _, main, rest = shapes[shape]
-        others = tuple(c for c in hypothesis.chosen if c is not curve)
-        name = SelectedEffect(shape, problem.nearest_size(main), nested=True)
-        left = SelectedEffect(curve.candidate, problem.nearest_size(rest))
-        hypothesis = evaluate(problem, (*others, name, left), hypothesis.background, hypothesis.noise)
+        name = SelectedEffect(shape, problem.nearest_size(shapes[shape][1]), nested=True)
+        hypothesis = evaluate(problem, (*hypothesis.chosen, name), hypothesis.background, hypothesis.noise)
     return hypothesis
 
 
-def _main_shape(edits: Edits, hypothesis: Hypothesis, curve: SelectedEffect, shape: int) -> tuple[float, float, float]:
-    """Share of a curve, of what only it explains, that one shape is; RMS, mm, of the shape and of what is left."""
+def _main_shape(edits: Edits, hypothesis: Hypothesis, curve: SelectedEffect, shape: int) -> tuple[float, float]:
+    """Share of a curve, of what only it explains, that one shape is; and the shape's RMS, mm.
+
+    A background of such shapes is left out: what it could explain is what is asked for.
+    """
     own, within = edits.candidate(curve.candidate).columns, edits.candidate(shape).columns
     columns = np.union1d(own, within)
-    without = edits.without(hypothesis, [curve.candidate])
+    families = zip(hypothesis.background, edits.space.families, strict=True)
+    background = tuple(0 if set(family.columns) & set(within) else size for size, family in families)
+    without = edits.evaluated(edits.kept(hypothesis, [curve.candidate]), hypothesis, background)
     M = condition_on(edits.problem, columns, without).own(edits.problem, np.arange(len(columns))[None])[0]
     mean = np.zeros(len(columns))
     mean[np.searchsorted(columns, own)] = hypothesis.means(own)
@@ -187,7 +191,7 @@ def _main_shape(edits: Edits, hypothesis: Hypothesis, curve: SelectedEffect, sha
     left = response.least_rss(np.searchsorted(columns, within))
     main = max(response.yy - left, 0.0)
     share = main / response.yy if response.yy > 0 else 0.0
-    return share, float(np.sqrt(main / response.n)), float(np.sqrt(max(left, 1e-12) / response.n))
+    return share, float(np.sqrt(main / response.n))
 
 
 def _line(problem: Problem, space: EffectSpace, hypothesis: Hypothesis, curve: int) -> tuple[float, float]:

@@ -162,6 +162,7 @@ def refit(
     Returns:
         The fitted model, its weights, noise and covariance.
     """
+    effects = [(_apart(placed, effects), size) for placed, size in effects]
     named = {term for placed, _ in effects for term in placed.terms}
     kept = [[b for placed in family if size and (b := _without(placed, named))] for family, size in backgrounds]
     background = [placed for family in kept for placed in family]
@@ -190,6 +191,15 @@ def _without(placed: Placed, named: set[Term]) -> Placed | None:
         return None
     return replace(
         placed, terms=tuple(placed.terms[n] for n in kept), prior_scale=tuple(placed.prior_scale[n] for n in kept)
+    )
+
+
+def _apart(placed: Placed, effects: Sequence[tuple[Placed, float]]) -> Placed:
+    """A free curve without the terms that a named effect has, which is then the rest of it; others as they are."""
+    if placed.parametrisation != "curve":
+        return placed
+    return (
+        _without(placed, {t for other, _ in effects if other.parametrisation != "curve" for t in other.terms}) or placed
     )
 
 
