@@ -124,12 +124,20 @@ def addition_scores(
 
 def _by_size(D: Array, r: Array, sizes: Array, scale: Array, largest: Array) -> tuple[Array, Array]:
     """As `quadratic_and_logdet`, with prior sizes (m, c) sizes x scale, but no larger than ``largest``, mm."""
-    quadratic, logdet = quadratic_and_logdet(D * scale[:, :, None] * scale[:, None, :], r * scale, sizes**2)
-    bound = np.flatnonzero((largest < sizes[-1] * scale).any(axis=1))
-    for number, size in enumerate(sizes if len(bound) else ()):
-        own = within(size * scale[bound], largest[bound], np.ones(1))
-        inner = D[bound] * own[:, :, None] * own[:, None, :]
-        (quadratic[number, bound],), (logdet[number, bound],) = quadratic_and_logdet(inner, r[bound] * own, np.ones(1))
+    held = (largest < sizes[-1] * scale).any(axis=1)
+    if not held.any():
+        return quadratic_and_logdet(D * scale[:, :, None] * scale[:, None, :], r * scale, sizes**2)
+    quadratic, logdet = np.empty((len(sizes), len(D))), np.empty((len(sizes), len(D)))
+    free = ~held
+    if free.any():
+        own = scale[free]
+        inner = D[free] * own[:, :, None] * own[:, None, :]
+        quadratic[:, free], logdet[:, free] = quadratic_and_logdet(inner, r[free] * own, sizes**2)
+    # each size has a shape of its own: as many blocks
+    own = within(sizes[:, None, None] * scale[held], largest[held], np.ones(1))
+    inner = (D[held] * own[..., :, None] * own[..., None, :]).reshape(-1, *D.shape[1:])
+    (told,), (spread,) = quadratic_and_logdet(inner, (r[held] * own).reshape(-1, D.shape[1]), np.ones(1))
+    quadratic[:, held], logdet[:, held] = told.reshape(len(sizes), -1), spread.reshape(len(sizes), -1)
     return quadratic, logdet
 
 

@@ -56,13 +56,30 @@ def _place_joints(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
 
 
 def drive(scene: Scene, j: int, load: Driver) -> Term:
-    """The give of motor j under a load, rad/(N m)."""
+    """The give of a drive under a load.
+
+    Args:
+        scene: the rows.
+        j: the motor, from 1.
+        load: what it gives way to, N m.
+
+    Returns:
+        The compliance, rad/(N m) where the load is a torque.
+    """
     size = plausible_give(PLAUSIBLE.drive_rad, scene.driver(load))
     return term("compliance", "rad/(N m)", (motor(j), load), plausible=size)
 
 
 def plausible_give(turn: float, load: Array) -> float:
-    """What gives way per unit of a load (N,), where its largest value turns it by ``turn``."""
+    """What gives way per unit of a load, where its largest value turns it by ``turn``.
+
+    Args:
+        turn: rad.
+        load: (N,) in any unit.
+
+    Returns:
+        rad per that unit; infinite where there is no load.
+    """
     largest = float(np.abs(load).max(initial=0.0))
     return turn / largest if largest > 0 else np.inf
 

@@ -22,6 +22,7 @@ from armscope.fitting.refit import Refit
 from armscope.inference.normal_equations import NormalEquations, projected_rms
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
+from armscope.physics.backgrounds import GEOMETRIC
 from armscope.physics.effect import Placed
 from armscope.physics.scene import Part, Scene
 from armscope.verdict.schema import INDISTINGUISHABLE_NATS, Background, FoundEffect, Parameter
@@ -144,10 +145,14 @@ def _worth(state: DiagnosisState, search: Search, chosen: SelectedEffect) -> flo
 
 
 def with_weight(found: FoundEffect, background: Sequence[Background]) -> FoundEffect:
-    """Minor or not: in an arm with small errors everywhere, a small effect is one of them."""
+    """Minor or not: in an arm with small errors everywhere, a small effect is one of them.
+
+    What is not geometry is measured by what the geometry of every arm leaves: it is what a calibration would not mend.
+    """
     ordinary = any(family.present for family in background)
-    small = found.share < (NAMING.minor_share if ordinary else NAMING.minor_share_of_perfect_arm)
-    return replace(found, minor=small)
+    geometry = sum(family.share for family in background if family.family == GEOMETRIC and family.present)
+    of = found.share if found.family == GEOMETRIC else found.share / max(1 - geometry, 1e-6)
+    return replace(found, minor=of < (NAMING.minor_share if ordinary else NAMING.minor_share_of_perfect_arm))
 
 
 def scattered_effects(state: DiagnosisState, variance: float) -> Iterator[FoundEffect]:
