@@ -26,17 +26,17 @@ FAINT = 0.7
 
 def headline(verdict: Diagnosis) -> str:
     """The answer: at most `MOST_TOLD` causes with what each has of the squared error, and one sentence on the rest."""
+    main, minor = main_and_minor(verdict.effects)
+    if verdict.answer == "cannot tell" and not main:
+        return _cannot_tell(verdict)
     doubt = unusable(verdict)
     if doubt:
         return f"These recordings cannot be relied on, and nothing below should be acted on: {_small(doubt)}."
-    main, minor = main_and_minor(verdict.effects)
     if verdict.answer == "nothing missing":
         return (
             f"Nothing is missing: once base and tool are placed, the model meets the recordings to "
             f"{millimetres(verdict.residual_after_mm)} per axis, which is noise."
         )
-    if verdict.answer == "cannot tell" and not main:
-        return _cannot_tell(verdict)
     told, rest = main[:MOST_TOLD], [*main[MOST_TOLD:], *minor]
     if not told:
         return " ".join([_no_cause(verdict, rest), *_remainder(verdict)])
