@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
+import numpy as np
 import pydantic
 from pydantic import AfterValidator, Field
 
@@ -25,6 +26,8 @@ COARSEST_MM = 100.0
 """1-sigma per axis: what is coarser than 0.1 m measures no arm (indoor radio positioning is that coarse)."""
 LARGEST_RATIO = 1000.0
 """Of an actuation: gears of arms reduce by 30 to 320 (harmonic and cycloidal drives, makers' catalogues)."""
+ROUNDED = 1e-3
+"""Inertias in files are rounded: the sum of two principal ones may fall short of the third by this share."""
 
 Ratio = Annotated[float, Field(ge=-LARGEST_RATIO, le=LARGEST_RATIO)]
 
@@ -58,10 +61,44 @@ class DH(Strict):
 
 
 class LinkMass(Strict):
-    """Mass and centre of mass in the link's D-H frame (for ``tool_load``: in the last frame)."""
+    """Mass and centre of mass in the link's D-H frame (for ``tool_load``: in the last frame).
+
+    ``inertia_kg_m2``: (xx, yy, zz, xy, xz, yz) about the centre of mass, axes of the same frame; without it the mass
+    is a point, which is all that statics needs.
+    """
 
     mass_kg: float = Field(ge=0, le=HEAVIEST_KG)
     com_mm: Point
+    inertia_kg_m2: tuple[float, float, float, float, float, float] | None = None
+
+    @pydantic.field_validator("inertia_kg_m2")
+    @classmethod
+    def _of_a_body(cls, value: tuple[float, ...] | None) -> tuple[float, ...] | None:
+        if value is not None:
+            xx, yy, zz, xy, xz, yz = value
+            least, middle, most = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+            if least < 0 or least + middle < most * (1 - ROUNDED):
+                principal = f"{least:.4g}, {middle:.4g}, {most:.4g}"
+                raise ValueError(f"no body has principal inertias {principal}: none < 0, none above the others' sum")
+        return value
+
+
+class Drive(Strict):
+    """What a motor adds to the arm's dynamics, at the joint's side; what is not stated is not known.
+
+    Stated friction is coulomb sign(dq) + viscous dq. ``gain_nm_per_a`` turns a recorded current into torque;
+    ``gain_uncertainty`` is its relative standard deviation (0: exact; absent: the gain is free). The limits on speed,
+    acceleration and torque bound the motions that `armscope excite` asks for.
+    """
+
+    rotor_inertia_kg_m2: float | None = Field(default=None, ge=0)
+    coulomb_nm: float | None = Field(default=None, ge=0)
+    viscous_nm_s_rad: float | None = Field(default=None, ge=0)
+    gain_nm_per_a: float | None = None
+    gain_uncertainty: float | None = Field(default=None, ge=0)
+    speed_deg_s: float | None = Field(default=None, gt=0)
+    acceleration_deg_s2: float | None = Field(default=None, gt=0)
+    torque_nm: float | None = Field(default=None, gt=0)
 
 
 class Instrument(Strict):
@@ -96,6 +133,7 @@ class RobotDescription(Strict):
     tool_mm: Point = (0.0, 0.0, 0.0)
     links: tuple[LinkMass, ...] | None = None
     tool_load: LinkMass | None = None
+    drives: tuple[Drive, ...] | None = None
     gravity_m_s2: Annotated[Vector, AfterValidator(_on_earth)] = (0.0, 0.0, -9.81)
     joint_limits_deg: tuple[tuple[Degrees, Degrees], ...] | None = None
     instrument: Instrument | None = None
@@ -149,6 +187,8 @@ class RobotDescription(Strict):
         turning = {motor for row in self.actuation or () for motor, coefficient in row.items() if coefficient != 0}
         if idle := [f"q{k + 1}" for k in range(n_motors) if self.actuation is not None and f"q{k + 1}" not in turning]:
             raise ValueError(f"`actuation` has motors up to q{n_motors}, but {', '.join(idle)} turns no joint")
+        if self.drives is not None and len(self.drives) != n_motors:
+            raise ValueError(f"`drives` needs one entry for each of the {n_motors} motors, it has {len(self.drives)}")
         if self.joint_limits_deg is not None:
             if len(self.joint_limits_deg) != n_motors:
                 raise ValueError(
