@@ -18,7 +18,6 @@ from armscope.fitting.set_ups import compare_bases, told
 from armscope.physics.frames import free_frames, set_ups_of, sharing_bases
 from armscope.physics.model import predict
 from armscope.physics.model_file import load_model, save_model
-from armscope.physics.set_ups import in_order_of_time, runs_around
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -84,15 +83,6 @@ def test_one_base_for_all_runs_of_a_set_up_is_fitted_as_one() -> None:
     assert sum(len(placed.terms) for placed in frames) == 2 * 6 + 3
     alone = point_residuals(fit_frames(arm, table), table)
     assert np.sqrt(np.mean(point_residuals(model, table) ** 2)) < 1.1 * np.sqrt(np.mean(alone**2))
-
-
-def test_runs_stand_in_order_of_time_where_their_clocks_agree() -> None:
-    _, table = three_runs({}, rows=4)
-    assert in_order_of_time(table) == NAMES
-    clock = np.concatenate([np.arange(4) + start for start in (200.0, 0.0, 100.0)])
-    assert in_order_of_time(replace(table, time=clock)) == ["a", "c", "b"]
-    assert in_order_of_time(replace(table, time=np.tile(np.arange(4.0), 3))) == NAMES
-    assert runs_around((("b", "a", "c"),), "a") == (("b",), ("c",))
 
 
 def test_a_base_that_moved_a_little_between_runs_is_named_with_the_runs_and_its_size() -> None:
