@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import Annotated, Literal, Self
 
+import numpy as np
 import pydantic
 from pydantic import AfterValidator, Field
 
@@ -26,7 +27,13 @@ COARSEST_MM = 100.0
 """1-sigma per axis: what is coarser than 0.1 m measures no arm (indoor radio positioning is that coarse)."""
 LARGEST_RATIO = 1000.0
 """Of an actuation: gears of arms reduce by 30 to 320 (harmonic and cycloidal drives, makers' catalogues)."""
+ROUNDED = 1e-3
+"""Inertias in files are rounded: the sum of two principal ones may fall short of the third by this share."""
 
+MOST_INERTIA_KG_M2 = 1e6
+"""Of a link: the heaviest arm's whole mass (11,000 kg) at its reach (4.7 m) is 2.4e5 kg m2."""
+
+Inertia = Annotated[float, Field(ge=-MOST_INERTIA_KG_M2, le=MOST_INERTIA_KG_M2)]
 Ratio = Annotated[float, Field(ge=-LARGEST_RATIO, le=LARGEST_RATIO)]
 
 
@@ -62,12 +69,50 @@ class DH(Strict):
 
 
 class LinkMass(Strict):
-    """Mass and centre of mass in the link's D-H frame (for ``tool_load``: in the last frame)."""
+    """Mass and centre of mass in the link's D-H frame (for ``tool_load``: in the last frame).
+
+    ``inertia_kg_m2``: (xx, yy, zz, xy, xz, yz) about the centre of mass, axes of the same frame; without it the mass
+    is a point, which is all that statics needs.
+    """
 
     mass_kg: float = Field(ge=0, le=HEAVIEST_KG, description="kg")
     com_mm: Point = Field(
         description="centre of mass x, y, z in the row's D-H frame: behind the joint, turning with it; mm"
     )
+    inertia_kg_m2: tuple[Inertia, Inertia, Inertia, Inertia, Inertia, Inertia] | None = Field(
+        default=None, description="xx, yy, zz, xy, xz, yz about the centre of mass, axes of the same frame, kg m2"
+    )
+
+    @pydantic.field_validator("inertia_kg_m2")
+    @classmethod
+    def _of_a_body(cls, value: tuple[float, ...] | None) -> tuple[float, ...] | None:
+        if value is not None:
+            xx, yy, zz, xy, xz, yz = value
+            least, middle, most = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+            if least < 0 or least + middle < most * (1 - ROUNDED):
+                principal = f"{least:.4g}, {middle:.4g}, {most:.4g}"
+                raise ValueError(f"no body has principal inertias {principal}: none < 0, none above the others' sum")
+        return value
+
+
+class Drive(Strict):
+    """What a motor adds to the arm's dynamics, at the joint's side; what is not stated is not known.
+
+    Stated friction is coulomb sign(dq) + viscous dq. ``gain_nm_per_a`` turns a recorded current into torque;
+    ``gain_uncertainty`` is its relative standard deviation (0: exact; absent: the gain is free). The limits on speed,
+    acceleration and torque bound the motions that `armscope excite` asks for.
+    """
+
+    rotor_inertia_kg_m2: float | None = Field(default=None, ge=0, description="rotor times gear squared, kg m2")
+    coulomb_nm: float | None = Field(default=None, ge=0, description="friction that has the sign of the speed, N m")
+    viscous_nm_s_rad: float | None = Field(default=None, ge=0, description="friction along with speed, N m s/rad")
+    gain_nm_per_a: float | None = Field(default=None, description="torque per recorded current, N m/A")
+    gain_uncertainty: float | None = Field(
+        default=None, ge=0, description="relative standard deviation of the gain; 0: exact; absent: free"
+    )
+    speed_deg_s: float | None = Field(default=None, gt=0, description="largest speed of a commanded motion, degrees/s")
+    acceleration_deg_s2: float | None = Field(default=None, gt=0, description="largest acceleration, degrees/s2")
+    torque_nm: float | None = Field(default=None, gt=0, description="largest torque, N m")
 
 
 class Instrument(Strict):
@@ -110,6 +155,9 @@ class RobotDescription(Strict):
     )
     tool_load: LinkMass | None = Field(
         default=None, description="what the flange always carries; its centre of mass in the last frame"
+    )
+    drives: tuple[Drive, ...] | None = Field(
+        default=None, description="one per motor; for arms in motion: what the drives add, and what they may do"
     )
     gravity_m_s2: Annotated[Vector, AfterValidator(_on_earth)] = Field(
         default=(0.0, 0.0, -9.81), description="in the base frame, m/s2: z up stands, z down hangs"
@@ -170,6 +218,8 @@ class RobotDescription(Strict):
         turning = {motor for row in self.actuation or () for motor, coefficient in row.items() if coefficient != 0}
         if idle := [f"q{k + 1}" for k in range(n_motors) if self.actuation is not None and f"q{k + 1}" not in turning]:
             raise ValueError(f"`actuation` has motors up to q{n_motors}, but {', '.join(idle)} turns no joint")
+        if self.drives is not None and len(self.drives) != n_motors:
+            raise ValueError(f"`drives` needs one entry for each of the {n_motors} motors, it has {len(self.drives)}")
         if self.joint_limits_deg is not None:
             if len(self.joint_limits_deg) != n_motors:
                 raise ValueError(
