@@ -84,7 +84,7 @@ def judge(
         c.candidate: found_effect(weighed, c, part, share)
         for c, part, share in zip(best.chosen, fit.model.parts, shared, strict=True)
     }
-    order = sorted(found, key=lambda c: -found[c].rms_at_tool_mm)
+    order = sorted(found, key=lambda c: -found[c].share)
     held_out = HeldOut(float("nan"), float("nan"))
     waterfall: tuple[WaterfallStep, ...] = ()
     if cross_validation:
@@ -98,7 +98,7 @@ def judge(
     scattered = [s for s in scattered_effects(state, variance) if not rest_of_a_curve(s, named)]
     over = subset_consistency(state)
     named = [replace(e, carries_over=over.get(c, "")) for c, e in zip(order, named, strict=True)]
-    effects = tuple(sorted([*named, *scattered], key=lambda effect: -effect.rms_at_tool_mm))
+    effects = tuple(sorted([*named, *scattered], key=lambda effect: -effect.share))
     unexplained = _unexplained(state, search, effects, background)
     answer, mismatch = _answer(effects, background, unexplained)
     separating = next_poses(state, weighed.rivals, rng)
