@@ -40,6 +40,11 @@ class PlausibleSizes(Constants):
         "judgement: as of a link's length",
         unit="m",
     )
+    bar_share: float = constant(
+        0.01,
+        "the same as a share of the rocker, where the bars are not stated",
+        "derived: 3 mm of the 0.3 m rocker of a middle-sized arm",
+    )
     ratio: float = constant(
         5e-3,
         "error of a gear's ratio, and one joint's share in another's turn",
