@@ -16,8 +16,8 @@ from armscope.physics.scene import Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
-MESH_COUNTS = range(3, 129)
-"""Periods per joint turn that are tried for a gear mesh error."""
+MESH_COUNTS = range(3, 401)
+"""Periods per joint turn that are tried for a gear mesh error: a strain wave gear makes two per turn of its motor."""
 ECCENTRIC_WAVES = 2
 """Waves per turn that an eccentric gear or disc makes; more are a mesh's."""
 LEAST_OTHER_SIDE = 0.03
