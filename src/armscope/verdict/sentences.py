@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 from armscope.physics.clause import Number, Told, say
@@ -41,6 +42,8 @@ _CURES = {
 
 GEOMETRIC = "geometric"
 """The family whose small errors are a cause by themselves: a calibration takes them out."""
+CALIBRATED = 0.1
+"""Share of the squared error from which they are told as one."""
 
 FAINT = 0.7
 """Something unexplained that is smaller than this share of the residual is hidden in the noise."""
@@ -59,16 +62,17 @@ def headline(verdict: Diagnosis) -> str:
             f"Nothing is missing: once base and tool are placed, the model meets the recordings to "
             f"{millimetres(verdict.residual_after_mm)} per axis, which is noise."
         )
-    if not verdict.causes:
+    if not main and not verdict.causes:
         return " ".join([_no_cause(verdict, minor), *_remainder(verdict)])
-    told, rest = _told_and_rest(verdict.causes)
+    told, rest = _told_and_rest(verdict.causes or _one_by_one(verdict))
     causes = "; ".join(f"{cause.text} – {percent(cause.share)}{_of_what(n)}" for n, cause in enumerate(told))
     return " ".join([f"{capitalised(causes)}.", *_others(rest), *_remainder(verdict)])
 
 
 def _told_and_rest(causes: Sequence[Cause]) -> tuple[list[Cause], list[Cause]]:
     """The causes that a headline tells, and those that it counts."""
-    first = [cause for cause in causes if not cause.minor and (cause.members or cause.family == GEOMETRIC)]
+    worth_a_calibration = [c for c in causes if not c.members and c.family == GEOMETRIC and c.share > CALIBRATED]
+    first = [cause for cause in causes if not cause.minor and (cause.members or cause in worth_a_calibration)]
     first = first[:MOST_TOLD] or list(causes[:1])
     return first, [cause for cause in causes if cause not in first]
 
@@ -134,11 +138,31 @@ def _no_cause(verdict: Diagnosis, rest: Sequence[FoundEffect]) -> str:
     return f"Only minor causes were found ({spelled(len(rest))})."
 
 
+def _one_by_one(verdict: Diagnosis) -> list[Cause]:
+    """A cause per effect, and one per background, where nobody has gathered them."""
+    alone = [
+        Cause(e.family, "effect", e.location, (e.title,), False, e.minor, e.share, math.nan, phrase(e), e.cure)
+        for e in sorted(verdict.effects, key=lambda effect: -effect.share)
+    ]
+    small = [
+        Cause(b.family, "family", "arm", (), True, False, b.share, math.nan, cause_in_words(b.family, (), True), "")
+        for b in verdict.background_families or (verdict.background,)
+        if b.present
+    ]
+    return [*alone, *small]
+
+
 def _others(rest: Sequence[Cause]) -> Iterator[str]:
     """What else the model took in, together."""
-    if rest:
-        share = percent(sum(cause.share for cause in rest))
-        yield f"{capitalised(spelled(len(rest)))} smaller cause{'s' if len(rest) > 1 else ''}: {share}."
+    count = sum(bool(cause.members) for cause in rest)
+    parts = [f"{spelled(count)} smaller cause{'s' if count > 1 else ''}"] if count else []
+    small = [_KINDS[cause.family] for cause in rest if not cause.members and cause.family in _KINDS]
+    if small:
+        *first, last = small
+        kinds = f"{', '.join(first)} and {last}" if first else last
+        parts.append(f"small errors of {kinds} in all its joints and links, as any arm has")
+    if parts:
+        yield f"{capitalised(', and '.join(parts))}: {percent(sum(cause.share for cause in rest))}."
 
 
 def _remainder(verdict: Diagnosis) -> Iterator[str]:
