@@ -18,6 +18,7 @@ from armscope.physics.backgrounds import FAMILIES
 from armscope.verdict.schema import Background, Cause, CauseLevel, FoundEffect
 from armscope.verdict.sentences import cause_in_words, cure_of_family
 
+PAYLOAD = "payload"
 EVERYWHERE = "arm"
 """The place of what is so in all joints and links."""
 
@@ -44,11 +45,11 @@ def causes(
     members: dict[str, list[FoundEffect]] = {}
     candidates: dict[str, list[int]] = {}
     for candidate, effect in named.items():
-        members.setdefault(effect.family, []).append(effect)
-        candidates.setdefault(effect.family, []).append(candidate)
+        members.setdefault(_group(effect), []).append(effect)
+        candidates.setdefault(_group(effect), []).append(candidate)
     for effect in others:
-        members.setdefault(effect.family, []).append(effect)
-    everywhere = {family.family: family for family in background if family.present}
+        members.setdefault(_group(effect), []).append(effect)
+    everywhere = {family.family: family for family in background if family.present and family.family in FAMILIES}
     families = [*members, *(family for family in everywhere if family not in members)]
     readings = [
         without_members(
@@ -67,6 +68,11 @@ def causes(
     return tuple(sorted(found, key=lambda cause: -cause.share))
 
 
+def _group(effect: FoundEffect) -> str:
+    """What is mended together: a family; but a payload is weighed, whatever gives way under it."""
+    return effect.location if effect.location == PAYLOAD else effect.family
+
+
 def _cause(
     state: DiagnosisState, family: str, members: Sequence[FoundEffect], small: Background | None, gain: float
 ) -> Cause:
@@ -75,7 +81,7 @@ def _cause(
     squared = state.best.noise**2 * gain / max(state.problem.n, 1.0)
     left = state.fit.noise
     return Cause(
-        family=family,
+        family=ordered[0].family if ordered else family,
         level=level,
         place=place,
         members=tuple(f"{effect.effect} at {effect.location}" for effect in ordered),
