@@ -1,7 +1,7 @@
 """A moving world as two folders: what the diagnosis may see, and the sealed truth.
 
     visible/  robot.yaml (what the user believes), motions.csv, test_motions.csv (another path, without torques)
-    sealed/   truth.yaml, test.csv (that path with torques)
+    sealed/   truth.yaml, test.csv (that path with torques, N m, also where the diagnosis gets currents)
 
 truth.yaml: `effects` (effect, location, parameters, `strength` = RMS torque over noise at the joint where it is
 largest, `rms_nm` there, `alternatives` that are as good on these paths, by evidence), `background` (the arm's own
@@ -102,7 +102,8 @@ def build(spec: MotionSpec, folder: Path, robots: Path) -> Path:
     torques = [str(name) for name in motions if str(name).startswith(("tau", "current"))]
     write_table(home / "visible" / "motions.csv", motions[~test])
     write_table(home / "visible" / "test_motions.csv", motions[test].drop(columns=torques))
-    write_table(home / "sealed" / "test.csv", motions[test])
+    torques_read = table(world.arm.session, world.recorded, columns, None)
+    write_table(home / "sealed" / "test.csv", torques_read[test])
     write_yaml(home / "visible" / "robot.yaml", _visible_robot(robots / f"{spec.arm}.yaml", world))
     write_yaml(home / "sealed" / "truth.yaml", _truth(world))
     return home
