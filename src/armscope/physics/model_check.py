@@ -25,6 +25,8 @@ DEEPEST_DRIVER = 4
 """Levels of drivers of drivers."""
 LARGEST_ARGUMENT = 1e12
 """Of a driver: seconds since 1970 are the largest numbers that stand there."""
+RUNS = ("runs", "later")
+"""What arguments are called that are any number of runs."""
 
 
 class Reader:
@@ -136,10 +138,14 @@ class Reader:
         names = [each.name for each in parameters if each.kind is not inspect.Parameter.VAR_POSITIONAL]
         required = sum(each.default is inspect.Parameter.empty for each in parameters if each.name in names)
         counts = {len(names), required}
-        if len(names) < len(parameters):  # as many more as it may be: the ends of a range, or weights of mass moments
-            more = 2 if parameters[-1].name == "ends" else 4 * self.arm.n_joints
+        if len(names) < len(parameters):
+            last = parameters[-1].name
+            if last in RUNS and count >= required:
+                return [*names, *[last] * (count - len(names))]
+            # as many more as it may be: the ends of a range, or weights of mass moments
+            more = 2 if last == "ends" else 4 * self.arm.n_joints
             counts = {required, required + 2} if more == 2 else {required + more}
-            names += [parameters[-1].name] * more
+            names += [last] * more
         if count not in counts:
             rule = (
                 f"{kind!r} takes {' or '.join(map(str, sorted(counts)))} arguments: {', '.join(dict.fromkeys(names))}"
@@ -151,10 +157,10 @@ class Reader:
         """An argument of a driver by what it is called."""
         if name in ("source", "load"):
             return self._driver(value, place, depth + 1)
-        if name in ("run", "target"):
+        if name in ("run", "target", *RUNS):
             if isinstance(value, str):
                 return value
-            raise InputError(self.source, place, value, f"a {name} is a name")
+            raise InputError(self.source, place, value, f"a {'run' if name in RUNS else name} is a name")
         if name == "location":
             self._frame(value, ("base", "joint"), place)
             return value
