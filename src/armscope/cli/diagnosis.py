@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from armscope.cli.commands import Commands
+from armscope.cli.commands import Commands, Threads
 
 if TYPE_CHECKING:
     import numpy as np
@@ -38,8 +38,10 @@ def diagnose(
     ] = False,
     orientation: Annotated[bool, typer.Option(help="use measured orientations (qw, qx, qy, qz), too")] = True,
     report: Annotated[bool, typer.Option(help="write report.html and its figures")] = True,
+    threads: Threads = 1,
 ) -> None:
     """Find where simulation and recordings differ, and which physics was left out."""
+    from armscope.cli.cost import DIAGNOSE, announce
     from armscope.compensation.physical import FILE as DOMAIN
     from armscope.compensation.physical import identified_on, save_identified
     from armscope.core.files import writable
@@ -50,6 +52,7 @@ def diagnose(
     from armscope.verdict.files import FILES
 
     arm = load_arm(robot)
+    announce(recordings, DIAGNOSE, threads)
     table = read_recordings(recordings, arm.n_motors)
     writable(output, *FILES, DOMAIN, "report.html")
     for note in table.notes:
@@ -122,14 +125,17 @@ def predict(
     poses: Annotated[Path, typer.Argument(help="a table of motor angles and whatever context the model follows")],
     output: Annotated[Path, typer.Option("--output", "-o", help="table to write: id, run, x_mm, y_mm, z_mm")],
     pose: Annotated[bool, typer.Option(help="orientations qw, qx, qy, qz, too")] = False,
+    threads: Threads = 1,
 ) -> None:
     """Predict where the tool point will be, in the measurement frame (by a robot.yaml: in the base frame)."""
     import pandas as pd
     from scipy.spatial.transform import Rotation
 
+    from armscope.cli.cost import PREDICT, announce
     from armscope.core.files import write_table
     from armscope.core.inputs import read_yaml
 
+    announce(poses, PREDICT, threads)
     if model.suffix == ".json":
         points, rotations, rows = _by_black_box(model, poses, pose)
     elif isinstance(content := read_yaml(model), dict) and {"dh", "urdf"} & set(content):
@@ -190,12 +196,12 @@ def _by_description(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None, Recordings]:
     """As `_by_physics` for an arm that does what its robot.yaml says, nominal or calibrated; in its base frame."""
     from armscope.recordings import read_recordings
-    from armscope.robot import chain, load_arm
+    from armscope.robot import load_arm, tool_frames
 
     arm = load_arm(robot)
     rows = read_recordings(poses, arm.n_motors, measured=False)
-    frames = chain(arm, rows.motor_angles)
-    return frames.tool, frames.tool_rotation if pose else None, rows
+    points, rotations = tool_frames(arm, rows.motor_angles)
+    return points, rotations if pose else None, rows
 
 
 def _by_black_box(

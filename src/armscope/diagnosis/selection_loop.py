@@ -93,8 +93,8 @@ class SelectionLoop:
         self.recordings = recordings
         self.frames, self.progress = frames, progress
         self.block_of_row = block_of_row
-        self.candidates = library(start.arm, recordings)
-        self.families = list(backgrounds(start.arm, recordings).values())
+        self.candidates: list[Placed] = []
+        self.families: list[list[Placed]] = []
         self.model = start
         self.noise = NoiseOfRows(start, self.table, noise, residuals(start, self.table))
         self.last: tuple[Hypothesis, EffectSpace] | None = None
@@ -133,7 +133,7 @@ class SelectionLoop:
 
     def follow(self, other: SelectionLoop, candidates: Sequence[Placed]) -> None:
         """Go on from where the rounds on a sample of the rows ended, with fewer candidates."""
-        self.candidates = list(candidates)
+        self.candidates, self.families = list(candidates), other.families
         self.model, self.last = other.model, other.last
         self.noise.follow(other.noise, residuals(self.model, self.table), other.fit.noise)
 
@@ -148,6 +148,9 @@ class SelectionLoop:
             starts: backgrounds from which the search starts; all of the space's where not given.
             scanning: whether scanned numbers are looked for.
         """
+        if not self.families:  # on all rows of a long table they are those that its sample left
+            self.candidates = library(self.model.arm, self.recordings)
+            self.families = list(backgrounds(self.model.arm, self.recordings).values())
         self.point, payload = _payload(self.model, self.recordings)
         self.space = build_model_space(self.frames, self.families, [*self.candidates, *payload])
         weights = self.noise.weights

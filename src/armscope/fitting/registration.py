@@ -14,7 +14,7 @@ from armscope.physics.frames import TOOL_FRAME, ToolKey, free_frames, tool_keys
 from armscope.physics.model import Base, FittedModel
 from armscope.physics.scene import Part
 from armscope.recordings import Recordings
-from armscope.robot import Arm, chain
+from armscope.robot import Arm, tool_frames
 
 
 def fit_frames(arm: Arm, recordings: Recordings, tool_per_run: bool = False) -> FittedModel:
@@ -31,18 +31,18 @@ def fit_frames(arm: Arm, recordings: Recordings, tool_per_run: bool = False) -> 
     Returns:
         The model, its frames in SI units.
     """
-    frames = chain(arm, recordings.motor_angles)
+    tool, tool_rotation = tool_frames(arm, recordings.motor_angles)
     keys = tool_keys(recordings, tool_per_run)
     which_tool = _tool_of_row(recordings, keys)
     runs, which_run = np.unique(recordings.run, return_inverse=True)
-    poses = FlangePoses(frames.tool, frames.tool_rotation, recordings.positions, which_run, which_tool)
+    poses = FlangePoses(tool, tool_rotation, recordings.positions, which_run, which_tool)
     found = place_frames(poses, poses.start(np.zeros((len(keys), 3)), len(runs)), STEPS.registration, _weights).state
     bases = [Base(*each) for each in zip(found.rotations, found.translations, strict=True)]
     return FittedModel(
         arm,
         {str(run): base for run, base in zip(runs, bases, strict=True)},
         _tool_parts(recordings, tool_per_run, found.tools),
-        tool_turns=_tool_turns(recordings, frames.tool_rotation, bases, which_run, keys, which_tool),
+        tool_turns=_tool_turns(recordings, tool_rotation, bases, which_run, keys, which_tool),
     )
 
 
@@ -76,13 +76,10 @@ def _tool_parts(recordings: Recordings, per_run: bool, tools: Array) -> tuple[Pa
 
 
 def _tool_of_row(recordings: Recordings, keys: list[tuple[str, str | None]]) -> NDArray[np.intp]:
-    index = {key: number for number, key in enumerate(keys)}
-    return np.array(
-        [
-            index[(str(t), None)] if (str(t), None) in index else index[(str(t), str(r))]
-            for t, r in zip(recordings.target, recordings.run, strict=True)
-        ]
-    )
+    numbers = np.empty(len(recordings), dtype=np.intp)
+    for number, (target, run) in enumerate(keys):
+        numbers[(recordings.target == target) & (True if run is None else recordings.run == run)] = number
+    return numbers
 
 
 def _weights(residual: Array) -> Array:

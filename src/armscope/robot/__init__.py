@@ -2,7 +2,7 @@
 
 from armscope.robot.arm import Arm, load_arm
 from armscope.robot.description import RobotDescription, load_description
-from armscope.robot.kinematics import Chain, chain, forward_kinematics, position_jacobian, twist_jacobian
+from armscope.robot.kinematics import Chain, chain, forward_kinematics, position_jacobian, tool_frames, twist_jacobian
 
 __all__ = [
     "Arm",
@@ -13,5 +13,6 @@ __all__ = [
     "load_arm",
     "load_description",
     "position_jacobian",
+    "tool_frames",
     "twist_jacobian",
 ]
