@@ -26,7 +26,7 @@ MEMORY_MARGIN, TIME_MARGIN = 1.5, 6.0
 """Times what was measured: larger tables, slower machines."""
 MEMORY_STEP_MB = 100
 START_S = 30.0
-"""What a job takes beyond its command: Snakemake's start, the queue, the file system; measured with SLURM on one node."""
+"""What a job takes beyond its command: Snakemake, the queue, the file system; measured with SLURM on one node."""
 
 
 def patterns() -> dict[str, str]:
@@ -95,10 +95,9 @@ def plan(table: pd.DataFrame, worlds: int, cores: int, worlds_per_job: int) -> d
 def page(table: pd.DataFrame) -> str:
     """The part of docs/cluster.md that is made of numbers."""
     lines = ["| rule | jobs measured | longest (s) | CPU (s) | memory (MB) |", "|---|---|---|---|---|"]
-    lines += [
-        f"| `{row['rule']}` | {row['jobs']} | {row['longest_s']:.0f} | {row['longest_cpu_s']:.0f} | {row['most_mb']:.0f} |"
-        for row in table.to_dict("records")
-    ]
+    for row in table.to_dict("records"):
+        numbers = " | ".join(f"{row[name]:.0f}" for name in ("jobs", "longest_s", "longest_cpu_s", "most_mb"))
+        lines.append(f"| `{row['rule']}` | {numbers} |")
     lines += ["", "A proof of 10,000 worlds, planned from these job times", ""]
     lines += ["| cores | worlds per job | jobs | core hours | until the last job ends |", "|---|---|---|---|---|"]
     for cores in (2, 10, 100, 1000):

@@ -28,8 +28,9 @@ from armscope.inference.search import Search
 from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.noise import Growth, Noise
 from armscope.physics.backgrounds import backgrounds
-from armscope.physics.drift import BASE_DRIFT
+from armscope.physics.drift import BASE_DRIFT, base_shifts_of_runs
 from armscope.physics.effect import Placed
+from armscope.physics.frames import set_ups_of
 from armscope.physics.freeform import refined
 from armscope.physics.model import FittedModel
 from armscope.physics.payload import PAYLOAD_ERROR, payload_errors
@@ -149,8 +150,9 @@ class SelectionLoop:
             scanning: whether scanned numbers are looked for.
         """
         if not self.families:  # on all rows of a long table they are those that its sample left
-            self.candidates = library(self.model.arm, self.recordings)
-            self.families = list(backgrounds(self.model.arm, self.recordings).values())
+            arm, shifts = self.model.arm, base_shifts_of_runs(set_ups_of(self.frames))
+            self.candidates = [*library(arm, self.recordings), *shifts]
+            self.families = list(backgrounds(arm, self.recordings).values())
         self.point, payload = _payload(self.model, self.recordings)
         self.space = build_model_space(self.frames, self.families, [*self.candidates, *payload])
         weights = self.noise.weights
