@@ -36,7 +36,7 @@ class Cost:
         return self.start_mb + 1e-3 * self.row_kb * rows
 
 
-DIAGNOSE = Cost(start_s=20.0, row_us=170.0, start_mb=500.0, row_kb=1.0)
+DIAGNOSE = Cost(start_s=20.0, row_us=160.0, start_mb=500.0, row_kb=0.85)
 PREDICT = Cost(start_s=3.0, row_us=20.0, start_mb=250.0, row_kb=0.7)
 COMPENSATE = Cost(start_s=3.0, row_us=100.0, start_mb=300.0, row_kb=0.9)
 
@@ -58,9 +58,7 @@ def announce(table: Path, cost: Cost, threads: int) -> None:
     needed, free = cost.megabytes(rows), _free_mb()
     text += f" and {needed / 1e3:.1f} GB of memory"
     if needed > free:
-        text += (
-            f", but {free / 1e3:.1f} GB are free here: take every {int(needed / free) + 1}th row, or a larger machine"
-        )
+        text += f", but {free / 1e3:.1f} GB are free here: keep one row in {int(needed / free) + 1}, or take a larger machine"
     print(f"note: {text}", file=sys.stderr, flush=True)
 
 

@@ -74,6 +74,9 @@ class LinearisedTable:
             model: whose posture it is.
             order: (N,) of rows, unless the table has its own.
             part: which rows of that order, where nothing is kept.
+
+        Returns:
+            Numbers of n rows, and how the model stands there.
         """
         if not self.keeps:
             yield from ((rows, model.posture(scene)) for rows, scene in self._made(model, order, part))
