@@ -62,7 +62,7 @@ def _reference(home: Path, name: str, command: list[str]) -> tuple[dict[str, str
 
 
 def starved(home: Path) -> Iterator[Outcome]:
-    """A full disk, a read-only disk, too little memory, nobody who reads: one clear line, an exit code, nothing left."""
+    """A full or read-only disk, too little memory, nobody who reads: one clear line, an exit code, nothing left."""
     for what, codes, trial in (
         ("a disk of 64 kB", {74}, _full_disk),
         ("a read-only disk", {2, 74}, _read_only),

@@ -58,7 +58,8 @@ def announce(table: Path, cost: Cost, threads: int) -> None:
     needed, free = cost.megabytes(rows), _free_mb()
     text += f" and {needed / 1e3:.1f} GB of memory"
     if needed > free:
-        text += f", but {free / 1e3:.1f} GB are free here: keep one row in {int(needed / free) + 1}, or take a larger machine"
+        text += f", but {free / 1e3:.1f} GB are free here: "
+        text += f"keep one row in {int(needed / free) + 1}, or take a larger machine"
     print(f"note: {text}", file=sys.stderr, flush=True)
 
 

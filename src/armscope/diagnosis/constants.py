@@ -44,11 +44,23 @@ class LoopBudget(Constants):
         "share of the rows that may still come and go when the rounds end",
         "judgement: less than a row in most tables",
     )
+    sizes_of_gears: tuple[int, ...] = constant(
+        (2, 3),
+        "sizes of all gears' waves from which the search with finer ones starts",
+        "judgement: between ground and ordinary gears",
+        unit="indices",
+    )
     within: float = constant(
         0.3,
         "width of the prior of a name within a background",
         "judgement: free, but not so that several run against each other",
         unit="sizes",
+    )
+    surely_negative: float = constant(
+        3.0,
+        "by which a compliance about one of two axes must be negative to be taken out",
+        "convention: three; less is a stiff axis and noise",
+        unit="standard errors",
     )
     sample_rows: int = constant(3000, "longer tables are diagnosed on so many first", "judgement: time", unit="rows")
     rows_of_a_group: int = constant(
@@ -197,6 +209,11 @@ class TellingRules(Constants):
     )
     background_seen_nats: float = constant(
         5.0, "evidence from which a background is said to be there", "judgement: 150 to 1", unit="nats"
+    )
+    determined: float = constant(
+        0.5,
+        "of a value's prior width that its standard error must be below to be told",
+        "judgement: half of it is data",
     )
     most_bad_shots: float = constant(
         0.1, "share of rows that fit nothing beyond which they are no bad shots", "judgement: a tenth is a pattern"

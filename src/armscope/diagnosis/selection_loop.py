@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Indices, Progress
 from armscope.diagnosis.constants import LOOP
+from armscope.diagnosis.earning import earned
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.row_noise import NoiseOfRows
@@ -20,6 +21,7 @@ from armscope.diagnosis.scans.pauses import pauses
 from armscope.fitting.joint_scatter import Scattered
 from armscope.fitting.linearisation import LinearisedTable, Measured, linearised, normal_equations_by_block, residuals
 from armscope.fitting.refit import Refit, refit
+from armscope.inference.edits import replaced
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.normal_equations import NormalEquations, total
@@ -27,11 +29,14 @@ from armscope.inference.problem import Problem, background_sizes, build_problem
 from armscope.inference.search import Search
 from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.noise import Growth, Noise
-from armscope.physics.backgrounds import backgrounds
+from armscope.physics.backgrounds import FAMILIES, backgrounds, gear_waves
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.drift import BASE_DRIFT, base_shifts_of_runs
-from armscope.physics.effect import Placed
+from armscope.physics.effect import Effect, Placed
+from armscope.physics.elastic import TWO_AXES, stiffest_of_two
 from armscope.physics.frames import set_ups_of
 from armscope.physics.freeform import refined
+from armscope.physics.loads import STATED_MASSES, mass_errors
 from armscope.physics.model import FittedModel
 from armscope.physics.payload import PAYLOAD_ERROR, payload_errors
 from armscope.physics.registry import library
@@ -98,6 +103,7 @@ class SelectionLoop:
         self.families: list[list[Placed]] = []
         self.model = start
         self.noise = NoiseOfRows(start, self.table, noise, residuals(start, self.table))
+        self.loads: list[Placed] = []
         self.last: tuple[Hypothesis, EffectSpace] | None = None
 
     def run(self, of_a_sample: bool = False) -> Selected:
@@ -118,15 +124,19 @@ class SelectionLoop:
             previous = state
             self.candidates = [*self.candidates, *new]
         self._refine(of_a_sample)
-        return self.selected()
+        return self.selected() if of_a_sample else self.earned()
 
     def _refine(self, of_a_sample: bool) -> None:
-        """Finer forms of the curves that were chosen; what they can't follow may be scatter."""
+        """Finer forms of the curves and gears that were chosen; what they can't follow may be scatter."""
         fine = [refined(self.model.arm, self.recordings, self.space.placed[c]) for c in self.best.candidates]
-        if not any(fine):
+        gears, starts = FAMILIES.index("transmission"), self._where_it_ended()
+        if not self.best.background[gears] and not any(fine):
             return
+        # several curves of several joints may be what all gears have a little of
+        self.families[gears] = gear_waves(self.recordings, PLAUSIBLE.fine_waves)
+        starts = [replaced(start, gears, size) for start in starts or [] for size in LOOP.sizes_of_gears]
         self.candidates = [*self.candidates, *[placed for placed in fine if placed is not None]]
-        self.round(self._where_it_ended())
+        self.round([*(self._where_it_ended() or []), *starts])
         # what looked like scatter may have been what the coarse curves could not follow
         self.noise.look_for_scatter()
         if not of_a_sample:
@@ -153,8 +163,8 @@ class SelectionLoop:
             arm, shifts = self.model.arm, base_shifts_of_runs(set_ups_of(self.frames))
             self.candidates = [*library(arm, self.recordings), *shifts]
             self.families = list(backgrounds(arm, self.recordings).values())
-        self.point, payload = _payload(self.model, self.recordings)
-        self.space = build_model_space(self.frames, self.families, [*self.candidates, *payload])
+        self.point, payload, self.loads = _on_loads(self.model, self.recordings)
+        self.space = build_model_space(self.frames, self.families, [*self.candidates, *payload], self.loads)
         weights = self.noise.weights
         self.blocks = normal_equations_by_block(self.space.layout, self.point, self.table, weights, self.block_of_row)
         self.problem = build_problem(self.space, total(self.blocks), self.noise.least_mm)
@@ -179,16 +189,33 @@ class SelectionLoop:
             for c in self.best.chosen
         ]
         small = list(zip(self.families, background_sizes(self.problem, self.best.background), strict=True))
+        (masses,) = self.space.companions
+        small.append((self.loads, float(masses.joins(self.best.candidates, self.best.background))))
         rows, white = self.noise.rows, self.noise.weights.whitening
         return refit(self.point, self.table, self.frames, small, effects, rows, self.noise.least_mm, white)
 
     def _against_their_load(self) -> list[int]:
-        """Names within a background whose fitted values turned out negative where they can't be."""
+        """Names whose fitted values turned out negative where they can't be: in a background, or about an axis."""
         return [
             c.candidate
             for c, part in zip(self.best.chosen, self.fit.model.parts, strict=True)
-            if c.nested and self.space.nonnegative[c.candidate] and part.values[0] < 0
+            if (c.nested and self.space.nonnegative[c.candidate] and part.values[0] < 0)
+            or (part.placed.variant == TWO_AXES and self._pushes(part))
         ]
+
+    def earned(self) -> Selected:
+        """Where the rounds stand, without the names that make held-out rows worse."""
+        left = earned(self.problem, self.blocks, self.best)
+        if len(left.chosen) < len(self.best.chosen):
+            self.best = left
+            self.fit = self._fitted()
+            self.model = self.fit.model
+        return self.selected()
+
+    def _pushes(self, part: Part) -> bool:
+        """Whether a compliance about two axes is surely negative about one of them."""
+        pushing, stderr = stiffest_of_two(part.values, self.fit.covariance_of(part.placed))
+        return pushing < -LOOP.surely_negative * stderr
 
     def selected(self) -> Selected:
         """Where the rounds stand."""
@@ -243,14 +270,26 @@ class SelectionLoop:
                 yield from pauses(context, search.without(self.best, replaced), drifts[0])
 
 
-def _payload(model: FittedModel, recordings: Recordings) -> tuple[FittedModel, list[Placed]]:
-    """The model with its payload errors written anew, and payload errors on top of what gives way in it."""
-    stiff = [part for part in model.parts if part.placed.effect is not PAYLOAD_ERROR]
-    placed = list(payload_errors(recordings, [part for part in stiff if part.placed.parametrisation == "plain"]))
-    by_variant = {p.variant: p for p in placed}
-    errors = [
-        Part(by_variant[part.placed.variant], part.values)
-        for part in model.parts
-        if part.placed.effect is PAYLOAD_ERROR and part.placed.variant in by_variant
-    ]
-    return replace(model, parts=(*stiff, *errors)), placed
+def _on_loads(model: FittedModel, recordings: Recordings) -> tuple[FittedModel, list[Placed], list[Placed]]:
+    """The model with its errors of loads written anew, and those errors on top of what gives way in it.
+
+    Args:
+        model: as fitted.
+        recordings: the rows.
+
+    Returns:
+        The model, payload errors, and the masses' errors.
+    """
+    parts = [part for part in model.parts if part.placed.effect is not PAYLOAD_ERROR]
+    background = [part for part in model.background if part.placed.effect is not STATED_MASSES]
+    payload = list(payload_errors(recordings, [part for part in parts if part.placed.parametrisation == "plain"]))
+    masses = mass_errors(model.arm, recordings, [*background, *parts])
+    by_place = {(p.key, p.variant): p for p in (*payload, *masses)}
+
+    def anew(some: Sequence[Part], effect: Effect) -> list[Part]:
+        known = [(part, by_place.get((part.placed.key, part.placed.variant))) for part in some]
+        return [Part(p, part.values) for part, p in known if p is not None and p.effect is effect]
+
+    parts += anew(model.parts, PAYLOAD_ERROR)
+    background += anew(model.background, STATED_MASSES)
+    return replace(model, parts=tuple(parts), background=tuple(background)), payload, masses

@@ -62,6 +62,12 @@ class PlausibleSizes(Constants):
         "judgement: flexible splines and discs show the first harmonics of two per turn; time",
         unit="waves",
     )
+    fine_waves: int = constant(
+        30,
+        "the same once the arm is known to have them",
+        "judgement: finer ones are lines of single stages, which are scanned; time",
+        unit="waves",
+    )
     mesh_rad: float = constant(
         1e-3,
         "more waves per turn",
@@ -127,6 +133,12 @@ class PlausibleSizes(Constants):
         "turn of base or tool in a jump or drift",
         "judgement: as its shift at 1 m",
         unit="rad",
+    )
+    mass_share: float = constant(
+        0.1,
+        "error of a link's stated mass as a share of it",
+        "judgement: identified masses differ from the makers' by 10-30 %: cables, grease and covers are not in the "
+        "drawing; at 0.2 a factor common to all masses passes for a payload's",
     )
     payload_share: float = constant(
         0.5, "error of a payload's mass as a share of the largest stated", "judgement: a gripper that was forgotten"
