@@ -30,7 +30,7 @@ app = typer.Typer(
     name="armscope",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
-    add_completion=False,
+    add_completion=True,
 )
 app.add_typer(diagnosis.app)
 app.add_typer(compensation.app)

@@ -100,11 +100,8 @@ def fit_error_model(
     orientation: Annotated[bool, typer.Option(help="fit measured orientations (qw, qx, qy, qz), too")] = True,
 ) -> None:
     """Fit one of the paper's error models to recordings, ready for `armscope compensate`: three axes, or all six."""
-    from armscope.compensation import fit_error_model as fit
-    from armscope.compensation import save_error_model
+    from armscope.cli.robots import robot_of, table_of
     from armscope.core.inputs import nearest
-    from armscope.recordings import read_recordings
-    from armscope.robot import load_arm
 
     methods = {"least-squares": "least squares", "swarm": "swarm"}
     if method not in methods:
@@ -113,8 +110,12 @@ def fit_error_model(
         raise InputError("--regions", "", regions, "auto or 1, 2, 4, ...; more than one by least squares only")
     if products and (method != "least-squares" or regions != "1"):
         raise InputError("--products", "", f"--method {method} --regions {regions}", "least squares, one region")
-    arm = load_arm(robot)
-    table = read_recordings(recordings, arm.n_motors)
+    arm = robot_of(robot)
+    table = table_of(recordings, arm.n_motors)
+
+    from armscope.compensation import fit_error_model as fit
+    from armscope.compensation import save_error_model
+
     for column, wanted, values in (("run", run, table.run), ("target", target, table.target)):
         if wanted is not None and wanted not in values:
             cure = nearest(wanted, set(values.tolist()))

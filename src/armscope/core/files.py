@@ -242,7 +242,12 @@ def write_table(path: Path | str, table: pd.DataFrame, digits: int = 10) -> None
 
 def write_json(path: Path | str, content: Any) -> None:
     """Write JSON, indented, with numpy scalars and arrays as plain numbers; NaN becomes null."""
-    write_text(path, json.dumps(_plain(content), indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+    write_text(path, as_json(content) + "\n")
+
+
+def as_json(content: Any) -> str:
+    """JSON as `write_json` writes it."""
+    return json.dumps(_plain(content), indent=2, ensure_ascii=False, allow_nan=False)
 
 
 def write_yaml(path: Path | str, content: Any) -> None:
