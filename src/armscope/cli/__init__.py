@@ -14,6 +14,7 @@ from armscope.cli import (
     calibration,
     compensation,
     diagnosis,
+    excite,
     init,
     outlook,
     paper,
@@ -36,6 +37,7 @@ app.add_typer(diagnosis.app)
 app.add_typer(compensation.app)
 app.add_typer(outlook.app)
 app.add_typer(poses.app)
+app.add_typer(excite.app)
 app.add_typer(calibration.app)
 app.add_typer(recordings.app)
 app.add_typer(init.app)
