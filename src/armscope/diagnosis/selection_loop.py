@@ -99,8 +99,8 @@ class SelectionLoop:
         self.recordings = recordings
         self.frames, self.progress = frames, progress
         self.block_of_row = block_of_row
-        self.candidates = [*library(start.arm, recordings), *base_shifts_of_runs(set_ups_of(frames))]
-        self.families = list(backgrounds(start.arm, recordings).values())
+        self.candidates: list[Placed] = []
+        self.families: list[list[Placed]] = []
         self.model = start
         self.noise = NoiseOfRows(start, self.table, noise, residuals(start, self.table))
         self.loads: list[Placed] = []
@@ -146,8 +146,8 @@ class SelectionLoop:
 
     def follow(self, other: SelectionLoop, candidates: Sequence[Placed]) -> None:
         """Go on from where the rounds on a sample of the rows ended, with fewer candidates."""
-        self.candidates = list(candidates)
-        self.model, self.last, self.families = other.model, other.last, other.families
+        self.candidates, self.families = list(candidates), other.families
+        self.model, self.last = other.model, other.last
         self.noise.follow(other.noise, residuals(self.model, self.table), other.fit.noise)
 
     def _where_it_ended(self) -> list[BackgroundSizes] | None:
@@ -161,6 +161,10 @@ class SelectionLoop:
             starts: backgrounds from which the search starts; all of the space's where not given.
             scanning: whether scanned numbers are looked for.
         """
+        if not self.families:  # on all rows of a long table they are those that its sample left
+            arm, shifts = self.model.arm, base_shifts_of_runs(set_ups_of(self.frames))
+            self.candidates = [*library(arm, self.recordings), *shifts]
+            self.families = list(backgrounds(arm, self.recordings).values())
         self.point, payload, self.loads = _on_loads(self.model, self.recordings)
         self.space = build_model_space(self.frames, self.families, [*self.candidates, *payload], self.loads)
         weights = self.noise.weights
