@@ -6,13 +6,14 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: help reproduce test benchmark proof fuzz clean
+.PHONY: help reproduce test benchmark proof fuzz docs clean
 help:
 	@echo "make reproduce   the paper, end to end: Table 2, Figs 1-11, claims, report"
 	@echo "make test        lint, types, unit tests, a small run of the whole workflow"
 	@echo "make benchmark   speed beside other packages, as ratios from one run"
 	@echo "make proof       the diagnosis on worlds with concealed effects"
-	@echo "make fuzz        an hour of bad files for every reader (SECONDS=60: a minute)"
+	@echo "make fuzz        an hour of bad files (SECONDS=60: a minute), and at least 3000 for every reader"
+	@echo "make docs        tutorial, gallery, reference and API as a site: site/index.html"
 	@echo "make clean       remove .venv and results"
 
 reproduce: .venv/installed
@@ -43,6 +44,16 @@ proof: .venv/installed
 SECONDS ?= 3600
 fuzz: .venv/installed-test
 	$(BIN)/python -m tests.fuzz --seconds $(SECONDS)
+	$(BIN)/python -m tests.fuzz --files 3000 --seconds 1e6
+
+# the pages as a site that works from files: site/index.html
+docs: .venv/installed-docs
+	$(BIN)/python -m tools.site
+	$(BIN)/mkdocs build --quiet --strict
+
+.venv/installed-docs: .venv/installed requirements-docs.txt
+	$(BIN)/pip install --quiet --disable-pip-version-check -r requirements-docs.txt
+	@touch $@
 
 .venv/bin/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "armscope needs python 3.11 or newer: make PYTHON=/path/to/python3.11"; exit 1; }

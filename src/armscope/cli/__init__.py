@@ -12,6 +12,7 @@ import typer
 
 from armscope.cli import (
     calibration,
+    comparison,
     compensation,
     diagnosis,
     init,
@@ -34,6 +35,7 @@ app = typer.Typer(
 )
 app.add_typer(diagnosis.app)
 app.add_typer(compensation.app)
+app.add_typer(comparison.app)
 app.add_typer(outlook.app)
 app.add_typer(poses.app)
 app.add_typer(calibration.app)
