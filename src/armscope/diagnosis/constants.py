@@ -235,6 +235,7 @@ class TellingRules(Constants):
     )
     grid: int = constant(361, "at which a curve is told", "convention: a turn in degrees", unit="points")
     atlas_rows: int = constant(4000, "that the atlas looks at, spread evenly", "judgement: time", unit="rows")
+    implausible_values: int = constant(3, "told at most", "judgement: nobody reads more", unit="values")
     undetermined: float = constant(
         0.7,
         "of a plausible size, beyond which a value's standard error leaves it undetermined",
