@@ -15,6 +15,7 @@ from armscope.cli import (
     comparison,
     compensation,
     diagnosis,
+    excite,
     init,
     outlook,
     paper,
@@ -38,6 +39,7 @@ app.add_typer(compensation.app)
 app.add_typer(comparison.app)
 app.add_typer(outlook.app)
 app.add_typer(poses.app)
+app.add_typer(excite.app)
 app.add_typer(calibration.app)
 app.add_typer(recordings.app)
 app.add_typer(init.app)
