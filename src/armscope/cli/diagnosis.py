@@ -38,8 +38,24 @@ def diagnose(
     ] = False,
     orientation: Annotated[bool, typer.Option(help="use measured orientations (qw, qx, qy, qz), too")] = True,
     report: Annotated[bool, typer.Option(help="write report.html and its figures")] = True,
+    cutoff: Annotated[
+        float | None, typer.Option(min=0.01, help="motions: of the low-pass, Hz; chosen if left out")
+    ] = None,
+    held_out: Annotated[list[str] | None, typer.Option(help="motions: a run that takes no part in the fit")] = None,
 ) -> None:
-    """Find where simulation and recordings differ, and which physics was left out."""
+    """Find where simulation and recordings differ, and which physics was left out.
+
+    A table of torques or currents over time (motions.csv) is recognised by its columns.
+    """
+    from armscope.recordings.motions import is_motion_table
+
+    if is_motion_table(recordings):
+        from armscope.cli.motion import diagnose_motions
+
+        with _progress("diagnosing") as tell:
+            lines = diagnose_motions(recordings, robot, output, (cutoff, held_out or [], run or []), report, tell)
+        print("\n".join([*lines, f"{output}/{'report.html' if report else 'verdict.json'}"]))
+        return
     from armscope.compensation.physical import FILE as DOMAIN
     from armscope.compensation.physical import identified_on, save_identified
     from armscope.core.files import writable

@@ -177,16 +177,23 @@ def as_recordings(
     return replace(recordings, extra=table[unknown] if unknown else None, notes=notes)
 
 
-class _Reader:
-    """Takes the columns of the contract out of a table, each checked as it is taken."""
+class Columns:
+    """Takes columns out of a table, each checked as it is taken; errors name file, row and column.
+
+    Args:
+        table: every column as text or numbers.
+        source: where it was read, for errors.
+    """
 
     def __init__(self, table: pd.DataFrame, source: Path | str) -> None:
         self.table, self.source = table, source
 
     def error(self, row: int, column: str, found: object, rule: str, cure: str = "") -> InputError:
+        """What is wrong in a row (from 0) of a column, as an error that can be raised."""
         return InputError(self.source, f"row {row + 2}, column {column}", found, rule, cure)
 
     def numbers(self, column: str, required: bool) -> Array:
+        """(N,) a column of finite numbers; NaN where it is empty, unless every row must hold one."""
         values = self.table[column]
         if not pd.api.types.is_numeric_dtype(values) or pd.api.types.is_bool_dtype(values):
             parsed = pd.to_numeric(values, errors="coerce")
@@ -214,6 +221,7 @@ class _Reader:
         return numbers
 
     def text(self, column: str) -> NDArray[np.str_]:
+        """(N,) a column of words; "" where there is none."""
         if column not in self.table:
             return np.full(len(self.table), "")
         return self.table[column].fillna("").astype(str).to_numpy(dtype=str)
@@ -227,6 +235,7 @@ class _Reader:
         return values
 
     def optional(self, columns: list[str], scale: float, squeeze: bool = False) -> Array | None:
+        """(N, k) columns that come together, in their unit times ``scale``; None where there are none."""
         present = [name for name in columns if name in self.table]
         if not present:
             return None
@@ -237,6 +246,10 @@ class _Reader:
         if np.isnan(values).all():
             return None
         return values[:, 0] if squeeze else values
+
+
+class _Reader(Columns):
+    """Takes the columns of the contract out of a table."""
 
     def motor_angles(self, n_motors: int | None) -> Array:
         found = {
