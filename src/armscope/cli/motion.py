@@ -28,7 +28,10 @@ def diagnose_motions(
         tell: hears what is being done.
 
     Returns:
-        What to print: notes, then the headline.
+        What to print.
+
+    Raises:
+        InputError: a run that is asked for is not there, or the table can't be used.
     """
     import numpy as np
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from armscope.core.inputs import InputError
 from armscope.motion.constants import CHECK, LIBRARY
-from armscope.motion.rows import Rows
+from armscope.motion.rows import MotionRows
 from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.schema import Notice
@@ -68,7 +68,7 @@ def _one_way(motions: Motions) -> list[Notice]:
     return notices
 
 
-def check_rows(rows: Rows, source: str) -> list[Notice]:
+def check_rows(rows: MotionRows, source: str) -> list[Notice]:
     """What shows once samples have become rows.
 
     Raises:

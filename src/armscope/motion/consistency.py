@@ -9,11 +9,11 @@ import numpy as np
 from armscope.core.types import Array, Indices
 from armscope.inference.normal_equations import NormalEquations
 from armscope.motion.constants import CONSISTENCY
-from armscope.motion.selection import Selected, coefficients_of
+from armscope.motion.selection import SelectedCauses, coefficients_of
 
 
 @dataclass(frozen=True, eq=False)
-class Agreement:
+class PathAgreement:
     """What the blocks say of one cause.
 
     Attributes:
@@ -48,7 +48,7 @@ class Agreement:
         return f"by itself, each path gives {shares} % of the size from all"
 
 
-def agreement(selected: Selected, candidate: int) -> Agreement:
+def agreement(selected: SelectedCauses, candidate: int) -> PathAgreement:
     """A cause's size from each block by itself: the factor on its fitted columns, all else fitted anew there.
 
     Args:
@@ -69,7 +69,7 @@ def agreement(selected: Selected, candidate: int) -> Agreement:
         size, error = _factor(block.scaled(problem.scale), columns, own, others, (precision, mean), best.noise)
         sizes.append(size)
         errors.append(error)
-    return Agreement(np.array(sizes), np.array(errors))
+    return PathAgreement(np.array(sizes), np.array(errors))
 
 
 def _factor(

@@ -97,6 +97,8 @@ class CutoffRules(Constants):
     widest_hz: float = constant(50.0, "largest cut-off", "judgement: arms' drives do not follow faster", unit="Hz")
     least_hz: float = constant(2.0, "smallest cut-off", "judgement: motions of arms", unit="Hz")
     window: int = constant(256, "of the spectra", "judgement: some tenths of a hertz", unit="rows")
+    drowned: float = constant(2.0, "of what is left, below which the model drowns", "judgement: neither is exact")
+    bins: int = constant(4, "in a row that must be drowned", "judgement: gaps in a spectrum are no end", unit="bins")
     fallback: float = constant(
         0.05, "of the sampling rate, where no spectrum can be taken", "judgement: as in the sets"
     )
@@ -118,6 +120,17 @@ class CheckRules(Constants):
 class LibraryRules(Constants):
     """Where the library stops."""
 
+    least_shown: float = constant(
+        1e-3,
+        "of the arm's own torque that a change by one unit must show for its column to compete",
+        "judgement: what shows less can't be told",
+    )
+    redundant_columns: float = constant(
+        0.02, "of a column, beyond the others of its cause, that must be its own", "judgement: less can't be told apart"
+    )
+    least_body: float = constant(
+        0.1, "of the moving link's mass, of a body that may be missing", "judgement: lighter ones show too little"
+    )
     redundant: float = constant(
         1e-5,
         "singular value, to the largest, below which a combination of masses is not told",
@@ -147,6 +160,9 @@ class LibraryRules(Constants):
     )
     knots_of_position: int = constant(10, "of a free curve of the position", "judgement: a few bends", unit="columns")
     knots_of_others: int = constant(7, "of other free curves", "judgement: a few bends", unit="columns")
+    knots_of_time: int = constant(
+        4, "of a drift", "judgement: a cubic; what changes faster is no drift", unit="columns"
+    )
     least_warming_k: float = constant(
         2.0, "by which a temperature must change to show anything", "judgement: sensors' own error", unit="K"
     )
@@ -167,6 +183,17 @@ class PriorRules(Constants):
     lightest_share: float = constant(
         0.1, "of the mean mass, that a link counts as at least", "judgement: links of a few grams in a file are stubs"
     )
+    reversal: float = constant(
+        0.05,
+        "of a joint's torque: how far the shape of friction's change of sides is free",
+        "judgement: a part of dry friction",
+    )
+    timing: float = constant(
+        0.25,
+        "by which torque and motion may be apart unnamed",
+        "derived: half a sample is what sampling leaves open",
+        unit="samples",
+    )
     gain: float = constant(
         0.1,
         "by which a drive gain is off where no uncertainty is stated",
@@ -181,7 +208,7 @@ class PriorRules(Constants):
 
 
 @dataclass(frozen=True)
-class NoiseRules(Constants):
+class RowNoiseRules(Constants):
     """How much rows count."""
 
     least_share: float = constant(
@@ -192,6 +219,12 @@ class NoiseRules(Constants):
         5.0, "autocorrelation times after which the sum ends", "convention: Sokal 1997", unit="times"
     )
     rows_at_once: int = constant(20_000, "summed at a time, in double precision", "judgement: memory", unit="rows")
+    names_for_a_curve: int = constant(
+        3, "in place of one free curve, at most", "judgement: more are a curve", unit="causes"
+    )
+    nearly_all: float = constant(
+        0.7, "of a curve's evidence that names must have to take its place", "judgement: most of what it explains"
+    )
     rounds: int = constant(
         3, "of noise and selection, at most", "judgement: names rest after two as a rule", unit="rounds"
     )
@@ -220,7 +253,7 @@ class ConsistencyRules(Constants):
 
 
 @dataclass(frozen=True)
-class TellingRules(Constants):
+class MotionTelling(Constants):
     """How much is told."""
 
     minor_share: float = constant(
@@ -240,8 +273,8 @@ TIMING = TimingRules()
 FILTER = FilterRules()
 LIBRARY = LibraryRules()
 PRIOR = PriorRules()
-NOISE = NoiseRules()
+NOISE = RowNoiseRules()
 CONSISTENCY = ConsistencyRules()
-TELLING = TellingRules()
+TELLING = MotionTelling()
 CUTOFF = CutoffRules()
 CHECK = CheckRules()

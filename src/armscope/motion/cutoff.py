@@ -10,7 +10,7 @@ from scipy.signal import welch
 from armscope.core.types import Array
 from armscope.motion.constants import CUTOFF
 from armscope.motion.preparation import Preparation, preparation
-from armscope.motion.rows import Layout, Rows, SoFar, build_rows
+from armscope.motion.rows import MotionRows, SoFar, TorqueLayout, build_rows
 from armscope.motion.timing import Stretch
 from armscope.motion.weights import fitted_together
 from armscope.robot.dynamics import MovingArm
@@ -35,7 +35,9 @@ def chosen_cutoff(arm: MovingArm, stretches: Sequence[Stretch], asked: float | N
         return preparation(rate, asked, "as asked")
     generous = preparation(rate, min(CUTOFF.widest * rate, CUTOFF.widest_hz), "generous")
     longest = max(stretches, key=len)
-    rows = build_rows(Layout(arm, (), False), [longest], generous, SoFar(arm.inertial, np.zeros((arm.n_motors, 4))))
+    rows = build_rows(
+        TorqueLayout(arm, (), False), [longest], generous, SoFar(arm.inertial, np.zeros((arm.n_motors, 4)))
+    )
     if len(rows) < CUTOFF.window:
         return preparation(rate, CUTOFF.fallback * rate, "a share of the sampling rate: the motion is short")
     crossing = _crossing(rows, rate / generous.every)
@@ -43,15 +45,17 @@ def chosen_cutoff(arm: MovingArm, stretches: Sequence[Stretch], asked: float | N
     return preparation(rate, float(f"{cutoff:.2g}"), "where the model explains as much as it leaves")
 
 
-def _crossing(rows: Rows, rate: float) -> float:
+def _crossing(rows: MotionRows, rate: float) -> float:
     """Hz up to which the model's torque has more power than what it leaves, all joints in units of their noise."""
     modelled = rows.nominal + rows.modelled(fitted_together(rows))
     left = rows.torque - modelled
     unit = np.maximum(left.std(axis=0), 1e-12)
     frequency, explained = _spectrum(modelled / unit, rate)
     _, remains = _spectrum(left / unit, rate)
-    above = np.flatnonzero(explained > remains)
-    return float(frequency[above[-1]]) if len(above) else CUTOFF.least_hz
+    drowned = explained < CUTOFF.drowned * remains
+    peak = int(np.argmax(explained))
+    several = np.convolve(drowned[peak:], np.ones(CUTOFF.bins), mode="valid") == CUTOFF.bins
+    return float(frequency[peak + int(np.argmax(several))]) if several.any() else float(frequency[-1])
 
 
 def _spectrum(values: Array, rate: float) -> tuple[Array, Array]:

@@ -9,12 +9,13 @@ import numpy as np
 
 from armscope.core.types import Array, Indices
 from armscope.inference.evidence import Hypothesis, evaluate
+from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.normal_equations import total
-from armscope.inference.problem import Problem
+from armscope.inference.problem import Problem, SelectedEffect
 from armscope.inference.search import Search
 from armscope.motion.constants import NOISE
-from armscope.motion.rows import Rows
-from armscope.motion.selection import Selected, coefficients_of
+from armscope.motion.rows import MotionRows
+from armscope.motion.selection import SelectedCauses, coefficients_of
 from armscope.motion.verdict import HeldOutMotion, Step, relative
 
 
@@ -28,13 +29,13 @@ class Fold:
         problem, found: on the rest.
     """
 
-    rows: Rows
+    rows: MotionRows
     which: Indices
     problem: Problem
     found: Hypothesis
 
 
-def folds(selected: Selected) -> list[Fold]:
+def folds(selected: SelectedCauses) -> list[Fold]:
     """Runs in turn; of a single run, the last two fifths once."""
     count = len(selected.blocks)
     single = len(set(selected.rows.run.tolist())) == 1
@@ -51,7 +52,7 @@ def folds(selected: Selected) -> list[Fold]:
     return made
 
 
-def own_fold(selected: Selected, rows: Rows) -> Fold:
+def own_fold(selected: SelectedCauses, rows: MotionRows) -> Fold:
     """Runs that were kept out of the selection altogether."""
     return Fold(rows, np.arange(len(rows)), selected.problem, selected.best)
 
@@ -90,7 +91,7 @@ def _modelled(fold: Fold, hypothesis: Hypothesis) -> Array:
 
 
 def waterfall(
-    selected: Selected, parts: Sequence[Fold], order: Sequence[int], labels: Sequence[str]
+    selected: SelectedCauses, parts: Sequence[Fold], order: Sequence[int], labels: Sequence[str]
 ) -> tuple[Step, ...]:
     """Errors with one cause after the other, each fitted again.
 
@@ -115,16 +116,16 @@ def waterfall(
         background = best.background if masses else selected.space.no_background
         chosen = tuple(by_candidate[c] for c in members)
 
-        def error(
-            problem: Problem, rows: Rows, which: Indices, chosen=chosen, background=background
-        ) -> tuple[Array, Array]:  # type: ignore[no-untyped-def]
-            fitted = evaluate(problem, chosen, background, best.noise)
-            left = rows.torque - rows.nominal - rows.modelled(coefficients_of(problem, fitted))
-            return left[which], rows.torque[which]
-
-        fitted = relative(*error(selected.problem, selected.rows, np.arange(len(selected.rows))))
-        held = [error(fold.problem, fold.rows, fold.which) for fold in parts]
+        whole = Fold(selected.rows, np.arange(len(selected.rows)), selected.problem, best)
+        fitted = relative(*_errors(whole, chosen, background))
+        held = [_errors(fold, chosen, background) for fold in parts]
         steps.append(
             Step(label, fitted, relative(np.concatenate([e for e, _ in held]), np.concatenate([t for _, t in held])))
         )
     return tuple(steps)
+
+
+def _errors(fold: Fold, chosen: tuple[SelectedEffect, ...], background: BackgroundSizes) -> tuple[Array, Array]:
+    """(residuals, torque) of the fold's rows with causes fitted on its sums."""
+    fitted = evaluate(fold.problem, chosen, background, fold.found.noise)
+    return (fold.rows.torque - fold.rows.nominal)[fold.which] - _modelled(fold, fitted), fold.rows.torque[fold.which]

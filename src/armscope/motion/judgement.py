@@ -12,15 +12,15 @@ from armscope.inference.normal_equations import total
 from armscope.inference.search import Search
 from armscope.inference.shapley import shares
 from armscope.motion.causes import PlacedCause
-from armscope.motion.consistency import Agreement, agreement
+from armscope.motion.consistency import PathAgreement, agreement
 from armscope.motion.constants import TELLING
 from armscope.motion.rows import OWN
-from armscope.motion.selection import Selected
-from armscope.motion.verdict import FoundCause, JointBackground, Unexplained
+from armscope.motion.selection import SelectedCauses
+from armscope.motion.verdict import FoundCause, JointBackground, UnexplainedTorque
 from armscope.verdict.schema import Alternative, Answer, Parameter
 
 
-def found_causes(selected: Selected) -> list[tuple[int, FoundCause]]:
+def found_causes(selected: SelectedCauses) -> list[tuple[int, FoundCause]]:
     """Every chosen cause with what is known about it, largest first, beside its candidate's number."""
     best, search = selected.best, Search.on(selected.problem)
     explained = _shares(selected)
@@ -35,7 +35,7 @@ def found_causes(selected: Selected) -> list[tuple[int, FoundCause]]:
 
 
 def _found(
-    selected: Selected, search: Search, number: int, placed: PlacedCause, known: tuple[float, Agreement]
+    selected: SelectedCauses, search: Search, number: int, placed: PlacedCause, known: tuple[float, PathAgreement]
 ) -> FoundCause:
     share, agreed = known
     layout = selected.rows.layout
@@ -52,7 +52,7 @@ def _found(
         driver=placed.driver,
         title=title(placed),
         minor=share < TELLING.minor_share,
-        parameters=parameters(selected, number),
+        parameters=cause_parameters(selected, number),
         rms=float(rms[joint]),
         unit="N" if layout.arm.sliding[joint] else "N m",
         joint=f"joint {joint + 1}",
@@ -77,7 +77,7 @@ def title(placed: PlacedCause) -> str:
     return f"{name}{place}{where}"
 
 
-def parameters(selected: Selected, number: int) -> tuple[Parameter, ...]:
+def cause_parameters(selected: SelectedCauses, number: int) -> tuple[Parameter, ...]:
     """A cause's numbers with standard errors: fitted ones, then scanned ones."""
     placed, columns = selected.rows.layout.placed[number], selected.rows.layout.columns[number]
     values = selected.coefficients[columns]
@@ -89,7 +89,7 @@ def parameters(selected: Selected, number: int) -> tuple[Parameter, ...]:
     return (*told, *(Parameter(name, unit, value, float("nan")) for name, unit, value in placed.scanned))
 
 
-def _shares(selected: Selected) -> list[float]:
+def _shares(selected: SelectedCauses) -> list[float]:
     """Share of what friction and masses leave, of each chosen cause."""
     best, problem = selected.best, selected.problem
     ridge = np.full(len(problem.scale), 1e12)
@@ -100,13 +100,13 @@ def _shares(selected: Selected) -> list[float]:
     return [float(share) for share in shares(problem.equations, ridge, base, members)]
 
 
-def _background_columns(selected: Selected) -> list[Array]:
+def _background_columns(selected: SelectedCauses) -> list[Array]:
     families = zip(selected.space.families, selected.best.background, strict=True)
     inside = set(selected.best.columns.tolist())
     return [np.array([c for c in family.columns if c in inside], dtype=np.intp) for family, size in families if size]
 
 
-def _alternatives(selected: Selected, search: Search, number: int) -> tuple[Alternative, ...]:
+def _alternatives(selected: SelectedCauses, search: Search, number: int) -> tuple[Alternative, ...]:
     """What could stand in a cause's place, nearest first, each name once."""
     best = selected.best
     candidate = selected.space.candidates[number]
@@ -124,7 +124,7 @@ def _alternatives(selected: Selected, search: Search, number: int) -> tuple[Alte
     return tuple(Alternative(c.kind, c.location, c.family, gap, c.driver, gap) for gap, c in ordered)
 
 
-def backgrounds(selected: Selected, names: Sequence[str]) -> tuple[JointBackground, ...]:
+def joint_backgrounds(selected: SelectedCauses, names: Sequence[str]) -> tuple[JointBackground, ...]:
     """Friction and rotor inertia of every joint."""
     layout, best, problem = selected.rows.layout, selected.best, selected.problem
     told = []
@@ -149,15 +149,15 @@ def backgrounds(selected: Selected, names: Sequence[str]) -> tuple[JointBackgrou
     return tuple(told)
 
 
-def unexplained(found: Sequence[FoundCause]) -> Unexplained:
+def unexplained(found: Sequence[FoundCause]) -> UnexplainedTorque:
     """The largest free curve, if one is not minor."""
     curves = [cause for cause in found if cause.effect == "unknown" and not cause.minor]
     if not curves:
-        return Unexplained(False)
-    return Unexplained(True, curves[0].location, curves[0].driver, curves[0].title)
+        return UnexplainedTorque(False)
+    return UnexplainedTorque(True, curves[0].location, curves[0].driver, curves[0].title)
 
 
-def answer_of(found: Sequence[FoundCause], left: Unexplained) -> tuple[Answer, bool]:
+def answer_of(found: Sequence[FoundCause], left: UnexplainedTorque) -> tuple[Answer, bool]:
     """The answer in two words, and whether there is a mismatch."""
     if not found:
         return "nothing missing", False
@@ -187,6 +187,6 @@ def _first(cause: FoundCause) -> str:
     return f"{parameter.name.replace('_', ' ')} {parameter.value:+.3g} {parameter.unit}".strip()
 
 
-def noise_sums(selected: Selected) -> float:
+def noise_sums(selected: SelectedCauses) -> float:
     """Number of independent rows of all joints together."""
     return float(total(selected.blocks).n)

@@ -4,23 +4,25 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import BSpline
 
 from armscope.core.types import Array
-from armscope.motion import causes
-from armscope.motion.causes import Columns, Moment, PlacedCause, Seen, coulomb_width
+from armscope.motion import catalogue
+from armscope.motion.causes import Cause, Columns, Moment, PlacedCause, Seen, coulomb_width
 from armscope.motion.constants import LIBRARY
+from armscope.motion.masses import place_masses
 
 
-def place(seen: Seen) -> list[PlacedCause]:
+def place_causes(seen: Seen) -> list[PlacedCause]:
     """Every cause that the table can show, at every place."""
     moving = [int(j) for j in np.flatnonzero(seen.moving)]
     placed = [cause for joint in moving for cause in _background(seen, joint)]
     placed += [cause for joint in moving for cause in _at_joint(seen, joint)]
     placed += [cause for one, other in itertools.pairwise(moving) for cause in _coupled(seen, one, other)]
-    return [*placed, *_masses(seen)]
+    return [*placed, *place_masses(seen)]
 
 
 def _own(joint: int, column: Callable[[Moment], Array]) -> Columns:
@@ -34,11 +36,11 @@ def _own(joint: int, column: Callable[[Moment], Array]) -> Columns:
 
 
 def _background(seen: Seen, j: int) -> Iterator[PlacedCause]:
-    """The joint's offset, and what of its friction and rotor robot.yaml states: departures from that are causes."""
+    """The joint's offset, and what of its friction and rotor robot.yaml states: departures from that are catalogue."""
     torque, unit = seen.torque(j), seen.unit(j)
     units = (torque, torque, f"{torque} s/{unit}", "kg" if seen.arm.sliding[j] else "kg m^2")
     names = ("offset", "coulomb", "viscous", "inertia")
-    for number, cause in enumerate(causes.BACKGROUND):
+    for number, cause in enumerate(catalogue.BACKGROUND):
         if number == 0 or np.isfinite(seen.arm.stated_background[j, number]):
             yield PlacedCause(
                 cause,
@@ -55,13 +57,13 @@ def _at_joint(seen: Seen, j: int) -> Iterator[PlacedCause]:
     width = float(coulomb_width(seen.arm)[j])
 
     def at(
-        cause: causes.Cause,
+        cause: Cause,
         driver: str,
         parameters: tuple[tuple[str, str], ...],
         column: Callable[[Moment], Array],
-        **more: object,
+        **more: Any,
     ) -> PlacedCause:
-        return PlacedCause(cause, place, driver, parameters, (j,), _own(j, column), **more)  # type: ignore[arg-type]
+        return PlacedCause(cause, place, driver, parameters, (j,), _own(j, column), **more)
 
     def speed(m: Moment) -> Array:
         return m.signals.dq[:, j]
@@ -72,13 +74,16 @@ def _at_joint(seen: Seen, j: int) -> Iterator[PlacedCause]:
     both_ways = seen.dq[j, 0] < -LIBRARY.slow * width and seen.dq[j, 1] > LIBRARY.slow * width
     if both_ways:
         yield at(
-            causes.ASYMMETRY, "direction", (("viscous_difference", f"{torque} s/{unit}"),), lambda m: np.abs(speed(m))
+            catalogue.ASYMMETRY,
+            "direction",
+            (("viscous_difference", f"{torque} s/{unit}"),),
+            lambda m: np.abs(speed(m)),
         )
         fastest = float(np.abs(seen.dq[j]).max())
         widths = np.geomspace(LIBRARY.slow * width, max(fastest / 2, 2 * LIBRARY.slow * width), LIBRARY.stribeck_widths)
         for v in widths:
             yield at(
-                causes.STRIBECK,
+                catalogue.STRIBECK,
                 "speed",
                 (("stribeck", torque),),
                 _stribeck(side, speed, float(v)),
@@ -86,9 +91,9 @@ def _at_joint(seen: Seen, j: int) -> Iterator[PlacedCause]:
                 multiplicity=len(widths),
                 scanned=(("speed", f"{unit}/s", float(v)),),
             )
-        yield at(causes.LOAD_FRICTION, "load", (("per_load", ""),), lambda m: np.abs(m.rigid[:, j]) * side(m))
+        yield at(catalogue.LOAD_FRICTION, "load", (("per_load", ""),), lambda m: np.abs(m.rigid[:, j]) * side(m))
         yield at(
-            causes.VISCOUS_CURVE,
+            catalogue.VISCOUS_CURVE,
             "speed",
             (("square", f"{torque} s^2/{unit}^2"), ("cube", f"{torque} s^3/{unit}^3")),
             lambda m: np.column_stack([speed(m) * np.abs(speed(m)), speed(m) ** 3]),
@@ -96,42 +101,46 @@ def _at_joint(seen: Seen, j: int) -> Iterator[PlacedCause]:
         if seen.temperature is not None and np.ptp(seen.temperature[j]) > LIBRARY.least_warming_k:
             middle = float(np.mean(seen.temperature[j]))
             yield at(
-                causes.TEMPERATURE_FRICTION,
+                catalogue.TEMPERATURE_FRICTION,
                 "temperature",
                 (("per_kelvin", f"{torque} s/({unit} K)"),),
                 lambda m: _warm(m, j, middle) * speed(m),
                 variant="viscous",
             )
             yield at(
-                causes.TEMPERATURE_FRICTION,
+                catalogue.TEMPERATURE_FRICTION,
                 "temperature",
                 (("dry_per_kelvin", f"{torque}/K"),),
                 lambda m: _warm(m, j, middle) * side(m),
                 variant="dry",
             )
             yield at(
-                causes.CURVE,
+                catalogue.CURVE,
                 "temperature",
                 _knots(LIBRARY.knots_of_others, torque),
                 _curve(lambda m: _warm(m, j, 0.0), seen.temperature[j], LIBRARY.knots_of_others),
                 variant="temperature",
                 is_curve=True,
             )
-    yield at(causes.GAIN, "torque", (("gain", ""),), lambda m: m.predicted[:, j])
-    yield at(causes.DELAY, "torque", (("delay", "s"),), lambda m: -np.gradient(m.predicted[:, j], 1 / m.rate))
+    yield at(catalogue.GAIN, "torque", (("gain", ""),), lambda m: m.predicted[:, j])
+    yield at(catalogue.DELAY, "torque", (("delay", "s"),), lambda m: -np.gradient(m.predicted[:, j], 1 / m.rate))
     middle_q = float(np.mean(seen.q[j]))
     yield at(
-        causes.BALANCER, "joint angle", (("stiffness", f"{torque}/{unit}"),), lambda m: m.signals.q[:, j] - middle_q
+        catalogue.BALANCER, "joint angle", (("stiffness", f"{torque}/{unit}"),), lambda m: m.signals.q[:, j] - middle_q
     )
     if not seen.arm.sliding[j]:
         yield at(
-            causes.BALANCER, "joint angle", (("sine", torque), ("cosine", torque)), _wave(j, 1), variant="counterweight"
+            catalogue.BALANCER,
+            "joint angle",
+            (("sine", torque), ("cosine", torque)),
+            _wave(j, 1),
+            variant="counterweight",
         )
         span = float(np.ptp(seen.q[j]))
         counts = [n for n in LIBRARY.ripple_counts if n * span > 2 * np.pi * LIBRARY.least_waves]
         for n in counts:
             yield at(
-                causes.RIPPLE,
+                catalogue.RIPPLE,
                 "joint angle",
                 (("sine", torque), ("cosine", torque)),
                 _wave(j, n),
@@ -140,21 +149,28 @@ def _at_joint(seen: Seen, j: int) -> Iterator[PlacedCause]:
                 scanned=(("per_turn", "", float(n)),),
             )
     yield at(
-        causes.CABLE,
+        catalogue.CABLE,
         "joint angle",
         _knots(LIBRARY.knots_of_position, torque),
         _curve(lambda m: m.signals.q[:, j], seen.q[j], LIBRARY.knots_of_position),
         is_curve=True,
     )
+    yield at(
+        catalogue.CURVE,
+        "time",
+        _knots(LIBRARY.knots_of_time, torque),
+        _curve(lambda m: m.signals.time, seen.time, LIBRARY.knots_of_time),
+        variant="time",
+        is_curve=True,
+    )
     ranges: tuple[tuple[str, Callable[[Moment], Array], Array], ...] = (
         ("speed", speed, seen.dq[j]),
         ("load", lambda m: m.rigid[:, j], np.array([-1.0, 1.0]) * seen.load[j]),
-        ("time", lambda m: m.signals.time, seen.time),
     )
     for driver, of, limits in ranges:
         if np.ptp(limits) > 0:
             yield at(
-                causes.CURVE,
+                catalogue.CURVE,
                 driver,
                 _knots(LIBRARY.knots_of_others, torque),
                 _curve(of, limits, LIBRARY.knots_of_others),
@@ -200,7 +216,7 @@ def _coupled(seen: Seen, j: int, k: int) -> Iterator[PlacedCause]:
     rubbing = (("coulomb", torque), ("viscous", f"{torque} s/{unit}"))
     for sign, variant in ((1.0, ""), (-1.0, "difference")):
         yield PlacedCause(
-            causes.COUPLED_FRICTION,
+            catalogue.COUPLED_FRICTION,
             place,
             "the neighbour's speed",
             rubbing,
@@ -209,7 +225,7 @@ def _coupled(seen: Seen, j: int, k: int) -> Iterator[PlacedCause]:
             variant=variant,
         )
         yield PlacedCause(
-            causes.COUPLED_INERTIA,
+            catalogue.COUPLED_INERTIA,
             place,
             "the neighbour's acceleration",
             (("inertia", "kg m^2"),),
@@ -234,95 +250,3 @@ def _inert(j: int, k: int, sign: float) -> Columns:
         return np.stack([acceleration, sign * acceleration], axis=1)[:, :, None]
 
     return columns
-
-
-def _masses(seen: Seen) -> Iterator[PlacedCause]:
-    arm, every = seen.arm, tuple(range(seen.arm.n_motors))
-    identity = np.eye(len(arm.inertial))
-    for link in range(arm.n_links):
-        own, mass, place = slice(10 * link, 10 * link + 10), arm.inertial[10 * link], f"link {link + 1}"
-        if mass > 0:
-            heavier = np.zeros((len(arm.inertial), 1))
-            heavier[own, 0] = arm.inertial[own] / mass
-            yield PlacedCause(
-                causes.LINK_MASS, place, "gravity and acceleration", (("mass", "kg"),), every, inertial=heavier
-            )
-        if arm.n_links > 1:
-            moments = tuple((f"m{axis}", "kg m") for axis in "xyz")
-            yield PlacedCause(
-                causes.LINK_CENTRE,
-                place,
-                "gravity and acceleration",
-                moments,
-                every,
-                inertial=identity[:, 10 * link + 1 : 10 * link + 4],
-            )
-            names = tuple((name, "kg m^2") for name in ("Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz"))
-            yield PlacedCause(
-                causes.LINK_INERTIA,
-                place,
-                "acceleration",
-                names,
-                every,
-                inertial=identity[:, 10 * link + 4 : 10 * link + 10],
-                variant="all six",
-            )
-            round_ = identity[:, [10 * link + 4, 10 * link + 6, 10 * link + 9]].sum(axis=1, keepdims=True)
-            yield PlacedCause(
-                causes.LINK_INERTIA, place, "acceleration", (("inertia", "kg m^2"),), every, inertial=round_
-            )
-    if arm.n_links > 1:
-        yield from _payloads(seen, identity[:, -10:-6])
-        yield from _gravity(seen, every)
-
-
-def _payloads(seen: Seen, columns: Array) -> Iterator[PlacedCause]:
-    """Mass at the tool point, or anywhere on the last link: in all runs, and in each run by itself."""
-    anywhere = (("mass", "kg"), *((f"m{axis}", "kg m") for axis in "xyz"))
-    every, point = tuple(range(seen.arm.n_motors)), seen.arm.point_load()
-    variants: list[tuple[str, ...]] = [()]
-    if len(seen.runs) > 1:
-        variants += [(run,) for run in seen.runs]
-    for runs in variants:
-        name = runs[0] if runs else ""
-        yield PlacedCause(
-            causes.PAYLOAD,
-            "payload",
-            "load",
-            (("mass", "kg"),),
-            every,
-            inertial=point[:, None],
-            runs=runs,
-            variant=f"{name} at the tool point".strip(),
-            multiplicity=len(variants),
-        )
-        yield PlacedCause(
-            causes.PAYLOAD,
-            "payload",
-            "load",
-            anywhere,
-            every,
-            inertial=columns,
-            runs=runs,
-            variant=f"{name} anywhere".strip(),
-            multiplicity=len(variants),
-        )
-    for name, inertial in seen.arm.attached:
-        yield PlacedCause(causes.BODY, name, "load", (("times", ""),), every, inertial=inertial[:, None])
-
-
-def _gravity(seen: Seen, every: tuple[int, ...]) -> Iterator[PlacedCause]:
-    down = seen.arm.model.gravity.linear
-    if np.linalg.norm(down) == 0:
-        return
-    level = np.linalg.svd(down[None] / np.linalg.norm(down))[2][1:]  # two axes across gravity
-    if abs(down[2]) == np.linalg.norm(down):
-        level = np.eye(3)[:2]
-    names = tuple((axis, "rad") for axis in "xy")
-    leans = -np.cross(level, down)  # gravity in axes that are turned about each
-
-    def columns(m: Moment) -> Array:
-        assert m.gravity is not None
-        return np.asarray(m.gravity @ leans.T)
-
-    yield PlacedCause(causes.GRAVITY, "base", "load", names, every, columns)

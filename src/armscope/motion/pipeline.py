@@ -14,11 +14,12 @@ from armscope.motion.check import check_motions, check_rows
 from armscope.motion.constants import FILTER, LIBRARY
 from armscope.motion.cutoff import chosen_cutoff
 from armscope.motion.holding_out import folds, measure, own_fold, waterfall
-from armscope.motion.judgement import answer_of, backgrounds, found_causes, headline, unexplained
-from armscope.motion.library import place
+from armscope.motion.judgement import answer_of, found_causes, headline, joint_backgrounds, unexplained
+from armscope.motion.library import place_causes
 from armscope.motion.preparation import Preparation
-from armscope.motion.rows import Layout, Rows, build_rows, seen_in, torque_of
-from armscope.motion.selection import Selected, model_so_far, select
+from armscope.motion.rows import MotionRows, TorqueLayout, build_rows, torque_of
+from armscope.motion.seen import seen_in
+from armscope.motion.selection import SelectedCauses, model_so_far, select_causes
 from armscope.motion.timing import Stretch, mended, stretches
 from armscope.motion.verdict import MotionVerdict
 from armscope.recordings.motions import Motions
@@ -53,8 +54,8 @@ class MotionDiagnosis:
 
     arm: MovingArm
     verdict: MotionVerdict
-    selected: Selected
-    test: Rows | None
+    selected: SelectedCauses
+    test: MotionRows | None
     how: Preparation
 
 
@@ -88,9 +89,9 @@ def diagnose_motion(
     train, test = _parted(arm, motions, settings.held_out)
     how = chosen_cutoff(arm, train, settings.cutoff)
     seen = seen_in(arm, train, LIBRARY.still_rad)
-    layout = Layout(arm, tuple(place(seen)), motions.kind == "current")
+    layout = TorqueLayout(arm, tuple(place_causes(seen)), motions.kind == "current")
     runs = tuple(dict.fromkeys(stretch.run for stretch in train))
-    selected = select(layout, train, how, runs, lambda text, share: progress(text, 0.1 + 0.6 * share))
+    selected = select_causes(layout, train, how, runs, lambda text, share: progress(text, 0.1 + 0.6 * share))
     notices += [*told, *check_rows(selected.rows, motions.source)]
     progress("measuring on motion that took no part", 0.75)
     apart = None
@@ -124,7 +125,9 @@ def _parted(arm: MovingArm, motions: Motions, held_out: Sequence[str]) -> tuple[
     return train, test
 
 
-def _judged(selected: Selected, test: Rows | None, settings: MotionSettings, arm: MovingArm) -> MotionVerdict:
+def _judged(
+    selected: SelectedCauses, test: MotionRows | None, settings: MotionSettings, arm: MovingArm
+) -> MotionVerdict:
     if test is None:
         parts = folds(selected)
         single = len(parts) == 1
@@ -145,7 +148,7 @@ def _judged(selected: Selected, test: Rows | None, settings: MotionSettings, arm
         mismatch=mismatch,
         effects=tuple(found),
         unexplained=left,
-        background=backgrounds(selected, names),
+        background=joint_backgrounds(selected, names),
         masses_share=sizes["masses"],
         held_out=held_out,
         fitted=steps[-1],
@@ -159,12 +162,12 @@ def _judged(selected: Selected, test: Rows | None, settings: MotionSettings, arm
     )
 
 
-def _sizes(selected: Selected) -> list[float]:
+def _sizes(selected: SelectedCauses) -> list[float]:
     families = zip(selected.space.families, selected.best.background, strict=True)
     return [float(family.label(size, selected.problem.sizes)) for family, size in families]
 
 
-def _identifiable(selected: Selected) -> dict[str, float]:
+def _identifiable(selected: SelectedCauses) -> dict[str, float]:
     """How many combinations of inertial parameters the motion tells, and their condition number."""
     G = selected.problem.equations.G
     inertial = selected.rows.layout.inertial

@@ -1,4 +1,4 @@
-"""Rows of torque and model: every column formed at full rate, filtered as the torque is, and kept every n-th time."""
+"""MotionRows of torque and model: every column formed at full rate, filtered as the torque is, and kept every n-th time."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices, Progress
-from armscope.motion.causes import Moment, PlacedCause, Seen, side
+from armscope.motion.causes import Moment, PlacedCause, side
 from armscope.motion.constants import FILTER, PRIOR
 from armscope.motion.preparation import Preparation, Signals, parts
 from armscope.motion.timing import Stretch
 from armscope.robot.dynamics import MovingArm
 
-OWN = 5
-"""Columns that every joint has: offset, dry and viscous friction, rotor inertia, and how steeply friction changes sides.
+OWN = len(("offset", "dry friction", "viscous friction", "rotor inertia", "reversal"))
+"""Columns that every joint has: offset, dry and viscous friction, rotor inertia, how steeply friction changes sides.
 
 The last is no cause: within a hundredth of a radian per second friction turns over in a way that filters and rounding
 blur. It is free, so that no cause is named for it.
@@ -25,7 +25,7 @@ blur. It is free, so that no cause is named for it.
 
 
 @dataclass(frozen=True, eq=False)
-class Layout:
+class TorqueLayout:
     """Which column stands where: background of each joint, inertial parameters, gains, causes.
 
     Attributes:
@@ -48,8 +48,13 @@ class Layout:
         """Those of `own` that are always free: friction and rotors that robot.yaml does not state."""
         free = np.ones((self.arm.n_motors, OWN), dtype=np.bool_)
         free[:, :-1] = np.isnan(self.arm.stated_background)
-        free[:, 0] = False
+        free[:, [0, -1]] = False
         return np.flatnonzero(free.ravel())
+
+    @property
+    def reversals(self) -> Indices:
+        """(m,) the last of `OWN` of each joint."""
+        return np.arange(self.arm.n_motors) * OWN + OWN - 1
 
     @property
     def inertial(self) -> Indices:
@@ -92,7 +97,7 @@ class Layout:
 
 
 @dataclass(frozen=True, eq=False)
-class Rows:
+class MotionRows:
     """K rows of m joints.
 
     Attributes:
@@ -106,7 +111,7 @@ class Rows:
         at: of each joint (p_j,) where these columns stand.
     """
 
-    layout: Layout
+    layout: TorqueLayout
     time: Array
     run: NDArray[np.str_]
     stretch: Indices
@@ -143,13 +148,26 @@ class SoFar:
 
 
 def torque_of(arm: MovingArm, stretch_effort: Array, kind: str) -> Array:
-    """(N, m) motor torque from what was recorded; a current counts with the stated gain, 1 where there is none."""
+    """Motor torque from what was recorded.
+
+    Args:
+        arm: its gains.
+        stretch_effort: (N, m) N m (N) or A.
+        kind: "torque" or "current".
+
+    Returns:
+        (N, m) N m (N).
+    """
     return stretch_effort * np.where(np.isnan(arm.gains), 1.0, arm.gains) if kind == "current" else stretch_effort
 
 
 def build_rows(
-    layout: Layout, stretches: Sequence[Stretch], how: Preparation, model: SoFar, progress: Progress = lambda t, s: None
-) -> Rows:
+    layout: TorqueLayout,
+    stretches: Sequence[Stretch],
+    how: Preparation,
+    model: SoFar,
+    progress: Progress = lambda t, s: None,
+) -> MotionRows:
     """All rows of a table.
 
     Args:
@@ -167,21 +185,26 @@ def build_rows(
         pieces.append(_piece(layout, signals, how, model))
         done += len(signals.kept) * how.every
         progress("forming the model's columns", min(done / total, 1.0))
-    joined = [np.concatenate([piece[k] for piece in pieces]) for k in range(8)]
+    time, run, stretch, q, dq, torque, nominal, still = (
+        np.concatenate([piece[k] for piece in pieces]) for k in range(8)
+    )
     motors = range(layout.arm.n_motors)
-    return Rows(
-        layout,
-        joined[0],
-        joined[1],
-        joined[2],
-        *joined[3:7],
-        joined[7].astype(np.bool_),
-        tuple(np.concatenate([piece[8][j] for piece in pieces]) for j in motors),
-        pieces[0][9],
+    return MotionRows(
+        layout=layout,
+        time=time,
+        run=run,
+        stretch=stretch,
+        q=q,
+        dq=dq,
+        torque=torque,
+        nominal=nominal,
+        still=still.astype(np.bool_),
+        columns=tuple(np.concatenate([piece[8][j] for piece in pieces]) for j in motors),
+        at=pieces[0][9],
     )
 
 
-def _piece(layout: Layout, signals: Signals, how: Preparation, model: SoFar) -> tuple:  # type: ignore[type-arg]
+def _piece(layout: TorqueLayout, signals: Signals, how: Preparation, model: SoFar) -> tuple:  # type: ignore[type-arg]
     arm, kept = layout.arm, signals.kept
     regressor = arm.regressor(signals.q, signals.dq, signals.ddq)
     background = own_columns(arm, signals)
@@ -246,7 +269,7 @@ def own_columns(arm: MovingArm, signals: Signals) -> Array:
     return np.stack([np.ones_like(signals.q), turned, signals.dq, signals.ddq, steeper], axis=2)
 
 
-def _own_columns(layout: Layout, moment: Moment) -> list[tuple[list[Array], list[Indices]]]:
+def _own_columns(layout: TorqueLayout, moment: Moment) -> list[tuple[list[Array], list[Indices]]]:
     """By joint: columns (N, c) at full rate of its causes, and where they stand."""
     own: list[tuple[list[Array], list[Indices]]] = [([], []) for _ in range(layout.arm.n_motors)]
     for cause, index in zip(layout.placed, layout.columns, strict=True):
@@ -258,7 +281,7 @@ def _own_columns(layout: Layout, moment: Moment) -> list[tuple[list[Array], list
     return own
 
 
-def _made_of_masses(layout: Layout, regressor: Array, run: str) -> list[tuple[Array, Indices]]:
+def _made_of_masses(layout: TorqueLayout, regressor: Array, run: str) -> list[tuple[Array, Indices]]:
     """Columns (K, m, c) of causes that are combinations of inertial parameters, and where they stand."""
     made = []
     for cause, index in zip(layout.placed, layout.columns, strict=True):
@@ -280,32 +303,3 @@ def _still(arm: MovingArm, signals: Signals, how: Preparation) -> NDArray[np.boo
         for shift in (0, length // 2, length - 1):
             stood[shift : shift + len(whole)] |= whole
     return np.asarray(stood & slow)
-
-
-def seen_in(arm: MovingArm, stretches: Sequence[Stretch], still: float) -> Seen:
-    """Ranges of what causes follow, from some of the samples.
-
-    Args:
-        arm: the arm.
-        stretches: even samples.
-        still: a joint that spans less stands, rad or m.
-
-    Returns:
-        What the library needs to know of the table.
-    """
-    q = np.concatenate([stretch.q for stretch in stretches])
-    dq = np.concatenate([np.gradient(stretch.q, stretch.time, axis=0) for stretch in stretches if len(stretch) > 1])
-    few = q[:: max(len(q) // 500, 1)]
-    warm = [stretch.temperature for stretch in stretches if stretch.temperature is not None]
-    load = np.abs(arm.gravity_torques(few, arm.model.gravity.linear)).max(axis=0)
-    runs = tuple(dict.fromkeys(stretch.run for stretch in stretches))
-    return Seen(
-        arm=arm,
-        q=np.percentile(q, [0.1, 99.9], axis=0).T,
-        dq=np.percentile(dq, [1, 99], axis=0).T,
-        load=np.maximum(load, 1e-9),
-        time=np.array([min(s.time[0] for s in stretches), max(s.time[-1] for s in stretches)]),
-        temperature=np.percentile(np.concatenate(warm), [0.1, 99.9], axis=0).T if warm else None,
-        runs=runs,
-        moving=np.asarray(np.ptp(q, axis=0) > still),
-    )

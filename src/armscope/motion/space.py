@@ -1,17 +1,48 @@
-"""The library as the inference sees it: causes as sets of columns, and masses and gains as backgrounds."""
+"""The library as the inference sees it: causes as sets of columns, and masses and gains as joint_backgrounds."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
+from armscope.core.types import Array, Indices
 from armscope.inference.model_space import BackgroundFamily, Candidate, ModelSpace, ToleranceFamily
-from armscope.motion import causes
+from armscope.motion import catalogue
 from armscope.motion.causes import PlacedCause
 from armscope.motion.constants import PRIOR
-from armscope.motion.rows import Layout
+from armscope.motion.rows import TorqueLayout
 
 
-def build_space(layout: Layout) -> ModelSpace:
+@dataclass(frozen=True, eq=False)
+class ScaledFamily:
+    """A background whose values have a size each, SI; always there."""
+
+    name: str
+    columns: Indices
+    scale: Array
+    sizes: int = 2
+    is_priced: bool = False
+
+    def prior_variance(self, size: int, effect_sizes: Array, scale: Array) -> Array:
+        """As of `armscope.inference.model_space.BackgroundFamily`.
+
+        Args:
+            size: index of the background's size: none, or as it is.
+            effect_sizes: not looked at.
+            scale: (p,) by which columns are divided.
+
+        Returns:
+            (c,) prior variances.
+        """
+        return np.asarray((size * self.scale * scale[self.columns]) ** 2)
+
+    def label(self, size: int, effect_sizes: Array) -> float:
+        """0 for none, 1 as it is."""
+        return float(size)
+
+
+def build_space(layout: TorqueLayout, torque: Array, rate: float) -> ModelSpace:
     """What may take part in the diagnosis of a motion.
 
     Offset, friction and rotor inertia of every joint are always free; inertial parameters are held near the stated ones
@@ -19,13 +50,22 @@ def build_space(layout: Layout) -> ModelSpace:
 
     Args:
         layout: of the columns.
+        torque: (m,) RMS torque of each joint.
+        rate: samples per second.
 
     Returns:
         Columns, priors, and what excludes what.
     """
     shares = PRIOR.inertial_shares
-    families: list[BackgroundFamily] = [ToleranceFamily("masses", layout.inertial, 1.0, shares)]
-    starts = [(0,), (2,), (4,)]
+    reversals = ScaledFamily("reversals", layout.reversals, PRIOR.reversal * torque)
+    delays = [at for cause, at in zip(layout.placed, layout.columns, strict=True) if cause.cause is catalogue.DELAY]
+    timing = np.concatenate([*delays, np.empty(0, dtype=np.intp)])
+    families: list[BackgroundFamily] = [
+        ToleranceFamily("masses", layout.inertial, 1.0, shares),
+        reversals,
+        ScaledFamily("timing", timing, np.full(len(timing), PRIOR.timing / rate)),
+    ]
+    starts: list[tuple[int, ...]] = [(0, 1, 1), (2, 1, 1), (4, 1, 1)]
     if layout.with_gains:
         stated = layout.arm.gain_uncertainty
         sigma = float(np.nanmedian(stated)) if np.isfinite(stated).any() else PRIOR.gain
@@ -36,7 +76,7 @@ def build_space(layout: Layout) -> ModelSpace:
     )
 
 
-def _candidates(layout: Layout) -> tuple[Candidate, ...]:
+def _candidates(layout: TorqueLayout) -> tuple[Candidate, ...]:
     placed = layout.placed
     candidates = []
     for number, (cause, columns) in enumerate(zip(placed, layout.columns, strict=True)):
@@ -51,7 +91,7 @@ def _candidates(layout: Layout) -> tuple[Candidate, ...]:
                 driver=cause.driver,
                 label=str(cause),
                 family=cause.cause.family,
-                region=region(cause),
+                region=region_of(cause),
                 multiplicity=cause.multiplicity,
                 nonnegative=cause.cause.nonnegative and cause.width == 1,
                 is_curve=cause.is_curve,
@@ -63,18 +103,25 @@ def _candidates(layout: Layout) -> tuple[Candidate, ...]:
     return tuple(candidates)
 
 
-def region(cause: PlacedCause) -> str:
+def region_of(cause: PlacedCause) -> str:
     """Coarser than the place: the joint's number, or the place itself."""
     words = cause.location.split()
     return words[1] if words[0] in ("joint", "link") else cause.location
 
 
 CONTAINED = {
-    "speed": (causes.ASYMMETRY, causes.STRIBECK, causes.VISCOUS_CURVE, causes.VISCOUS, causes.COULOMB, causes.OFFSET),
-    "joint angle": (causes.BALANCER, causes.RIPPLE, causes.OFFSET),
-    "load": (causes.GAIN, causes.OFFSET),
-    "time": (causes.OFFSET,),
-    "temperature": (causes.OFFSET,),
+    "speed": (
+        catalogue.ASYMMETRY,
+        catalogue.STRIBECK,
+        catalogue.VISCOUS_CURVE,
+        catalogue.VISCOUS,
+        catalogue.COULOMB,
+        catalogue.OFFSET,
+    ),
+    "joint angle": (catalogue.BALANCER, catalogue.RIPPLE, catalogue.OFFSET),
+    "load": (catalogue.GAIN, catalogue.OFFSET),
+    "time": (catalogue.OFFSET,),
+    "temperature": (catalogue.OFFSET,),
 }
 """What a free curve at the same joint contains, by what it follows."""
 

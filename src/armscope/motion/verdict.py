@@ -105,7 +105,7 @@ class HeldOutMotion:
 
 
 @dataclass(frozen=True)
-class Unexplained:
+class UnexplainedTorque:
     """Structure for which the library has no cause: where, and what it follows."""
 
     present: bool
@@ -122,7 +122,7 @@ class MotionVerdict:
     headline: str
     mismatch: bool | None
     effects: tuple[FoundCause, ...]
-    unexplained: Unexplained
+    unexplained: UnexplainedTorque
     background: tuple[JointBackground, ...]
     masses_share: float
     held_out: HeldOutMotion

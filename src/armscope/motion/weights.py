@@ -14,13 +14,13 @@ import numpy as np
 from armscope.core.types import Array, Indices
 from armscope.inference.linear_algebra import lower_cholesky, solve_lower
 from armscope.inference.normal_equations import NormalEquations
-from armscope.measurement.robust import huber_weights, quartic_weights
+from armscope.measurement.robust import huber_weights
 from armscope.motion.constants import NOISE, PRIOR
-from armscope.motion.rows import Rows
+from armscope.motion.rows import MotionRows
 
 
 @dataclass(frozen=True, eq=False)
-class RowWeights:
+class TorqueWeights:
     """Attributes:
     sigma: (m,) standard deviation of what the model leaves of each joint's torque, N m.
     row: (K, m) 1 for an ordinary row, less for one that lies far from the model, 0 where the joint stands.
@@ -32,13 +32,12 @@ class RowWeights:
     row: Array
 
 
-def estimate_weights(rows: Rows, residuals: Array, final: bool = True) -> RowWeights:
+def estimate_weights(rows: MotionRows, residuals: Array) -> TorqueWeights:
     """Noise and autocorrelation time of each joint, from what a model leaves, and what lies far from it.
 
     Args:
         rows: K rows.
         residuals: (K, m) N m.
-        final: whether the model is one that was selected; before, nothing is silenced yet.
 
     Returns:
         The weights.
@@ -49,16 +48,15 @@ def estimate_weights(rows: Rows, residuals: Array, final: bool = True) -> RowWei
         least = max(NOISE.least_share * float(np.std(rows.torque[:, j])), 1e-9)
         weights = np.zeros(len(left))
         if moving.any():
-            rule = quartic_weights if final else huber_weights
-            weights[moving] = rule(left[moving, None], np.ones(int(moving.sum())), least)
+            weights[moving] = huber_weights(left[moving, None], np.ones(int(moving.sum())), least)
         scale = float(np.sqrt(np.sum(weights * left**2) / max(weights.sum(), 1.0)))
         sigma.append(max(scale, least))
         correlated.append(_autocorrelation_time(rows, np.sqrt(weights) * left))
         row.append(weights)
-    return RowWeights(np.array(sigma), np.array(correlated), np.column_stack(row))
+    return TorqueWeights(np.array(sigma), np.array(correlated), np.column_stack(row))
 
 
-def _autocorrelation_time(rows: Rows, left: Array) -> float:
+def _autocorrelation_time(rows: MotionRows, left: Array) -> float:
     """1 + 2 x sum of the autocorrelation, up to the first lag that is five times the sum so far."""
     longest = min(NOISE.longest_lag, len(left) // 4)
     total = np.zeros(longest + 1)
@@ -76,7 +74,7 @@ def _autocorrelation_time(rows: Rows, left: Array) -> float:
     return float(max(times[enough[0]] if len(enough) else times[-1] if len(times) else 1.0, 1.0))
 
 
-def sums_by_block(rows: Rows, weights: RowWeights, block: Indices) -> list[NormalEquations]:
+def sums_by_block(rows: MotionRows, weights: TorqueWeights, block: Indices) -> list[NormalEquations]:
     """Sums over the rows of each block; the response is the measured torque less the nominal one, in units of noise.
 
     Args:
@@ -106,9 +104,9 @@ def sums_by_block(rows: Rows, weights: RowWeights, block: Indices) -> list[Norma
     return sums
 
 
-def fitted_together(rows: Rows) -> Array:
+def fitted_together(rows: MotionRows) -> Array:
     """(p,) coefficients of all columns at once, each as free as the others, joints in units of their own torque."""
-    plain = RowWeights(
+    plain = TorqueWeights(
         np.maximum(np.std(rows.torque, axis=0), 1e-9), np.ones(rows.torque.shape[1]), (~rows.still).astype(np.float64)
     )
     sums = sums_by_block(rows, plain, np.zeros(len(rows), dtype=np.intp))[0]

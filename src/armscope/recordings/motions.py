@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array
 from armscope.recordings.opening import open_text
-from armscope.recordings.table import ABSOLUTE_ZERO_C, Columns
+from armscope.recordings.table import ABSOLUTE_ZERO_C, TableColumns
 from armscope.recordings.textfile import read_text_table
 
 DRIVE_COLUMN = r"tau[1-9]\d*_nm|f[1-9]\d*_n|current[1-9]\d*_a"
@@ -159,7 +159,7 @@ def as_motions(table: pd.DataFrame, source: Path | str = "table", n_motors: int 
     )
 
 
-class _Reader(Columns):
+class _Reader(TableColumns):
     """Takes the columns of motions.csv out of a table, each checked as it is taken."""
 
     def positions(self, n_motors: int | None) -> tuple[Array, list[str]]:

@@ -177,7 +177,7 @@ def as_recordings(
     return replace(recordings, extra=table[unknown] if unknown else None, notes=notes)
 
 
-class Columns:
+class TableColumns:
     """Takes columns out of a table, each checked as it is taken; errors name file, row and column.
 
     Args:
@@ -189,11 +189,33 @@ class Columns:
         self.table, self.source = table, source
 
     def error(self, row: int, column: str, found: object, rule: str, cure: str = "") -> InputError:
-        """What is wrong in a row (from 0) of a column, as an error that can be raised."""
+        """What is wrong in a row.
+
+        Args:
+            row: from 0.
+            column: its name.
+            found: the value there.
+            rule: what is allowed.
+            cure: how to mend it.
+
+        Returns:
+            The error, to be raised.
+        """
         return InputError(self.source, f"row {row + 2}, column {column}", found, rule, cure)
 
     def numbers(self, column: str, required: bool) -> Array:
-        """(N,) a column of finite numbers; NaN where it is empty, unless every row must hold one."""
+        """A column of finite numbers.
+
+        Args:
+            column: its name.
+            required: whether every row must hold one.
+
+        Returns:
+            (N,); NaN where it is empty.
+
+        Raises:
+            InputError: something else stands there.
+        """
         values = self.table[column]
         if not pd.api.types.is_numeric_dtype(values) or pd.api.types.is_bool_dtype(values):
             parsed = pd.to_numeric(values, errors="coerce")
@@ -227,7 +249,19 @@ class Columns:
         return self.table[column].fillna("").astype(str).to_numpy(dtype=str)
 
     def at_least(self, column: str, low: float, rule: str) -> Array | None:
-        """(N,) an optional quantity that can't be below ``low``."""
+        """An optional quantity with a least value.
+
+        Args:
+            column: its name.
+            low: the least value.
+            rule: what to say of one below.
+
+        Returns:
+            (N,), or None where there is no such column.
+
+        Raises:
+            InputError: a value lies below.
+        """
         values = self.optional([column], 1.0, squeeze=True)
         if values is not None and (values < low).any():
             row = int(np.argmax(values < low))
@@ -235,7 +269,19 @@ class Columns:
         return values
 
     def optional(self, columns: list[str], scale: float, squeeze: bool = False) -> Array | None:
-        """(N, k) columns that come together, in their unit times ``scale``; None where there are none."""
+        """Columns that come together.
+
+        Args:
+            columns: their names.
+            scale: by which they are multiplied.
+            squeeze: whether a single column comes as (N,).
+
+        Returns:
+            (N, k), or None where there are none of them.
+
+        Raises:
+            InputError: only some of them are there.
+        """
         present = [name for name in columns if name in self.table]
         if not present:
             return None
@@ -248,7 +294,7 @@ class Columns:
         return values[:, 0] if squeeze else values
 
 
-class _Reader(Columns):
+class _Reader(TableColumns):
     """Takes the columns of the contract out of a table."""
 
     def motor_angles(self, n_motors: int | None) -> Array:

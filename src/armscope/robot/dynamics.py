@@ -78,7 +78,7 @@ class MovingArm:
     def configurations(self, motors: Array) -> Array:
         """(N, nq) pinocchio configurations of motor positions (N, m)."""
         chain = motors @ self.actuation.T
-        columns = []
+        columns: list[Array] = []
         for joint in range(self.n_links):
             turning = self.model.joints[joint + 1].nq == 2  # cosine and sine of a joint without limits
             columns += [np.cos(chain[:, joint]), np.sin(chain[:, joint])] if turning else [chain[:, joint]]
