@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from armscope.cli.commands import Commands
+from armscope.cli.endings import MISMATCH, UNUSABLE
 
 if TYPE_CHECKING:
     import numpy as np
@@ -37,7 +38,11 @@ def diagnose(
         bool, typer.Option(help="gravity's direction in the base frame is not known (an arm on a wedge)")
     ] = False,
     orientation: Annotated[bool, typer.Option(help="use measured orientations (qw, qx, qy, qz), too")] = True,
-    report: Annotated[bool, typer.Option(help="write report.html and its figures")] = True,
+    report: Annotated[bool, typer.Option(help="write report.html, work-order.html and their figures")] = True,
+    anyway: Annotated[bool, typer.Option("--anyway", help="go on though the check says the table is unusable")] = False,
+    exit_code: Annotated[
+        bool, typer.Option("--exit-code", help="end with 0: nothing missing, 10: a mismatch, 2: cannot tell")
+    ] = False,
     cutoff: Annotated[
         float | None, typer.Option(min=0.01, help="motions: of the low-pass, Hz; chosen if left out")
     ] = None,
@@ -45,26 +50,27 @@ def diagnose(
 ) -> None:
     """Find where simulation and recordings differ, and which physics was left out.
 
-    A table of torques or currents over time (motions.csv) is recognised by its columns.
+    A table of torques or currents over time (motions.csv) is recognised by its columns. Ends with 0 when the diagnosis was made, whatever it found (see --exit-code), and with 2 when the recordings can't
+    be used: then nothing is written, unless --anyway.
     """
-    from armscope.recordings.motions import is_motion_table
-
-    if is_motion_table(recordings):
-        from armscope.cli.motion import diagnose_motions
-
-        with _progress("diagnosing") as tell:
-            lines = diagnose_motions(recordings, robot, output, (cutoff, held_out or [], run or []), report, tell)
-        print("\n".join([*lines, f"{output}/{'report.html' if report else 'verdict.json'}"]))
-        return
+    from armscope.check.preconditions import refuse_unusable
+    from armscope.cli.motion import diagnose_motions
     from armscope.compensation.physical import FILE as DOMAIN
     from armscope.compensation.physical import identified_on, save_identified
     from armscope.core.files import writable
     from armscope.diagnosis import Settings, write_verdict
     from armscope.diagnosis import diagnose as diagnose_arm
     from armscope.recordings import read_recordings
+    from armscope.recordings.motions import is_motion_table
     from armscope.robot import load_arm
     from armscope.verdict.files import FILES
 
+    if is_motion_table(recordings):
+        with _progress("diagnosing") as tell:
+            mismatch = diagnose_motions(recordings, robot, output, (cutoff, held_out or [], run or []), report, tell)
+        if exit_code and mismatch is not False:
+            raise typer.Exit(MISMATCH if mismatch else UNUSABLE)
+        return
     arm = load_arm(robot)
     table = read_recordings(recordings, arm.n_motors)
     writable(output, *FILES, DOMAIN, "report.html")
@@ -74,6 +80,8 @@ def diagnose(
         table = table.rows(_rows_of_runs(table, run))
     if first_id is not None:
         table = table.rows(_rows_from(table, first_id))
+    if not anyway:
+        refuse_unusable(arm, table)
     settings = Settings(seed, tool_per_run, resamples, cross_validation, estimate_gravity, orientation)
     with _progress("diagnosing") as tell:
         verdict = diagnose_arm(arm, table, settings, tell)
@@ -89,6 +97,8 @@ def diagnose(
         print(f"note: {notice.text}", file=sys.stderr)
     print(verdict.headline)
     print(f"{output}/{'report.html' if report else 'verdict.json'}")
+    if exit_code and verdict.mismatch is not False:
+        raise typer.Exit(MISMATCH if verdict.mismatch else UNUSABLE)
 
 
 def _rows_of_runs(table: Recordings, runs: list[str]) -> NDArray[np.bool_]:

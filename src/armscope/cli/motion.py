@@ -16,7 +16,7 @@ def diagnose_motions(
     settings: tuple[float | None, list[str], list[str]],
     report: bool,
     tell: Tell,
-) -> list[str]:
+) -> bool | None:
     """Diagnose motions.csv and write what was found.
 
     Args:
@@ -28,7 +28,7 @@ def diagnose_motions(
         tell: hears what is being done.
 
     Returns:
-        What to print.
+        Whether there is a mismatch.
 
     Raises:
         InputError: a run that is asked for is not there, or the table can't be used.
@@ -53,4 +53,6 @@ def diagnose_motions(
     write_motion_verdict(found.verdict, output)
     for notice in found.verdict.notices:
         print(f"note: {notice.text}", file=sys.stderr)
-    return [found.verdict.headline]
+    print(found.verdict.headline)
+    print(f"{output}/{'report.html' if report else 'verdict.json'}")
+    return found.verdict.mismatch

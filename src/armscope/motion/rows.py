@@ -1,4 +1,4 @@
-"""MotionRows of torque and model: every column formed at full rate, filtered as the torque is, and kept every n-th time."""
+"""Rows of torque and model: every column formed at full rate, filtered as the torque is, and kept every n-th time."""
 
 from __future__ import annotations
 

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array
+from armscope.recordings.column_reader import ColumnReader
 from armscope.recordings.opening import open_text
-from armscope.recordings.table import ABSOLUTE_ZERO_C, TableColumns
 from armscope.recordings.textfile import read_text_table
 
 DRIVE_COLUMN = r"tau[1-9]\d*_nm|f[1-9]\d*_n|current[1-9]\d*_a"
@@ -132,18 +132,18 @@ def as_motions(table: pd.DataFrame, source: Path | str = "table", n_motors: int 
     if "time_s" not in table:
         rule = "the time of every sample stands in time_s"
         raise InputError(source, "line 1", "no column time_s", rule, nearest("time_s", table.columns))
-    q, units = reader.positions(n_motors)
+    q, units = reader.drive_positions(n_motors)
     count = len(units)
     sliding = np.array([unit == "m" for unit in units])
     kind, effort = reader.effort(sliding)
     unknown = [name for name in table.columns if name not in PLAIN and not re.fullmatch(MOTION_COLUMN, name)]
     notes = (f"columns not used: {', '.join(unknown)}",) if unknown else ()
-    temperature = reader.at_least("temperature_c", ABSOLUTE_ZERO_C, "no temperature is below absolute zero")
+    temperature = reader.optional(["temperature_c"], 1.0, squeeze=True)
     own = reader.optional([f"temperature{j}_c" for j in range(1, count + 1)], 1.0)
     if own is None and temperature is not None:
         own = np.repeat(temperature[:, None], count, axis=1)
     return Motions(
-        time=reader.numbers("time_s", required=True),
+        time=reader.required("time_s"),
         q=q,
         effort=effort,
         kind=kind,
@@ -152,17 +152,21 @@ def as_motions(table: pd.DataFrame, source: Path | str = "table", n_motors: int 
         dq=reader.per_motor(units, "dq{}_{}_s"),
         ddq=reader.per_motor(units, "ddq{}_{}_s2"),
         command=reader.per_motor(units, "q{}_cmd_{}"),
-        payload=reader.at_least("payload_kg", 0.0, "a payload is not negative"),
+        payload=reader.optional(["payload_kg"], 1.0, squeeze=True),
         temperature=own,
         notes=notes,
         source=str(source),
     )
 
 
-class _Reader(TableColumns):
+class _Reader(ColumnReader):
     """Takes the columns of motions.csv out of a table, each checked as it is taken."""
 
-    def positions(self, n_motors: int | None) -> tuple[Array, list[str]]:
+    def required(self, column: str) -> Array:
+        """(N,) a column that holds a number in every row."""
+        return self._numbers(column, required=True)
+
+    def drive_positions(self, n_motors: int | None) -> tuple[Array, list[str]]:
         """(N, m) positions in rad or m, and each column's unit."""
         matches = (re.fullmatch(r"q([1-9]\d*)_(rad|deg|m)", name) for name in self.table.columns)
         found: dict[int, str] = {}
@@ -186,14 +190,14 @@ class _Reader(TableColumns):
 
     def _position(self, motor: int, unit: str) -> Array:
         column = f"q{motor}_{unit}"
-        values = self.numbers(column, required=True) * SCALE[unit]
+        values = self.required(column) * SCALE[unit]
         largest = LONGEST_SLIDE_M if unit == "m" else LARGEST_TURN_RAD
         beyond = np.flatnonzero(np.abs(values) > largest)
         if len(beyond):
             cure = f"Are these degrees? Then call the column q{motor}_deg." if unit == "rad" else ""
             row = int(beyond[0])
             rule = f"a position lies within {largest:.4g} {'m' if unit == 'm' else 'rad'}"
-            raise self.error(row, column, self.table[column].iloc[row], rule, cure)
+            raise self._error(row, column, self.table[column].iloc[row], rule, cure)
         return values
 
     def effort(self, sliding: NDArray[np.bool_]) -> tuple[Literal["torque", "current"], Array]:
@@ -208,7 +212,7 @@ class _Reader(TableColumns):
                     rule = f"{', '.join(columns)} come together"
                     cure = nearest(missing[0], self.table.columns)
                     raise InputError(self.source, "line 1", f"no column {missing[0]}", rule, cure)
-                return kind, np.column_stack([self.numbers(name, required=True) for name in columns])
+                return kind, np.column_stack([self.required(name) for name in columns])
         rule = f"what the motors did stands in {torque[0]} ... or {current[0]} ..."
         cure = nearest(torque[0], self.table.columns)
         raise InputError(self.source, "line 1", f"no column {torque[0]}", rule, cure)
