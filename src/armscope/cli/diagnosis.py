@@ -50,8 +50,9 @@ def diagnose(
 ) -> None:
     """Find where simulation and recordings differ, and which physics was left out.
 
-    A table of torques or currents over time (motions.csv) is recognised by its columns. Ends with 0 when the diagnosis was made, whatever it found (see --exit-code), and with 2 when the recordings can't
-    be used: then nothing is written, unless --anyway.
+    A table of torques or currents over time (motions.csv) is recognised by its columns. Ends with 0 when the diagnosis
+    was made, whatever it found (see --exit-code), and with 2 when the recordings can't be used: then nothing is
+    written, unless --anyway.
     """
     from armscope.check.preconditions import refuse_unusable
     from armscope.cli.motion import diagnose_motions

@@ -164,7 +164,7 @@ def _judged(
 
 def _sizes(selected: SelectedCauses) -> list[float]:
     families = zip(selected.space.families, selected.best.background, strict=True)
-    return [float(family.label(size, selected.problem.sizes)) for family, size in families]
+    return [float(family.label(size)) for family, size in families]
 
 
 def _identifiable(selected: SelectedCauses) -> dict[str, float]:

@@ -2,44 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from armscope.core.types import Array, Indices
+from armscope.core.types import Array
 from armscope.inference.model_space import BackgroundFamily, Candidate, ModelSpace, ToleranceFamily
 from armscope.motion import catalogue
 from armscope.motion.causes import PlacedCause
 from armscope.motion.constants import PRIOR
 from armscope.motion.rows import TorqueLayout
-
-
-@dataclass(frozen=True, eq=False)
-class ScaledFamily:
-    """A background whose values have a size each, SI; always there."""
-
-    name: str
-    columns: Indices
-    scale: Array
-    sizes: int = 2
-    is_priced: bool = False
-
-    def prior_variance(self, size: int, effect_sizes: Array, scale: Array) -> Array:
-        """As of `armscope.inference.model_space.BackgroundFamily`.
-
-        Args:
-            size: index of the background's size: none, or as it is.
-            effect_sizes: not looked at.
-            scale: (p,) by which columns are divided.
-
-        Returns:
-            (c,) prior variances.
-        """
-        return np.asarray((size * self.scale * scale[self.columns]) ** 2)
-
-    def label(self, size: int, effect_sizes: Array) -> float:
-        """0 for none, 1 as it is."""
-        return float(size)
 
 
 def build_space(layout: TorqueLayout, torque: Array, rate: float) -> ModelSpace:
@@ -57,19 +27,19 @@ def build_space(layout: TorqueLayout, torque: Array, rate: float) -> ModelSpace:
         Columns, priors, and what excludes what.
     """
     shares = PRIOR.inertial_shares
-    reversals = ScaledFamily("reversals", layout.reversals, PRIOR.reversal * torque)
+    reversals = ToleranceFamily("reversals", layout.reversals, PRIOR.reversal * torque, (0.0, 1.0))
     delays = [at for cause, at in zip(layout.placed, layout.columns, strict=True) if cause.cause is catalogue.DELAY]
     timing = np.concatenate([*delays, np.empty(0, dtype=np.intp)])
     families: list[BackgroundFamily] = [
-        ToleranceFamily("masses", layout.inertial, 1.0, shares),
+        ToleranceFamily("masses", layout.inertial, np.ones(len(layout.inertial)), shares),
         reversals,
-        ScaledFamily("timing", timing, np.full(len(timing), PRIOR.timing / rate)),
+        ToleranceFamily("timing", timing, np.full(len(timing), PRIOR.timing / rate), (0.0, 1.0)),
     ]
     starts: list[tuple[int, ...]] = [(0, 1, 1), (2, 1, 1), (4, 1, 1)]
     if layout.with_gains:
         stated = layout.arm.gain_uncertainty
         sigma = float(np.nanmedian(stated)) if np.isfinite(stated).any() else PRIOR.gain
-        families.append(ToleranceFamily("gains", layout.gains, sigma, (0.0, 1.0)))
+        families.append(ToleranceFamily("gains", layout.gains, np.full(len(layout.gains), sigma), (0.0, 1.0)))
         starts = [(*start, 1) for start in starts]
     return ModelSpace(
         frames=layout.frames, families=tuple(families), candidates=_candidates(layout), starts=tuple(starts)

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
-from armscope.robot.description import RobotDescription, load_description
+from armscope.robot.description import RobotDescription
+from armscope.robot.description_file import load_description
 from armscope.robot.model import TIP, pinocchio_model
 
 PARAMETERS = ("m", "mx", "my", "mz", "Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz")
