@@ -19,13 +19,21 @@ include: "workflow/rules/recordings.smk"
 include: "workflow/rules/sweep.smk"
 include: "workflow/rules/proof.smk"
 include: "workflow/rules/proof_real.smk"
+include: "workflow/rules/motion_proof.smk"
 include: "workflow/rules/compensation.smk"
 include: "workflow/rules/poses.smk"
 include: "workflow/rules/readme.smk"
 
 
+# what takes less time than its own submission to a cluster, or needs the network or the checkout itself
 localrules:
     all,
+    fetch_raw,
+    proof_real_seed,
+    proof_seed,
+    readme,
+    real_arms,
+    sensitivity,
 
 
 rule all:

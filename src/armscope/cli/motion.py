@@ -14,7 +14,7 @@ def diagnose_motions(
     robot: Path,
     output: Path,
     settings: tuple[float | None, list[str], list[str]],
-    report: bool,
+    as_json: bool,
     tell: Tell,
 ) -> bool | None:
     """Diagnose motions.csv and write what was found.
@@ -24,7 +24,7 @@ def diagnose_motions(
         robot: robot.yaml.
         output: the folder for verdict and model.
         settings: cut-off in Hz or None, runs that are held out, runs that are used (none: all).
-        report: whether a page is written.
+        as_json: whether verdict.json is printed in place of words.
         tell: hears what is being done.
 
     Returns:
@@ -35,6 +35,7 @@ def diagnose_motions(
     """
     import numpy as np
 
+    from armscope.cli.robots import print_json
     from armscope.core.inputs import InputError, nearest
     from armscope.motion.pipeline import MotionSettings, diagnose_motion
     from armscope.motion.verdict import write_motion_verdict
@@ -53,6 +54,9 @@ def diagnose_motions(
     write_motion_verdict(found.verdict, output)
     for notice in found.verdict.notices:
         print(f"note: {notice.text}", file=sys.stderr)
-    print(found.verdict.headline)
-    print(f"{output}/{'report.html' if report else 'verdict.json'}")
+    if as_json:
+        print_json(found.verdict.to_json())
+    else:
+        print(found.verdict.headline)
+        print(f"{output}/verdict.json")
     return found.verdict.mismatch
