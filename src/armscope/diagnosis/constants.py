@@ -161,9 +161,9 @@ class NamingRules(Constants):
         "judgement: the rest is then a tenth",
     )
     main_share: float = constant(
-        0.75,
+        0.9,
         "of a curve of a joint's angle, of what only it explains, that one line or wave must be to be told as that",
-        "judgement: the rest is then half as large as it",
+        "judgement: the rest is then a third as large as it",
     )
     stands_out_nats: float = constant(
         20.0,
