@@ -161,9 +161,9 @@ class NamingRules(Constants):
         "judgement: the rest is then a tenth",
     )
     main_share: float = constant(
-        0.75,
+        0.9,
         "of a curve of a joint's angle, of what only it explains, that one line or wave must be to be told as that",
-        "judgement: the rest is then half as large as it",
+        "judgement: the rest is then a third as large as it",
     )
     stands_out_nats: float = constant(
         20.0,
@@ -235,6 +235,12 @@ class TellingRules(Constants):
     )
     grid: int = constant(361, "at which a curve is told", "convention: a turn in degrees", unit="points")
     atlas_rows: int = constant(4000, "that the atlas looks at, spread evenly", "judgement: time", unit="rows")
+    implausible_values: int = constant(3, "told at most", "judgement: nobody reads more", unit="values")
+    undetermined: float = constant(
+        0.7,
+        "of a plausible size, beyond which a value's standard error leaves it undetermined",
+        "derived: the rows then halve what was believed before, at most",
+    )
     chance: float = constant(0.99, "with which subsets that agree stay below the limit", "convention: 99 %")
     most_payloads: int = constant(6, "compared one by one", "judgement: time", unit="payloads")
     curve_rows: int = constant(
