@@ -17,10 +17,15 @@ class BackgroundPriors(Constants):
         "judgement: from a perfect arm to an ordinary one; none is among them, since two dozen free "
         "values, however small, take up any single one that is barely seen",
     )
-    plausible_shares: tuple[float, ...] = constant(
-        (0.0, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0),
-        "shares of what is plausible that an elastic or transmission background may have",
-        "judgement: from a stiff arm with ground gears to a soft one; what is larger has a name",
+    elastic_shares: tuple[float, ...] = constant(
+        (0.0, 0.003, 0.01, 0.03, 0.1, 0.3),
+        "shares of what is plausible that an elastic background may have",
+        "judgement: from a stiff arm to a soft one; what is larger has a name",
+    )
+    gear_shares: tuple[float, ...] = constant(
+        (0.0, 0.003, 0.01, 0.03, 0.1),
+        "the same of the gears' waves",
+        "judgement: from ground gears to ordinary ones; what is larger has a name",
     )
     starts: tuple[tuple[int, ...], ...] = constant(
         ((0, 0, 0), (2, 0, 0), (4, 0, 0), (3, 3, 2)),
@@ -44,11 +49,11 @@ class LoopBudget(Constants):
         "share of the rows that may still come and go when the rounds end",
         "judgement: less than a row in most tables",
     )
-    sizes_of_gears: tuple[int, ...] = constant(
-        (2, 3),
-        "sizes of all gears' waves from which the search with finer ones starts",
-        "judgement: between ground and ordinary gears",
-        unit="indices",
+    size_of_gears: int = constant(
+        2,
+        "of all gears' waves from which the search with finer ones starts",
+        "judgement: of ordinary gears; time",
+        unit="index",
     )
     within: float = constant(
         0.3,

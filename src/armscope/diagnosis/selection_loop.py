@@ -129,14 +129,16 @@ class SelectionLoop:
     def _refine(self, of_a_sample: bool) -> None:
         """Finer forms of the curves and gears that were chosen; what they can't follow may be scatter."""
         fine = [refined(self.model.arm, self.recordings, self.space.placed[c]) for c in self.best.candidates]
-        gears, starts = FAMILIES.index("transmission"), self._where_it_ended()
+        gears = FAMILIES.index("transmission")
         if not self.best.background[gears] and not any(fine):
             return
-        # several curves of several joints may be what all gears have a little of
-        self.families[gears] = gear_waves(self.recordings, PLAUSIBLE.fine_waves)
-        starts = [replaced(start, gears, size) for start in starts or [] for size in LOOP.sizes_of_gears]
         self.candidates = [*self.candidates, *[placed for placed in fine if placed is not None]]
-        self.round([*(self._where_it_ended() or []), *starts])
+        starts = self._where_it_ended() or []
+        if not of_a_sample:  # a long table tells every joint's curve
+            self.families[gears] = gear_waves(self.recordings, PLAUSIBLE.fine_waves)
+            # several curves of several joints may be what all gears have a little of
+            starts += [replaced(start, gears, LOOP.size_of_gears) for start in starts if not start[gears]]
+        self.round(starts)
         # what looked like scatter may have been what the coarse curves could not follow
         self.noise.look_for_scatter()
         if not of_a_sample:
