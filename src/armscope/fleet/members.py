@@ -50,7 +50,7 @@ def read_fleet(path: Path) -> list[Member]:
             raise InputError(path, "line 1", f"no column {column}", f"a fleet has {', '.join((*COLUMNS, *OPTIONAL))}")
     members: list[Member] = []
     known: dict[str, int] = {}
-    for row, content in enumerate(table.fillna("").astype(str).to_dict("records"), start=2):
+    for row, content in enumerate(table.astype(object).fillna("").astype(str).to_dict("records"), start=2):
         cells = {name: str(content.get(name, "")).strip() for name in (*COLUMNS, *OPTIONAL)}
         for name in COLUMNS:
             if not cells[name]:

@@ -80,9 +80,9 @@ def _apart(values: pd.Series[float]) -> pd.Series[float]:
     """How far each value's logarithm lies from the median, in robust standard deviations; NaN of too few."""
     if len(values) < FEWEST_ARMS:
         return values * np.nan
-    logs = np.log(values.clip(lower=1e-6))
-    spread = 1.4826 * float((logs - logs.median()).abs().median())
-    return (logs - logs.median()) / max(spread, 0.05)
+    logs = np.log(np.maximum(values.to_numpy(dtype=float), 1e-6))
+    away = logs - np.median(logs)
+    return pd.Series(away / max(1.4826 * float(np.median(np.abs(away))), 0.05), index=values.index)
 
 
 def outliers(table: pd.DataFrame) -> pd.DataFrame:
@@ -103,10 +103,8 @@ def repeated(table: pd.DataFrame, of_arms: pd.DataFrame) -> pd.DataFrame:
     """
     count = of_arms.groupby("type")["arm"].nunique()
     groups = table[~table["minor"].astype(bool)].groupby(["type", "cause"])
-    found = groups.agg(
-        arms=("arm", "nunique"), median_mm=("rms_at_tool_mm", "median"), most_mm=("rms_at_tool_mm", "max")
-    )
-    found = found.reset_index()
+    size = "rms_at_tool_mm"
+    found = groups.agg(arms=("arm", "nunique"), median_mm=(size, "median"), most_mm=(size, "max")).reset_index()
     found["of"] = found["type"].map(count)
     # Laplace's rule: one arm more with it, one more without
     found["expected_share"] = (found["arms"] + 1) / (found["of"] + 2)
