@@ -1,18 +1,13 @@
 """A fleet's table, and what all verdicts together show; made of arms whose weaknesses are known."""
 
-from pathlib import Path
-
 import numpy as np
 import pandas as pd
 import pytest
 
 from armscope.core.inputs import InputError
-from armscope.diagnosis import Settings
-from armscope.fleet.diagnosing import FAILURE, diagnose_members
 from armscope.fleet.members import read_fleet
-from armscope.fleet.simulation import WEAKNESSES, _spec, simulate
-from armscope.fleet.summary import arms, outliers, priors, repeated, verdicts
-from armscope.report.pages.fleet import write_fleet_page
+from armscope.fleet.simulation import WEAKNESSES, _spec
+from armscope.fleet.summary import outliers, priors, repeated
 
 HEADER = "arm,type,robot,recordings\n"
 
@@ -31,22 +26,6 @@ def test_a_table_that_is_no_fleet_is_one_clear_error(tmp_path, text, expected):
     path.write_text(text)
     with pytest.raises(InputError, match=expected):
         read_fleet(path)
-
-
-def test_diagnoses_of_a_simulated_fleet_end_in_one_page(tmp_path):
-    simulate(2, 1, Path("config/robots"), tmp_path / "made")
-    table = tmp_path / "made" / "fleet.csv"
-    with table.open("a") as stream:
-        stream.write("gone,six-axis,2026-01,nothing.yaml,nothing.csv\n")
-    members = read_fleet(table)
-    diagnose_members(members, tmp_path / "verdicts", Settings(resamples=0, cross_validation=False))
-    assert (tmp_path / "verdicts" / "gone_2026-01" / FAILURE).is_file()
-    found, failed = verdicts(members, [tmp_path / "verdicts"])
-    assert (len(found), list(failed)) == (2, ["gone_2026-01"])
-    write_fleet_page(members, [tmp_path / "verdicts"], tmp_path / "page")
-    page = (tmp_path / "page" / "report.html").read_text()
-    assert "1 without a verdict" in page
-    assert len(arms(members, found)) == 2
 
 
 def test_an_arm_far_from_its_type_is_an_outlier_and_no_other():

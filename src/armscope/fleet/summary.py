@@ -44,7 +44,7 @@ def verdicts(members: Sequence[Member], folders: Sequence[Path]) -> tuple[dict[s
     return found, failed
 
 
-def causes(members: Sequence[Member], found: Mapping[str, Verdict]) -> pd.DataFrame:
+def causes_of_arms(members: Sequence[Member], found: Mapping[str, Verdict]) -> pd.DataFrame:
     """One row per named effect: arm, type, date, run, cause, words, size at the tool (mm), share, parameters."""
     rows: list[dict[str, Any]] = [
         {
@@ -95,7 +95,7 @@ def repeated(table: pd.DataFrame, of_arms: pd.DataFrame) -> pd.DataFrame:
     """By type and cause: in how many of the arms it was named, and how large; what is minor does not count.
 
     Args:
-        table: of `causes`.
+        table: of `causes_of_arms`.
         of_arms: of `arms`.
 
     Returns:

@@ -17,7 +17,7 @@ def fleet_figure(causes: pd.DataFrame) -> Figure:
     """Size at the tool of the most frequent causes, arms grouped by type.
 
     Args:
-        causes: of `armscope.fleet.summary.causes`.
+        causes: of `armscope.fleet.summary.causes_of_arms`.
     """
     told = causes[~causes["minor"].astype(bool)]
     often = told["cause"].value_counts().index[:MOST_CAUSES]

@@ -8,7 +8,7 @@ import pandas as pd
 
 from armscope.core.files import write_table, write_yaml
 from armscope.fleet.members import Member
-from armscope.fleet.summary import COMMON, OUTLIER, arms, causes, outliers, priors, repeated, verdicts
+from armscope.fleet.summary import COMMON, OUTLIER, arms, causes_of_arms, outliers, priors, repeated, verdicts
 from armscope.report.figures.fleet import fleet_figure
 from armscope.report.html import write_page
 from armscope.report.style import save_figure
@@ -25,7 +25,7 @@ def write_fleet_page(members: list[Member], folders: list[Path], output: Path) -
         output: folder.
     """
     found, failed = verdicts(members, folders)
-    of_arms, of_causes = arms(members, found), causes(members, found)
+    of_arms, of_causes = arms(members, found), causes_of_arms(members, found)
     often = repeated(of_causes, of_arms)
     for name, table in (("arms", of_arms), ("causes", of_causes), ("repeated", often)):
         write_table(output / f"{name}.csv", table)
