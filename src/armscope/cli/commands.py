@@ -16,6 +16,7 @@ from typer.core import TyperCommand
 
 from armscope.cli.endings import told_to_end
 from armscope.core.outputs import Delivery
+from armscope.core.parallel import processes
 from armscope.core.streams import is_stream
 
 OUTPUTS = ("output", "figure", "points", "visible", "sealed")
@@ -23,6 +24,8 @@ OUTPUTS = ("output", "figure", "points", "visible", "sealed")
 WRITTEN = object()
 
 Force = Annotated[bool, typer.Option("--force", help="overwrite files that armscope did not write (never an input)")]
+Threads = Annotated[int, typer.Option(min=1, help="processes that share the rows of a long table; the same result")]
+"""As a parameter ``threads`` of a command: its work is shared by so many processes."""
 
 
 Quiet = Annotated[bool, typer.Option("--quiet", help="say nothing but errors")]
@@ -81,7 +84,7 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
         reads = _paths(value for name, value in values.items() if name not in outputs)
         writes = _paths(value for name, value in values.items() if name in outputs)
         delivery = Delivery(command, reads, writes, force)
-        with told_to_end(), _stdout_kept_for_data(writes), delivery.running():
+        with processes(values.get("threads", 1)), told_to_end(), _stdout_kept_for_data(writes), delivery.running():
             try:
                 function(**values)
             except typer.Exit:  # an answer, not a failure

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from armscope.cli.commands import Commands
+from armscope.cli.commands import Commands, Threads
 from armscope.cli.studies import model_named
 from armscope.core.inputs import InputError
 
@@ -44,10 +44,12 @@ def compensate(
         float, typer.Option(min=0, help="standard deviations that a command may leave the identified range")
     ] = 0.2,
     separate_points: Annotated[bool, typer.Option(help="no path: the arm may turn far between points")] = False,
+    threads: Threads = 1,
 ) -> None:
     """Commands that make the real arm reach the wanted points; exit code 3 where some rows have none."""
     import numpy as np
 
+    from armscope.cli.cost import COMPENSATE, announce
     from armscope.compensation import (
         ErrorModel,
         Options,
@@ -66,6 +68,7 @@ def compensate(
     step = np.inf if separate_points else LARGEST_STEP_RAD
     fitted: ErrorModel | FittedModel = load_error_model(model) if model.suffix == ".json" else load_model(model)
     _check_robot(robot, fitted.arm)
+    announce(path, COMPENSATE, threads)
     wanted = read_path(path, fitted.arm)
     options = Options(frame, pose, _start(start_rad, fitted.arm), allowed_outside, step)
     if isinstance(fitted, ErrorModel):

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from armscope.cli.commands import Commands
+from armscope.cli.commands import Commands, Threads
 from armscope.cli.endings import MISMATCH, UNUSABLE
 
 if TYPE_CHECKING:
@@ -43,15 +43,18 @@ def diagnose(
         bool, typer.Option("--exit-code", help="end with 0: nothing missing, 10: a mismatch, 2: cannot tell")
     ] = False,
     json: Annotated[bool, typer.Option("--json", help="print verdict.json in place of words")] = False,
+    threads: Threads = 1,
 ) -> None:
     """Find where simulation and recordings differ, and which physics was left out.
 
     Ends with 0 when the diagnosis was made, whatever it found (see --exit-code), and with 2 when the recordings can't
     be used: then nothing is written, unless --anyway.
     """
+    from armscope.cli.cost import DIAGNOSE, announce
     from armscope.cli.robots import print_json, robot_of, table_of
 
     arm = robot_of(robot)
+    announce(recordings, DIAGNOSE, threads)
     table = table_of(recordings, arm.n_motors)
 
     from armscope.check.preconditions import refuse_unusable
@@ -138,11 +141,14 @@ def predict(
     poses: Annotated[Path, typer.Argument(help="a table of motor angles and whatever context the model follows")],
     output: Annotated[Path, typer.Option("--output", "-o", help="table to write: id, run, x_mm, y_mm, z_mm")],
     pose: Annotated[bool, typer.Option(help="orientations qw, qx, qy, qz, too")] = False,
+    threads: Threads = 1,
 ) -> None:
     """Predict where the tool point will be, in the measurement frame (by a robot.yaml: in the base frame)."""
+    from armscope.cli.cost import PREDICT, announce
     from armscope.compensation.predicting import predict_file
     from armscope.core.files import write_table
 
+    announce(poses, PREDICT, threads)
     table, notes = predict_file(model, poses, pose)
     for note in notes:
         print(f"note: {note}", file=sys.stderr)

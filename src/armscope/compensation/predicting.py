@@ -19,7 +19,7 @@ from armscope.physics.model import FittedModel, predict_orientation
 from armscope.physics.model import predict as predicted_points
 from armscope.physics.model_file import load_model
 from armscope.recordings import Recordings, read_recordings
-from armscope.robot import chain, load_arm
+from armscope.robot import load_arm, tool_frames
 from armscope.robot.urdf_file import is_xml
 
 Found = tuple[Array, Array | None, Recordings, list[str]]
@@ -104,8 +104,8 @@ def _by_description(robot: Path, poses: Path, pose: bool) -> Found:
     """As `_by_physics` for an arm that does what its robot.yaml says, nominal or calibrated; in its base frame."""
     arm = load_arm(robot)
     rows = read_recordings(poses, arm.n_motors, measured=False)
-    frames = chain(arm, rows.motor_angles)
-    return frames.tool, frames.tool_rotation if pose else None, rows, []
+    points, rotations = tool_frames(arm, rows.motor_angles)
+    return points, rotations if pose else None, rows, []
 
 
 def _by_black_box(model: Path, poses: Path, pose: bool) -> Found:

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Progress
 from armscope.diagnosis.constants import TELLING
 from armscope.diagnosis.held_out import Rows, cross_validate
@@ -76,7 +77,7 @@ def judge(
         search,
         {c.candidate: certainty.alternatives(search, best, c.candidate) for c in best.chosen},
         certainty.inclusion_frequency(state, resamples, rng),
-        fit.model.scene(state.recordings),
+        fit.model.scene(state.recordings.rows(spread_evenly(len(state.recordings), TELLING.curve_rows))),
         _plain_gram(state),
         model_error(fit, state.recordings, state.noise.least_mm),
     )

@@ -99,8 +99,8 @@ class SelectionLoop:
         self.recordings = recordings
         self.frames, self.progress = frames, progress
         self.block_of_row = block_of_row
-        self.candidates = [*library(start.arm, recordings), *base_shifts_of_runs(set_ups_of(frames))]
-        self.families = list(backgrounds(start.arm, recordings).values())
+        self.candidates: list[Placed] = []
+        self.families: list[list[Placed]] = []
         self.model = start
         self.noise = NoiseOfRows(start, self.table, noise, residuals(start, self.table))
         self.loads: list[Placed] = []
@@ -129,14 +129,16 @@ class SelectionLoop:
     def _refine(self, of_a_sample: bool) -> None:
         """Finer forms of the curves and gears that were chosen; what they can't follow may be scatter."""
         fine = [refined(self.model.arm, self.recordings, self.space.placed[c]) for c in self.best.candidates]
-        gears, starts = FAMILIES.index("transmission"), self._where_it_ended()
+        gears = FAMILIES.index("transmission")
         if not self.best.background[gears] and not any(fine):
             return
-        # several curves of several joints may be what all gears have a little of
-        self.families[gears] = gear_waves(self.recordings, PLAUSIBLE.fine_waves)
-        starts = [replaced(start, gears, size) for start in starts or [] for size in LOOP.sizes_of_gears]
         self.candidates = [*self.candidates, *[placed for placed in fine if placed is not None]]
-        self.round([*(self._where_it_ended() or []), *starts])
+        starts = self._where_it_ended() or []
+        if not of_a_sample:  # a long table tells every joint's curve
+            self.families[gears] = gear_waves(self.recordings, PLAUSIBLE.fine_waves)
+            # several curves of several joints may be what all gears have a little of
+            starts += [replaced(start, gears, LOOP.size_of_gears) for start in starts if not start[gears]]
+        self.round(starts)
         # what looked like scatter may have been what the coarse curves could not follow
         self.noise.look_for_scatter()
         if not of_a_sample:
@@ -144,7 +146,7 @@ class SelectionLoop:
 
     def follow(self, other: SelectionLoop, candidates: Sequence[Placed]) -> None:
         """Go on from where the rounds on a sample of the rows ended, with fewer candidates."""
-        self.candidates = list(candidates)
+        self.candidates, self.families = list(candidates), other.families
         self.model, self.last = other.model, other.last
         self.noise.follow(other.noise, residuals(self.model, self.table), other.fit.noise)
 
@@ -159,6 +161,10 @@ class SelectionLoop:
             starts: backgrounds from which the search starts; all of the space's where not given.
             scanning: whether scanned numbers are looked for.
         """
+        if not self.families:  # on all rows of a long table they are those that its sample left
+            arm, shifts = self.model.arm, base_shifts_of_runs(set_ups_of(self.frames))
+            self.candidates = [*library(arm, self.recordings), *shifts]
+            self.families = list(backgrounds(arm, self.recordings).values())
         self.point, payload, self.loads = _on_loads(self.model, self.recordings)
         self.space = build_model_space(self.frames, self.families, [*self.candidates, *payload], self.loads)
         weights = self.noise.weights

@@ -40,7 +40,7 @@ class Weighed:
         search: its search.
         rivals: what could stand in the place of each candidate.
         often: inclusion frequency by candidate.
-        scene: the recorded rows.
+        scene: recorded rows, spread evenly where there are many.
         equations: sums over all rows as they were measured.
         wrong: what no effect explains, and what it does to the covariance.
     """
@@ -165,7 +165,7 @@ def with_weight(found: FoundEffect, background: Sequence[Background]) -> FoundEf
 
 def scattered_effects(state: DiagnosisState, variance: float) -> Iterator[FoundEffect]:
     """Scatter that has a place but follows nothing in the table."""
-    moved = motor_jacobians(state.fit.model, state.recordings)
+    moved = motor_jacobians(state.fit.model, state.recordings) if state.scatter else np.empty(0)
     for scattered in state.scatter:
         rms = scattered.size * float(np.sqrt(np.mean(moved[scattered.motor - 1] ** 2)))
         location = f"joint {scattered.motor}"
