@@ -68,6 +68,7 @@ def run_kernel(
         coefficients=np.array([settings.rule.coefficients(i, count) for i in range(count)]).reshape(count, 3),
         particles=settings.particles,
         threshold=-np.inf if settings.threshold is None else float(settings.threshold),
+        first_blocks=np.argmax(np.any(problems.factors != 0, axis=0), axis=0).astype(np.uint64) // np.uint64(ROW_BLOCK),
         orthonormal=problems.is_orthonormal,
         clamped=clamp is not None,
         ring=settings.neighbourhood == "ring",
@@ -80,7 +81,7 @@ def run_kernel(
         iterations=np.empty(swarms, dtype=np.int64),
         codes=np.empty(swarms, dtype=np.int64),
     )
-    _run(given, outcome, _ONE)
+    _run(given, outcome, _empty_pack(given), _ONE)
     set_sfc64_states(generators, outcome.states)
     early = {_THRESHOLD: StopReason.THRESHOLD, _DIVERGED: StopReason.DIVERGED}
     reasons = np.empty(swarms, dtype=object)
@@ -91,27 +92,31 @@ def run_kernel(
     return SwarmResult(outcome.positions, outcome.fitness, outcome.history, outcome.iterations, reasons)
 
 
+def _empty_pack(given: Problems) -> Pack:
+    dimensions, particles = given.targets.shape[1], given.particles
+    padded = (dimensions + ROW_BLOCK - 1) // ROW_BLOCK * ROW_BLOCK
+    return Pack(
+        np.empty(LANES, dtype=np.int64),
+        np.empty(4 * LANES, dtype=np.uint64),
+        np.empty(particles * dimensions * 3 * LANES),
+        np.empty((particles if given.ring else 1) * dimensions * 3 * LANES),
+        np.zeros(dimensions * padded * LANES),
+        np.zeros(padded * LANES),
+        np.zeros(6 * LANES),
+        np.empty(particles * LANES),
+        np.empty((len(given.coefficients) + 1) * LANES),
+        np.empty(LANES, dtype=np.bool_),
+    )
+
+
 # In what follows ``lanes`` is always LANES, but passed as a number that the compiler does not know: it would unroll
 # short loops of known length into scalar instructions instead of making vector instructions of them.
 
 
 @_compiled
-def _run(given: Problems, outcome: Outcome, lanes: np.uint64) -> None:
+def _run(given: Problems, outcome: Outcome, pack: Pack, lanes: np.uint64) -> None:
     """All swarms, pack by pack; the last pack repeats the last swarm, which gives the same result again."""
-    swarms, dimensions = given.targets.shape
-    padded = (dimensions + ROW_BLOCK - 1) // ROW_BLOCK * ROW_BLOCK
-    pack = Pack(
-        np.empty(LANES, dtype=np.int64),
-        np.empty(4 * LANES, dtype=np.uint64),
-        np.empty(given.particles * dimensions * 3 * LANES),
-        np.empty((given.particles if given.ring else 1) * dimensions * 3 * LANES),
-        np.zeros(dimensions * padded * LANES),
-        np.zeros(padded * LANES),
-        np.zeros(6 * LANES),
-        np.empty(given.particles * LANES),
-        np.empty((len(given.coefficients) + 1) * LANES),
-        np.empty(LANES, dtype=np.bool_),
-    )
+    swarms = len(given.targets)
     for first in range(0, swarms, LANES):
         for lane in range(LANES):
             pack.swarms[lane] = min(first + lane, swarms - 1)
@@ -167,11 +172,13 @@ def _place(given: Problems, pack: Pack) -> None:
 def _run_pack(given: Problems, outcome: Outcome, pack: Pack, lanes: np.uint64) -> None:
     """One pack from its placed particles until its last swarm has stopped."""
     dimensions, count = given.targets.shape[1], len(given.coefficients)
-    pack.best_fitness[:] = np.inf
+    for k in range(len(pack.best_fitness)):
+        pack.best_fitness[k] = np.inf
     for iteration in range(count + 1):
-        pack.tally[3 * LANES : 4 * LANES] = 0.0
-        pack.tally[4 * LANES : 5 * LANES] = np.inf
-        pack.tally[5 * LANES :] = 0.0
+        for lane in range(LANES):  # loops, since assigning to slices takes numba seconds to compile
+            pack.tally[3 * LANES + lane] = 0.0
+            pack.tally[4 * LANES + lane] = np.inf
+            pack.tally[5 * LANES + lane] = 0.0
         for particle in range(given.particles):
             cell = np.uint64(particle * dimensions * 3 * LANES)
             if iteration > 0:
@@ -184,7 +191,9 @@ def _run_pack(given: Problems, outcome: Outcome, pack: Pack, lanes: np.uint64) -
             elif given.orthonormal:
                 _sum_gaps(pack.cells, cell, pack.aims, pack.tally, dimensions, lanes)
             if not given.orthonormal:
-                _sum_images(pack.cells, cell, pack.aims, pack.factor, pack.image, pack.tally, dimensions, lanes)
+                _sum_images(
+                    pack.cells, cell, pack.aims, pack.factor, pack.image, pack.tally, given.first_blocks, lanes
+                )  # fmt: skip
             _judge(pack.tally, pack.best_fitness, particle, lanes)
             _remember(pack.cells, cell, pack.tally, dimensions, lanes)
         _lead(pack, given.ring, given.particles, dimensions)
@@ -249,17 +258,19 @@ def _sum_gaps(cells: Array, cell: np.uint64, aims: Array, tally: Array, dimensio
 
 @_compiled
 def _sum_images(
-    cells: Array, cell: np.uint64, aims: Array, factor: Array, image: Array, tally: Array, dimensions: int,
+    cells: Array, cell: np.uint64, aims: Array, factor: Array, image: Array, tally: Array, first_blocks: Words,
     lanes: np.uint64,
 ) -> None:  # fmt: skip
     """The sum of squares of one particle at a triangular factor, |R z - b|^2, column by column without the zeros."""
-    image[:] = 0.0
+    dimensions = len(first_blocks)
     rows = np.uint64(len(image))
+    for k in range(_NONE, rows, np.uint64(1)):
+        image[k] = 0.0
     column_start = _NONE
     block = np.uint64(ROW_BLOCK) * _ONE
     for column in range(dimensions):
         used = np.uint64(column // ROW_BLOCK + 1) * block
-        for row in range(_NONE, used, block):
+        for row in range(first_blocks[column] * block, used, block):
             entry = column_start + row
             for lane in range(lanes):
                 position = cells[cell + lane]
@@ -327,9 +338,9 @@ def _lead(pack: Pack, ring: bool, particles: int, dimensions: int) -> None:
 def _note(given: Problems, outcome: Outcome, pack: Pack, iteration: int) -> bool:
     """Write down the swarms' progress and those that stop; whether any goes on."""
     last = len(given.coefficients)
-    pack.progress[iteration * LANES : (iteration + 1) * LANES] = pack.tally[4 * LANES : 5 * LANES]
     any_at_work = False
     for lane in range(LANES):
+        pack.progress[iteration * LANES + lane] = pack.tally[4 * LANES + lane]
         if not pack.at_work[lane]:
             continue
         reached = pack.tally[4 * LANES + lane] < given.threshold
@@ -353,7 +364,8 @@ def _hand_over(outcome: Outcome, pack: Pack, lane: int, iteration: int) -> None:
         outcome.states[swarm, k] = pack.stream[k * LANES + lane]
     for before in range(iteration):
         outcome.history[swarm, before] = pack.progress[before * LANES + lane]
-    outcome.history[swarm, iteration:] = fitness
+    for after in range(iteration, outcome.history.shape[1]):
+        outcome.history[swarm, after] = fitness
     if fitness < np.inf:
         outcome.fitness[swarm] = fitness
         for d in range(dimensions):

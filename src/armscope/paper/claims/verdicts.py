@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cache
 
 from scipy.stats import binomtest
 
@@ -13,6 +14,7 @@ HOLDS, FAILS, DEPENDS, OPEN = "holds", "fails", "depends on the robot", "too few
 DECISIVE = (HOLDS, FAILS, DEPENDS)
 
 
+@cache
 def interval(true: int, robots: int) -> tuple[float, float]:
     """Exact 95 % interval of a share (Clopper & Pearson 1934).
 
