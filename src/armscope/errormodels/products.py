@@ -2,9 +2,9 @@
 
 Candidates are products of one-input factors up to a total order: Chebyshev polynomials of the standardised input
 (family "polynomial"), or cosines and sines of its multiples (family "fourier"). Terms enter one by one: the next is the
-one that takes most off the squared errors of all axes together, given those that are in (orthogonal least squares; Chen,
-Billings & Luo 1989). How many: cross-validation that repeats the choice in every fold; the fewest terms within one
-standard error of the best.
+one that takes most off the squared errors of all axes together, given those that are in (orthogonal least squares;
+Chen, Billings & Luo 1989). How many: cross-validation that repeats the choice in every fold; the fewest terms within
+one standard error of the best.
 """
 
 from __future__ import annotations

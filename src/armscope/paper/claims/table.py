@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pandas as pd
-from scipy.stats import fisher_exact
 
 from armscope.paper.anchoring import ANCHORED
 from armscope.paper.claims.catalogue import CLAIMS
@@ -148,5 +147,7 @@ def _varied(row: pd.Series, sensitivity: pd.DataFrame) -> dict[str, object]:
 
 def _differs(base: pd.Series, other: pd.Series, level: float) -> bool:
     """Whether two shares of robots differ (Fisher's exact test)."""
+    from scipy.stats import fisher_exact  # takes half a second: seldom needed
+
     counts = np.array([[each["true"], each["robots"] - each["true"]] for each in (base, other)], dtype=int)
     return bool(fisher_exact(counts).pvalue < level)

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import cache
 
-from scipy.stats import binomtest
-
 HOLDS_FROM, FAILS_TO = 0.95, 0.05
 """A claim holds if it is true of at least this share of the robots, fails if of at most that one."""
 
@@ -22,6 +20,8 @@ def interval(true: int, robots: int) -> tuple[float, float]:
         true: of how many robots a claim is true.
         robots: of how many.
     """
+    from scipy.stats import binomtest  # takes half a second: seldom needed
+
     found = binomtest(true, robots).proportion_ci(0.95, "exact")
     return float(found.low), float(found.high)
 
