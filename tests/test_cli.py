@@ -159,9 +159,22 @@ def test_an_arm_that_does_not_explain_the_points_is_not_calibrated_unless_asked_
     assert (tmp_path / "out" / "robot.yaml").exists()
 
 
+QUICK = "--resamples 0 --no-cross-validation --no-report"
+
+
+def test_a_diagnosis_of_mistaken_recordings_is_not_made_unless_asked_for(mistaken, tmp_path):
+    """One judgement of a table, the check's: what it calls a problem ends a diagnosis, and nothing is written."""
+    file, word = mistaken
+    error = error_of(f"diagnose BAD -r ROBOT -o OUT {QUICK}", BAD=file, OUT=tmp_path / "out")
+    assert isinstance(error, InputError)
+    assert word in str(error)
+    assert word in CliRunner().invoke(app, f"check {file} -r {ROBOT}".split()).stdout
+    assert not (tmp_path / "out" / "verdict.json").exists()
+
+
 def test_a_diagnosis_of_mistaken_recordings_says_what_is_wrong_with_them(mistaken, tmp_path):
     file, word = mistaken
-    line = f"diagnose {file} -r {ROBOT} -o {tmp_path / 'out'} --resamples 0 --no-cross-validation --no-report"
+    line = f"diagnose {file} -r {ROBOT} -o {tmp_path / 'out'} {QUICK} --anyway"
     result = CliRunner().invoke(app, line.split())
     assert word in result.stderr
     assert "Cannot tell" in result.stdout
@@ -173,11 +186,21 @@ def test_what_is_wrong_with_one_run_stands_in_the_verdict_too(tmp_path):
     table["temperature_c"] += 273.15
     table.to_csv(tmp_path / "mistaken.csv", index=False)
     line = f"diagnose {tmp_path / 'mistaken.csv'} -r {EXAMPLE.parent / 'clean' / 'robot.yaml'} -o {tmp_path / 'out'}"
-    result = CliRunner().invoke(app, [*line.split(), "--resamples", "0", "--no-cross-validation", "--no-report"])
+    result = CliRunner().invoke(app, [*line.split(), *QUICK.split(), "--anyway"])
+    assert result.stdout.startswith(("These recordings cannot be relied on", "Cannot tell"))
     told = " ".join(notice["text"] for notice in read_json(tmp_path / "out" / "verdict.json", "")["notices"])
     for words in ("metres that were declared as millimetres in run 2", "kelvin"):
         assert words in result.stderr
         assert words in told
+
+
+@pytest.mark.parametrize(("name", "code"), [("clean", 0), ("one-effect", 10)])
+def test_the_exit_code_is_the_answer_only_where_asked_for(name, code, tmp_path):
+    home = EXAMPLE.parent / name
+    line = f"diagnose {home / 'recordings.csv'} -r {home / 'robot.yaml'} -o {tmp_path / 'out'} {QUICK}"
+    assert CliRunner().invoke(app, line.split()).exit_code == 0
+    assert CliRunner().invoke(app, f"{line} --exit-code".split()).exit_code == code
+    assert (tmp_path / "out" / "verdict.json").exists()
 
 
 def test_orientations_that_are_not_the_tools_take_no_part_in_a_calibration(tmp_path):

@@ -115,7 +115,6 @@ STILL_FROM_ELSEWHERE = [
     "report/subject.py",
     "report/text/compliances.py",
     "robot/centre_line.py",
-    "robot/model.py",
     "swarm/kernel_data.py",
     "verdict/sentences.py",
     "verdict/wording.py",

@@ -13,10 +13,11 @@ from armscope.report.figures.arm import location_shares
 from armscope.report.html import unbroken
 from armscope.report.sections.effect_cards import card, chosen_how_often, title_of, told_parameters
 from armscope.robot import forward_kinematics
-from armscope.verdict.schema import Alternative, Curve, Parameter
+from armscope.verdict.schema import Alternative, Curve, Notice, Parameter, Unexplained
 from armscope.verdict.sentences import exact_phrase, headline
 from armscope.verdict.wording import (
     evidence_in_words,
+    main_and_minor,
     percent,
     reach,
     read_parameter,
@@ -97,16 +98,42 @@ def test_an_effect_whose_parameters_are_unknown_still_has_a_sentence_and_a_card(
 def test_the_first_sentence_names_cause_size_and_share():
     case = verdicts.single()
     assert headline(case.verdict) == (
-        "Joint 2 gives way by 0.21 µrad per N m under gravity – 55 % of the mismatch; "
-        "small geometric errors everywhere in the arm – 2.0 %."
+        "Joint 2 gives way by 0.21 µrad per N m under gravity – 55 % of the squared error. "
+        "Small errors of shape in all its joints and links, as any arm has: 2.0 %. The 0.0276 mm left are noise."
     )
 
 
 def test_many_effects_are_counted_not_recited():
     sentence = headline(verdicts.five().verdict)
     assert sentence.startswith("Joint 2 gives way")
-    assert "and one more effect" in sentence
+    assert "Two smaller causes, and small errors of shape" in sentence
     assert "joint 6" not in sentence, "minor effects are no part of the story"
+
+
+def test_causes_are_told_in_the_order_of_the_share_that_stands_beside_them():
+    """Size at the tool and share differ where effects work against each other: the share decides everywhere."""
+    large = compliance(share=0.2, rms_at_tool_mm=0.5)
+    shared = found("joint_offset", "joint 3", Parameter("offset", "rad", 8.6e-4, 2e-5), share=0.4, rms_at_tool_mm=0.3)
+    said = headline(verdicts.case(effects=(large, shared)).verdict)
+    assert said.index("zero of joint 3") < said.index("joint 2 gives way")
+    assert [effect.share for effect in main_and_minor((large, shared))[0]] == [0.4, 0.2]
+
+
+def test_what_is_left_is_called_noise_only_where_it_is():
+    told = Notice("model error", "What is left is more than noise, and no effect explains it.")
+    assert "are noise" in headline(verdicts.single().verdict)
+    for doubtful in ({"notices": (told,)}, {"unexplained": Unexplained(True, "base", "time", 0.05)}):
+        said = headline(verdicts.case(effects=(compliance(),), **doubtful).verdict)
+        assert "are noise" not in said
+        assert "more than noise" in said
+
+
+def test_the_headline_never_says_more_than_the_tables_own_warning_allows():
+    wrong = Notice("check", "The payload is up to 5000 kg, more than the arm weighs. Is it in grams?")
+    said = headline(verdicts.case(effects=(compliance(),), notices=(wrong,)).verdict)
+    assert said.startswith("These recordings cannot be relied on")
+    assert "the payload is up to 5000 kg" in said
+    assert "joint 2" not in said
 
 
 def test_a_vague_name_stays_vague_and_says_its_best_reading():

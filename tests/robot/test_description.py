@@ -41,6 +41,12 @@ def test_the_plain_description_is_fine(tmp_path):
             ["links[0].mass_kg", "-1", "greater than or equal to 0"],
         ),
         ({"links": [{"mass_kg": 1, "com_mm": [0, 0]}] * 2}, ["links[0].com_mm"]),
+        (
+            {"links": [{"mass_kg": 1, "com_mm": [0, 0, 0], "inertia_kg_m2": [1, 1, 3, 0, 0, 0]}] * 2},
+            ["links[0].inertia_kg_m2", "no body", "1, 1, 3"],
+        ),
+        ({"drives": [{"coulomb_nm": 1}]}, ["`drives`", "2 motors", "has 1"]),
+        ({"drives": [{"coulomb": 1}, {}]}, ["drives[0].coulomb", "'coulomb_nm'"]),
         ({"actuation": [{"q1": 1}]}, ["`actuation`", "2 rows", "has 1"]),
         ({"actuation": [{"q1": 1}, {"m2": 1}]}, ["actuation[1]", "'m2'", "q1, q2"]),
         ({"joint_limits_deg": [[-1, 1]]}, ["joint_limits_deg", "2 motors", "has 1"]),

@@ -67,6 +67,25 @@ def suspected(arm: Arm, recordings: Recordings) -> tuple[Suspicion, ...]:
     return tuple(found for found in check(recordings, arm).suspicions if found.weight == "problem")
 
 
+def refuse_unusable(arm: Arm, recordings: Recordings) -> None:
+    """The one judgement of a table, `armscope check`'s: where something makes results meaningless, none are made.
+
+    Orientations that are not the tool's are no reason: a diagnosis leaves them out by itself and says so.
+
+    Args:
+        arm: the robot it should belong to.
+        recordings: the table as it was read.
+
+    Raises:
+        InputError: it holds a problem.
+    """
+    problems = suspected(arm, replace(recordings, orientation=None))
+    if problems:
+        more = f" ({len(problems) - 1} more: see `armscope check`)" if len(problems) > 1 else ""
+        cure = f"{problems[0].cure} --anyway diagnoses it all the same.".strip()
+        raise InputError(recordings.source, "", problems[0].statement, f"no result of it would hold{more}", cure)
+
+
 def as_notices(problems: Sequence[Suspicion], obstacle: Notice | None) -> tuple[Notice, ...]:
     """Problems as notices, but for the one that an obstacle names already."""
     texts = [each.text() for each in problems]

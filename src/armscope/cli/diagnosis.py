@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from armscope.cli.commands import Commands
+from armscope.cli.endings import MISMATCH, UNUSABLE
 
 if TYPE_CHECKING:
     import numpy as np
@@ -37,9 +38,18 @@ def diagnose(
         bool, typer.Option(help="gravity's direction in the base frame is not known (an arm on a wedge)")
     ] = False,
     orientation: Annotated[bool, typer.Option(help="use measured orientations (qw, qx, qy, qz), too")] = True,
-    report: Annotated[bool, typer.Option(help="write report.html and its figures")] = True,
+    report: Annotated[bool, typer.Option(help="write report.html, work-order.html and their figures")] = True,
+    anyway: Annotated[bool, typer.Option("--anyway", help="go on though the check says the table is unusable")] = False,
+    exit_code: Annotated[
+        bool, typer.Option("--exit-code", help="end with 0: nothing missing, 10: a mismatch, 2: cannot tell")
+    ] = False,
 ) -> None:
-    """Find where simulation and recordings differ, and which physics was left out."""
+    """Find where simulation and recordings differ, and which physics was left out.
+
+    Ends with 0 when the diagnosis was made, whatever it found (see --exit-code), and with 2 when the recordings can't
+    be used: then nothing is written, unless --anyway.
+    """
+    from armscope.check.preconditions import refuse_unusable
     from armscope.compensation.physical import FILE as DOMAIN
     from armscope.compensation.physical import identified_on, save_identified
     from armscope.core.files import writable
@@ -58,6 +68,8 @@ def diagnose(
         table = table.rows(_rows_of_runs(table, run))
     if first_id is not None:
         table = table.rows(_rows_from(table, first_id))
+    if not anyway:
+        refuse_unusable(arm, table)
     settings = Settings(seed, tool_per_run, resamples, cross_validation, estimate_gravity, orientation)
     with _progress("diagnosing") as tell:
         verdict = diagnose_arm(arm, table, settings, tell)
@@ -73,6 +85,8 @@ def diagnose(
         print(f"note: {notice.text}", file=sys.stderr)
     print(verdict.headline)
     print(f"{output}/{'report.html' if report else 'verdict.json'}")
+    if exit_code and verdict.mismatch is not False:
+        raise typer.Exit(MISMATCH if verdict.mismatch else UNUSABLE)
 
 
 def _rows_of_runs(table: Recordings, runs: list[str]) -> NDArray[np.bool_]:

@@ -16,6 +16,8 @@ from armscope.core.locks import Busy
 
 UNUSABLE = 2
 """An input or an option can't be used."""
+MISMATCH = 10
+"""`diagnose --exit-code` found that something is missing from the simulation."""
 NO_MEMORY = 71
 """Memory ran out (EX_OSERR of sysexits.h)."""
 NO_WRITING = 74

@@ -84,7 +84,7 @@ def judge(
         c.candidate: found_effect(weighed, c, part, share)
         for c, part, share in zip(best.chosen, fit.model.parts, shared, strict=True)
     }
-    order = sorted(found, key=lambda c: -found[c].rms_at_tool_mm)
+    order = sorted(found, key=lambda c: -found[c].share)
     held_out = HeldOut(float("nan"), float("nan"))
     waterfall: tuple[WaterfallStep, ...] = ()
     if cross_validation:
@@ -98,7 +98,7 @@ def judge(
     scattered = [s for s in scattered_effects(state, variance) if not rest_of_a_curve(s, named)]
     over = subset_consistency(state)
     named = [replace(e, carries_over=over.get(c, "")) for c, e in zip(order, named, strict=True)]
-    effects = tuple(sorted([*named, *scattered], key=lambda effect: -effect.rms_at_tool_mm))
+    effects = tuple(sorted([*named, *scattered], key=lambda effect: -effect.share))
     unexplained = _unexplained(state, search, effects, background)
     answer, mismatch = _answer(effects, background, unexplained)
     separating = next_poses(state, weighed.rivals, rng)
@@ -172,10 +172,15 @@ def _weighted_rms(fit: Refit) -> float:
 
 
 def _shares(fit: Refit, gram: NormalEquations) -> tuple[list[float], list[float]]:
-    """Share of the variance after the frames of every effect, and of every family's background."""
+    """Share of the variance after the frames of every effect, and of every family's background.
+
+    Free curves come last in every order: they count for what nothing else explains.
+    """
     members = [fit.pool.of(part.placed) for part in fit.model.parts]
     families = [columns for columns in fit.pool.background if len(columns)]
-    told = iter(shares(gram, fit.noise**2 * fit.precision, fit.pool.frames, [*members, *families]).tolist())
+    curves = {n for n, part in enumerate(fit.model.parts) if part.placed.parametrisation == "curve"}
+    ridge = fit.noise**2 * fit.precision
+    told = iter(shares(gram, ridge, fit.pool.frames, [*members, *families], last=curves).tolist())
     return [next(told) for _ in members], [next(told) if len(columns) else 0.0 for columns in fit.pool.background]
 
 

@@ -28,8 +28,9 @@ from armscope.inference.search import Search
 from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.noise import Growth, Noise
 from armscope.physics.backgrounds import backgrounds
-from armscope.physics.drift import BASE_DRIFT
+from armscope.physics.drift import BASE_DRIFT, base_shifts_of_runs
 from armscope.physics.effect import Placed
+from armscope.physics.frames import set_ups_of
 from armscope.physics.freeform import refined
 from armscope.physics.model import FittedModel
 from armscope.physics.payload import PAYLOAD_ERROR, payload_errors
@@ -93,7 +94,7 @@ class SelectionLoop:
         self.recordings = recordings
         self.frames, self.progress = frames, progress
         self.block_of_row = block_of_row
-        self.candidates = library(start.arm, recordings)
+        self.candidates = [*library(start.arm, recordings), *base_shifts_of_runs(set_ups_of(frames))]
         self.families = list(backgrounds(start.arm, recordings).values())
         self.model = start
         self.noise = NoiseOfRows(start, self.table, noise, residuals(start, self.table))

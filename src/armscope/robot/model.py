@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pinocchio as pin
 
-from armscope.robot.description import DHRow, RobotDescription
+from armscope.robot.description import DHRow, LinkMass, RobotDescription
 from armscope.robot.urdf import cut, frame_named, read_urdf, refuse_other_than_turning
 
 TIP = "armscope_tip"
@@ -49,7 +49,7 @@ def _from_dh(description: RobotDescription) -> pin.Model:
         behind = after
         if description.links is not None:
             link = description.links[number - 1]
-            _append_point_mass(model, joint, link.mass_kg, behind, np.array(link.com_mm) * 1e-3)
+            model.appendBodyToJoint(joint, _inertia(link), behind)
     model.addFrame(pin.Frame(TIP, joint, 0, behind, pin.FrameType.OP_FRAME))
     _append_tool_load(model, description)
     model.gravity.linear = np.array(description.gravity_m_s2)
@@ -72,10 +72,13 @@ def _from_urdf(description: RobotDescription) -> pin.Model:
 def _append_tool_load(model: pin.Model, description: RobotDescription) -> None:
     if description.tool_load is not None:
         tip = model.frames[model.getFrameId(TIP)]
-        load = description.tool_load
-        _append_point_mass(model, tip.parentJoint, load.mass_kg, tip.placement, np.array(load.com_mm) * 1e-3)
+        model.appendBodyToJoint(tip.parentJoint, _inertia(description.tool_load), tip.placement)
 
 
-def _append_point_mass(model: pin.Model, joint: int, mass: float, frame: pin.SE3, com: np.ndarray) -> None:
-    """Statics needs mass and centre of mass only, so each body is a point."""
-    model.appendBodyToJoint(joint, pin.Inertia(mass, com, np.zeros((3, 3))), frame)
+def _inertia(body: LinkMass) -> pin.Inertia:
+    """In the frame that the body is described in; a point where no inertia is stated, which is enough for statics."""
+    about_centre = np.zeros((3, 3))
+    if body.inertia_kg_m2 is not None:
+        xx, yy, zz, xy, xz, yz = body.inertia_kg_m2
+        about_centre = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    return pin.Inertia(body.mass_kg, np.array(body.com_mm) * 1e-3, about_centre)

@@ -274,7 +274,7 @@ class Verdict:
         mismatch: None where the recordings cannot tell.
         noise_mm: per axis, 1 sigma; ``noise_source`` says where it comes from.
         residual_before_mm, residual_after_mm: RMS per axis on the fitted rows, frames only and with the model.
-        effects: in order of ``rms_at_tool_mm``; those with ``minor`` true are apart from the story.
+        effects: in order of ``share``, the measure of importance; those with ``minor`` true are apart from the story.
         background, background_families: small errors everywhere, together and by family.
         notices: what the verdict must not hide.
         rows, runs: that were used, and which runs they are of.

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+
 from armscope.physics.clause import Number, Told, say
 from armscope.physics.registry import effect_named
-from armscope.verdict.schema import Diagnosis, FoundEffect
+from armscope.verdict.schema import Diagnosis, FoundEffect, Verdict
 from armscope.verdict.wording import (
     capitalised,
     main_and_minor,
@@ -23,33 +25,69 @@ FAINT = 0.7
 
 
 def headline(verdict: Diagnosis) -> str:
-    """The answer in one sentence."""
+    """The answer: at most `MOST_TOLD` causes with what each has of the squared error, and one sentence on the rest."""
     main, minor = main_and_minor(verdict.effects)
+    if verdict.answer == "cannot tell" and not main:
+        return _cannot_tell(verdict)
+    doubt = unusable(verdict)
+    if doubt:
+        return f"These recordings cannot be relied on, and nothing below should be acted on: {_small(doubt)}."
     if verdict.answer == "nothing missing":
         return (
             f"Nothing is missing: once base and tool are placed, the model meets the recordings to "
             f"{millimetres(verdict.residual_after_mm)} per axis, which is noise."
         )
-    if verdict.answer == "cannot tell" and not main:
-        return _cannot_tell(verdict)
-    parts = [f"{phrase(effect)} – {percent(effect.share)}{_of_what(n)}" for n, effect in enumerate(main[:MOST_TOLD])]
-    if verdict.background.present:
-        share = f"{percent(verdict.background.share)}{_of_what(len(parts))}"
-        parts.append(f"{'' if parts else 'only '}{background_in_words(verdict)} – {share}")
-    if len(main) > MOST_TOLD:
-        rest = main[MOST_TOLD:]
-        parts.append(f"and {spelled(len(rest))} more effect{'s' if len(rest) > 1 else ''}")
-    if not parts:
-        parts = [f"only minor effects were found ({spelled(len(minor))})"]
-    return capitalised("; ".join(parts)) + "."
+    told, rest = main[:MOST_TOLD], [*main[MOST_TOLD:], *minor]
+    if not told:
+        return " ".join([_no_cause(verdict, rest), *_remainder(verdict)])
+    causes = "; ".join(f"{phrase(effect)} – {percent(effect.share)}{_of_what(n)}" for n, effect in enumerate(told))
+    return " ".join([f"{capitalised(causes)}.", *_others(verdict, rest), *_remainder(verdict)])
 
 
-def background_in_words(verdict: Diagnosis) -> str:
-    """ "small geometric and elastic errors everywhere in the arm"."""
+def unusable(verdict: Diagnosis) -> str:
+    """What the check says against the recordings, without its advice; "" for nothing."""
+    return next((notice.text.split(". ")[0].rstrip(".") for notice in verdict.notices if notice.kind == "check"), "")
+
+
+def more_than_noise(verdict: Verdict) -> bool:
+    """Whether what the model leaves is known to be more than noise."""
+    return verdict.unexplained.present or any(notice.kind == "model error" for notice in verdict.notices)
+
+
+def background_in_words(verdict: Verdict) -> str:
+    """ "small errors of shape and stiffness in all its joints and links, as any arm has"."""
+    kinds = {"geometric": "shape", "elastic": "stiffness", "transmission": "drives"}
     families = [family.family for family in verdict.background_families if family.present] or ["geometric"]
-    *first, last = families
+    *first, last = [kinds.get(family, family) for family in families]
     listed = f"{', '.join(first)} and {last}" if first else last
-    return f"small {listed} errors everywhere in the arm"
+    return f"small errors of {listed} in all its joints and links, as any arm has"
+
+
+def _no_cause(verdict: Diagnosis, rest: Sequence[FoundEffect]) -> str:
+    if verdict.background.present:
+        share = percent(verdict.background.share)
+        return f"No single part stands out: {background_in_words(verdict)}, are {share} of the squared error."
+    return f"Only minor causes were found ({spelled(len(rest))})."
+
+
+def _others(verdict: Diagnosis, rest: Sequence[FoundEffect]) -> Iterator[str]:
+    """What else the model took in, together."""
+    share = sum(effect.share for effect in rest)
+    parts = [f"{spelled(len(rest))} smaller cause{'s' if len(rest) > 1 else ''}"] if rest else []
+    if verdict.background.present:
+        parts.append(background_in_words(verdict))
+        share += verdict.background.share
+    if parts:
+        yield f"{capitalised(', and '.join(parts))}: {percent(share)}."
+
+
+def _remainder(verdict: Diagnosis) -> Iterator[str]:
+    """What the model leaves."""
+    left = millimetres(verdict.residual_after_mm)
+    if more_than_noise(verdict):
+        yield f"The {left} left are more than noise: something is still without a cause."
+    else:
+        yield f"The {left} left are noise."
 
 
 def phrase(effect: FoundEffect) -> str:
@@ -81,7 +119,7 @@ def _told(effect: FoundEffect) -> Told:
 
 
 def _of_what(position: int) -> str:
-    return " of the mismatch" if position == 0 else ""
+    return " of the squared error" if position == 0 else ""
 
 
 def _cannot_tell(verdict: Diagnosis) -> str:
@@ -98,7 +136,12 @@ def _cannot_tell(verdict: Diagnosis) -> str:
     why = verdict.notices[-1].text.rstrip(".") if verdict.notices else "the recordings do not say"
     poses = verdict.next_poses
     settle = "" if poses is None else f"; {spelled(len(poses.motor_angles))} further poses would settle it"
-    return f"Cannot tell: {why[:1].lower() if why[1:2].islower() else why[:1]}{why[1:]}{settle}."
+    return f"Cannot tell: {_small(why)}{settle}."
+
+
+def _small(text: str) -> str:
+    """With a small first letter, unless it begins with a name."""
+    return f"{text[:1].lower() if text[1:2].islower() else text[:1]}{text[1:]}"
 
 
 def _vague(effect: FoundEffect) -> str:

@@ -151,5 +151,6 @@ def effect_in_words(effect: str, location: str) -> str:
 
 
 def main_and_minor(effects: Sequence[FoundEffect]) -> tuple[list[FoundEffect], list[FoundEffect]]:
-    """The effects of the story and those worth little."""
-    return [e for e in effects if not e.minor], [e for e in effects if e.minor]
+    """The effects of the story and those worth little, the largest share first."""
+    ordered = sorted(effects, key=lambda effect: -effect.share)
+    return [e for e in ordered if not e.minor], [e for e in ordered if e.minor]
