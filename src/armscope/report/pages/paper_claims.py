@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -93,9 +94,15 @@ def _printed(row: pd.Series) -> Cell:
     if row["under_assumptions"] == "not varied":
         return cell
     decided = f": {_text(row['depends_on'])}" if _text(row["depends_on"]) else ""
-    shares = f"{100 * float(row['share_least']):.0f}–{100 * float(row['share_most']):.0f} %"
-    other = f"under other assumptions: {row['under_assumptions']}{decided} ({shares})"
-    return Cell(cell.text, cell.tag, f"{cell.below}; {other}")
+    return Cell(
+        cell.text, cell.tag, f"{cell.below}; otherwise assumed: {row['under_assumptions']}{decided}, {shares(row)}"
+    )
+
+
+def shares(row: Mapping[Hashable, Any] | pd.Series) -> str:
+    """The least and the largest share of the robots over all scenarios, %."""
+    least, most = (f"{100 * float(row[name]):.0f}" for name in ("share_least", "share_most"))
+    return f"{least} %" if least == most else f"{least}–{most} %"
 
 
 def _remains(row: pd.Series) -> Cell:
@@ -103,14 +110,13 @@ def _remains(row: pd.Series) -> Cell:
     found = str(row["under_assumptions"])
     if found == "not varied":
         return Cell("not varied", "open", "see config/thorough.yaml")
-    shares = f"{100 * float(row['share_least']):.0f}–{100 * float(row['share_most']):.0f} % of the robots"
     moved = f"; moved most by {_text(row['moved_by'])}" if _text(row["moved_by"]) else ""
-    below = f"{shares} in {int(row['scenarios'])} scenarios{moved}"
+    seen = f"{shares(row)} of the robots in {int(row['scenarios'])} scenarios"
     if found.endswith("under all"):
-        return Cell(found, "holds" if found.startswith(HOLDS) else "fails", below)
+        return Cell(found, "holds" if found.startswith(HOLDS) else "fails", seen + moved)
     if _text(row["depends_on"]):
-        return Cell(f"{found}: {_text(row['depends_on'])}", "depends", f"{shares} in {int(row['scenarios'])} scenarios")
-    return Cell(found, TAGS[found], below)
+        return Cell(f"{found}: {_text(row['depends_on'])}", "depends", seen)
+    return Cell(found, TAGS[found], seen + moved)
 
 
 def _number(row: pd.Series) -> str:
