@@ -95,11 +95,11 @@ def _printed(row: pd.Series) -> Cell:
         return cell
     decided = f": {_text(row['depends_on'])}" if _text(row["depends_on"]) else ""
     return Cell(
-        cell.text, cell.tag, f"{cell.below}; otherwise assumed: {row['under_assumptions']}{decided}, {shares(row)}"
+        cell.text, cell.tag, f"{cell.below}; otherwise assumed: {row['under_assumptions']}{decided}, {range_of_shares(row)}"
     )
 
 
-def shares(row: Mapping[Hashable, Any] | pd.Series) -> str:
+def range_of_shares(row: Mapping[Hashable, Any] | pd.Series) -> str:
     """The least and the largest share of the robots over all scenarios, %."""
     least, most = (f"{100 * float(row[name]):.0f}" for name in ("share_least", "share_most"))
     return f"{least} %" if least == most else f"{least}–{most} %"
@@ -111,7 +111,7 @@ def _remains(row: pd.Series) -> Cell:
     if found == "not varied":
         return Cell("not varied", "open", "see config/thorough.yaml")
     moved = f"; moved most by {_text(row['moved_by'])}" if _text(row["moved_by"]) else ""
-    seen = f"{shares(row)} of the robots in {int(row['scenarios'])} scenarios"
+    seen = f"{range_of_shares(row)} of the robots in {int(row['scenarios'])} scenarios"
     if found.endswith("under all"):
         return Cell(found, "holds" if found.startswith(HOLDS) else "fails", seen + moved)
     if _text(row["depends_on"]):

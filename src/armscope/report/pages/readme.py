@@ -13,7 +13,7 @@ from armscope.core.inputs import InputError
 from armscope.paper.printed import AXES, TRAJECTORIES
 from armscope.paper.residuals import SPATIAL
 from armscope.report.html import significant
-from armscope.report.pages.paper_claims import shares
+from armscope.report.pages.paper_claims import range_of_shares
 from armscope.report.text.audit import audit_sentence
 
 BEGIN, END = "<!-- results: begin", "<!-- results: end -->"
@@ -107,7 +107,7 @@ def _verdict(row: dict[Hashable, Any]) -> str:
 def _remains(row: dict[Hashable, Any]) -> str:
     decided = row["depends_on"] if isinstance(row["depends_on"], str) and row["depends_on"] else ""
     found = f"{row['under_assumptions']}: {decided}" if decided else str(row["under_assumptions"])
-    return found if found == "not varied" else f"{found} ({shares(row)})"
+    return found if found == "not varied" else f"{found} ({range_of_shares(row)})"
 
 
 def _table_lines(table: pd.DataFrame) -> list[str]:
