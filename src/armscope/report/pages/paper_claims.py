@@ -94,9 +94,8 @@ def _printed(row: pd.Series) -> Cell:
     if row["under_assumptions"] == "not varied":
         return cell
     decided = f": {_text(row['depends_on'])}" if _text(row["depends_on"]) else ""
-    return Cell(
-        cell.text, cell.tag, f"{cell.below}; otherwise assumed: {row['under_assumptions']}{decided}, {range_of_shares(row)}"
-    )
+    elsewhere = f"under other assumptions: {row['under_assumptions']}{decided}, {range_of_shares(row)}"
+    return Cell(cell.text, cell.tag, f"{cell.below}; {elsewhere}")
 
 
 def range_of_shares(row: Mapping[Hashable, Any] | pd.Series) -> str:
