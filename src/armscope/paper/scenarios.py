@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 import pandas as pd
 
 from armscope.core.inputs import InputError
-from armscope.paper.study import Point, Sizes, StudyPlan
+from armscope.paper.study import Sizes, StudyPlan
+from armscope.paper.virtual import Point
 from armscope.robot import Arm
 
 Corners = tuple[Point, Point, Point, Point]

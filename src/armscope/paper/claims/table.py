@@ -36,7 +36,7 @@ def judge_claims(evidence: Mapping[str, Evidence]) -> tuple[pd.DataFrame, pd.Dat
     for claim in CLAIMS:
         for method, of_method in _methods(claim, evidence):
             place: dict[str, object] = {"key": claim.key, "method": method}
-            reason = _missing(claim, of_method)
+            reason = missing_models(claim, of_method)
             judged = None if reason else claim.judge(of_method)
             if judged is None:
                 rows.append({**place, "verdict": SKIPPED, "why_skipped": reason or "not run"})
@@ -55,7 +55,7 @@ def _methods(claim: Claim, evidence: Mapping[str, Evidence]) -> list[tuple[str, 
     return [(LEAST_SQUARES, evidence[IMPROVED])]
 
 
-def _missing(claim: Claim, evidence: Evidence) -> str:
+def missing_models(claim: Claim, evidence: Evidence) -> str:
     """Why the configured models don't let a claim be judged; "" if they do."""
     absent = [name for name in claim.needs if name not in evidence.models]
     if absent:
