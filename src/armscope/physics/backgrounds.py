@@ -20,6 +20,8 @@ GEOMETRIC = "geometric"
 FAMILIES = (GEOMETRIC, "elastic", "transmission")
 TOLERANCE = 1.0e-3
 """Geometric tolerance of an industrial arm: 1 mm and 1 mrad per D-H value."""
+MASSES = "mass"
+"""The family that comes with all that gives way: how wrong stated masses are, in shares."""
 
 
 def backgrounds(arm: Arm, recordings: Recordings) -> dict[str, list[Placed]]:

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 import yaml
 
-from armscope.robot.description import load_description
+from armscope.robot.description_file import load_description
 from armscope.world.motion.catalogue import KINDS, MotionSpec, Wish, catalogue
 from armscope.world.motion.folder import build, make
 from armscope.world.motion.recording import independent_share, record
@@ -106,6 +106,12 @@ def test_what_friction_takes_up_has_no_size():
     virtual = VirtualArm(description, dynamics, session, np.ones(2), stated=False)
     with pytest.raises(ImpossibleWish, match="viscous_friction"):
         place(virtual, KINDS["viscous_friction"], 3.0, None, np.random.default_rng(0), virtual.torques([]))
+
+
+def test_another_arm_conceals_what_this_one_cannot():
+    """The stage of two axes has no wrist that could be coupled."""
+    world = make(spec(("coupled_friction", 3.0, None)), FOLDER)
+    assert world.spec.arm == "six-axis"
 
 
 def test_a_world_is_two_folders_and_the_same_every_time(tmp_path):
