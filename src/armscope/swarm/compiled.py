@@ -2,9 +2,8 @@
 
 What makes it fast: each particle is moved (random numbers and all), judged and remembered while it is in the nearest
 cache; and memory is laid out with `LANES` swarms side by side, so that an innermost loop does several swarms with one
-instruction. Each swarm has its own SFC64 stream: a single stream can't be drawn in parallel. No lane looks at another,
-and moves do the arithmetic of `velocity_update` in the same order, without fused multiply-adds, so a swarm's result
-depends neither on its lane nor on its neighbours, and its moves agree with the NumPy engine's to the last bit.
+instruction. Each swarm has its own SFC64 stream: a single stream can't be drawn in parallel. Moves do the arithmetic of
+`velocity_update` in the same order, without fused multiply-adds: they agree with the NumPy engine's to the last bit.
 
 ``lanes`` is always LANES, but not known to the compiler: it would unroll short loops of known length into scalars.
 """
@@ -31,7 +30,14 @@ _compiled = numba.njit(cache=True, nogil=True, error_model="numpy")
 
 @_compiled
 def run_packs(given: Problems, outcome: Outcome, pack: Pack, lanes: np.uint64) -> None:
-    """All swarms, pack by pack; the last pack repeats the last swarm, which gives the same result again."""
+    """All swarms, pack by pack; the last pack repeats the last swarm, which gives the same result again.
+
+    Args:
+        given: the problems.
+        outcome: filled by this.
+        pack: room for the state of one pack.
+        lanes: `LANES`.
+    """
     swarms = len(given.targets)
     for first in range(0, swarms, LANES):
         for lane in range(LANES):
@@ -252,8 +258,7 @@ def _lead(pack: Pack, ring: bool, particles: int, dimensions: int) -> None:
 @_compiled
 def _note(given: Problems, outcome: Outcome, pack: Pack, iteration: int) -> bool:
     """Write down the swarms' progress and those that stop; whether any goes on."""
-    last = len(given.coefficients)
-    any_at_work = False
+    last, any_at_work = len(given.coefficients), False
     for lane in range(LANES):
         pack.progress[iteration * LANES + lane] = pack.tally[4 * LANES + lane]
         if not pack.at_work[lane]:
@@ -277,10 +282,8 @@ def _hand_over(outcome: Outcome, pack: Pack, lane: int, iteration: int) -> None:
     outcome.iterations[swarm] = iteration
     for k in range(4):
         outcome.states[swarm, k] = pack.stream[k * LANES + lane]
-    for before in range(iteration):
-        outcome.history[swarm, before] = pack.progress[before * LANES + lane]
-    for after in range(iteration, outcome.history.shape[1]):
-        outcome.history[swarm, after] = fitness
+    for k in range(outcome.history.shape[1]):
+        outcome.history[swarm, k] = pack.progress[k * LANES + lane] if k < iteration else fitness
     if fitness < np.inf:
         outcome.fitness[swarm] = fitness
         for d in range(dimensions):
