@@ -128,8 +128,8 @@ def _model_set(plain: Sequence[str], products: Sequence[str] | None, regions: Se
         if not count.isdecimal() or int(count) < 1 or int(count) & (int(count) - 1):
             raise InputError("--regions", "", text, "a model and 2, 4, 8, ... regions, like FDP(CI)=4")
         divided.append((model_named(name), int(count)))
-    named = (tuple(model_named(name) for name in names or ()) for names in (plain, products))
-    return ModelSet(*named, tuple(divided))
+    multiplied = tuple(model_named(name) for name in products or ())
+    return ModelSet(tuple(model_named(name) for name in plain), multiplied, tuple(divided))
 
 
 @app.command("regions", rich_help_panel=EXPERIMENTS)

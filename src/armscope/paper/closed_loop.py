@@ -110,7 +110,8 @@ def real_left_over(measurements: Measurements, fits: Sequence[FittedModel], mode
     """
     rows = measurements.identification
     found: dict[str, Callable[[PoseSet], Array]] = {NO_MODEL: lambda each: np.zeros_like(each.errors_mm[0])}
-    found |= {model.name: _predictor(model) for model in (*fits, *_extended(models, rows))}
+    fitted: list[FittedModel | ExtendedModel] = [*fits, *_extended(models, rows)]
+    found |= {model.name: _predictor(model) for model in fitted}
     return pd.concat(
         [
             vectors(name, each.name, "fit" if each is rows else "prediction", each.errors_mm[0] - predict(each))
