@@ -52,6 +52,7 @@ fuzz: .venv/installed-test
 .venv/installed: .venv/bin/python requirements.txt pyproject.toml
 	$(BIN)/pip install --quiet --disable-pip-version-check -r requirements.txt
 	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps --editable .
+	$(BIN)/python -c "from armscope.swarm import kernel; kernel.compile_now()"
 	@touch $@
 
 .venv/installed-test: .venv/installed requirements-test.txt
