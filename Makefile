@@ -6,14 +6,14 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: help reproduce test benchmark proof fuzz docs clean
+.PHONY: help reproduce test benchmark proof fuzz campaign clean
 help:
 	@echo "make reproduce   the paper, end to end: Table 2, Figs 1-11, claims, report"
 	@echo "make test        lint, types, unit tests, a small run of the whole workflow"
 	@echo "make benchmark   speed beside other packages, as ratios from one run"
 	@echo "make proof       the diagnosis on worlds with concealed effects"
-	@echo "make fuzz        an hour of bad files (SECONDS=60: a minute), and at least 3000 for every reader"
-	@echo "make docs        tutorial, gallery, reference and API as a site: site/index.html"
+	@echo "make fuzz        an hour of bad files (SECONDS=60: a minute), and 3000 for every reader"
+	@echo "make campaign    what happens when it is broken on purpose (TIMES=1: a few minutes)"
 	@echo "make clean       remove .venv and results"
 
 reproduce: .venv/installed
@@ -46,15 +46,6 @@ fuzz: .venv/installed-test
 	$(BIN)/python -m tests.fuzz --seconds $(SECONDS)
 	$(BIN)/python -m tests.fuzz --files 3000 --seconds 1e6
 
-# the pages as a site that works from files: site/index.html
-docs: .venv/installed-docs
-	$(BIN)/python -m tools.site
-	$(BIN)/mkdocs build --quiet --strict
-
-.venv/installed-docs: .venv/installed requirements-docs.txt
-	$(BIN)/pip install --quiet --disable-pip-version-check -r requirements-docs.txt
-	@touch $@
-
 .venv/bin/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "armscope needs python 3.11 or newer: make PYTHON=/path/to/python3.11"; exit 1; }
 	$(PYTHON) -m venv .venv
@@ -62,6 +53,7 @@ docs: .venv/installed-docs
 .venv/installed: .venv/bin/python requirements.txt pyproject.toml
 	$(BIN)/pip install --quiet --disable-pip-version-check -r requirements.txt
 	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps --editable .
+	$(BIN)/python -c "from armscope.swarm import kernel; kernel.compile_now()"
 	@touch $@
 
 .venv/installed-test: .venv/installed requirements-test.txt
@@ -78,6 +70,12 @@ docs: .venv/installed-docs
 	$(PYTHON) -m venv .venv-figaroh
 	.venv-figaroh/bin/pip install --quiet --disable-pip-version-check -r benchmarks/peers/requirements-figaroh.txt
 	@touch $@
+
+# kills, full disks, too little memory, two of everything, SLURM: prints a table, docs/trust.md is made from it
+TIMES ?= 20
+campaign: .venv/installed-test
+	-$(BIN)/pip install --quiet --disable-pip-version-check -r requirements-cluster.txt pip-audit
+	$(BIN)/python -m tests.campaign --times $(TIMES) --page docs/trust.md
 
 clean:
 	rm -rf .venv .venv-peers .venv-figaroh results .snakemake
