@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from armscope.cli.commands import Commands
-from armscope.cli.endings import MISMATCH, UNUSABLE
+from armscope.cli.endings import MISMATCH, UNUSABLE, waiting_since
 
 if TYPE_CHECKING:
     import numpy as np
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from armscope.recordings import Recordings
 
 app = Commands()
+
+PAGES = ("report.html", "work-order.html", "zero_offsets.csv", "corrected_dh.csv")
 
 
 @app.command()
@@ -59,9 +61,10 @@ def diagnose(
     from armscope.robot import load_arm
     from armscope.verdict.files import FILES
 
+    started = waiting_since()
     arm = load_arm(robot)
     table = read_recordings(recordings, arm.n_motors)
-    writable(output, *FILES, DOMAIN, "report.html")
+    writable(output, *FILES, DOMAIN, *(PAGES if report else ()))
     for note in table.notes:
         print(f"note: {note}", file=sys.stderr)
     if run:
@@ -79,7 +82,7 @@ def diagnose(
             from armscope.report.pages.diagnosis import write_report
 
             tell("drawing the report", 0.95)
-            write_report(verdict, output)
+            write_report(verdict, output, started)
     obstacle = verdict.notices[-1:] if verdict.mismatch is None else ()
     for notice in (*(each for each in verdict.notices if each.kind == "check"), *obstacle):
         print(f"note: {notice.text}", file=sys.stderr)

@@ -10,7 +10,6 @@ from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 from armscope.compensation.forward import NominalArm
 from armscope.compensation.newton import POLE, Wanted, solve_commands
@@ -118,6 +117,8 @@ def _from_many_starts(
     """The solution nearest to ``near`` from starts spread over the limits."""
     if np.linalg.norm(target.points[0]) > nominal.arm.reach:
         return None, BEYOND_REACH
+    from scipy.stats import qmc  # takes long to import: only where it is used
+
     limits = np.where(np.isfinite(nominal.arm.limits), nominal.arm.limits, [-np.pi, np.pi])
     starts = qmc.scale(qmc.Halton(nominal.arm.n_motors, scramble=False).random(STARTS), *limits.T)
     starts = np.where(free, starts, near)

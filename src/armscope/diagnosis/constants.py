@@ -198,7 +198,9 @@ class TellingRules(Constants):
     )
     grid: int = constant(361, "at which a curve is told", "convention: a turn in degrees", unit="points")
     atlas_rows: int = constant(4000, "that the atlas looks at, spread evenly", "judgement: time", unit="rows")
-    chance: float = constant(0.99, "with which subsets that agree stay below the limit", "convention: 99 %")
+    chance: float = constant(
+        0.99, "with which all agreeing subsets of a verdict stay below the limit", "convention: 99 %"
+    )
     most_payloads: int = constant(6, "compared one by one", "judgement: time", unit="payloads")
     homogeneity_rows: int = constant(
         3000, "on which payloads and halves of the workspace are compared", "judgement: time", unit="rows"

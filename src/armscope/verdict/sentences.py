@@ -15,6 +15,7 @@ from armscope.verdict.wording import (
     plain,
     reach,
     spelled,
+    undetermined,
 )
 
 MOST_TOLD = 3
@@ -111,7 +112,7 @@ def atlas_column(effect: FoundEffect) -> str:
 
 
 def _told(effect: FoundEffect) -> Told:
-    numbers = {p.name: Number(p.value, p.unit, p.stderr) for p in effect.parameters}
+    numbers = {p.name: Number(p.value, p.unit, p.stderr) for p in effect.parameters if not undetermined(p, effect)}
     if effect.curve is not None and len(effect.curve.value):
         farthest = reach(effect.curve)
         numbers[farthest.name] = Number(farthest.value, farthest.unit, farthest.stderr)
