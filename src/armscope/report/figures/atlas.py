@@ -50,7 +50,7 @@ def atlas_map(atlas: Atlas, effects: Sequence[FoundEffect]) -> Map:
     """The best direction's share of every location and driver that exist, and which cells the named effects are in."""
     share, left = (_best_direction(values) for values in (atlas.share, atlas.left))
     there = np.isfinite(share)
-    rows, columns = np.flatnonzero(there.any(axis=1)), np.flatnonzero(there.any(axis=0))
+    rows, columns = (np.flatnonzero(there.any(axis=axis)).tolist() for axis in (1, 0))
     named = {(effect.location, atlas_column(effect)) for effect in effects}
     end = max(LEAST_END, float(np.nanmax(share, initial=0.0)))
 
