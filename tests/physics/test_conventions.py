@@ -12,7 +12,8 @@ from armscope.physics.scene import Part, Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm, forward_kinematics
 from armscope.robot.arm import build_arm
-from armscope.robot.description import RobotDescription, load_description
+from armscope.robot.description import RobotDescription
+from armscope.robot.description_file import load_description
 
 from .scenes import ARMS, ROBOTS, arm_named, full_table
 

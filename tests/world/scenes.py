@@ -6,7 +6,7 @@ import functools
 
 import numpy as np
 
-from armscope.robot.description import load_description
+from armscope.robot.description_file import load_description
 from armscope.world.catalogue import KINDS, LARGEST_PAYLOAD_KG
 from armscope.world.kinds import Concealed, Scene
 from armscope.world.session import random_session

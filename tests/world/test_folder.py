@@ -10,7 +10,7 @@ import pytest
 import yaml
 
 from armscope.recordings import read_recordings
-from armscope.robot.description import load_description
+from armscope.robot.description_file import load_description
 from armscope.world.catalogue import WorldSpec, catalogue
 from armscope.world.folder import build
 from armscope.world.virtual_arm import conceal, measure_at, measure_session

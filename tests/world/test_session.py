@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from armscope.robot.description import load_description
+from armscope.robot.description_file import load_description
 from armscope.world.session import LOWEST_TOOL_M, POSE_RULES, SLACK_OF_PARALLELOGRAM_RAD, random_session
 from armscope.world.strength import make_scene
 from tests.world.by_hand import ARMS, ROBOTS

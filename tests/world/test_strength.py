@@ -11,7 +11,7 @@ import yaml
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
-from armscope.robot.description import load_description
+from armscope.robot.description_file import load_description
 from armscope.world.catalogue import KINDS
 from armscope.world.kinds import Concealed
 from armscope.world.statics import Session

@@ -17,14 +17,13 @@ class BackgroundPriors(Constants):
         "judgement: from a perfect arm to an ordinary one; none is among them, since two dozen free "
         "values, however small, take up any single one that is barely seen",
     )
-    family_sizes: int = constant(
-        4,
-        "of an elastic or transmission background: none, then the smallest of the effects' sizes",
-        "judgement: what is larger has a name",
-        unit="sizes",
+    plausible_shares: tuple[float, ...] = constant(
+        (0.0, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0),
+        "shares of what is plausible that an elastic or transmission background may have",
+        "judgement: from a stiff arm with ground gears to a soft one; what is larger has a name",
     )
     starts: tuple[tuple[int, ...], ...] = constant(
-        ((0, 0, 0), (2, 0, 0), (4, 0, 0), (3, 2, 2)),
+        ((0, 0, 0), (2, 0, 0), (4, 0, 0), (3, 3, 2)),
         "sizes of the backgrounds from which searches start",
         "judgement: a perfect arm, two with geometric tolerances, one with a little of everything",
         unit="indices",
@@ -50,6 +49,12 @@ class LoopBudget(Constants):
         "width of the prior of a name within a background",
         "judgement: free, but not so that several run against each other",
         unit="sizes",
+    )
+    surely_negative: float = constant(
+        3.0,
+        "by which a compliance about one of two axes must be negative to be taken out",
+        "convention: three; less is a stiff axis and noise",
+        unit="standard errors",
     )
     sample_rows: int = constant(3000, "longer tables are diagnosed on so many first", "judgement: time", unit="rows")
     rows_of_a_group: int = constant(
@@ -138,6 +143,11 @@ class NamingRules(Constants):
         "of a curve of load that its line explains, from which it is told as the line and the rest",
         "judgement: the rest is then a tenth",
     )
+    main_share: float = constant(
+        0.75,
+        "of a curve of a joint's angle, of what only it explains, that one line or wave must be to be told as that",
+        "judgement: the rest is then half as large as it",
+    )
     stands_out_nats: float = constant(
         20.0,
         "that holding a background's member right must lose for it to be named",
@@ -146,6 +156,11 @@ class NamingRules(Constants):
     )
     stands_out: float = constant(
         0.25, "share of the RMS that it must be worth", "judgement: less is one of many small errors"
+    )
+    beyond_family: float = constant(
+        2.5,
+        "times the usual value of its family that a background's member must have to be named",
+        "convention: one in eighty of a family's values is farther out",
     )
     minor_share: float = constant(
         0.025,
@@ -182,6 +197,11 @@ class TellingRules(Constants):
     )
     background_seen_nats: float = constant(
         5.0, "evidence from which a background is said to be there", "judgement: 150 to 1", unit="nats"
+    )
+    determined: float = constant(
+        0.5,
+        "of a value's prior width that its standard error must be below to be told",
+        "judgement: half of it is data",
     )
     most_bad_shots: float = constant(
         0.1, "share of rows that fit nothing beyond which they are no bad shots", "judgement: a tenth is a pattern"

@@ -23,7 +23,8 @@ from armscope.inference.search import Search
 from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.row_weights import RowWeights
 from armscope.measurement.whitening import WhitenedPosture, Whitener
-from armscope.physics.effect import Term
+from armscope.physics.drift import six_terms
+from armscope.physics.effect import Driver, Term
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 from armscope.verdict.schema import HeldOut, WaterfallStep
@@ -72,7 +73,7 @@ def cross_validate(
 
     Every fold's search starts from nothing and sees only its own rows' sums. What comes from all rows: the point of
     linearisation, the weights of rows, the scanned numbers that compete (periods, times of jumps) and, for a hypothesis
-    of many columns, the backgrounds' sizes from which the search starts. A whole held-out run's own base is fitted on
+    of many columns, the backgrounds' sizes from which the search starts. Where a whole held-out run stands is fitted on
     its rows, as it always is.
 
     Args:
@@ -213,7 +214,8 @@ def _held_out_errors(
 ) -> Array:
     """(K, N, c) errors, mm and mrad, of every row under the readings of the fold that it took no part in.
 
-    Where whole runs are held out, the frames that only they have are refitted on them.
+    Where whole runs are held out, the frames that only they have are refitted on them, and so is where they stand on a
+    base that they share.
     """
     folds = sorted(values)
     fold_of = split.fold[split.of_row]
@@ -227,9 +229,15 @@ def _held_out_errors(
         frames = problem.space.frames
         seen = np.diag(whole.G)[frames]
         own = frames[seen - np.diag(held.G)[frames] < 1e-9 * np.maximum(seen, 1e-12)]
-        if len(own):
-            at = np.flatnonzero(fold_of == fold)
-            errors[:, at] = _refitted(rows, [rows.layout.terms[k] for k in own], at, errors[:, at])
+        at = np.flatnonzero(fold_of == fold)
+        terms = [rows.layout.terms[k] for k in own]
+        terms += [
+            term
+            for run in np.unique(rows.recordings.run[at])
+            for term in six_terms("base", Driver("in run", (str(run),)))
+            if term not in terms
+        ]
+        errors[:, at] = _refitted(rows, terms, at, errors[:, at])
     return errors
 
 

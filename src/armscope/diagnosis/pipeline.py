@@ -19,11 +19,15 @@ from armscope.diagnosis.state import DiagnosisState
 from armscope.fitting.exchanged_tool import exchanged_tool
 from armscope.fitting.linearisation import LinearisedTable, residuals
 from armscope.fitting.registration import fit_frames
+from armscope.fitting.set_ups import compare_bases
+from armscope.fitting.set_ups import told as set_up_anew
 from armscope.measurement.channel import Channel, nuisances
 from armscope.measurement.noise import Noise, known_noise
 from armscope.measurement.registry import CHANNELS, supported
 from armscope.physics.effect import Placed
+from armscope.physics.frames import sharing_bases
 from armscope.physics.model import FittedModel
+from armscope.physics.set_ups import SetUps
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.verdict.schema import Diagnosis, Notice
@@ -77,11 +81,11 @@ def diagnose(
     checked = check_table(arm, recordings)
     table = checked.recordings if settings.orientation else replace(checked.recordings, orientation=None)
     tell("fitting base and tool", 0.02)
-    start, tool_per_run, told = _frames(arm, table, settings.tool_per_run)
+    start, tool_per_run, set_ups, told = _frames(arm, table, settings.tool_per_run)
     first = residuals(start, LinearisedTable(table, supported(table, channels)))
     channels, table, doubts = trusted_channels(tuple(first.by_channel), table, first)
     noise = known_noise(arm, table)
-    frames = nuisances(channels, table, tool_per_run)
+    frames = sharing_bases(nuisances(channels, table, tool_per_run), set_ups)
     problems = suspected(arm, checked.recordings)
     obstacle = too_far(arm, table, first.points_mm, problems) or _too_few(table, frames)
     notices = (*as_notices(problems, obstacle), *checked.notices, *told, *doubts)
@@ -106,14 +110,20 @@ def diagnose(
     return verdict.after(time.perf_counter() - started, vars(settings))
 
 
-def _frames(arm: Arm, table: Recordings, tool_per_run: bool) -> tuple[FittedModel, bool, list[Notice]]:
-    """The arm with base and tool fitted, whether its tool is free in every run, and why where nobody asked for it."""
-    start = fit_frames(arm, table, tool_per_run)
+def _frames(arm: Arm, table: Recordings, tool_per_run: bool) -> tuple[FittedModel, bool, SetUps, list[Notice]]:
+    """The arm with bases and tools fitted, whether its tool is free in every run, which runs share a base, and why."""
+    start, notices = fit_frames(arm, table, tool_per_run), []
     exchanged = None if tool_per_run else exchanged_tool(start, table)
-    if exchanged is None:
-        return start, tool_per_run, []
-    text = f"From run to run the tool lies elsewhere, {exchanged.apart}: it is free in each run."
-    return exchanged.model, True, [Notice("tool exchanged", text)]
+    if exchanged is not None:
+        start, tool_per_run = exchanged.model, True
+        text = f"From run to run the tool lies elsewhere, {exchanged.apart}: it is free in each run."
+        notices.append(Notice("tool exchanged", text))
+    compared = compare_bases(start, table)
+    if any(len(runs) > 1 for runs in compared.set_ups):
+        start = fit_frames(arm, table, tool_per_run, compared.set_ups)
+    if text := set_up_anew(compared):
+        notices.append(Notice("set up anew", text))
+    return start, tool_per_run, compared.set_ups, notices
 
 
 def _gravity(start: FittedModel, table: Recordings, noise: Noise, tool_per_run: bool) -> tuple[Arm, list[Notice]]:

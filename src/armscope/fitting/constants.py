@@ -74,6 +74,20 @@ class ExchangeRules(Constants):
 
 
 @dataclass(frozen=True)
+class SetUpRules(Constants):
+    """When a base counts as set up anew between runs."""
+
+    settled_mm: float = constant(
+        3.0,
+        "that one base for two set-ups may leave more than one for each, RMS distance at the tool",
+        "judgement: bolted bases and levelled instruments settle by tenths of a millimetre, who sets up anew by hand "
+        "misses the old place by centimetres; the geometric middle of 0.3 and 30 mm. Less is a shift, which competes "
+        "with the other effects; an arm's own errors, seen in other poses, seldom pass for more",
+        unit="mm",
+    )
+
+
+@dataclass(frozen=True)
 class DiscrepancyRules(Constants):
     """How smooth errors that nobody named are looked for."""
 
@@ -131,5 +145,6 @@ class ScatterRules(Constants):
 
 STEPS = FittingSteps()
 EXCHANGE = ExchangeRules()
+SET_UPS = SetUpRules()
 DISCREPANCY = DiscrepancyRules()
 SCATTER = ScatterRules()

@@ -1,4 +1,4 @@
-"""Frames as they are: base per run and tool per target, from a closed-form start anywhere in space."""
+"""Frames as they are: base per set-up and tool per target, from a closed-form start anywhere in space."""
 
 from __future__ import annotations
 
@@ -13,20 +13,22 @@ from armscope.measurement import robust
 from armscope.physics.frames import TOOL_FRAME, ToolKey, free_frames, tool_keys
 from armscope.physics.model import Base, FittedModel
 from armscope.physics.scene import Part
+from armscope.physics.set_ups import SetUps, in_order_of_time
 from armscope.recordings import Recordings
 from armscope.robot import Arm, chain
 
 
-def fit_frames(arm: Arm, recordings: Recordings, tool_per_run: bool = False) -> FittedModel:
+def fit_frames(arm: Arm, recordings: Recordings, tool_per_run: bool = False, set_ups: SetUps = ()) -> FittedModel:
     """The arm with base and tool fitted to the recordings and no effects.
 
-    Each run starts from the rigid motion of the nominal tool points about their medians onto the measured ones;
+    Each base starts from the rigid motion of the nominal tool points about their medians onto the measured ones;
     Gauss-Newton with Huber weights then fits bases and tools together.
 
     Args:
         arm: the nominal arm.
         recordings: N rows.
         tool_per_run: a tool of its own in every run, where it was taken off in between.
+        set_ups: runs that share a base; any other has its own.
 
     Returns:
         The model, its frames in SI units.
@@ -35,14 +37,17 @@ def fit_frames(arm: Arm, recordings: Recordings, tool_per_run: bool = False) -> 
     keys = tool_keys(recordings, tool_per_run)
     which_tool = _tool_of_row(recordings, keys)
     runs, which_run = np.unique(recordings.run, return_inverse=True)
-    poses = FlangePoses(frames.tool, frames.tool_rotation, recordings.positions, which_run, which_tool)
-    found = place_frames(poses, poses.start(np.zeros((len(keys), 3)), len(runs)), STEPS.registration, _weights).state
+    first_of = {run: together[0] for together in set_ups for run in together}
+    stands, base_of_run = np.unique([first_of.get(str(run), str(run)) for run in runs], return_inverse=True)
+    which_base = base_of_run[which_run]
+    poses = FlangePoses(frames.tool, frames.tool_rotation, recordings.positions, which_base, which_tool)
+    found = place_frames(poses, poses.start(np.zeros((len(keys), 3)), len(stands)), STEPS.registration, _weights).state
     bases = [Base(*each) for each in zip(found.rotations, found.translations, strict=True)]
     return FittedModel(
         arm,
-        {str(run): base for run, base in zip(runs, bases, strict=True)},
+        {run: bases[base_of_run[np.searchsorted(runs, run)]] for run in in_order_of_time(recordings)},
         _tool_parts(recordings, tool_per_run, found.tools),
-        tool_turns=_tool_turns(recordings, frames.tool_rotation, bases, which_run, keys, which_tool),
+        tool_turns=_tool_turns(recordings, frames.tool_rotation, bases, which_base, keys, which_tool),
     )
 
 
@@ -50,7 +55,7 @@ def _tool_turns(
     recordings: Recordings,
     modelled: Array,
     bases: list[Base],
-    which_run: NDArray[np.intp],
+    which_base: NDArray[np.intp],
     keys: list[ToolKey],
     which_tool: NDArray[np.intp],
 ) -> dict[ToolKey, Array]:
@@ -60,7 +65,7 @@ def _tool_turns(
         rows = np.flatnonzero(recordings.oriented & (which_tool == number))
         if not len(rows):
             continue
-        placed = np.array([bases[r].rotation for r in which_run[rows]]) @ modelled[rows]
+        placed = np.array([bases[b].rotation for b in which_base[rows]]) @ modelled[rows]
         measured = Rotation.from_quat(recordings.quaternions[rows], scalar_first=True)
         on_flange = Rotation.from_matrix(placed).inv() * measured
         mean = on_flange.mean()

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from armscope.core.types import Array
 from armscope.measurement.channel import Channel
 from armscope.physics.effect import AXES, Direction, Placed, Term
-from armscope.physics.frames import bases_and_tools
+from armscope.physics.frames import bases_and_tools, runs_of
 from armscope.physics.model import Base, FittedModel
 from armscope.physics.scene import Part, Posture
 from armscope.recordings import Recordings
@@ -46,8 +46,8 @@ class Positions(Channel):
         for term, value in steps.items():
             product = term.products[0]
             if product.driver.kind == "in run" and product.direction.location == "base":
-                twist = twists.setdefault(str(product.driver.arguments[0]), np.zeros(6))
-                twist[AXES.index(product.direction.axis)] = value
+                for run in runs_of(product.driver):
+                    twists.setdefault(run, np.zeros(6))[AXES.index(product.direction.axis)] = value
         bases = {run: moved_base(base, twists.get(run, np.zeros(6))) for run, base in model.bases.items()}
         tools = tuple(
             Part(part.placed, part.values + np.array([steps.get(term, 0.0) for term in part.placed.terms]))

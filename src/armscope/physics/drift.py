@@ -13,9 +13,12 @@ from armscope.physics.clause import Told
 from armscope.physics.cure import Cure
 from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term, term
 from armscope.physics.placing import varies
+from armscope.physics.set_ups import SetUps, in_order_of_time
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
+OF_RUNS = {"run ": " in ", "in run ": " ", "between runs ": " ", "from run ": " "}
+"""How it begins to be told in which runs something is otherwise, and what comes before."""
 LEAST_SPAN_S = 1.0
 FEWEST_ORDERED_ROWS = 20
 
@@ -61,11 +64,13 @@ class Pause:
         row: the first row afterwards, as `row_number` counts.
         run: its run.
         rows: how many rows would have filled it.
+        later: runs on the same base that come after it.
     """
 
     row: float
     run: str
     rows: float
+    later: tuple[str, ...] = ()
 
 
 def drift_with_pauses(pauses: Sequence[Pause], multiplicity: int) -> Placed:
@@ -76,7 +81,7 @@ def drift_with_pauses(pauses: Sequence[Pause], multiplicity: int) -> Placed:
             products=(
                 *each.products,
                 *(
-                    Product(each.products[0].direction, Driver("after row", (p.row, p.run)), p.rows / 1e3)
+                    Product(each.products[0].direction, Driver("after row", (p.row, p.run, *p.later)), p.rows / 1e3)
                     for p in pauses
                 ),
             ),
@@ -92,7 +97,10 @@ def drift_with_pauses(pauses: Sequence[Pause], multiplicity: int) -> Placed:
 def pauses_of(placed: Placed) -> list[Pause]:
     """The pauses of a drift that follows the order of rows."""
     steps = [product for product in placed.terms[0].products if product.driver.kind == "after row"]
-    return [Pause(p.driver.number(0), str(p.driver.arguments[1]), p.factor * 1e3) for p in steps]
+    return [
+        Pause(p.driver.number(0), str(p.driver.arguments[1]), p.factor * 1e3, tuple(map(str, p.driver.arguments[2:])))
+        for p in steps
+    ]
 
 
 def _length(told: Told) -> str:
@@ -108,6 +116,7 @@ def _drifts(told: Told) -> str:
 def _jumped(told: Told) -> str:
     when = f" at {told.numbers['time'].value:.0f} s" if "time" in told.numbers else ""
     when = f" at row {told.numbers['row'].value:.0f}" if "row" in told.numbers else when
+    when = next((f"{before}{told.driver}" for start, before in OF_RUNS.items() if told.driver.startswith(start)), when)
     return f"the {told.location} jumped by {_length(told)} mm{when}"
 
 
@@ -129,14 +138,30 @@ BASE_DRIFT = Effect(
 
 
 def _place_tool_of_run(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    """A tool that stands elsewhere in a whole run than in the first one, where both measured the same target."""
-    runs = np.unique(recordings.run)
-    targets = {str(run): set(recordings.target[recordings.run == run].tolist()) for run in runs}
-    for run in targets:
+    """A tool that stands elsewhere in a whole run, or from one on, where others measured the same target."""
+    runs = in_order_of_time(recordings)
+    targets = {run: set(recordings.target[recordings.run == run].tolist()) for run in runs}
+    for number, run in enumerate(runs):
         others = set().union(*(seen for other, seen in targets.items() if other != run))
-        if run != str(runs[0]) and targets[run] & others:
-            terms = six_terms("tool", Driver("in run", (run,)), axes=_axes_of_tool(recordings))
-            yield Placed(TOOL_SHIFT, "tool", terms, (1.0,) * len(terms), f"run {run}", variant=f"run {run}")
+        if number and targets[run] & others:
+            yield _in_runs(TOOL_SHIFT, "tool", _axes_of_tool(recordings), (run,), f"run {run}")
+            if run != runs[-1]:
+                later = tuple(runs[number:])
+                yield _in_runs(TOOL_SHIFT, "tool", _axes_of_tool(recordings), later, f"from run {run} on")
+
+
+def base_shifts_of_runs(set_ups: SetUps) -> Iterator[Placed]:
+    """A base that stands elsewhere in one run of a set-up alone, or from one of its runs on."""
+    for runs in set_ups:
+        for number, run in enumerate(runs[1:], 1):
+            yield _in_runs(BASE_SHIFT, "base", AXES, runs[number:], f"between runs {runs[number - 1]} and {run}")
+            if run != runs[-1]:
+                yield _in_runs(BASE_SHIFT, "base", AXES, (run,), f"in run {run} alone")
+
+
+def _in_runs(effect: Effect, location: str, axes: tuple[str, ...], runs: tuple[str, ...], when: str) -> Placed:
+    terms = six_terms(location, Driver("during run", runs), axes=axes)
+    return Placed(effect, location, terms, (1.0,) * len(terms), when, variant=when)
 
 
 def _axes_of_tool(recordings: Recordings) -> tuple[str, ...]:
@@ -144,46 +169,47 @@ def _axes_of_tool(recordings: Recordings) -> tuple[str, ...]:
     return AXES if recordings.oriented.any() else AXES[:3]
 
 
-def base_shift(recordings: Recordings, row: int, multiplicity: int) -> Placed:
-    """The base jumps before a row (0-based) and stays so until the end of the row's run.
+def base_shift(recordings: Recordings, row: int, multiplicity: int, later: tuple[str, ...] = ()) -> Placed:
+    """The base jumps before a row (0-based) and stays so until the end of the row's run, and in later runs.
 
     Args:
         recordings: the table.
         row: the first after the jump.
         multiplicity: how many moments compete.
+        later: runs that share the base and come after the row's run.
 
     Returns:
         The effect in place.
     """
-    return _shift(BASE_SHIFT, "base", AXES, recordings, row, multiplicity)
+    return _shift(BASE_SHIFT, recordings, row, multiplicity, later)
 
 
-def tool_shift(recordings: Recordings, row: int, multiplicity: int) -> Placed:
-    """The tool jumps before a row (0-based) and stays so until the end of the row's run.
+def tool_shift(recordings: Recordings, row: int, multiplicity: int, later: tuple[str, ...] = ()) -> Placed:
+    """The tool jumps before a row (0-based) and stays so until the end of the row's run, and in later runs.
 
     Args:
         recordings: the table.
         row: the first after the jump.
         multiplicity: how many moments compete.
+        later: runs that share the tool and come after the row's run.
 
     Returns:
         The effect in place.
     """
-    return _shift(TOOL_SHIFT, "tool", _axes_of_tool(recordings), recordings, row, multiplicity)
+    return _shift(TOOL_SHIFT, recordings, row, multiplicity, later)
 
 
-def _shift(
-    effect: Effect, location: str, axes: tuple[str, ...], recordings: Recordings, row: int, multiplicity: int
-) -> Placed:
+def _shift(effect: Effect, recordings: Recordings, row: int, multiplicity: int, later: tuple[str, ...]) -> Placed:
+    location, axes = ("base", AXES) if effect is BASE_SHIFT else ("tool", _axes_of_tool(recordings))
     run = str(recordings.run[row])
     several = f", run {run}" if len(np.unique(recordings.run)) > 1 else ""
     scanned: tuple[str, str, float]
     if recordings.time is not None:
         start = float(recordings.time[row])
-        driver, scanned = Driver("after time", (start, run)), ("time", "s", start)
+        driver, scanned = Driver("after time", (start, run, *later)), ("time", "s", start)
     else:
         number = row_number(recordings, row)
-        driver, scanned = Driver("after row", (number, run)), ("row", "", number)
+        driver, scanned = Driver("after row", (number, run, *later)), ("row", "", number)
     return Placed(
         effect,
         location,

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,6 +25,8 @@ REFERENCE_TEMPERATURE_C = 20.0
 """Lengths hold at this temperature."""
 SECONDS_PER_HOUR = 3600.0
 ROWS_PER_UNIT = 1000.0
+SMALL_SHARE = 1e-3
+"""Of a link's mass, by which slopes are taken: what bends with the load hardly does so here."""
 
 
 def evaluate(scene: Scene, driver: Driver) -> Array:
@@ -133,16 +135,32 @@ def _unit_mass_torques(scene: Scene) -> Array:
 
 def _heavier(scene: Scene, load: Driver) -> Array:
     """Change of a load driver per kilogram more at the tool point."""
-    heavier = scene.remember("heavier", lambda: scene.with_payload(mass=1.0))
+    more = replace(scene.misstated, payload_kg=scene.misstated.payload_kg + 1.0)
+    heavier = scene.remember("heavier", lambda: scene.loaded_as(more))
     change: Array = heavier.driver(load) - scene.driver(load)
     return change
 
 
 def _off_centre(scene: Scene, load: Driver, axis: int) -> Array:
     """Change of a load driver per metre that the payload's centre lies off the tool point along a tool axis."""
-    shifted = scene.remember(("off centre", axis), lambda: scene.with_payload(offset=np.eye(3)[axis]))
+    off = replace(scene.misstated, payload_offset=np.eye(3)[axis])
+    shifted = scene.remember(("off centre", axis), lambda: scene.loaded_as(off))
     change: Array = shifted.driver(load) - scene.driver(load)
     return change
+
+
+def _heavier_by_share(scene: Scene, load: Driver) -> Array:
+    """Change of a load driver per share of the stated payload that it is heavier."""
+    more = replace(scene.misstated, payload_share=scene.misstated.payload_share + 1.0)
+    heavier = scene.remember("heavier by share", lambda: scene.loaded_as(more))
+    change: Array = heavier.driver(load) - scene.driver(load)
+    return change
+
+
+def _heavier_link(scene: Scene, load: Driver, link: int) -> Array:
+    """Slope of a load driver over the relative error of a link's mass; loads themselves are proportional to it."""
+    change: Array = scene.with_heavier_link(link, SMALL_SHARE).driver(load) - scene.driver(load)
+    return change / SMALL_SHARE
 
 
 def _regressor(scene: Scene, j: int, *weights: float) -> Array:
@@ -194,17 +212,37 @@ def _rows(scene: Scene) -> Array:
     return scene.row_numbers / ROWS_PER_UNIT
 
 
-def _after_time(scene: Scene, start: float, run: str) -> Array:
-    return np.asarray((recorded(scene, "time") >= start) & (scene.recordings.run == run))
+def _after_time(scene: Scene, start: float, run: str, *later: str) -> Array:
+    """From a time of a run on, and in later runs."""
+    return np.where(_in_run(scene, run), recorded(scene, "time") >= start, _in_run(scene, *later))
 
 
-def _after_row(scene: Scene, first_row: float, run: str) -> Array:
-    """Rows are counted by the table's id (its row number where it has none), within a run."""
-    return np.asarray((scene.row_numbers >= first_row) & (scene.recordings.run == run))
+def _after_row(scene: Scene, first_row: float, run: str, *later: str) -> Array:
+    """From a row of a run on, and in later runs; counted by the table's id (its row number where it has none)."""
+    return np.where(_in_run(scene, run), scene.row_numbers >= first_row, _in_run(scene, *later))
 
 
-def _in_run(scene: Scene, run: str) -> Array:
-    return np.asarray(scene.recordings.run == run)
+def _in_run(scene: Scene, *runs: str) -> Array:
+    return np.asarray(np.isin(scene.recordings.run, runs))
+
+
+def _slow_wave(scene: Scene, waves: int, first: float, last: float) -> Array:
+    """Cosine of so many half waves from the first time (s) to the last, standing still before and after.
+
+    Zero where no time was recorded: how the set-up then stands is not known.
+    """
+    time = scene.recordings.time
+    return np.zeros(len(scene)) if time is None else np.nan_to_num(_half_waves(time, waves, first, last))
+
+
+def _slow_wave_of_rows(scene: Scene, waves: int, first: float, last: float) -> Array:
+    """The same along the order of rows."""
+    return _half_waves(scene.row_numbers, waves, first, last)
+
+
+def _half_waves(at: Array, waves: int, first: float, last: float) -> Array:
+    along = np.clip((at - first) / max(last - first, 1e-9), 0.0, 1.0)
+    return np.asarray(np.cos(np.pi * waves * along))
 
 
 def _on_target(scene: Scene, target: str) -> Array:
@@ -246,6 +284,17 @@ def _rocker(scene: Scene) -> Array:
     """Forearm angle per metre that rocker minus crank differs from the parallelogram: cot(gamma) / k."""
     gamma = _crank_to_upper_arm(scene)
     return np.cos(gamma) / (scene.linkage.rocker * _away_from_zero(np.sin(gamma)))
+
+
+def _rod_share(scene: Scene, crank_angle: float) -> Array:
+    """As `_rod`, per share of the rocker's length, for a rocker that stands at ``crank_angle`` on the forearm, rad."""
+    return -1.0 / _away_from_zero(np.sin(scene.elbow_angle + crank_angle))
+
+
+def _rocker_share(scene: Scene, crank_angle: float) -> Array:
+    """As `_rocker`, per share of the rocker's length."""
+    gamma = scene.elbow_angle + crank_angle
+    return np.cos(gamma) / _away_from_zero(np.sin(gamma))
 
 
 def _crank_to_upper_arm(scene: Scene) -> Array:
@@ -303,6 +352,8 @@ KINDS: dict[str, DriverKind] = {
     "gravity torque": DriverKind(_gravity_torque, follows=_WEIGHT),
     "payload torque": DriverKind(_payload_torque, needs="payload", follows=_LOAD),
     "heavier": DriverKind(_heavier, follows=_LOAD),
+    "heavier by share": DriverKind(_heavier_by_share, follows=_LOAD),
+    "heavier link": DriverKind(_heavier_link, follows=_LOAD),
     "off centre": DriverKind(_off_centre, follows=_LOAD),
     "regressor": DriverKind(_regressor, follows=frozenset({"load"})),
     "load side": DriverKind(_load_side, follows=_LOAD | {"torque"}),
@@ -317,11 +368,16 @@ KINDS: dict[str, DriverKind] = {
     "after time": DriverKind(_after_time, needs="time", follows=_RUN),
     "after row": DriverKind(_after_row, follows=_RUN),
     "in run": DriverKind(_in_run, follows=_RUN),
+    "during run": DriverKind(_in_run, follows=_RUN),  # the same, of what is no free frame
+    "slow wave": DriverKind(_slow_wave, follows=_RUN),
+    "slow wave of rows": DriverKind(_slow_wave_of_rows, follows=_RUN),
     "on target": DriverKind(_on_target),
     "on target in run": DriverKind(_on_target_in_run),
     "spline": DriverKind(_spline),
     "rod": DriverKind(_rod),
     "rocker": DriverKind(_rocker),
+    "rod share": DriverKind(_rod_share),
+    "rocker share": DriverKind(_rocker_share),
 }
 
 

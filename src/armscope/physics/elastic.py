@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import Cure, command
 from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.placing import varies
@@ -17,6 +18,8 @@ from armscope.robot.gravity import mass_moment_regressor
 
 UNKNOWN_MASSES = "unknown masses"
 """The variant of a joint's compliance that trusts no stated mass."""
+TWO_AXES = "two axes"
+"""The variant of a base's compliance that is not the same about x and y: a pedestal or a machine's bed is not round."""
 TRACE_OF_LOAD = 5e-3
 """A smaller share of the largest load's variation is a trace: wrists are softer than shoulders, but not so much."""
 SHORTEST_BEAM_M = 0.05
@@ -42,15 +45,45 @@ def _place_joints(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     if not has_load(arm) and recordings.torque is None:
         yield from _unknown_masses(arm, recordings)
         return
-    for j in loaded_joints(Scene(arm, recordings)):
-        compliance = term("compliance", "rad/(N m)", (motor(j), Driver("torque", (j,))))
+    scene = Scene(arm, recordings)
+    for j in loaded_joints(scene):
+        compliance = drive(scene, j, Driver("torque", (j,)))
         yield Placed(JOINT_COMPLIANCE, f"joint {j}", (compliance,), (1.0,), f"load of joint {j}")
         if recordings.torque is not None and arm.has_masses:
-            by_masses = term("compliance", "rad/(N m)", (motor(j), Driver("gravity torque", (j,))))
+            by_masses = drive(scene, j, Driver("gravity torque", (j,)))
             driver = f"load of joint {j} by the stated masses"
             yield Placed(JOINT_COMPLIANCE, f"joint {j}", (by_masses,), (1.0,), driver, variant="stated masses")
     if recordings.torque is None:
         yield from _unknown_masses(arm, recordings)
+
+
+def drive(scene: Scene, j: int, load: Driver) -> Term:
+    """The give of a drive under a load.
+
+    Args:
+        scene: the rows.
+        j: the motor, from 1.
+        load: what it gives way to, N m.
+
+    Returns:
+        The compliance, rad/(N m) where the load is a torque.
+    """
+    size = plausible_give(PLAUSIBLE.drive_rad, scene.driver(load))
+    return term("compliance", "rad/(N m)", (motor(j), load), plausible=size)
+
+
+def plausible_give(turn: float, load: Array) -> float:
+    """What gives way per unit of a load, where its largest value turns it by ``turn``.
+
+    Args:
+        turn: rad.
+        load: (N,) in any unit.
+
+    Returns:
+        rad per that unit; infinite where there is no load.
+    """
+    largest = float(np.abs(load).max(initial=0.0))
+    return turn / largest if largest > 0 else np.inf
 
 
 def _unknown_masses(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
@@ -62,7 +95,7 @@ def _unknown_masses(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
             continue
         shape = [1.0] * len(terms)
         if varies(recordings.payload, 1e-6):
-            terms.append(term("compliance", "rad/(N m)", (motor(j), Driver("payload torque", (j,)))))
+            terms.append(drive(scene, j, Driver("payload torque", (j,))))
             shape.append(1.0)
         yield Placed(
             JOINT_COMPLIANCE,
@@ -83,8 +116,9 @@ def _mass_moment_terms(scene: Scene, j: int) -> Iterator[Term]:
     if size[0] < 1e-6:
         return
     for number, direction in enumerate(directions[size > MASS_DIRECTIONS_SHARE * size[0]], start=1):
-        weights = tuple(float(w) for w in direction)
-        yield term(f"compliance_times_moment_{number}", "rad/(m/s^2)", (motor(j), Driver("regressor", (j, *weights))))
+        load = Driver("regressor", (j, *(float(w) for w in direction)))
+        give = plausible_give(PLAUSIBLE.drive_rad, scene.driver(load))
+        yield term(f"compliance_times_moment_{number}", "rad/(m/s^2)", (motor(j), load), plausible=give)
 
 
 def _regressor(scene: Scene) -> Array:
@@ -111,16 +145,23 @@ JOINT_COMPLIANCE = Effect(
 def _place_bearings(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     if not has_load(arm):
         return
+    scene = Scene(arm, recordings)
     for j in range(1, arm.n_joints + 1):
-        yield Placed(BEARING_COMPLIANCE, f"joint {j}", (_tilt(f"joint {j}"),), (1.0,), f"moment across joint {j}")
+        tilt = _tilt(scene, f"joint {j}")
+        yield Placed(BEARING_COMPLIANCE, f"joint {j}", (tilt,), (1.0,), f"moment across joint {j}")
 
 
-def _tilt(location: str) -> Term:
+def _tilt(scene: Scene, location: str) -> Term:
     return term(
         "compliance",
         "rad/(N m)",
         *(Product(Direction(location, axis), Driver("moment", (location, n))) for n, axis in enumerate(("rx", "ry"))),
+        plausible=_plausible_tilt(scene, location),
     )
+
+
+def _plausible_tilt(scene: Scene, location: str) -> float:
+    return plausible_give(PLAUSIBLE.bearing_rad, np.linalg.norm(scene.moment(location)[:, :2], axis=1))
 
 
 BEARING_COMPLIANCE = Effect(
@@ -144,7 +185,39 @@ BEARING_COMPLIANCE = Effect(
 
 def _place_base(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     if has_load(arm):
-        yield Placed(BASE_COMPLIANCE, "base", (_tilt("base"),), (1.0,), "moment on the base")
+        scene = Scene(arm, recordings)
+        yield Placed(BASE_COMPLIANCE, "base", (_tilt(scene, "base"),), (1.0,), "moment on the base")
+        terms = _two_axes(scene, "base")
+        yield Placed(BASE_COMPLIANCE, "base", terms, (1.0,) * 3, "moment on the base", variant=TWO_AXES)
+
+
+def _two_axes(scene: Scene, location: str) -> tuple[Term, ...]:
+    """A symmetric 2 x 2 compliance about x and y: soft axes that lie anyhow."""
+    about = [Direction(location, axis) for axis in ("rx", "ry")]
+    under = [Driver("moment", (location, n)) for n in (0, 1)]
+    size = _plausible_tilt(scene, location)
+    return (
+        term("compliance_x", "rad/(N m)", (about[0], under[0]), plausible=size),
+        term("compliance_y", "rad/(N m)", (about[1], under[1]), plausible=size),
+        term("compliance_xy", "rad/(N m)", (about[0], under[1]), (about[1], under[0]), plausible=size),
+    )
+
+
+def stiffest_of_two(values: Array, covariance: Array) -> tuple[float, float]:
+    """The smaller principal compliance, rad/(N m), of one about two axes; what is elastic has no negative one.
+
+    Args:
+        values: (3,) about x, about y, and across.
+        covariance: (3, 3) of them.
+
+    Returns:
+        Value and standard error.
+    """
+    x, y, across = values
+    size, axes = np.linalg.eigh(np.array([[x, across], [across, y]]))
+    u, v = axes[:, 0]
+    slope = np.array([u * u, v * v, 2 * u * v])
+    return float(size[0]), float(np.sqrt(slope @ covariance @ slope))
 
 
 BASE_COMPLIANCE = Effect(
@@ -157,7 +230,12 @@ BASE_COMPLIANCE = Effect(
         "Stiffen the mounting. No motor turns the base: otherwise command what the inverse kinematics of the corrected "
         "model asks for (base tilted by + compliance x moment; `armscope compensate`)."
     ),
-    clauses=("the base tilts by {compliance} under the arm's moment", "the base tilts under the arm's moment"),
+    clauses=(
+        "the base tilts by {compliance} under the arm's moment",
+        "the base tilts by {compliance_x} about its x and by {compliance_y} about its y under the arm's moment",
+        "the base tilts under the arm's moment",
+    ),
+    labels={"compliance_x": "about x", "compliance_y": "about y", "compliance_xy": "about x under a moment about y"},
     atlas="gravity load",
     nonnegative=True,
 )
@@ -166,6 +244,7 @@ BASE_COMPLIANCE = Effect(
 def _place_beams(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     if not has_load(arm):
         return
+    scene = Scene(arm, recordings)
     for j in range(1, arm.n_joints + 1):
         step = arm.before[j - 1] if arm.is_modified_dh else arm.behind[j - 1]
         if np.linalg.norm(step[:3, 3]) < SHORTEST_BEAM_M:
@@ -175,6 +254,7 @@ def _place_beams(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
             "flexibility",
             "1/(N m^2)",
             *(Product(Direction(site, axis), Driver("bend", (j, n))) for n, axis in enumerate(AXES)),
+            plausible=plausible_give(PLAUSIBLE.beam_rad, np.linalg.norm(scene.bending(j)[:, 3:], axis=1)),
         )
         yield Placed(LINK_BENDING, f"link {j}", (flexibility,), (1.0,), f"load at the end of link {j}")
 

@@ -1,14 +1,15 @@
-"""The frames that are always free: where the instrument stands (per run), where and how the tool is (per target)."""
+"""The frames that are always free: where the instrument stands (per set-up), where and how the tool is (per target)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
 from armscope.physics.cure import Cure
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import AXES, Driver, Effect, Placed
+from armscope.physics.set_ups import SetUps
 from armscope.recordings import Recordings
 
 BASE_FRAME = Effect(
@@ -52,15 +53,42 @@ def bases_and_tools(recordings: Recordings, tool_per_run: bool) -> Iterator[Plac
 
 def _bases(recordings: Recordings) -> Iterator[Placed]:
     for run in np.unique(recordings.run):
-        yield Placed(
-            BASE_FRAME, "base", six_terms("base", Driver("in run", (str(run),))), (1.0,) * 6, "run", variant=str(run)
-        )
+        yield _base((str(run),))
+
+
+def _base(runs: tuple[str, ...]) -> Placed:
+    terms = six_terms("base", Driver("in run", runs))
+    return Placed(BASE_FRAME, "base", terms, (1.0,) * 6, "run", variant=", ".join(runs))
 
 
 def _tools(recordings: Recordings, per_run: bool) -> Iterator[Placed]:
     for key in tool_keys(recordings, per_run):
         terms = six_terms("tool", _with_tool(key), axes=AXES[:3])
         yield Placed(TOOL_FRAME, "tool", terms, (1.0,) * 3, "target", variant=key[0])
+
+
+def sharing_bases(frames: Iterable[Placed], set_ups: SetUps) -> list[Placed]:
+    """Free frames with one base for all runs of a set-up in place of one for each of them."""
+    whole = {run: runs for runs in set_ups for run in runs}
+    shared: dict[tuple[str, ...], Placed] = {}
+    others: list[Placed] = []
+    for placed in frames:
+        if placed.effect is BASE_FRAME:
+            runs = whole.get(placed.variant, (placed.variant,))
+            shared.setdefault(runs, _base(runs))
+        else:
+            others.append(placed)
+    return [*shared.values(), *others]
+
+
+def set_ups_of(frames: Iterable[Placed]) -> SetUps:
+    """The runs of every base among free frames."""
+    return tuple(runs_of(placed.terms[0].products[0].driver) for placed in frames if placed.effect is BASE_FRAME)
+
+
+def runs_of(driver: Driver) -> tuple[str, ...]:
+    """The runs that an "in run" driver is of."""
+    return tuple(str(run) for run in driver.arguments)
 
 
 def tool_turns(recordings: Recordings, per_run: bool) -> Iterator[Placed]:

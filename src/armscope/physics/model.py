@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +33,7 @@ class FittedModel:
 
     Attributes:
         arm: the nominal arm.
-        bases: where the base stands, by run.
+        bases: where the base stands, by run, the last one last.
         tools: tool offsets as parts.
         parts: the effects, SI units.
         background: geometric errors of tolerance size, as parts.
@@ -98,18 +98,26 @@ class FittedModel:
         turns = [self.tool_turns.get((str(t), None), self.tool_turns.get((str(t), str(r)), np.eye(3))) for t, r in keys]
         return np.array(turns)[which.reshape(-1)]
 
+    def in_known_runs(self, recordings: Recordings) -> Recordings:
+        """The table with rows of a run that the model does not know counted as of the last one that it knows."""
+        known = np.isin(recordings.run, list(self.bases))
+        if known.all() or not self.bases:
+            return recordings
+        return replace(recordings, run=np.where(known, recordings.run, list(self.bases)[-1]))
+
     def unknown_runs(self, recordings: Recordings) -> list[str]:
         """Runs of a table whose base the model does not know."""
         return sorted(set(np.unique(recordings.run).tolist()) - set(self.bases))
 
 
 def predict(model: FittedModel, recordings: Recordings) -> Array:
-    """Tool points (N, 3) in the measurement frame, m, exact.
+    """Tool points (N, 3) in the measurement frame, m, exact; a run that the model does not know stands as the last one.
 
     Raises:
         InputError: the table lacks a context column that an effect of the model follows, or the model puts the tool
             where no arm of this size can.
     """
+    recordings = model.in_known_runs(recordings)
     tool = model.posture(model.scene(recordings)).tool
     distance = np.linalg.norm(tool, axis=1)
     near = distance <= FARTHEST_IN_REACHES * model.arm.reach + FARTHEST_TOOL_M
@@ -126,6 +134,7 @@ def predict_orientation(model: FittedModel, recordings: Recordings) -> Array:
 
     A tool frame that is turned against the last frame is not part of the model: positions do not show it.
     """
+    recordings = model.in_known_runs(recordings)
     rotations = model.posture(model.scene(recordings)).frames.tool_rotation
     turned = np.empty_like(rotations)
     for run in np.unique(recordings.run):

@@ -13,7 +13,8 @@ from armscope.core.inputs import InputError, nearest
 from armscope.physics import drivers
 from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term
 from armscope.physics.frames import BASE_FRAME, TOOL_FRAME
-from armscope.physics.geometric import BACKGROUND
+from armscope.physics.geometric import BACKGROUND, is_parallelogram
+from armscope.physics.loads import STATED_MASSES
 from armscope.physics.registry import effects
 from armscope.physics.scene import Part
 from armscope.robot import Arm
@@ -25,6 +26,8 @@ DEEPEST_DRIVER = 4
 """Levels of drivers of drivers."""
 LARGEST_ARGUMENT = 1e12
 """Of a driver: seconds since 1970 are the largest numbers that stand there."""
+RUNS = ("runs", "later")
+"""What arguments are called that are any number of runs."""
 
 
 class Reader:
@@ -38,7 +41,7 @@ class Reader:
     def __init__(self, arm: Arm, source: object) -> None:
         self.arm, self.source = arm, source
         self._definitions: dict[str, Effect] = {
-            effect.name: effect for effect in (BASE_FRAME, TOOL_FRAME, BACKGROUND, *effects())
+            effect.name: effect for effect in (BASE_FRAME, TOOL_FRAME, BACKGROUND, STATED_MASSES, *effects())
         }
 
     def parts(self, contents: Sequence[PartFile], place: str) -> tuple[Part, ...]:
@@ -81,16 +84,17 @@ class Reader:
 
     def _check_linkage(self, content: PartFile, place: str) -> None:
         lengths = self.arm.description.parallelogram
-        if lengths is None:
+        if lengths is None and not is_parallelogram(self.arm):
             raise InputError(self.source, place, content.effect, "this arm has no `parallelogram`")
         errors = {term.name: term.value for term in content.terms}
         if set(errors) != {"rod", "rocker"}:
             raise InputError(self.source, f"{place}.terms", sorted(errors), "its terms are rocker and rod")
-        shortest = 1e-3 * min(lengths.rod_mm, lengths.rocker_mm)
+        # of bars that are not stated errors are shares
+        shortest, unit = (1.0, "") if lengths is None else (1e-3 * min(lengths.rod_mm, lengths.rocker_mm), " m")
         for name, value in errors.items():
             if abs(value) > shortest / 2:
                 raise InputError(
-                    self.source, f"{place}.terms", f"{name} {value:g} m", "a bar's error is less than half"
+                    self.source, f"{place}.terms", f"{name} {value:g}{unit}", "a bar's error is less than half"
                 )
 
     def _product(self, content: Sequence[Any], place: str) -> Product:
@@ -126,6 +130,8 @@ class Reader:
             raise InputError(self.source, place, kind, "no driver of that kind", cure)
         if kind in ("rod", "rocker") and self.arm.description.parallelogram is None:
             raise InputError(self.source, place, kind, "this arm has no `parallelogram`")
+        if kind in ("rod share", "rocker share") and not is_parallelogram(self.arm):
+            raise InputError(self.source, place, kind, "no two motors of this arm turn its elbow against each other")
         names = self._names(kind, len(arguments), place)
         taken = (self._argument(kind, name, each, place, depth) for name, each in zip(names, arguments, strict=True))
         return Driver(kind, tuple(taken))
@@ -136,10 +142,14 @@ class Reader:
         names = [each.name for each in parameters if each.kind is not inspect.Parameter.VAR_POSITIONAL]
         required = sum(each.default is inspect.Parameter.empty for each in parameters if each.name in names)
         counts = {len(names), required}
-        if len(names) < len(parameters):  # as many more as it may be: the ends of a range, or weights of mass moments
-            more = 2 if parameters[-1].name == "ends" else 4 * self.arm.n_joints
+        if len(names) < len(parameters):
+            last = parameters[-1].name
+            if last in RUNS and count >= required:
+                return [*names, *[last] * (count - len(names))]
+            # as many more as it may be: the ends of a range, or weights of mass moments
+            more = 2 if last == "ends" else 4 * self.arm.n_joints
             counts = {required, required + 2} if more == 2 else {required + more}
-            names += [parameters[-1].name] * more
+            names += [last] * more
         if count not in counts:
             rule = (
                 f"{kind!r} takes {' or '.join(map(str, sorted(counts)))} arguments: {', '.join(dict.fromkeys(names))}"
@@ -151,10 +161,10 @@ class Reader:
         """An argument of a driver by what it is called."""
         if name in ("source", "load"):
             return self._driver(value, place, depth + 1)
-        if name in ("run", "target"):
+        if name in ("run", "target", *RUNS):
             if isinstance(value, str):
                 return value
-            raise InputError(self.source, place, value, f"a {name} is a name")
+            raise InputError(self.source, place, value, f"a {'run' if name in RUNS else name} is a name")
         if name == "location":
             self._frame(value, ("base", "joint"), place)
             return value

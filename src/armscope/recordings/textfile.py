@@ -53,23 +53,26 @@ def _read(path: Path, header: list[str]) -> pd.DataFrame:
             chunksize=ROWS_PER_PIECE,
             index_col=False,
             skip_blank_lines=False,
-            dtype={name: str for name in WORDS if name in header},
+            dtype={name: str for name in header if _is_word(name)},
             keep_default_na=False,
-            na_values={name: list(NO_VALUE) for name in header if name not in WORDS},
+            na_values={name: list(NO_VALUE) for name in header if not _is_word(name)},
             low_memory=False,
         )
         return pd.concat(pieces, ignore_index=True)  # in pieces, since text takes several times the memory of numbers
 
 
+def _is_word(header: str) -> bool:
+    return header.strip().lower() in WORDS
+
+
 def _check_words(path: Path, table: pd.DataFrame) -> None:
     """Names are shown on terminals and pages: none of their characters may be a command."""
-    for name in WORDS:
-        if name in table:
-            wrong = table[name].str.contains(CONTROL.pattern, na=False).to_numpy()
-            if wrong.any():
-                row = int(wrong.argmax())
-                rule = "a name has no control characters"
-                raise InputError(path, f"row {row + 2}, column {name}", table[name].iloc[row], rule)
+    for name in filter(_is_word, table.columns):
+        wrong = table[name].str.contains(CONTROL.pattern, na=False).to_numpy()
+        if wrong.any():
+            row = int(wrong.argmax())
+            rule = "a name has no control characters"
+            raise InputError(path, f"row {row + 2}, column {name}", table[name].iloc[row], rule)
 
 
 def _shape(path: Path) -> tuple[list[str] | None, list[int]]:

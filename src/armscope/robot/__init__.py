@@ -1,7 +1,8 @@
 """What the arm is: its description, kinematics, parallelogram and gravity loads."""
 
 from armscope.robot.arm import Arm, load_arm
-from armscope.robot.description import RobotDescription, load_description
+from armscope.robot.description import RobotDescription
+from armscope.robot.description_file import load_description
 from armscope.robot.kinematics import Chain, chain, forward_kinematics, position_jacobian, twist_jacobian
 
 __all__ = [

@@ -11,7 +11,8 @@ import pinocchio as pin
 
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
-from armscope.robot.description import RobotDescription, load_description
+from armscope.robot.description import RobotDescription
+from armscope.robot.description_file import load_description
 from armscope.robot.model import TIP, dh_halves, pinocchio_model
 
 

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
 from typing import Annotated, Literal, Self
 
 import numpy as np
 import pydantic
 from pydantic import AfterValidator, Field
 
-from armscope.core.inputs import InputError, Strict, load
+from armscope.core.inputs import Strict
 
 Vector = Annotated[tuple[float, float, float], Field(description="x, y, z")]
 Degrees = Annotated[float, Field(ge=-720, le=720)]
-Millimetres = Annotated[float, Field(ge=-20_000, le=20_000)]
-Length = Annotated[float, Field(gt=0, le=20_000)]
+LONGEST_MM = 20_000.0
+"""Of any length: the longest arms that are sold reach 4.7 m (FANUC M-2000iA), long-reach manipulators 10 to 20 m."""
+Millimetres = Annotated[float, Field(ge=-LONGEST_MM, le=LONGEST_MM)]
+Length = Annotated[float, Field(gt=0, le=LONGEST_MM)]
 Point = tuple[Millimetres, Millimetres, Millimetres]
 
 HEAVIEST_KG = 20_000.0
@@ -29,6 +30,10 @@ LARGEST_RATIO = 1000.0
 ROUNDED = 1e-3
 """Inertias in files are rounded: the sum of two principal ones may fall short of the third by this share."""
 
+MOST_INERTIA_KG_M2 = 1e6
+"""Of a link: the heaviest arm's whole mass (11,000 kg) at its reach (4.7 m) is 2.4e5 kg m2."""
+
+Inertia = Annotated[float, Field(ge=-MOST_INERTIA_KG_M2, le=MOST_INERTIA_KG_M2)]
 Ratio = Annotated[float, Field(ge=-LARGEST_RATIO, le=LARGEST_RATIO)]
 
 
@@ -46,18 +51,21 @@ class DHRow(Strict):
     axes, for which D-H rows alone are ill-defined (Hayati & Mirmirani 1985).
     """
 
-    a_mm: Millimetres
-    alpha_deg: Degrees
-    d_mm: Millimetres
-    theta_offset_deg: Degrees = 0.0
-    beta_deg: Degrees = 0.0
+    a_mm: Millimetres = Field(description="length along x, mm")
+    alpha_deg: Degrees = Field(description="turn about x, degrees")
+    d_mm: Millimetres = Field(description="length along the joint's axis z, mm")
+    theta_offset_deg: Degrees = Field(default=0.0, description="added to the joint's angle, degrees")
+    beta_deg: Degrees = Field(default=0.0, description="turn about y behind alpha, degrees; 0 in data sheets")
 
 
 class DH(Strict):
     """Denavit-Hartenberg table: ``standard`` (a_j, alpha_j behind joint j) or ``modified`` (Craig: before it)."""
 
-    convention: Literal["standard", "modified"] = "standard"
-    joints: tuple[DHRow, ...] = Field(min_length=1)
+    convention: Literal["standard", "modified"] = Field(
+        default="standard",
+        description="standard: Rz(theta) Tz(d) Tx(a) Rx(alpha); modified: Rx(alpha) Tx(a) Rz(theta) Tz(d)",
+    )
+    joints: tuple[DHRow, ...] = Field(min_length=1, description="one row per joint of the chain, from the base")
 
 
 class LinkMass(Strict):
@@ -67,9 +75,13 @@ class LinkMass(Strict):
     is a point, which is all that statics needs.
     """
 
-    mass_kg: float = Field(ge=0, le=HEAVIEST_KG)
-    com_mm: Point
-    inertia_kg_m2: tuple[float, float, float, float, float, float] | None = None
+    mass_kg: float = Field(ge=0, le=HEAVIEST_KG, description="kg")
+    com_mm: Point = Field(
+        description="centre of mass x, y, z in the row's D-H frame: behind the joint, turning with it; mm"
+    )
+    inertia_kg_m2: tuple[Inertia, Inertia, Inertia, Inertia, Inertia, Inertia] | None = Field(
+        default=None, description="xx, yy, zz, xy, xz, yz about the centre of mass, axes of the same frame, kg m2"
+    )
 
     @pydantic.field_validator("inertia_kg_m2")
     @classmethod
@@ -91,20 +103,22 @@ class Drive(Strict):
     acceleration and torque bound the motions that `armscope excite` asks for.
     """
 
-    rotor_inertia_kg_m2: float | None = Field(default=None, ge=0)
-    coulomb_nm: float | None = Field(default=None, ge=0)
-    viscous_nm_s_rad: float | None = Field(default=None, ge=0)
-    gain_nm_per_a: float | None = None
-    gain_uncertainty: float | None = Field(default=None, ge=0)
-    speed_deg_s: float | None = Field(default=None, gt=0)
-    acceleration_deg_s2: float | None = Field(default=None, gt=0)
-    torque_nm: float | None = Field(default=None, gt=0)
+    rotor_inertia_kg_m2: float | None = Field(default=None, ge=0, description="rotor times gear squared, kg m2")
+    coulomb_nm: float | None = Field(default=None, ge=0, description="friction that has the sign of the speed, N m")
+    viscous_nm_s_rad: float | None = Field(default=None, ge=0, description="friction along with speed, N m s/rad")
+    gain_nm_per_a: float | None = Field(default=None, description="torque per recorded current, N m/A")
+    gain_uncertainty: float | None = Field(
+        default=None, ge=0, description="relative standard deviation of the gain; 0: exact; absent: free"
+    )
+    speed_deg_s: float | None = Field(default=None, gt=0, description="largest speed of a commanded motion, degrees/s")
+    acceleration_deg_s2: float | None = Field(default=None, gt=0, description="largest acceleration, degrees/s2")
+    torque_nm: float | None = Field(default=None, gt=0, description="largest torque, N m")
 
 
 class Instrument(Strict):
     """1-sigma per axis of the instrument and the robot's repeatability together."""
 
-    sigma_mm: float = Field(gt=0, le=COARSEST_MM)
+    sigma_mm: float = Field(gt=0, le=COARSEST_MM, description="1-sigma per axis, mm")
 
 
 class Parallelogram(Strict):
@@ -114,30 +128,47 @@ class Parallelogram(Strict):
     ``crank_angle_deg`` is the angle from the forearm's x axis (D-H frame 3) to the crank.
     """
 
-    crank_mm: Length
-    rocker_mm: Length
-    rod_mm: Length
-    upper_arm_mm: Length
-    crank_angle_deg: Degrees = 0.0
+    crank_mm: Length = Field(description="turned by motor 3, mm")
+    rocker_mm: Length = Field(description="fixed to the forearm, mm")
+    rod_mm: Length = Field(description="between crank and rocker, mm")
+    upper_arm_mm: Length = Field(description="between axes 2 and 3, mm")
+    crank_angle_deg: Degrees = Field(default=0.0, description="from the forearm's x axis to the crank, degrees")
 
 
 class RobotDescription(Strict):
     """An arm as robot.yaml describes it: D-H rows or a URDF, what moves it, what it weighs."""
 
-    name: str
-    dh: DH | None = None
-    urdf: str | None = None
-    tip: str | None = None
-    hold_joints: dict[str, float] = Field(default_factory=dict)
-    actuation: tuple[dict[str, Ratio], ...] | None = None
-    tool_mm: Point = (0.0, 0.0, 0.0)
-    links: tuple[LinkMass, ...] | None = None
-    tool_load: LinkMass | None = None
-    drives: tuple[Drive, ...] | None = None
-    gravity_m_s2: Annotated[Vector, AfterValidator(_on_earth)] = (0.0, 0.0, -9.81)
-    joint_limits_deg: tuple[tuple[Degrees, Degrees], ...] | None = None
-    instrument: Instrument | None = None
-    parallelogram: Parallelogram | None = None
+    name: str = Field(description="what reports call the arm")
+    dh: DH | None = Field(default=None, description="D-H rows; or `urdf`, one of the two")
+    urdf: str | None = Field(default=None, description="path of a URDF, relative to this file; meshes are not needed")
+    tip: str | None = Field(default=None, description="with `urdf`: the frame that carries the tool")
+    hold_joints: dict[str, float] = Field(
+        default_factory=dict, description="with `urdf`: joints of the chain that stood still, and where (rad; m)"
+    )
+    actuation: tuple[dict[str, Ratio], ...] | None = Field(
+        default=None,
+        description="one row per joint of the chain: its angle is the sum of number x motor angle; else motor j's",
+    )
+    tool_mm: Point = Field(default=(0.0, 0.0, 0.0), description="tool point x, y, z in the last frame, mm")
+    links: tuple[LinkMass, ...] | None = Field(
+        default=None, description="with `dh`: one per row; without them loads are known up to unknown mass moments"
+    )
+    tool_load: LinkMass | None = Field(
+        default=None, description="what the flange always carries; its centre of mass in the last frame"
+    )
+    drives: tuple[Drive, ...] | None = Field(
+        default=None, description="one per motor; for arms in motion: what the drives add, and what they may do"
+    )
+    gravity_m_s2: Annotated[Vector, AfterValidator(_on_earth)] = Field(
+        default=(0.0, 0.0, -9.81), description="in the base frame, m/s2: z up stands, z down hangs"
+    )
+    joint_limits_deg: tuple[tuple[Degrees, Degrees], ...] | None = Field(
+        default=None, description="one [low, high] per motor, degrees; a URDF brings its own"
+    )
+    instrument: Instrument | None = Field(
+        default=None, description="known noise; without it noise is learned from repeats and neighbours"
+    )
+    parallelogram: Parallelogram | None = Field(default=None, description="lengths of a five-bar linkage")
     source: dict[str, str] = Field(
         default_factory=dict, description="where the numbers come from, by place in this file"
     )
@@ -206,19 +237,3 @@ class RobotDescription(Strict):
         if self.actuation is None:
             return n_joints
         return max((int(motor[1:]) for row in self.actuation for motor in row), default=0)
-
-
-def load_description(path: Path | str) -> RobotDescription:
-    """Read robot.yaml.
-
-    Raises:
-        InputError: a key, value, unit or number of rows that can't be; it names the place and the rule.
-    """
-    description = load(RobotDescription, path)
-    if description.urdf is not None:
-        urdf = Path(path).parent / description.urdf
-        if not urdf.is_file():
-            raise InputError(path, "urdf", description.urdf, "the URDF must be a readable file", f"Looked for {urdf}.")
-        # in full: a model.yaml that names it is read from other folders, too
-        description = description.model_copy(update={"urdf": str(urdf.resolve())})
-    return description

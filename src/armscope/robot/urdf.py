@@ -14,11 +14,11 @@ from typing import Any, NamedTuple
 import numpy as np
 import pinocchio as pin
 
-from armscope.core.inputs import InputError, nearest, note_read
+from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array
 from armscope.robot.description import RobotDescription
+from armscope.robot.urdf_file import root_of
 
-JOINT_TYPES = ("revolute", "continuous", "prismatic", "fixed", "planar", "floating")
 SLIDING = "a sliding joint"
 KINDS = {"P": SLIDING, "Planar": "a planar joint", "FreeFlyer": "a floating joint", "Translation": "a planar joint"}
 """What joints that do not turn are called, by how pinocchio's names of them begin (behind "JointModel")."""
@@ -41,7 +41,7 @@ def read_urdf(path: str) -> pin.Model:
     Raises:
         InputError: it is no URDF, or one that contradicts itself.
     """
-    _check(path, _root(path))
+    root_of(path)
     said: list[str] = []
     try:
         with _errors_kept(said):
@@ -127,92 +127,6 @@ def refuse_other_than_turning(file: str, model: pin.Model) -> None:
             raise InputError(file, f"joint {name}", other, "only turning joints can be diagnosed", cure)
 
 
-def _root(path: str) -> ET.Element:
-    note_read(path)
-    try:
-        root = ET.parse(path).getroot()
-    except OSError as error:
-        raise InputError(path, "", "no readable file", "a URDF is needed here", error.strerror or "") from error
-    except ET.ParseError as error:
-        line, column = error.position
-        place = f"line {line}, column {column + 1}"
-        raise InputError(path, place, "no XML", "a URDF is an XML file", str(error).partition(":")[0] + ".") from error
-    if root.tag != "robot":
-        raise InputError(path, "", f"<{root.tag}>", "a URDF is one <robot>", "Other formats must be converted first.")
-    for element in root.iter():
-        if "xacro" in element.tag or any("${" in value or "$(" in value for value in element.attrib.values()):
-            found = element.tag.rpartition("}")[2]
-            rule = "macros must be expanded first"
-            raise InputError(path, f"<{found}>", "a xacro file", rule, "`xacro arm.urdf.xacro > arm.urdf` does it.")
-    return root
-
-
-def _check(path: str, root: ET.Element) -> None:
-    """Names, references, numbers and the tree; the first thing that is wrong becomes an `InputError`."""
-    links = [element.get("name", "") for element in root.findall("link")]
-    joints = root.findall("joint")
-    if not links:
-        raise InputError(path, "", "no <link>", "a URDF has links and joints", "Is it a file of macros or settings?")
-    for kind, names in (("link", links), ("joint", [joint.get("name", "") for joint in joints])):
-        for name, count in Counter(names).items():
-            if not name or count > 1:
-                rule = "every one needs a name of its own"
-                raise InputError(path, f"{kind} {name}".rstrip(), f"{count} of that name" if name else "no name", rule)
-    parents = Counter(child for joint in joints for child in _ends(path, joint, links)[1:])
-    for name, count in parents.items():
-        if count > 1:
-            raise InputError(path, f"link {name}", f"child of {count} joints", "a URDF is a tree: no closed loops")
-    roots = [name for name in links if name not in parents]
-    if len(roots) != 1:
-        found = f"{len(roots)} links without parent" + (f": {', '.join(roots[:5])}" if roots else "")
-        raise InputError(path, "", found, "all links must hang together, from one root", "Is a joint missing?")
-    for joint in joints:
-        _check_joint(path, joint)
-
-
-def _ends(path: str, joint: ET.Element, links: list[str]) -> list[str]:
-    ends = []
-    for role in ("parent", "child"):
-        element = joint.find(role)
-        name = "" if element is None else element.get("link", "")
-        if name not in links:
-            place = f"joint {joint.get('name')}, {role}"
-            raise InputError(path, place, name or "nothing", "no link of that name", nearest(name, links))
-        ends.append(name)
-    return ends
-
-
-def _check_joint(path: str, joint: ET.Element) -> None:
-    place, kind = f"joint {joint.get('name')}", joint.get("type", "nothing")
-    if kind not in JOINT_TYPES:
-        raise InputError(path, f"{place}, type", kind, "no such type", nearest(kind, JOINT_TYPES))
-    for tag, key in (("origin", "xyz"), ("origin", "rpy"), ("axis", "xyz")):
-        element = joint.find(tag)
-        words = None if element is None else element.get(key)
-        if words is None:
-            continue
-        numbers = _three_numbers(path, f"{place}, {tag} {key}", words)
-        if tag == "axis" and kind not in ("fixed", "floating") and not numbers.any():
-            raise InputError(path, f"{place}, axis", words, "an axis needs a direction")
-    if kind in ("revolute", "prismatic"):
-        limit = joint.find("limit")
-        for key in ("effort", "velocity"):
-            if limit is None or limit.get(key) is None:
-                rule = f'a {kind} joint needs <limit lower="..." upper="..." effort="..." velocity="..."/>'
-                cure = "A joint that turns without end is `continuous`." if kind == "revolute" else ""
-                raise InputError(path, place, "no <limit>" if limit is None else f"no {key} in <limit>", rule, cure)
-
-
-def _three_numbers(path: str, place: str, words: str) -> Array:
-    try:
-        numbers = np.array([float(word) for word in words.split()])
-    except ValueError:
-        numbers = np.array([])
-    if numbers.shape != (3,) or not np.isfinite(numbers).all():
-        raise InputError(path, place, words, "three finite numbers")
-    return numbers
-
-
 def _to_hold(file: str | None, full: pin.Model, name: str, value: float) -> int:
     if not full.existJointName(name):
         if full.existFrame(name):
@@ -260,7 +174,7 @@ def _refuse_followers(description: RobotDescription, full: pin.Model, chain: lis
 
 
 def _mimics(path: str, full: pin.Model) -> Iterator[tuple[str, ET.Element]]:
-    for joint in ET.parse(path).getroot().findall("joint"):
+    for joint in root_of(path).findall("joint"):
         mimic, name = joint.find("mimic"), joint.get("name", "")
         if mimic is not None and full.existJointName(name):
             yield name, mimic

@@ -10,7 +10,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
-from armscope.robot.description import load_description
+from armscope.robot.description_file import load_description
 from armscope.world.catalogue import LARGEST_PAYLOAD_KG, WorldSpec
 from armscope.world.choice import choose, visibilities, visibilities_in_runs
 from armscope.world.kinds import Scene

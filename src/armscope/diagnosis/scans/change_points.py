@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from typing import Protocol
 
 import numpy as np
 
@@ -16,12 +18,19 @@ from armscope.inference.additions import block_scores
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.linear_algebra import ColumnBlocks
 from armscope.measurement.whitening import WhitenedPosture
-from armscope.physics.drift import BASE_SHIFT, base_shift, row_number, tool_shift
+from armscope.physics.drift import base_shift, row_number, tool_shift
 from armscope.physics.effect import Placed
 from armscope.recordings import Recordings
 
-Build = Callable[[Recordings, int, int], Placed]
-"""A shift before a row, one of so many that were tried."""
+
+class Build(Protocol):
+    """Puts a shift before a row."""
+
+    def __call__(self, recordings: Recordings, row: int, multiplicity: int, later: tuple[str, ...] = ()) -> Placed:
+        """The shift, one of so many that compete, which holds in later runs, too."""
+
+
+BUILDS: dict[str, Build] = {"base": base_shift, "tool": tool_shift}
 
 
 def jumps(context: ScanContext, given: Sequence[Hypothesis]) -> Iterator[Placed]:
@@ -29,14 +38,15 @@ def jumps(context: ScanContext, given: Sequence[Hypothesis]) -> Iterator[Placed]
     recordings = context.recordings
     pieces = list(pieces_of(recordings))
     tried, inside = sum(len(cuts) for _, cuts in pieces), columns_of(given)
-    for build in (base_shift, tool_shift):
+    for location, build in BUILDS.items():
         best: list[tuple[float, Placed] | None] = [None] * len(given)
         for rows, cuts in pieces:
-            sums = step_sums(context, inside, rows, cuts, build)
+            _, later = context.runs_around(location, str(recordings.run[rows[0]]))
+            sums = step_sums(context, inside, rows, cuts, partial(build, later=later))
             for number, hypothesis in enumerate(given):
                 scores = scores_given(context.problem, hypothesis, sums, inside)
                 at = int(np.argmax(scores))
-                promising = float(scores[at]), build(recordings, int(rows[cuts[at]]), tried)
+                promising = float(scores[at]), build(recordings, int(rows[cuts[at]]), tried, later)
                 best[number] = max((b for b in (best[number], promising) if b), key=lambda entry: entry[0])
         for found in best:
             if found is not None and found[0] > SCANS.worth_a_look + np.log(tried):
@@ -54,10 +64,11 @@ def when_stderr(placed: Placed, context: ScanContext, without: Hypothesis) -> fl
     Returns:
         Rows, or s where times are recorded.
     """
-    build, run = (base_shift if placed.effect is BASE_SHIFT else tool_shift), placed.terms[0].products[0].driver
+    _, run, *later = placed.terms[0].products[0].driver.arguments
+    build = partial(BUILDS[placed.location], later=tuple(str(each) for each in later))
     recordings = context.recordings
     for rows, cuts in pieces_of(recordings):
-        if str(recordings.run[rows[0]]) != run.arguments[1]:
+        if str(recordings.run[rows[0]]) != run:
             continue
         sums = step_sums(context, without.columns, rows, cuts, build)
         scores = block_scores(context.problem, without, sums)
@@ -88,8 +99,10 @@ def pieces_of(recordings: Recordings) -> Iterator[tuple[Indices, Indices]]:
             )
 
 
-def step_sums(context: ScanContext, inside: Indices, rows: Indices, cuts: Indices, build: Build) -> ColumnBlocks:
-    """Sums over the rows behind each cut.
+def step_sums(
+    context: ScanContext, inside: Indices, rows: Indices, cuts: Indices, build: Callable[[Recordings, int, int], Placed]
+) -> ColumnBlocks:
+    """Sums over the rows behind each cut, and over those of the later runs in which the step holds.
 
     Args:
         context: the rows.
@@ -102,6 +115,8 @@ def step_sums(context: ScanContext, inside: Indices, rows: Indices, cuts: Indice
         One block per cut.
     """
     terms = build(context.recordings, int(rows[0]), 1).terms
+    _, _, *later = terms[0].products[0].driver.arguments
+    rows = np.concatenate([rows, np.flatnonzero(np.isin(context.recordings.run, [str(each) for each in later]))])
     c, k = len(terms), len(inside)
     model_terms = [context.space.layout.terms[i] for i in inside]
     values, active, present = active_effects(context.space.layout, context.model)

@@ -14,7 +14,9 @@ from armscope.inference.evidence import Hypothesis
 from armscope.inference.linear_algebra import ColumnBlocks
 from armscope.inference.problem import Problem
 from armscope.measurement.row_weights import RowWeights
+from armscope.physics.frames import runs_of
 from armscope.physics.model import FittedModel
+from armscope.physics.set_ups import runs_around
 from armscope.recordings import Recordings
 
 
@@ -35,6 +37,13 @@ class ScanContext:
     model: FittedModel
     recordings: Recordings
     weights: RowWeights
+
+    def runs_around(self, location: str, run: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """The runs before and after one that share its base, or its tool, so that what moved in one stays so."""
+        drivers = [self.space.layout.terms[column].products[0].driver for column in self.space.frames]
+        if location == "tool" and any(driver.kind == "on target in run" for driver in drivers):
+            return (), ()
+        return runs_around(tuple(runs_of(driver) for driver in drivers if driver.kind == "in run"), run)
 
 
 def columns_of(given: Sequence[Hypothesis]) -> Indices:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -41,22 +42,29 @@ def pauses(context: ScanContext, drifting: Hypothesis, drift: int) -> Iterator[P
     ways_to_pause = SCANS.lengths_of_pauses * sum(len(cuts) for _, cuts in pieces)
     factor, whitened_rhs = unscaled_factor(problem, drifting)
     for rows, cuts in pieces:
-        sums = step_sums(context, drifting.columns, rows, cuts, base_shift)
+        run = str(recordings.run[rows[0]])
+        earlier, later = context.runs_around("base", run)
+        sums = step_sums(context, drifting.columns, rows, cuts, partial(base_shift, later=later))
         V = solve_lower(factor, (sums.cross @ way).T)
         alone = np.einsum("mij,i,j->m", sums.own, way, way)
         # two steps have the rows behind the later one in common
         own = alone[np.maximum.outer(np.arange(len(cuts)), np.arange(len(cuts)))] - V.T @ V
-        line = passed[rows] - passed[rows].mean()
-        run, pull = str(recordings.run[rows[0]]), sums.b @ way - V.T @ whitened_rhs
+        before_these, after_these = (np.flatnonzero(np.isin(recordings.run, runs)) for runs in (earlier, later))
+        on_one_base = np.concatenate([before_these, rows, after_these])
+        line = passed[on_one_base] - passed[on_one_base].mean()
+        pull = sums.b @ way - V.T @ whitened_rhs
         before = [(run, row_number(recordings, int(row))) for row in rows[cuts]]
         fitted = [before.index((p.run, p.row)) for p in known if (p.run, p.row) in before]
         for chosen, length in _steps(own, pull, drifting, fitted, np.log(ways_to_pause)):
             # the drift has taken its share of every step: as large as a line's share of it
             taken = sum(
-                a * float(line[cut:].sum() / (line @ line)) for a, cut in zip(length, cuts[chosen], strict=True)
+                a * float(line[len(before_these) + cut :].sum() / (line @ line))
+                for a, cut in zip(length, cuts[chosen], strict=True)
             )
             if taken < 1:
-                new = [Pause(before[n][1], run, 1e3 * a / (1 - taken)) for a, n in zip(length, chosen, strict=True)]
+                new = [
+                    Pause(before[n][1], run, 1e3 * a / (1 - taken), later) for a, n in zip(length, chosen, strict=True)
+                ]
                 together = _together(known, new)
                 if all(p.rows > 0 for p in together):
                     yield drift_with_pauses(together, ways_to_pause ** len(together))
@@ -98,10 +106,11 @@ def _sizes(own: Array, pull: Array, chosen: Sequence[int]) -> Array:
 
 def _together(known: Sequence[Pause], new: Sequence[Pause]) -> list[Pause]:
     """All pauses in order; those before one row are one."""
-    rows: dict[tuple[str, float], float] = {}
+    rows: dict[tuple[str, float, tuple[str, ...]], float] = {}
     for each in (*known, *new):
-        rows[each.run, each.row] = rows.get((each.run, each.row), 0.0) + each.rows
-    return [Pause(row, run, length) for (run, row), length in sorted(rows.items())]
+        at = each.run, each.row, each.later
+        rows[at] = rows.get(at, 0.0) + each.rows
+    return [Pause(row, run, length, later) for (run, row, later), length in sorted(rows.items())]
 
 
 def _rows_passed(recordings: Recordings, known: Sequence[Pause]) -> Array:
@@ -109,5 +118,6 @@ def _rows_passed(recordings: Recordings, known: Sequence[Pause]) -> Array:
     number = np.array([row_number(recordings, row) for row in range(len(recordings))])
     passed = number / 1e3
     for p in known:
-        passed = passed + p.rows / 1e3 * ((number >= p.row) & (recordings.run == p.run))
+        after = (number >= p.row) & (recordings.run == p.run) | np.isin(recordings.run, p.later)
+        passed = passed + p.rows / 1e3 * after
     return passed

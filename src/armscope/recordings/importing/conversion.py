@@ -9,10 +9,10 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
+from armscope.recordings.columns import ABSOLUTE_ZERO_C, LARGEST_ANGLE_RAD, LARGEST_POSITION_M, UNITS
 from armscope.recordings.importing.mapping import Column, Columns, Label, Orientation, Scalar, Time
 from armscope.recordings.importing.pieces import Piece
 from armscope.recordings.orientations import NotARotation, from_euler, from_matrices, from_quaternions
-from armscope.recordings.table import ABSOLUTE_ZERO_C, LARGEST_ANGLE_RAD, LARGEST_POSITION_M, UNITS
 
 TIME_UNITS = {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0}
 

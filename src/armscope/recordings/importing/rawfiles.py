@@ -17,9 +17,9 @@ from scipy.io.matlab import MatReadError
 
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array
+from armscope.recordings.columns import LARGEST_NUMBER
 from armscope.recordings.importing.mapping import Column, Format, MatlabFormat, TextFormat
 from armscope.recordings.opening import open_text, refuse_other_than_text, refuse_pickles, start_of, undecodable
-from armscope.recordings.table import LARGEST_NUMBER
 
 ROWS_PER_PIECE = 20_000
 REMARKS = "#%!/"

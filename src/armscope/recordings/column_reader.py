@@ -1,0 +1,263 @@
+"""The columns of a recordings table, each checked as it is taken out."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from armscope.core.inputs import InputError, nearest
+from armscope.core.types import Array
+from armscope.recordings.columns import LARGEST_ANGLE_RAD, LARGEST_NUMBER, LARGEST_POSITION_M, UNITS, column_named
+from armscope.recordings.textfile import WORDS
+
+
+class ColumnReader:
+    """Takes the columns of the contract out of a table, each checked as it is taken."""
+
+    def __init__(self, table: pd.DataFrame, source: Path | str) -> None:
+        self.table, self.source = table, source
+
+    def _error(self, row: int, column: str, found: object, rule: str, cure: str = "") -> InputError:
+        return InputError(self.source, f"row {row + 2}, column {column}", found, rule, cure)
+
+    def _numbers(self, column: str, required: bool) -> Array:
+        values = self.table[column]
+        if not pd.api.types.is_numeric_dtype(values) or pd.api.types.is_bool_dtype(values):
+            parsed = pd.to_numeric(values, errors="coerce")
+            wrong = np.flatnonzero(parsed.isna() & values.notna())
+            if len(wrong):
+                found = values.iloc[wrong[0]]
+                cure = "Use a decimal point." if "," in str(found) else ""
+                if str(found).strip() == column:
+                    cure = "The header stands here a second time: remove this line."
+                raise self._error(int(wrong[0]), column, str(found), "this must be a number", cure)
+            values = parsed
+        numbers = values.to_numpy(dtype=float)
+        beyond = np.flatnonzero(np.abs(numbers) > LARGEST_NUMBER)
+        if len(beyond):
+            value = float(numbers[beyond[0]])
+            rule = (
+                "this must be a finite number" if np.isinf(value) else f"no recorded value reaches {LARGEST_NUMBER:g}"
+            )
+            raise self._error(int(beyond[0]), column, f"{value:g}", rule, "Leave it empty where there is no value.")
+        self._check_range(column, numbers)
+        if required and np.isnan(numbers).any():
+            row = int(np.flatnonzero(np.isnan(numbers))[0])
+            raise self._error(
+                row, column, "nothing", "this value is required in every row", "Remove the row or fill it in."
+            )
+        return numbers
+
+    def _check_range(self, column: str, numbers: Array) -> None:
+        known = column_named(column)
+        if (
+            known is None
+            or not known.rule
+            or known.name.endswith(("_rad", "_deg", "_mm", "_m"))
+            or known.name[0] == "q"
+        ):
+            return  # angles, points and orientations are checked where their cure is known
+        beyond = np.flatnonzero((numbers < known.low) | (numbers > known.high))
+        if len(beyond):
+            rule = f"{known.rule}; allowed is {known.low:g} to {known.high:g} {known.unit}".rstrip()
+            raise self._error(int(beyond[0]), column, float(numbers[beyond[0]]), rule)
+
+    def text(self, column: str) -> NDArray[np.str_]:
+        """(N,) words; empty where there is no such column."""
+        if column not in self.table:
+            return np.full(len(self.table), "")
+        return self.table[column].fillna("").astype(str).to_numpy(dtype=str)
+
+    def optional(self, columns: list[str], scale: float, squeeze: bool = False) -> Array | None:
+        """A quantity that may be left out.
+
+        Args:
+            columns: that come together.
+            scale: SI units per unit of the columns.
+            squeeze: whether one column comes back as (N,).
+
+        Returns:
+            (N, columns) with NaN where nothing was recorded; None where nothing ever was.
+
+        Raises:
+            InputError: some of the columns are there and others are not, or a value can't be.
+        """
+        present = [name for name in columns if name in self.table]
+        if not present:
+            return None
+        if len(present) < len(columns):
+            missing = next(name for name in columns if name not in present)
+            raise InputError(self.source, "line 1", f"no column {missing}", f"{', '.join(columns)} come together")
+        values = np.column_stack([self._numbers(name, required=False) for name in columns]) * scale
+        if np.isnan(values).all():
+            return None
+        return values[:, 0] if squeeze else values
+
+    def motor_angles(self, n_motors: int | None) -> Array:
+        """(N, m) commanded angles, rad, of ``n_motors`` motors, or of as many as there are."""
+        found = {
+            int(m[1]): m[0]
+            for m in (re.fullmatch(r"q([1-9]\d*)_(?:rad|deg)", name) for name in self.table.columns)
+            if m
+        }
+        count = n_motors if n_motors is not None else max(found, default=0)
+        if count == 0:
+            raise InputError(
+                self.source,
+                "line 1",
+                "no column q1_rad",
+                "motor angles stand in q1_rad, q2_rad, ... (or _deg)",
+                nearest("q1_rad", self.table.columns),
+            )
+        for motor in range(1, count + 1):
+            self._check_one_unit(f"q{motor}_rad", f"q{motor}_deg")
+            if motor not in found:
+                fewer = sorted(found) == list(range(1, motor))
+                cure = f"The table has {motor - 1} motor angles: is this the right robot for the recordings?"
+                raise InputError(
+                    self.source,
+                    "line 1",
+                    f"no column q{motor}_rad",
+                    f"the arm has motors q1 ... q{count}",
+                    cure if fewer and motor > 1 else nearest(f"q{motor}_rad", self.table.columns),
+                )
+        if max(found) > count:
+            raise InputError(
+                self.source,
+                "line 1",
+                found[max(found)],
+                f"the arm has {count} motors",
+                "Is this the right robot for the recordings?",
+            )
+        columns = [self._angles(found[motor]) for motor in range(1, count + 1)]
+        return np.column_stack(columns)
+
+    def _check_one_unit(self, one: str, other: str) -> None:
+        if one in self.table and other in self.table:
+            raise InputError(
+                self.source, "line 1", f"{one} and {other}", "one column per quantity", "Remove one of them."
+            )
+
+    def _angles(self, column: str) -> Array:
+        values = self._numbers(column, required=True) * UNITS[column.rsplit("_", 1)[1]]
+        beyond = np.flatnonzero(np.abs(values) > LARGEST_ANGLE_RAD)
+        if len(beyond):
+            row = int(beyond[0])
+            cure = (
+                f"Are these degrees? Then call the column {column.replace('_rad', '_deg')}."
+                if column.endswith("_rad")
+                else ""
+            )
+            raise self._error(
+                row, column, self.table[column].iloc[row], "a joint angle lies within two turns (12.57 rad)", cure
+            )
+        return values
+
+    def positions(self, measured: bool) -> Array:
+        """(N, 3) measured points, m; where they need not be ``measured``, NaN without."""
+        for axis in "xyz":
+            self._check_one_unit(f"{axis}_mm", f"{axis}_m")
+        for unit in ("mm", "m"):
+            columns = [f"{axis}_{unit}" for axis in "xyz"]
+            present = [name for name in columns if name in self.table]
+            if len(present) == 3:
+                return np.column_stack([self._lengths(name, measured) for name in columns])
+            if present:
+                missing = next(name for name in columns if name not in present)
+                raise InputError(
+                    self.source,
+                    "line 1",
+                    f"no column {missing}",
+                    "x, y and z come together, in one unit",
+                    nearest(missing, self.table.columns),
+                )
+        if measured:
+            raise InputError(
+                self.source,
+                "line 1",
+                "no column x_mm",
+                "measured positions stand in x_mm, y_mm, z_mm (or _m)",
+                nearest("x_mm", self.table.columns),
+            )
+        return np.full((len(self.table), 3), np.nan)
+
+    def _lengths(self, column: str, required: bool) -> Array:
+        values = self._numbers(column, required) * UNITS[column.rsplit("_", 1)[1]]
+        beyond = np.flatnonzero(np.abs(values) > LARGEST_POSITION_M)
+        if len(beyond):
+            row = int(beyond[0])
+            rule = f"a measured point lies within {LARGEST_POSITION_M / 1e3:g} km of its frame's origin"
+            raise self._error(row, column, self.table[column].iloc[row], rule, "Subtract what all points share.")
+        return values
+
+    def orientation(self) -> Array | None:
+        """(N, 4) unit quaternions (w, x, y, z), or None."""
+        quaternion = self.optional(["qw", "qx", "qy", "qz"], 1.0)
+        if quaternion is None:
+            return None
+        known = np.isfinite(quaternion).sum(axis=1)
+        partly = np.flatnonzero((known > 0) & (known < 4))
+        if len(partly):
+            row = int(partly[0])
+            raise self._error(row, "qw ... qz", f"{known[row]} of 4 values", "an orientation is whole or left out")
+        norm = np.linalg.norm(quaternion, axis=1)
+        wrong = np.flatnonzero(np.abs(norm - 1) > 0.01)
+        if len(wrong):
+            raise self._error(
+                int(wrong[0]),
+                "qw ... qz",
+                quaternion[wrong[0]].tolist(),
+                "a quaternion has length 1",
+                f"Its length is {norm[wrong[0]]:.4g}.",
+            )
+        unit: Array = quaternion / norm[:, None]
+        return unit
+
+    def approach(self, count: int) -> Array | None:
+        """(N, m) -1, 0 or +1, or None."""
+        columns = [f"approach{j}" for j in range(1, count + 1)]
+        approach = self.optional(columns, 1.0)
+        if approach is None:
+            return None
+        wrong = np.argwhere(~np.isin(approach, [-1, 0, 1]) & ~np.isnan(approach))
+        if len(wrong):
+            row, column = wrong[0]
+            raise self._error(int(row), columns[column], approach[row, column], "the side of approach is -1 or +1")
+        return approach
+
+    def sigma(self) -> Array | None:
+        """(N, 3) stated uncertainty per axis, m, or None."""
+        self._check_one_unit("sigma_mm", "sigma_x_mm")
+        isotropic = self.optional(["sigma_mm"], UNITS["mm"])
+        sigma = self.optional([f"sigma_{axis}_mm" for axis in "xyz"], UNITS["mm"])
+        if sigma is None and isotropic is not None:
+            sigma = np.repeat(isotropic, 3, axis=1)
+        if sigma is not None and ((sigma < 0) | (sigma > LARGEST_POSITION_M)).any():
+            row, axis = np.argwhere((sigma < 0) | (sigma > LARGEST_POSITION_M))[0]
+            column = "sigma_mm" if "sigma_mm" in self.table else f"sigma_{'xyz'[axis]}_mm"
+            rule = f"an uncertainty is not negative, and at most {LARGEST_POSITION_M / 1e3:g} km"
+            raise self._error(int(row), column, sigma[row, axis] * 1e3, rule)
+        return sigma
+
+    def check_duplicates(self, ids: NDArray[np.str_]) -> None:
+        """Refuse an id that stands twice in a run and target."""
+        if "id" not in self.table:
+            return
+        named = np.flatnonzero(ids != "")
+        keys = self.table[[name for name in WORDS if name in self.table]].iloc[named]
+        twice = keys.duplicated().to_numpy()
+        if twice.any():
+            row = int(named[twice.argmax()])
+            group = keys.groupby(list(keys.columns), dropna=False).ngroup().to_numpy()
+            first = int(named[np.argmax(group == group[twice.argmax()])])
+            raise self._error(
+                row,
+                "id",
+                ids[row],
+                f"an id stands once per run and target, row {first + 2} has it, too",
+                "Number the rows, or name the repeats' runs differently.",
+            )

@@ -1,0 +1,133 @@
+"""The contract of recordings.csv, column by column: name, unit, meaning, and what no row can hold, with the source."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+LARGEST_ANGLE_RAD = 4 * np.pi
+"""Beyond two turns either way no arm's joint stands, so a larger number is not in radians."""
+
+LARGEST_POSITION_M = 1e4
+"""No instrument sees further, and tables with ten digits hold less than a micrometre up to here."""
+
+LARGEST_NUMBER = 1e15
+"""No recorded quantity reaches it in its unit; what lies beyond stands for no value, or overflows when squared."""
+
+ABSOLUTE_ZERO_C = -273.15
+
+UNITS: dict[str, float] = {"rad": 1.0, "deg": np.pi / 180, "mm": 1e-3, "m": 1.0}
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of the contract.
+
+    Attributes:
+        name: as it stands in the header; ``{j}`` is the motor's number, from 1.
+        unit: of its numbers; empty for words.
+        meaning: what it says, with sign and frame.
+        low, high: no row holds less or more.
+        rule: why, in the words of an error; says the source of the range.
+    """
+
+    name: str
+    unit: str
+    meaning: str
+    low: float = -LARGEST_NUMBER
+    high: float = LARGEST_NUMBER
+    rule: str = ""
+
+    def matches(self, header: str) -> bool:
+        """Whether a header is this column, small and capital letters told apart."""
+        return re.fullmatch(self.name.replace("{j}", r"[1-9]\d*"), header) is not None
+
+
+_ANGLE = "commanded angle of motor {j}; motors are counted from the base, the sign is the one of the robot's model"
+_POINT = "measured tool point along {axis} of the measurement frame, which may stand anywhere"
+_TURN = "measured orientation, measurement frame from tool frame, as a unit quaternion ({part}); all four or none"
+
+COLUMNS = (
+    Column("q{j}_rad", "rad", _ANGLE, -LARGEST_ANGLE_RAD, LARGEST_ANGLE_RAD, "a joint angle lies within two turns"),
+    Column("q{j}_deg", "deg", f"{_ANGLE}; in place of q{{j}}_rad", -720, 720, "a joint angle lies within two turns"),
+    *(
+        Column(
+            f"{axis}_{unit}",
+            unit,
+            _POINT.format(axis=axis) + ("" if unit == "mm" else f"; in place of {axis}_mm"),
+            -LARGEST_POSITION_M / UNITS[unit],
+            LARGEST_POSITION_M / UNITS[unit],
+            "no instrument sees a point beyond 10 km",
+        )
+        for unit in ("mm", "m")
+        for axis in "xyz"
+    ),
+    Column("id", "", "name of the configuration, once per run and target; the row's number where there is none"),
+    Column("run", "", "name of the session: the base frame is free in each run, and held-out folds go by it"),
+    Column("target", "", "which reflector was measured: the tool point is free for each"),
+    Column("qw", "", _TURN.format(part="real part"), -1.01, 1.01, "a quaternion has length 1"),
+    *(
+        Column(name, "", _TURN.format(part=f"along {name[1]}"), -1.01, 1.01, "a quaternion has length 1")
+        for name in ("qx", "qy", "qz")
+    ),
+    Column("time_s", "s", "when the row was measured, from any zero"),
+    Column(
+        "temperature_c",
+        "deg C",
+        "of the arm's structure; lengths of robot.yaml hold at 20 deg C",
+        ABSOLUTE_ZERO_C,
+        2000.0,
+        "no temperature is below absolute zero, and steel melts before 2000 deg C",
+    ),
+    Column(
+        "payload_kg",
+        "kg",
+        "point mass at the tool point, beyond `tool_load` of robot.yaml",
+        0.0,
+        20_000.0,
+        "a payload is not negative, and the strongest arm that is sold carries 2300 kg (FANUC M-2000iA/2300)",
+    ),
+    Column("approach{j}", "", "sign of motor {j}'s last motion before it stopped: -1 or +1; 0 where it did not move"),
+    Column(
+        "dq{j}_rad_s",
+        "rad/s",
+        "speed of motor {j} when the row was measured",
+        -1000.0,
+        1000.0,
+        "the fastest arms turn a joint at 42 rad/s (delta robots' fourth axis, makers' data sheets)",
+    ),
+    Column(
+        "tau{j}_nm",
+        "N m",
+        "torque at joint {j}, positive along gravity's pull (the load's torque on the motor's axis); the torque with "
+        "which the motor holds it is its opposite",
+        -1e7,
+        1e7,
+        "the heaviest arm that is sold (11,000 kg, reach 4.7 m) needs less than 1e6 N m",
+    ),
+    Column("sigma_mm", "mm", "stated 1-sigma uncertainty of the point, alike along x, y and z"),
+    *(Column(f"sigma_{axis}_mm", "mm", f"the same along {axis} alone; all three or none") for axis in "xyz"),
+)
+
+
+def column_named(header: str) -> Column | None:
+    """The column of the contract that a header names; None where it is none."""
+    return next((column for column in COLUMNS if column.matches(header)), None)
+
+
+def as_in_contract(headers: Iterable[str]) -> Mapping[str, str]:
+    """Headers that are columns of the contract but for capital letters and blanks, by how the contract writes them.
+
+    A header whose contract name stands in the table, too, stays as it is.
+    """
+    headers = [str(header) for header in headers]
+    there, renamed = set(headers), {}
+    for header in headers:
+        plain = header.strip().lower()
+        if plain not in there and column_named(plain) is not None:
+            renamed[header] = plain
+            there.add(plain)
+    return renamed

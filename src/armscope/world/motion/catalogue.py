@@ -1,0 +1,173 @@
+"""The moving worlds of the proof: what is concealed in which arm, how large, under which circumstances.
+
+Half of the worlds have seeds that stay the same; the other half's come from the seed of the proof, so that nobody can
+have tuned anything to them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Literal
+
+import numpy as np
+
+from armscope.core.inputs import Strict
+from armscope.world.motion.kinds import LIBRARY, Kind
+from armscope.world.motion.outside import OUTSIDE
+from armscope.world.motion.session import PathRule
+
+KINDS: dict[str, Kind] = {kind.name: kind for kind in LIBRARY + OUTSIDE}
+ARMS = ("two-axis", "six-axis", "seven-axis")
+RATES = (100, 125, 250)
+"""Hz; divisors of the grid's rate."""
+FIXED_SEED = 20261122
+STRENGTHS = (3.0, 5.0, 10.0)
+
+Category = Literal["clean", "single", "multiple", "outside", "confounded"]
+Size = Literal["small", "full"]
+Details = dict[str, object]
+Recipe = Callable[[np.random.Generator], Details]
+
+
+class Wish(Strict):
+    """What a world is to conceal: a key of `KINDS`, RMS torque over noise, and where (None: anywhere it can be so)."""
+
+    kind: str
+    strength: float
+    location: str | None = None
+
+
+class MotionSpec(Strict):
+    """All that a moving world is made from.
+
+    Attributes:
+        id: its folder's name; it says nothing about what is inside.
+        category: what it is there to show.
+        arm: file in config/motion without its ending.
+        seed: of everything random in it.
+        fresh: whether the seed comes from the proof's seed.
+        rate: Hz of the recorded rows.
+        noise: standard deviation of the torque's noise as a share of each joint's RMS torque.
+        wishes: what it conceals.
+        stated: whether robot.yaml states friction and rotor inertia.
+        current: whether motor currents are recorded instead of torques, with exact gains in robot.yaml.
+        rule, joint: how the training runs move: freely, or one joint (0-based) one way only, or hardly at all.
+        durations: s, of the training runs and, last, of the test path.
+    """
+
+    id: str
+    category: Category
+    arm: str
+    seed: int
+    fresh: bool
+    rate: int
+    noise: float
+    wishes: tuple[Wish, ...] = ()
+    stated: bool = False
+    current: bool = False
+    rule: PathRule = "free"
+    joint: int | None = None
+    durations: tuple[float, ...] = (14.0, 14.0, 10.0)
+
+
+def catalogue(proof_seed: int, size: Size = "small") -> list[MotionSpec]:
+    """The worlds of a proof.
+
+    Args:
+        proof_seed: from which the seeds of every second world are derived.
+        size: which proof.
+    """
+    recipes = list(_small() if size == "small" else _full())
+    return [_spec(number, category, recipe, proof_seed) for number, (category, recipe) in enumerate(recipes)]
+
+
+def _spec(number: int, category: Category, recipe: Recipe, proof_seed: int) -> MotionSpec:
+    fresh = number.bit_count() % 2 == 1
+    sequence = np.random.SeedSequence([proof_seed if fresh else FIXED_SEED, int(fresh), number])
+    rng = np.random.default_rng(sequence)
+    arm = str(rng.choice(ARMS))
+    details: Details = {"arm": arm, **recipe(rng)}
+    return MotionSpec.model_validate(
+        {
+            "id": f"motion-{number:03d}",
+            "category": category,
+            "seed": int(sequence.generate_state(1)[0]),
+            "fresh": fresh,
+            "rate": int(rng.choice(RATES)),
+            "noise": round(float(rng.uniform(0.008, 0.025)), 4),
+            "stated": bool(rng.random() < 0.4),
+            "current": bool(rng.random() < 0.2),
+            **details,
+        }
+    )
+
+
+def _full() -> Iterator[tuple[Category, Recipe]]:
+    for _ in range(30):
+        yield "clean", _nothing
+    for kind in LIBRARY:
+        for strength in STRENGTHS:
+            yield "single", _single(kind.name, strength)
+    for number in range(30):
+        yield "multiple", _several(2 + number % 3)
+    for kind in OUTSIDE:
+        for strength in (*STRENGTHS, 5.0):
+            yield "outside", _single(kind.name, strength)
+    for recipe in CONFOUNDED:
+        for _ in range(3):
+            yield "confounded", recipe
+
+
+def _small() -> Iterator[tuple[Category, Recipe]]:
+    for _ in range(2):
+        yield "clean", _nothing
+    for name in ("asymmetric_friction", "load_friction", "torque_offset", "torque_delay", "link_mass", "payload_error"):
+        yield "single", _single(name, 5.0)
+    yield "multiple", _several(2)
+    for kind in OUTSIDE[:2]:
+        yield "outside", _single(kind.name, 5.0)
+    yield "confounded", CONFOUNDED[0]
+
+
+def _nothing(rng: np.random.Generator) -> Details:
+    return {}
+
+
+def _single(kind: str, strength: float) -> Recipe:
+    return lambda rng: {"wishes": [{"kind": kind, "strength": strength}], **_circumstances([kind], rng)}
+
+
+def _circumstances(kinds: list[str], rng: np.random.Generator) -> Details:
+    """An arm that has such a place, and friction in robot.yaml where the cause is a departure from it."""
+    details: Details = {}
+    if any("coupled" in kind or kind == "gravity_direction" for kind in kinds):
+        details["arm"] = str(rng.choice(ARMS[1:]))
+    if any(KINDS[kind].stated for kind in kinds):
+        details["stated"] = True
+    return details
+
+
+def _several(count: int) -> Recipe:
+    def recipe(rng: np.random.Generator) -> Details:
+        kinds = [str(name) for name in rng.permutation([kind.name for kind in LIBRARY])[:count]]
+        wishes = [{"kind": kind, "strength": float(rng.choice([4.0, 6.0, 9.0]))} for kind in kinds]
+        return {"wishes": wishes, **_circumstances(kinds, rng)}
+
+    return recipe
+
+
+def _unseparated(kind: str, rule: PathRule, joint: int, arm: str, strength: float = 5.0) -> Recipe:
+    def recipe(rng: np.random.Generator) -> Details:
+        wish = {"kind": kind, "strength": strength, "location": f"joint {joint + 1}"}
+        return {"wishes": [wish], "arm": arm, "rule": rule, "joint": joint, **_circumstances([kind], rng)}
+
+    return recipe
+
+
+CONFOUNDED: tuple[Recipe, ...] = (
+    _unseparated("torque_offset", "one_way", 3, "six-axis"),
+    _unseparated("coulomb_friction", "one_way", 0, "seven-axis"),
+    _unseparated("gravity_balance", "narrow", 1, "six-axis"),
+    _unseparated("cable_torque", "narrow", 3, "seven-axis", 3.0),
+)
+"""A joint that turns one way only: friction and offset are one column; one that hardly turns: every curve is a line."""

@@ -1,0 +1,186 @@
+"""A moving world as two folders: what the diagnosis may see, and the sealed truth.
+
+    visible/  robot.yaml (what the user believes), motions.csv, test_motions.csv (another path, without torques)
+    sealed/   truth.yaml, test.csv (that path with torques, N m, also where the diagnosis gets currents)
+
+truth.yaml: `effects` (effect, location, parameters, `strength` = RMS torque over noise at the joint where it is
+largest, `rms_nm` there, `alternatives` that are as good on these paths, by evidence), `background` (the arm's own
+friction and rotors, which robot.yaml may or may not state), `noise_nm` per joint, `left_on_test_nm` per joint: what the
+truth itself leaves on the held-out path (noise, and what the drives' filter rounds off); `scoring`:
+category, seed, circumstances.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import yaml
+
+from armscope.core.files import write_table, write_yaml
+from armscope.core.types import Array
+from armscope.robot.description_file import load_description
+from armscope.world.motion.catalogue import ARMS, KINDS, MotionSpec
+from armscope.world.motion.mechanism import stated_dynamics
+from armscope.world.motion.recording import Recorded, record, table
+from armscope.world.motion.rivals import Alternative, alternatives
+from armscope.world.motion.session import make_session
+from armscope.world.motion.virtual_arm import ImpossibleWish, Sized, VirtualArm, ordinary, place
+
+FRICTION = ("rotor_inertia_kg_m2", "coulomb_nm", "viscous_nm_s_rad")
+QUIETEST = 0.002
+"""Noise of a joint that hardly needs torque, as a share of its largest."""
+GAINS = (4.0, 14.0)
+"""N m/A at the joint's side, of arms of this class."""
+
+
+@dataclass(frozen=True, eq=False)
+class World:
+    """A world in memory: the arm, what it conceals, what else would do, and what was recorded."""
+
+    spec: MotionSpec
+    arm: VirtualArm
+    concealed: list[Sized]
+    alternatives: list[list[Alternative]]
+    torque: Array
+    recorded: Recorded
+    gains: Array | None
+
+
+def make(spec: MotionSpec, robots: Path) -> World:
+    """Make a world; the same spec gives the same numbers.
+
+    Where the arm of the spec can't conceal what is wished without being absurd, the next arm of the catalogue does.
+
+    Args:
+        spec: what to make.
+        robots: folder of the arms' descriptions.
+
+    Returns:
+        The world.
+
+    Raises:
+        ImpossibleWish: what the spec wishes can't be on any arm.
+    """
+    wished: ImpossibleWish | None = None
+    for arm in dict.fromkeys([spec.arm, *ARMS]):
+        try:
+            return _make(spec.model_copy(update={"arm": arm}), robots)
+        except ImpossibleWish as error:
+            wished = wished or error
+    raise ImpossibleWish(str(wished)) from wished
+
+
+def _make(spec: MotionSpec, robots: Path) -> World:
+    arms, paths, places, noise, drives = (np.random.default_rng([spec.seed, part]) for part in range(5))
+    description = load_description(robots / f"{spec.arm}.yaml")
+    dynamics = ordinary(stated_dynamics(description), arms)
+    session = make_session(description, spec.durations, spec.rule, spec.joint, paths)
+    arm = VirtualArm(description, dynamics, session, np.ones(dynamics.n_joints), spec.stated)
+    plain = arm.torques([])
+    train = plain[~session.test]
+    sigma = np.maximum(spec.noise * np.sqrt(np.mean(train**2, axis=0)), QUIETEST * np.abs(train).max(axis=0))
+    arm = VirtualArm(description, dynamics, session, sigma, spec.stated)
+    concealed: list[Sized] = []
+    for wish in spec.wishes:
+        concealed.append(place(arm, KINDS[wish.kind], wish.strength, wish.location, places, plain))
+    torque = arm.torques([each.concealed for each in concealed]) if concealed else plain
+    gains = drives.uniform(*GAINS, dynamics.n_joints).round(2) if spec.current else None
+    recorded = record(session, torque, sigma, spec.rate, noise)
+    return World(spec, arm, concealed, alternatives(arm, concealed, spec.rate, plain), torque, recorded, gains)
+
+
+def build(spec: MotionSpec, folder: Path, robots: Path) -> Path:
+    """Make a world and write it; the same spec gives the same bytes.
+
+    Args:
+        spec: what to make.
+        folder: where its folder (named by its id) goes.
+        robots: folder of the arms' descriptions.
+
+    Returns:
+        The world's folder, with `visible` and `sealed`.
+    """
+    world = make(spec, robots)
+    home = folder / spec.id
+    rng = np.random.default_rng([spec.seed, 9])
+    shown = {name: bool(rng.random() < 0.4) for name in ("temperature_c", "speed")}
+    needed = {column for each in world.concealed for column in each.concealed.kind.needs}
+    columns = tuple(name for name, drawn in shown.items() if drawn or name in needed)
+    motions = table(world.arm.session, world.recorded, columns, world.gains)
+    test = motions["run"] == "test"
+    torques = [str(name) for name in motions if str(name).startswith(("tau", "current"))]
+    write_table(home / "visible" / "motions.csv", motions[~test])
+    write_table(home / "visible" / "test_motions.csv", motions[test].drop(columns=torques))
+    torques_read = table(world.arm.session, world.recorded, columns, None)
+    write_table(home / "sealed" / "test.csv", torques_read[test])
+    write_yaml(home / "visible" / "robot.yaml", _visible_robot(robots / f"{world.spec.arm}.yaml", world))
+    write_yaml(home / "sealed" / "truth.yaml", _truth(world))
+    return home
+
+
+def _visible_robot(source: Path, world: World) -> dict[str, Any]:
+    """robot.yaml as the user believes it: drawings of the links; friction of this arm, or none."""
+    content: dict[str, Any] = yaml.safe_load(source.read_text(encoding="utf-8"))
+    dynamics = world.arm.dynamics
+    actual = zip(dynamics.rotor, dynamics.coulomb, dynamics.viscous, strict=True)
+    for j, (drive, values) in enumerate(zip(content["drives"], actual, strict=True)):
+        for name, value in zip(FRICTION, values, strict=True):
+            drive.pop(name)
+            if world.spec.stated:
+                drive[name] = float(f"{value:.6g}")
+        if world.gains is not None:
+            drive |= {"gain_nm_per_a": float(world.gains[j]), "gain_uncertainty": 0.0}
+    return content
+
+
+def _truth(world: World) -> dict[str, Any]:
+    spec, dynamics, test = world.spec, world.arm.dynamics, world.arm.session.test[world.recorded.rows]
+    both = sorted(zip(world.concealed, world.alternatives, strict=True), key=lambda pair: -pair[0].strength)
+    noise, left = world.recorded.noise, world.recorded.left
+    return {
+        "mismatch": bool(world.concealed),
+        "effects": [_effect(sized, others) for sized, others in both],
+        "background": [
+            {
+                "location": f"joint {j + 1}",
+                "coulomb_nm": float(dynamics.coulomb[j]),
+                "viscous_nm_s_rad": float(dynamics.viscous[j]),
+                "rotor_inertia_kg_m2": float(dynamics.rotor[j]),
+            }
+            for j in range(dynamics.n_joints)
+        ],
+        "noise_nm": np.sqrt(np.mean(noise[~test] ** 2, axis=0)).round(6),
+        "left_on_test_nm": np.sqrt(np.mean(left[test] ** 2, axis=0)).round(6),
+        "scoring": {
+            "category": spec.category,
+            "arm": spec.arm,
+            "seed": spec.seed,
+            "fresh": spec.fresh,
+            "rate_hz": spec.rate,
+            "rows": int((~test).sum()),
+            "stated": spec.stated,
+            "current": spec.current,
+            "rule": spec.rule,
+            "outside_library": any(each.concealed.kind.effect == "unknown" for each in world.concealed),
+        },
+    }
+
+
+def _effect(sized: Sized, others: list[Alternative]) -> dict[str, Any]:
+    concealed, kind = sized.concealed, sized.concealed.kind
+    return {
+        "effect": kind.effect,
+        "location": concealed.location,
+        "driver": kind.driver,
+        "shape": kind.shape,
+        "parameters": [
+            {"name": name, "unit": kind.units[name], "value": float(f"{value:.6g}")}
+            for name, value in concealed.numbers.items()
+        ],
+        "strength": round(sized.strength, 3),
+        "rms_nm": float(f"{sized.rms_nm:.5g}"),
+        "alternatives": [vars(other) for other in others],
+    }

@@ -1,0 +1,120 @@
+"""What drives record of a motion: filtered, sampled, noisy and in steps, as a motions.csv."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+from scipy.signal import butter, lfilter, sosfiltfilt
+
+from armscope.core.types import Array
+from armscope.world.motion.session import GRID_HZ, Session
+
+ENCODER_STEPS = 2**19
+"""Of a turn of the joint, as good industrial arms resolve it."""
+TORQUE_STEPS = 2**13
+"""From the largest torque to its opposite."""
+ANTI_ALIAS = 0.4
+"""Cut-off of the drives' filter as a share of the recorded rate."""
+MEMORY_S = 0.02
+"""Half of a torque's noise is white; the other half is ripple and control noise that lasts this long."""
+SPEED_FILTER_S = 0.004
+"""Drives filter the speed that they report, which is late by as much."""
+
+
+@dataclass(frozen=True, eq=False)
+class Recorded:
+    """The recorded rows of a session.
+
+    Attributes:
+        rows: (N,) which samples of the fine grid.
+        torque: (N, n) read, N m.
+        noise: (N, n) noise and steps in it, N m.
+        left: (N, n) what the true torque of that moment leaves: the noise, and what the drives' filter rounds off.
+    """
+
+    rows: NDArray[np.intp]
+    torque: Array
+    noise: Array
+    left: Array
+
+
+def record(session: Session, torque: Array, sigma: Array, rate: int, rng: np.random.Generator) -> Recorded:
+    """Filter, sample and spoil torques.
+
+    Args:
+        session: the motion on the fine grid.
+        torque: (T, n) N m.
+        sigma: (n,) standard deviation of the noise, N m.
+        rate: Hz, a divisor of `GRID_HZ`.
+        rng: of the noise.
+
+    Returns:
+        The recorded rows.
+    """
+    every = GRID_HZ // rate
+    filtered = np.array(torque)
+    if every > 1:
+        low_pass = butter(1, ANTI_ALIAS * rate, fs=GRID_HZ, output="sos")
+        for run in session.runs():
+            filtered[run] = sosfiltfilt(low_pass, torque[run], axis=0)
+    rows = np.concatenate([np.arange(run.start, run.stop, every) for run in session.runs()])
+    noise = sigma * _noise(len(rows), torque.shape[1], rate, rng)
+    step = 2 * np.abs(filtered).max(axis=0) / TORQUE_STEPS
+    read = np.round((filtered[rows] + noise) / step) * step
+    return Recorded(rows, read, read - filtered[rows], read - torque[rows])
+
+
+def _noise(count: int, joints: int, rate: int, rng: np.random.Generator) -> Array:
+    """(N, n) of unit variance: white and, with as much power, of first order."""
+    kept = np.exp(-1 / (MEMORY_S * rate))
+    white, driving = rng.normal(size=(2, count, joints))
+    lasting = lfilter([np.sqrt(1 - kept**2)], [1.0, -kept], driving, axis=0)
+    found: Array = (white + lasting) / np.sqrt(2)
+    return found
+
+
+def independent_share(rate: int) -> float:
+    """How many independent readings a recorded one is worth: 1 / (1 + 2 sum of autocorrelations)."""
+    kept = np.exp(-1 / (MEMORY_S * rate))
+    return float(1 / (1 + kept / (1 - kept)))
+
+
+def table(session: Session, recorded: Recorded, columns: tuple[str, ...], gains: Array | None) -> pd.DataFrame:
+    """motions.csv: run, time, angles in the encoder's steps, torques or currents, and the context asked for.
+
+    Args:
+        session: the motion.
+        recorded: what was read.
+        columns: of `temperature_c` and `speed`.
+        gains: (n,) N m/A of the drives that record currents; None for torques.
+
+    Returns:
+        The table with training and test rows, in the session's order.
+    """
+    rows = recorded.rows
+    names = range(1, session.angle.shape[1] + 1)
+    step = 2 * np.pi / ENCODER_STEPS
+    angle = (np.round(session.angle[rows] / step) * step).round(8)
+    content: dict[str, object] = {"run": session.run[rows], "time_s": session.time[rows].round(6)}
+    content |= {f"q{j}_rad": angle[:, j - 1] for j in names}
+    if "speed" in columns:
+        speed = _reported_speed(session)[rows].round(6)
+        content |= {f"dq{j}_rad_s": speed[:, j - 1] for j in names}
+    if gains is None:
+        content |= {f"tau{j}_nm": recorded.torque[:, j - 1] for j in names}
+    else:
+        content |= {f"current{j}_a": recorded.torque[:, j - 1] / gains[j - 1] for j in names}
+    if "temperature_c" in columns:
+        content["temperature_c"] = session.temperature[rows].round(2)
+    return pd.DataFrame(content)
+
+
+def _reported_speed(session: Session) -> Array:
+    kept = np.exp(-1 / (SPEED_FILTER_S * GRID_HZ))
+    found = np.empty_like(session.speed)
+    for run in session.runs():
+        found[run] = lfilter([1 - kept], [1.0, -kept], session.speed[run], axis=0)
+    return found

@@ -1,0 +1,203 @@
+"""A virtual arm in motion: its ordinary friction, what it conceals, and how large that is beside the noise."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from armscope.core.location import Location
+from armscope.core.types import Array
+from armscope.robot.description import RobotDescription
+from armscope.world.mechanism import Geometry
+from armscope.world.motion.kinds import Concealed, Kind, Stage, sign
+from armscope.world.motion.mechanism import Dynamics, MovingArm
+from armscope.world.motion.session import Session
+
+CLOSE = 0.01
+"""Sizes are reached to within this share."""
+FIRST = 1e-4
+"""Sizes are found from this share of a unit on: small enough for any body."""
+MOST_TRIES = 40
+"""Places and numbers that are drawn before a wish counts as impossible."""
+TOO_SMALL = 1e-9
+"""What background friction absorbs has no size."""
+
+
+class ImpossibleWish(ValueError):
+    """Nowhere on this arm can this be as large as wished without being absurd."""
+
+
+@dataclass(frozen=True, eq=False)
+class VirtualArm:
+    """An arm with its ordinary friction, before anything is concealed.
+
+    Attributes:
+        description: what robot.yaml says (all of it).
+        dynamics: as it is.
+        session: its motions.
+        sigma: (n,) noise of the recorded torques, N m.
+        stated: whether robot.yaml states friction and rotor inertia; else they are found, and absorb what is like them.
+    """
+
+    description: RobotDescription
+    dynamics: Dynamics
+    session: Session
+    sigma: Array
+    stated: bool
+
+    def torques(self, concealed: list[Concealed], session: Session | None = None) -> Array:
+        """(T, n) what the drives would record without noise, N m.
+
+        Args:
+            concealed: what is wrong with the arm.
+            session: another motion than its own.
+
+        Raises:
+            ValueError: no body has the inertias that come out.
+        """
+        session = self.session if session is None else session
+        geometry, dynamics = Geometry(self.description), self.dynamics
+        for each in concealed:
+            if each.kind.changes is not None:
+                dynamics = each.kind.changes(dynamics, Location.of(each.location), each.numbers)
+        links = MovingArm(geometry, dynamics.without_friction())
+        stage = Stage(session, lambda motion: links.torques(motion.angle, motion.speed, motion.acceleration))
+        torque = MovingArm(geometry, dynamics).torques(session.angle, session.speed, session.acceleration)
+        for each in concealed:
+            if each.kind.pulls is not None:
+                torque[:, each.joint] += each.kind.pulls(stage, each.joint, each.numbers)
+        for each in concealed:
+            if each.kind.records is not None:
+                torque = each.kind.records(session, torque, each.joint, each.numbers)
+        return torque
+
+    def background(self, joint: int) -> Array:
+        """(T, k) torques that are fitted anyway at a joint (0-based): friction and rotor, where they are not stated."""
+        session = self.session
+        if self.stated:
+            return np.zeros((len(session), 0))
+        return np.column_stack([sign(session, joint), session.speed[:, joint], session.acceleration[:, joint]])
+
+    def beyond_background(self, change: Array) -> Array:
+        """(T, n) the part of a change of torque on the training runs that no ordinary friction takes up."""
+        train = ~self.session.test
+        left = np.array(change[train])
+        for joint in range(left.shape[1]):
+            columns = self.background(joint)[train]
+            if columns.shape[1]:
+                left[:, joint] -= columns @ np.linalg.lstsq(columns, left[:, joint], rcond=None)[0]
+        return left
+
+
+@dataclass(frozen=True, eq=False)
+class Sized:
+    """What is concealed, and its strength: RMS of the torque over the noise, at the joint where that is largest."""
+
+    concealed: Concealed
+    strength: float
+    rms_nm: float
+    change: Array
+
+
+def ordinary(dynamics: Dynamics, rng: np.random.Generator) -> Dynamics:
+    """The friction and the rotors of one arm of a make: each a quarter off, as arms of a make differ."""
+    rotor, coulomb, viscous = np.exp(rng.normal(0, 0.25, (3, dynamics.n_joints)))
+    return replace(
+        dynamics,
+        rotor=dynamics.rotor * rotor,
+        coulomb=dynamics.coulomb * coulomb,
+        viscous=dynamics.viscous * viscous,
+    )
+
+
+def place(
+    arm: VirtualArm, kind: Kind, strength: float, location: str | None, rng: np.random.Generator, plain: Array
+) -> Sized:
+    """A kind at a place where it can have the strength.
+
+    Args:
+        arm: the arm.
+        kind: what to conceal.
+        strength: RMS torque over noise.
+        location: where; None: anywhere.
+        rng: of place and numbers.
+        plain: (T, n) torques with nothing concealed.
+
+    Returns:
+        It, sized.
+
+    Raises:
+        ImpossibleWish: there is no such place.
+    """
+    places = [location] if location is not None else kind.places(arm.description)
+    for _ in range(MOST_TRIES if places else 0):
+        where = str(rng.choice(places))
+        small = Concealed(kind, where, kind.draw(rng, arm.description)).sized(FIRST)
+        sized = _sized(arm, small, strength, plain)
+        if sized is not None:
+            return sized
+    raise ImpossibleWish(f"{kind.name} at {location or 'any place'} is never {strength:g} times the noise")
+
+
+def _sized(arm: VirtualArm, concealed: Concealed, strength: float, plain: Array) -> Sized | None:
+    """Numbers grown or shrunk until the strength is reached; a power law is followed from step to step."""
+    power, before = 1.0, None
+    for _ in range(8):
+        found = measure(arm, concealed, plain)
+        if found is None or found.strength < TOO_SMALL:
+            return None
+        if abs(found.strength / strength - 1) < CLOSE:
+            return found
+        if before is not None and abs(np.log(before[0])) > 1e-3:
+            slope = np.log(found.strength / before[1]) / np.log(before[0])
+            power = float(np.clip(slope, 0.3, 4.0))
+        factor = (strength / found.strength) ** (1 / power)
+        before = factor, found.strength
+        concealed = concealed.sized(factor)
+        if concealed.absurd:
+            return None
+    return None
+
+
+def measure(arm: VirtualArm, concealed: Concealed, plain: Array) -> Sized | None:
+    """How large it is with the numbers it has.
+
+    Args:
+        arm: the arm.
+        concealed: what is wrong with it.
+        plain: (T, n) torques with nothing concealed.
+
+    Returns:
+        Its size; None where no body can be so.
+    """
+    if not _possible(arm, concealed):
+        return None
+    try:
+        change = arm.torques([concealed]) - plain
+    except ValueError:
+        return None
+    left = arm.beyond_background(change)
+    rms = np.sqrt(np.mean(left**2, axis=0))
+    most = int(np.argmax(rms / arm.sigma))
+    return Sized(concealed, float((rms / arm.sigma)[most]), float(rms[most]), change)
+
+
+WRONG_MASS, WRONG_CENTRE = 0.6, 0.1
+"""How wrong a drawing may be: share of a link's mass, and of the arm's longest link for its centre."""
+
+
+def _possible(arm: VirtualArm, concealed: Concealed) -> bool:
+    """Masses stay positive, friction resists, and a wrong drawing is no fantasy."""
+    kind, numbers, j = concealed.kind, concealed.numbers, concealed.joint
+    if kind.effect == "link_mass":
+        return bool(abs(numbers["mass"]) < WRONG_MASS * arm.dynamics.mass[j])
+    if kind.effect == "link_first_moment":
+        moved = np.linalg.norm([numbers[name] for name in ("mx", "my", "mz")]) / arm.dynamics.mass[j]
+        return bool(moved < WRONG_CENTRE * Geometry(arm.description).rows[:, [0, 2]].max())
+    if kind.effect == "thermal_friction":
+        warmest = arm.session.temperature.max() - arm.session.temperature.min()
+        return bool(arm.dynamics.viscous[j] + numbers["per_kelvin"] * warmest > 0)
+    if kind.effect == "asymmetric_friction":
+        return bool(abs(numbers["viscous_difference"]) < arm.dynamics.viscous[j])
+    return True
