@@ -36,17 +36,40 @@ class Drawing:
         self._shapes.append((order, shape))
 
     def polygon(self, points: Array, fill: str, stroke: str = "none", width: float = 1.0, order: float = 0.0) -> None:
-        """A closed shape (K, 2)."""
+        """A closed shape (K, 2).
+
+        Args:
+            points: (K, 2) px.
+            fill: colour.
+            stroke: colour of its outline.
+            width: of the outline, px.
+            order: higher ones lie above.
+        """
         self.add(f'<path d="M{_pairs(points)}Z" fill="{fill}" stroke="{stroke}" stroke-width="{width:g}"/>', order)
 
     def line(self, points: Array, stroke: str = INK, width: float = 1.0, order: float = 0.0, dash: str = "") -> None:
-        """A line (K, 2) with round ends."""
+        """A line (K, 2) with round ends.
+
+        Args:
+            points: (K, 2) px.
+            stroke: colour.
+            width: px.
+            order: higher ones lie above.
+            dash: lengths of dashes and gaps, px; "" for none.
+        """
         dashed = f' stroke-dasharray="{dash}"' if dash else ""
         shape = f'<path d="M{_pairs(points)}" fill="none" stroke="{stroke}" stroke-width="{width:g}"{dashed} '
         self.add(f'{shape}stroke-linecap="round" stroke-linejoin="round"/>', order)
 
     def arrow(self, start: Array, end: Array, stroke: str = INK, order: float = 0.0) -> None:
-        """A thin line with a head at its end."""
+        """A thin line with a head at its end.
+
+        Args:
+            start: (2,) px.
+            end: (2,) px.
+            stroke: colour.
+            order: higher ones lie above.
+        """
         along = np.asarray(end, float) - np.asarray(start, float)
         along = along / max(float(np.linalg.norm(along)), 1e-9)
         across = np.array([-along[1], along[0]])
@@ -54,11 +77,26 @@ class Drawing:
         self.polygon(np.array([end, end - 8 * along + 3 * across, end - 8 * along - 3 * across]), stroke, order=order)
 
     def circle(self, at: Array, radius: float, fill: str, stroke: str = "none", order: float = 0.0) -> None:
-        """A disc."""
+        """A disc.
+
+        Args:
+            at: (2,) its middle, px.
+            radius: px.
+            fill: colour.
+            stroke: colour of its outline.
+            order: higher ones lie above.
+        """
         self.add(f'<circle cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="{radius:g}" fill="{fill}" stroke="{stroke}"/>', order)
 
     def dots(self, points: Array, colour: str, size: float, opacity: float) -> None:
-        """Many dots (K, 2) of one colour as one shape."""
+        """Many dots (K, 2) of one colour as one shape.
+
+        Args:
+            points: (K, 2) px.
+            colour: of all.
+            size: diameter, px.
+            opacity: 0 ... 1.
+        """
         marks = "".join(f"M{x:.1f} {y:.1f}h0" for x, y in points)
         self.add(
             f'<path d="{marks}" stroke="{colour}" stroke-width="{size:g}" stroke-linecap="round" '
@@ -66,7 +104,14 @@ class Drawing:
         )
 
     def rectangle(self, corner: Sequence[float], size: Sequence[float], fill: str, stroke: str = "none") -> None:
-        """With its upper left corner; of no negative size."""
+        """With its upper left corner; of no negative size.
+
+        Args:
+            corner: the upper left one, px.
+            size: width and height, px; taken as 0 where negative.
+            fill: colour.
+            stroke: colour of its outline.
+        """
         (x, y), (wide, high) = corner, size
         shape = f'<rect x="{x:.1f}" y="{y:.1f}" width="{max(wide, 0):.1f}" height="{max(high, 0):.1f}"'
         self.add(f'{shape} fill="{fill}" stroke="{stroke}"/>')
@@ -75,7 +120,7 @@ class Drawing:
         """Words at (x, y), the middle of their height.
 
         Args:
-            at: where.
+            at: where, px.
             words: shown as they are.
             look: size (px), anchor (start, middle, end), fill, weight, order, turn (degrees).
         """
@@ -88,13 +133,14 @@ class Drawing:
             order,
         )
 
-    def svg(self) -> str:
-        """The picture, to be embedded in a page or saved."""
+    def svg(self, paper: bool = False) -> str:
+        """The picture, to be embedded in a page, or, on white paper of its own, saved."""
         shapes = "".join(shape for _, shape in sorted(self._shapes, key=lambda pair: pair[0]))
+        white = ' style="background: #fff"' if paper else ""
         box, alt = f"0 0 {self.width:.0f} {self.height:.0f}", quoteattr(self.alt)
         return (
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" width="{self.width:.0f}" '
-            f'height="{self.height:.0f}" role="img" aria-label={alt} font-family="{FONT}">{shapes}</svg>'
+            f'height="{self.height:.0f}" role="img" aria-label={alt} font-family="{FONT}"{white}>{shapes}</svg>'
         )
 
 
@@ -117,7 +163,14 @@ class Panel:
         return np.column_stack([across, np.clip(down, self.top - 2, self.top + self.high + 2)])
 
     def frame(self, title: str = "", x_label: str = "", y_label: str = "", y_ticks: bool = True) -> None:
-        """Ticks with a faint grid, and what the axes are."""
+        """Ticks with a faint grid, and what the axes are.
+
+        Args:
+            title: above the panel.
+            x_label: with the unit.
+            y_label: with the unit.
+            y_ticks: whether the numbers of the y axis are written.
+        """
         low, end = self.top + self.high, self.left + self.wide
         for tick in ticks(*self.x):
             ((px, _),) = self.at(np.array([tick]), np.array([self.y[0]]))
@@ -136,7 +189,16 @@ class Panel:
 
 
 def ticks(low: float, high: float, wanted: int = 5) -> list[float]:
-    """Round numbers between two numbers."""
+    """Round numbers between two numbers.
+
+    Args:
+        low: the least.
+        high: the most.
+        wanted: about how many.
+
+    Returns:
+        The numbers; none where there is no range.
+    """
     if not (math.isfinite(low) and math.isfinite(high) and high > low):
         return []
     step = nice((high - low) / wanted)

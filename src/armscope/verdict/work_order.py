@@ -130,12 +130,15 @@ def _row(effect: FoundEffect) -> Iterator[str]:
 
 
 def motion(verdict: Diagnosis, parts: tuple[Part, ...], sign: int = 1) -> str:
-    """The largest turn and the largest shift of parts over the recorded rows, with signs; "" for none.
+    """The largest turn and the largest shift of parts over the recorded rows.
 
     Args:
         verdict: whose parts they are.
         parts: of the fitted model.
         sign: -1 for what undoes them.
+
+    Returns:
+        In words, with signs; "" for none.
     """
     amounts: dict[str, list[tuple[str, Array]]] = {"turns": [], "moves": []}
     posture = verdict.model.posture(verdict.model.scene(verdict.recordings))

@@ -47,12 +47,15 @@ class Written:
 
 
 def write_report(verdict: Diagnosis, folder: Path | str, started: float | None = None) -> Path:
-    """Write ``report.html``, ``work-order.html``, its tables as CSV, and ``figures/*.svg``; returns the page's path.
+    """Write ``report.html``, ``work-order.html``, its tables as CSV, and ``figures/*.svg``.
 
     Args:
         verdict: the diagnosis.
         folder: where the page goes.
         started: when its reader began to wait (`time.time`), for the footer; None leaves it out.
+
+    Returns:
+        The page's path.
     """
     folder, subject = Path(folder), Subject(verdict)
     sections = [section for section in SECTIONS if section.applies(verdict)]
@@ -97,9 +100,8 @@ def write_work_order(subject: Subject, folder: Path) -> None:
 
 
 def _saved(drawn: Drawn, folder: Path) -> Markup:
-    svg = drawn.figure.svg()
-    write_text(folder / f"{drawn.name}.svg", svg)
-    return Markup(svg)  # its words were escaped when they were drawn
+    write_text(folder / f"{drawn.name}.svg", drawn.figure.svg(paper=True))
+    return Markup(drawn.figure.svg())  # its words were escaped when they were drawn
 
 
 def _written(sections: Iterable[Section], subject: Subject, figures: dict[str, Markup]) -> Iterable[Written]:
