@@ -25,8 +25,15 @@ include: "workflow/rules/poses.smk"
 include: "workflow/rules/readme.smk"
 
 
+# what takes less time than its own submission to a cluster, or needs the network or the checkout itself
 localrules:
     all,
+    fetch_raw,
+    proof_real_seed,
+    proof_seed,
+    readme,
+    real_arms,
+    sensitivity,
 
 
 rule all:

@@ -1,46 +1,70 @@
-"""armscope: see where a robot arm misses its target, and why."""
+"""armscope: see where a robot arm misses its target, and why.
+
+In a notebook or a script, with the same order of arguments as on the command line:
+
+    import armscope
+
+    found = armscope.diagnose("recordings.csv", "robot.yaml")
+    found                       # one paragraph; a table of causes in a notebook
+    found.plot()                # the arm with the guilty places
+    found.report("out")         # what `armscope diagnose -o out` writes
+
+Nothing is imported before it is used.
+"""
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING
+import sys
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    import pandas as pd
+    from armscope.core.inputs import InputError
+    from armscope.notebook import (
+        calibrate,
+        check,
+        choose_poses,
+        compensate,
+        diagnose,
+        predict,
+        read_recordings,
+        read_robot,
+        read_verdict,
+    )
 
-    from armscope.diagnosis import Diagnosis, Settings
-    from armscope.recordings import Recordings
-    from armscope.robot import Arm
+__all__ = [
+    "InputError",
+    "calibrate",
+    "check",
+    "choose_poses",
+    "compensate",
+    "diagnose",
+    "predict",
+    "read_recordings",
+    "read_robot",
+    "read_verdict",
+]
 
-__all__ = ["diagnose"]
+
+def __getattr__(name: str) -> Any:
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    import importlib
+
+    home = "armscope.core.inputs" if name == "InputError" else "armscope.notebook"
+    return getattr(importlib.import_module(home), name)
 
 
-def diagnose(
-    robot: Arm | Path | str, recordings: Recordings | pd.DataFrame | Path | str, settings: Settings | None = None
-) -> Diagnosis:
-    """Find where simulation and recordings differ, and which physics was left out: `armscope diagnose` for notebooks.
+def __dir__() -> list[str]:
+    return sorted([*globals(), *__all__])
 
-    Args:
-        robot: an arm, or the path of its robot.yaml.
-        recordings: a recordings table, a data frame with its columns, or the path of one.
-        settings: see `armscope.diagnosis.Settings`.
 
-    Returns:
-        The verdict.
+class _Package(ModuleType):
+    """The room `armscope.check` and the function have one name: to a user it is the function's, whoever came first."""
 
-    Raises:
-        InputError: something that can't be used; it says what, where, and how to mend it.
-    """
-    from threadpoolctl import threadpool_limits
+    def __setattr__(self, name: str, value: object) -> None:
+        if not (name in __all__ and isinstance(value, ModuleType)):
+            super().__setattr__(name, value)
 
-    from armscope.diagnosis import diagnose as diagnose_arm
-    from armscope.recordings import Recordings, as_recordings, read_recordings
-    from armscope.robot import Arm, load_arm
 
-    arm = robot if isinstance(robot, Arm) else load_arm(robot)
-    if isinstance(recordings, str | Path):
-        recordings = read_recordings(recordings, arm.n_motors)
-    elif not isinstance(recordings, Recordings):
-        recordings = as_recordings(recordings, "data frame", arm.n_motors)
-    with threadpool_limits(1):  # small matrices: threads of BLAS would only wait for each other
-        return diagnose_arm(arm, recordings, settings)
+sys.modules[__name__].__class__ = _Package

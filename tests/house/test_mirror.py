@@ -9,7 +9,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 PACKAGE, TESTS = ROOT / "src" / "armscope", ROOT / "tests"
-ELSEWHERE = {"fuzz", "golden", "house"}
+ELSEWHERE = {"campaign", "fuzz", "golden", "house"}
 """Folders of tests of no room."""
 STILL_FROM_ELSEWHERE = [
     "__main__.py",

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from armscope.check.report import check
@@ -112,10 +113,7 @@ def _told(good: NDArray[np.bool_], kind: str, what: str, notices: list[Notice]) 
 
 def _not_repeated(recordings: Recordings) -> NDArray[np.bool_]:
     rows = np.column_stack([recordings.motor_angles, recordings.positions])
-    _, first = np.unique(rows, axis=0, return_index=True)
-    good = np.zeros(len(rows), dtype=bool)
-    good[first] = True
-    return good
+    return ~(pd.DataFrame(rows).duplicated().to_numpy() & np.isfinite(rows).all(axis=1))
 
 
 def _not_clipped(recordings: Recordings) -> NDArray[np.bool_]:
@@ -131,13 +129,12 @@ def _not_clipped(recordings: Recordings) -> NDArray[np.bool_]:
 
 
 def _not_stuck(recordings: Recordings) -> NDArray[np.bool_]:
-    _, which, count = np.unique(recordings.positions, axis=0, return_inverse=True, return_counts=True)
-    which = which.reshape(-1)
+    points = pd.DataFrame(recordings.positions)
+    again = np.flatnonzero(points.duplicated(keep=False).to_numpy() & np.isfinite(recordings.positions).all(axis=1))
     good = np.ones(len(recordings), dtype=bool)
-    for point in np.flatnonzero(count > 1):
-        rows = np.flatnonzero(which == point)
-        if moving(recordings.motor_angles[rows]).any():
-            good[rows[1:]] = False
+    for rows in points.iloc[again].groupby([0, 1, 2], sort=False).indices.values():
+        if moving(recordings.motor_angles[again[rows]]).any():
+            good[again[rows[1:]]] = False
     return good
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 
@@ -42,6 +43,16 @@ class CheckReport:
     def has_problems(self) -> bool:
         """Whether anything makes results from this table meaningless."""
         return any(each.weight == "problem" for each in self.suspicions)
+
+    def to_json(self) -> dict[str, Any]:
+        """The contents, how they fit the arm, and what looks wrong, as plain data."""
+        fit = None if self.consistency is None else asdict(self.consistency)
+        return {
+            "problems": self.has_problems,
+            "suspicions": [vars(each) for each in self.suspicions],
+            "contents": asdict(self.contents),
+            "consistency": fit and {key: value for key, value in fit.items() if key != "suspicions"},
+        }
 
     def text(self) -> str:
         """The report as plain text."""

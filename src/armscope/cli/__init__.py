@@ -14,6 +14,7 @@ from armscope.cli import (
     calibration,
     compensation,
     diagnosis,
+    excite,
     init,
     outlook,
     paper,
@@ -30,12 +31,13 @@ app = typer.Typer(
     name="armscope",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
-    add_completion=False,
+    add_completion=True,
 )
 app.add_typer(diagnosis.app)
 app.add_typer(compensation.app)
 app.add_typer(outlook.app)
 app.add_typer(poses.app)
+app.add_typer(excite.app)
 app.add_typer(calibration.app)
 app.add_typer(recordings.app)
 app.add_typer(init.app)

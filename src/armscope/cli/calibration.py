@@ -21,16 +21,21 @@ def check(
     recordings: Annotated[Path, typer.Argument(help="recordings.csv")],
     robot: Annotated[Path | None, typer.Option("--robot", "-r", help="robot.yaml: also compare with the arm")] = None,
     figure: Annotated[Path | None, typer.Option(help="draw poses and joint coverage (PNG, SVG and PDF)")] = None,
+    json: Annotated[bool, typer.Option("--json", help="print what looks wrong as JSON in place of words")] = False,
 ) -> None:
     """Say what a recordings table holds and what looks wrong in it; exit code 1 if something does."""
-    from armscope.check import check as check_table
-    from armscope.recordings import read_recordings
-    from armscope.robot import load_arm
+    from armscope.cli.robots import print_json, robot_of, table_of
 
-    arm = None if robot is None else load_arm(robot)
-    table = read_recordings(recordings)
+    arm = None if robot is None else robot_of(robot)
+    table = table_of(recordings)
+
+    from armscope.check import check as check_table
+
     found = check_table(table, arm)
-    print(found.text())
+    if json:
+        print_json(found.to_json())
+    else:
+        print(found.text())
     if figure is not None:
         from armscope.report.figures.check import draw_check
         from armscope.report.style import save_figure
@@ -66,15 +71,16 @@ def calibrate(
     """Calibrate the arm's geometry and export it as robot.yaml and URDF."""
     from dataclasses import replace
 
+    from armscope.cli.robots import robot_of, table_of
+
+    arm = robot_of(robot)
+    table = table_of(recordings, arm.n_motors)
+
     from armscope.calibration import calibrate as calibrated
     from armscope.calibration.export import FILES, export
     from armscope.check import check as check_table
     from armscope.core.files import writable, write_table
-    from armscope.recordings import read_recordings
-    from armscope.robot import load_arm
 
-    arm = load_arm(robot)
-    table = read_recordings(recordings, arm.n_motors)
     writable(output, *FILES, *TABLES)
     looked_through = check_table(table, arm)
     consistency = looked_through.consistency

@@ -5,15 +5,18 @@ from __future__ import annotations
 import contextlib
 import functools
 import inspect
+import os
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Annotated, Any, get_type_hints
 
 import typer
+from typer.core import TyperCommand
 
 from armscope.cli.endings import told_to_end
 from armscope.core.outputs import Delivery
+from armscope.core.parallel import processes
 from armscope.core.streams import is_stream
 
 OUTPUTS = ("output", "figure", "points", "visible", "sealed")
@@ -21,6 +24,18 @@ OUTPUTS = ("output", "figure", "points", "visible", "sealed")
 WRITTEN = object()
 
 Force = Annotated[bool, typer.Option("--force", help="overwrite files that armscope did not write (never an input)")]
+Threads = Annotated[int, typer.Option(min=1, help="processes that share the rows of a long table; the same result")]
+"""As a parameter ``threads`` of a command: its work is shared by so many processes."""
+
+
+Quiet = Annotated[bool, typer.Option("--quiet", help="say nothing but errors")]
+
+
+class PlainHelp(TyperCommand):
+    """Help as plain lines, which are not cut however narrow the terminal is."""
+
+    def __init__(self, *arguments: Any, **options: Any) -> None:
+        super().__init__(*arguments, **options | {"rich_markup_mode": None})
 
 
 class Commands(typer.Typer):
@@ -36,8 +51,8 @@ class Commands(typer.Typer):
         self._words = f"{name} " if name else ""
 
     def command(self, name: str | None = None, **options: Any) -> Callable[[Any], Any]:
-        """As of `typer.Typer`; a command with outputs gets ``--force``."""
-        register = super().command(name, **options)
+        """As of `typer.Typer`; a command gets ``--quiet``, and one with outputs ``--force``."""
+        register = super().command(name, **{"cls": PlainHelp} | options)
 
         def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
             own = name or function.__name__.rstrip("_").replace("_", "-")
@@ -53,16 +68,23 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
     signature = inspect.signature(function)
     parameters = [each.replace(annotation=hints[each.name]) for each in signature.parameters.values()]
     outputs = {name for name, hint in hints.items() if name in OUTPUTS or WRITTEN in getattr(hint, "__metadata__", ())}
-    if not outputs:
-        return function
-    forced = inspect.Parameter("force", inspect.Parameter.KEYWORD_ONLY, default=False, annotation=Force)
+    added = [inspect.Parameter("quiet", inspect.Parameter.KEYWORD_ONLY, default=False, annotation=Quiet)]
+    if outputs:
+        added.append(inspect.Parameter("force", inspect.Parameter.KEYWORD_ONLY, default=False, annotation=Force))
 
     @functools.wraps(function)
-    def run(*, force: bool = False, **values: Any) -> None:
+    def run(*, force: bool = False, quiet: bool = False, **values: Any) -> None:
+        with _silence() if quiet else contextlib.nullcontext():
+            if outputs:
+                deliver(force, values)
+            else:
+                function(**values)
+
+    def deliver(force: bool, values: dict[str, Any]) -> None:
         reads = _paths(value for name, value in values.items() if name not in outputs)
         writes = _paths(value for name, value in values.items() if name in outputs)
         delivery = Delivery(command, reads, writes, force)
-        with told_to_end(), _stdout_kept_for_data(writes), delivery.running():
+        with processes(values.get("threads", 1)), told_to_end(), _stdout_kept_for_data(writes), delivery.running():
             try:
                 function(**values)
             except typer.Exit:  # an answer, not a failure
@@ -70,9 +92,16 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
                 raise
             delivery.put()
 
-    run.__signature__ = signature.replace(parameters=[*parameters, forced])  # type: ignore[attr-defined]
-    run.__annotations__ = {each.name: each.annotation for each in [*parameters, forced]} | {"return": None}
+    run.__signature__ = signature.replace(parameters=[*parameters, *added])  # type: ignore[attr-defined]
+    run.__annotations__ = {each.name: each.annotation for each in [*parameters, *added]} | {"return": None}
     return run
+
+
+@contextlib.contextmanager
+def _silence() -> Iterator[None]:
+    """Words go nowhere; errors are told where commands end."""
+    with open(os.devnull, "w") as nowhere, contextlib.redirect_stdout(nowhere), contextlib.redirect_stderr(nowhere):
+        yield
 
 
 def _paths(values: Iterable[Any]) -> list[Path]:

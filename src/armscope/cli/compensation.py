@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from armscope.cli.commands import Commands
+from armscope.cli.commands import Commands, Threads
 from armscope.cli.studies import model_named
 from armscope.core.inputs import InputError
 
@@ -44,10 +44,12 @@ def compensate(
         float, typer.Option(min=0, help="standard deviations that a command may leave the identified range")
     ] = 0.2,
     separate_points: Annotated[bool, typer.Option(help="no path: the arm may turn far between points")] = False,
+    threads: Threads = 1,
 ) -> None:
     """Commands that make the real arm reach the wanted points; exit code 3 where some rows have none."""
     import numpy as np
 
+    from armscope.cli.cost import COMPENSATE, announce
     from armscope.compensation import (
         ErrorModel,
         Options,
@@ -66,6 +68,7 @@ def compensate(
     step = np.inf if separate_points else LARGEST_STEP_RAD
     fitted: ErrorModel | FittedModel = load_error_model(model) if model.suffix == ".json" else load_model(model)
     _check_robot(robot, fitted.arm)
+    announce(path, COMPENSATE, threads)
     wanted = read_path(path, fitted.arm)
     options = Options(frame, pose, _start(start_rad, fitted.arm), allowed_outside, step)
     if isinstance(fitted, ErrorModel):
@@ -97,11 +100,8 @@ def fit_error_model(
     orientation: Annotated[bool, typer.Option(help="fit measured orientations (qw, qx, qy, qz), too")] = True,
 ) -> None:
     """Fit one of the paper's error models to recordings, ready for `armscope compensate`: three axes, or all six."""
-    from armscope.compensation import fit_error_model as fit
-    from armscope.compensation import save_error_model
+    from armscope.cli.robots import robot_of, table_of
     from armscope.core.inputs import nearest
-    from armscope.recordings import read_recordings
-    from armscope.robot import load_arm
 
     methods = {"least-squares": "least squares", "swarm": "swarm"}
     if method not in methods:
@@ -110,8 +110,12 @@ def fit_error_model(
         raise InputError("--regions", "", regions, "auto or 1, 2, 4, ...; more than one by least squares only")
     if products and (method != "least-squares" or regions != "1"):
         raise InputError("--products", "", f"--method {method} --regions {regions}", "least squares, one region")
-    arm = load_arm(robot)
-    table = read_recordings(recordings, arm.n_motors)
+    arm = robot_of(robot)
+    table = table_of(recordings, arm.n_motors)
+
+    from armscope.compensation import fit_error_model as fit
+    from armscope.compensation import save_error_model
+
     for column, wanted, values in (("run", run, table.run), ("target", target, table.target)):
         if wanted is not None and wanted not in values:
             cure = nearest(wanted, set(values.tolist()))

@@ -10,14 +10,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from armscope.cli.commands import Commands
+from armscope.cli.commands import Commands, Threads
 from armscope.cli.endings import MISMATCH, UNUSABLE, waiting_since
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from armscope.physics.model import FittedModel
     from armscope.recordings import Recordings
 
 app = Commands()
@@ -45,28 +44,31 @@ def diagnose(
     exit_code: Annotated[
         bool, typer.Option("--exit-code", help="end with 0: nothing missing, 10: a mismatch, 2: cannot tell")
     ] = False,
+    json: Annotated[bool, typer.Option("--json", help="print verdict.json in place of words")] = False,
+    threads: Threads = 1,
 ) -> None:
     """Find where simulation and recordings differ, and which physics was left out.
 
     Ends with 0 when the diagnosis was made, whatever it found (see --exit-code), and with 2 when the recordings can't
     be used: then nothing is written, unless --anyway.
     """
+    from armscope.cli.cost import DIAGNOSE, announce
+    from armscope.cli.robots import print_json, robot_of, table_of
+
+    started = waiting_since()
+    arm = robot_of(robot)
+    announce(recordings, DIAGNOSE, threads)
+    table = table_of(recordings, arm.n_motors)
+
     from armscope.check.preconditions import refuse_unusable
     from armscope.compensation.physical import FILE as DOMAIN
     from armscope.compensation.physical import identified_on, save_identified
     from armscope.core.files import writable
     from armscope.diagnosis import Settings, write_verdict
     from armscope.diagnosis import diagnose as diagnose_arm
-    from armscope.recordings import read_recordings
-    from armscope.robot import load_arm
     from armscope.verdict.files import FILES
 
-    started = waiting_since()
-    arm = load_arm(robot)
-    table = read_recordings(recordings, arm.n_motors)
     writable(output, *FILES, DOMAIN, *(PAGES if report else ()))
-    for note in table.notes:
-        print(f"note: {note}", file=sys.stderr)
     if run:
         table = table.rows(_rows_of_runs(table, run))
     if first_id is not None:
@@ -86,8 +88,11 @@ def diagnose(
     obstacle = verdict.notices[-1:] if verdict.mismatch is None else ()
     for notice in (*(each for each in verdict.notices if each.kind == "check"), *obstacle):
         print(f"note: {notice.text}", file=sys.stderr)
-    print(verdict.headline)
-    print(f"{output}/{'report.html' if report else 'verdict.json'}")
+    if json:
+        print_json(verdict.to_json())
+    else:
+        print(verdict.headline)
+        print(f"{output}/{'report.html' if report else 'verdict.json'}")
     if exit_code and verdict.mismatch is not False:
         raise typer.Exit(MISMATCH if verdict.mismatch else UNUSABLE)
 
@@ -139,104 +144,15 @@ def predict(
     poses: Annotated[Path, typer.Argument(help="a table of motor angles and whatever context the model follows")],
     output: Annotated[Path, typer.Option("--output", "-o", help="table to write: id, run, x_mm, y_mm, z_mm")],
     pose: Annotated[bool, typer.Option(help="orientations qw, qx, qy, qz, too")] = False,
+    threads: Threads = 1,
 ) -> None:
     """Predict where the tool point will be, in the measurement frame (by a robot.yaml: in the base frame)."""
-    import pandas as pd
-    from scipy.spatial.transform import Rotation
-
+    from armscope.cli.cost import PREDICT, announce
+    from armscope.compensation.predicting import predict_file
     from armscope.core.files import write_table
-    from armscope.core.inputs import read_yaml
 
-    if model.suffix == ".json":
-        points, rotations, rows = _by_black_box(model, poses, pose)
-    elif isinstance(content := read_yaml(model), dict) and {"dh", "urdf"} & set(content):
-        points, rotations, rows = _by_description(model, poses, pose)
-    else:
-        points, rotations, rows = _by_physics(model, poses, pose)
-    table = pd.DataFrame({"id": rows.id, "run": rows.run})
-    table[["x_mm", "y_mm", "z_mm"]] = points * 1e3
-    if rotations is not None:
-        table[["qx", "qy", "qz", "qw"]] = Rotation.from_matrix(rotations).as_quat(canonical=True)
-        table = table[["id", "run", "x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz"]]
+    announce(poses, PREDICT, threads)
+    table, notes = predict_file(model, poses, pose)
+    for note in notes:
+        print(f"note: {note}", file=sys.stderr)
     write_table(output, table)
-
-
-def _by_physics(
-    model: Path, poses: Path, pose: bool
-) -> tuple[NDArray[np.float64], NDArray[np.float64] | None, Recordings]:
-    """Points (N, 3), m, and orientations (N, 3, 3) in the measurement frame, and the rows they are of."""
-    from armscope.physics.model import predict as predicted_points
-    from armscope.physics.model import predict_orientation
-    from armscope.physics.model_file import load_model
-    from armscope.recordings import read_recordings
-
-    fitted = load_model(model)
-    rows = read_recordings(poses, fitted.arm.n_motors, measured=False)
-    _refuse_missing_context(model, fitted, rows)
-    for run in fitted.unknown_runs(rows):
-        print(f"run {run!r} is not in the model: its base is taken from run {list(fitted.bases)[-1]!r}")
-    return predicted_points(fitted, rows), predict_orientation(fitted, rows) if pose else None, rows
-
-
-def _refuse_missing_context(model: Path, fitted: FittedModel, rows: Recordings) -> None:
-    """What an effect follows must be known in every row: nothing is taken for zero.
-
-    Raises:
-        InputError: it is not.
-    """
-    import numpy as np
-
-    from armscope.compensation.physical import FILE, drivers_of, load_identified, missing_context
-    from armscope.core.inputs import InputError
-    from armscope.physics.drivers import KINDS
-
-    beside = model.parent / FILE
-    if not beside.is_file():
-        if rows.payload is None and any("payload" in KINDS[kind].follows for kind in drivers_of(fitted)):
-            print(f"note: no payload_kg, and no {FILE} beside the model: the arm carries nothing", file=sys.stderr)
-        return
-    for column, missing in missing_context(fitted, load_identified(beside), rows).items():
-        place = "line 1" if missing.all() else f"row {int(np.argmax(missing)) + 2}, column {column}"
-        cure = "Write 0 where the arm carries nothing." if column == "payload_kg" else "Add it to the table."
-        rule = "an effect in the model follows it, so it must be known in every row"
-        raise InputError(rows.source, place, f"no column {column}" if missing.all() else "nothing", rule, cure)
-
-
-def _by_description(
-    robot: Path, poses: Path, pose: bool
-) -> tuple[NDArray[np.float64], NDArray[np.float64] | None, Recordings]:
-    """As `_by_physics` for an arm that does what its robot.yaml says, nominal or calibrated; in its base frame."""
-    from armscope.recordings import read_recordings
-    from armscope.robot import chain, load_arm
-
-    arm = load_arm(robot)
-    rows = read_recordings(poses, arm.n_motors, measured=False)
-    frames = chain(arm, rows.motor_angles)
-    return frames.tool, frames.tool_rotation if pose else None, rows
-
-
-def _by_black_box(
-    model: Path, poses: Path, pose: bool
-) -> tuple[NDArray[np.float64], NDArray[np.float64] | None, Recordings]:
-    """As `_by_physics` for a black-box model; poses outside the identified range are named."""
-    from armscope.compensation import load_error_model
-    from armscope.compensation.black_box import domain_inputs
-    from armscope.compensation.domain import ALLOWED
-    from armscope.core.inputs import InputError
-    from armscope.recordings import read_recordings
-
-    fitted = load_error_model(model)
-    rows = read_recordings(poses, fitted.arm.n_motors, measured=False)
-    if pose and fitted.turning is None:
-        raise InputError(
-            model,
-            "turning",
-            "nothing",
-            "the model was fitted to positions only",
-            "Fit it to recordings with qw ... qz.",
-        )
-    points, rotations = fitted.as_measured(rows.motor_angles)
-    outside = fitted.domain.outside(domain_inputs(fitted, rows.motor_angles))[0] > ALLOWED
-    if outside.any():
-        print(f"note: {outside.sum()} of {len(rows)} rows lie outside the identified range", file=sys.stderr)
-    return points, rotations if pose else None, rows

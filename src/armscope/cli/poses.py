@@ -48,22 +48,24 @@ def poses(
     seed: Annotated[int, typer.Option(min=0, help="of candidates, starts and comparison")] = 0,
 ) -> None:
     """Choose the poses that show a set of effects best, and say what they are worth beside random ones and a grid."""
-    from armscope.core.files import write_table
+    from armscope.cli.robots import robot_of
     from armscope.core.inputs import nearest
     from armscope.core.streams import is_stream
     from armscope.design.indices import SOURCES
-    from armscope.poses.choose import by_other_criteria, choose
-    from armscope.poses.compare import compare_sets
-    from armscope.poses.output import write_choice
-    from armscope.report.figures.pose_choice import choice_figure
-    from armscope.report.style import save_figure
-    from armscope.robot import load_arm
 
     if criterion not in SOURCES:
         raise InputError("--criterion", "", criterion, "O1, O2, O3, O4 or O5", nearest(criterion, SOURCES))
     if output.suffix != ".csv" and not is_stream(output):
         raise InputError("--output", "", str(output), "a table that ends in .csv")
-    arm = load_arm(robot)
+    arm = robot_of(robot)
+
+    from armscope.core.files import write_table
+    from armscope.poses.choose import by_other_criteria, choose
+    from armscope.poses.compare import compare_sets
+    from armscope.poses.output import write_choice
+    from armscope.report.figures.pose_choice import choice_figure
+    from armscope.report.style import save_figure
+
     names = tuple(name.strip() for name in effects.split(",") if name.strip())
     around = _surroundings(tracker, floor_mm, radius_mm)
     choice = choose(arm, count, around, names, criterion, candidates, payload_kg, seed, starts)

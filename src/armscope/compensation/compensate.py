@@ -11,17 +11,19 @@ from scipy.spatial.transform import Rotation
 
 from armscope.compensation.black_box import ErrorModel, domain_inputs
 from armscope.compensation.branch import nominal_branch
+from armscope.compensation.correction import correct
 from armscope.compensation.domain import ALLOWED, Domain
 from armscope.compensation.forward import BlackBoxArm, Forward, NominalArm, PhysicalArm
-from armscope.compensation.newton import POLE, Solution, Wanted, lever, solve_commands, weakest
+from armscope.compensation.newton import Solution, Wanted, row_pieces, solve_commands
 from armscope.compensation.path import Frame, WantedPath, unit_doubt
 from armscope.compensation.physical import Identified, beyond_time, missing_context, with_empty_context, with_torques
 from armscope.compensation.result import Compensated
 from armscope.core.inputs import InputError
+from armscope.core.parallel import each_piece
 from armscope.core.types import Array
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
-from armscope.robot import Arm
+from armscope.robot import Arm, tool_frames
 from armscope.robot.inverse import LARGEST_STEP_RAD
 
 LARGEST_CORRECTION_RAD = np.radians(3)
@@ -134,7 +136,7 @@ def compensate_physical(
         domain_inputs=lambda angles: identified.inputs(angles, rows),
         to_base=(lambda points: model.to_base(points, rows.run)) if measured else _same,
         to_frame=(lambda points: model.to_measurement(points, rows.run)) if measured else _same,
-        turn=np.array([model.base_of(str(run)).rotation if measured else np.eye(3) for run in rows.run]),
+        turn=model.base_turns(rows.run) if measured else np.broadcast_to(np.eye(3), (len(rows), 3, 3)),
     )
     result = task.run(refused)
     return replace(result, notes=(*notes, *result.notes))
@@ -175,18 +177,18 @@ class _Task:
         possible = np.isfinite(nominal.sum(axis=1)) & np.isfinite(wanted.points.sum(axis=1))
         known = np.flatnonzero(possible & np.equal(refused, ""))
         if len(known):
-            before = real.at(nominal[known], known)
-            uncorrected[known] = np.linalg.norm(wanted.points[known] - before.points, axis=1)
-            uncorrected_turn[known] = np.linalg.norm(wanted.rows(known).turn(before), axis=1)
-            solution = solve_commands(real, wanted.rows(known), nominal[known], free, known)
-            commands[known], iterations = solution.angles, solution.iterations
-            moved = np.abs(solution.angles - nominal[known])
-            at_start = weakest(wanted.rows(known), before, free, lever(real))
-            pole = np.where(solution.converged, solution.singular, at_start) < POLE
-            self._refuse_unsolved(refused, known, solution, moved, pole)
-            after = real.at(commands[known], known)
-            predicted[known] = after.points
-            residual_turn[known] = np.linalg.norm(wanted.rows(known).turn(after), axis=1)
+            pieces = [known[at] for at in row_pieces(len(known))]
+            for at, found in zip(
+                pieces,
+                each_piece(pieces, lambda at: correct(real, wanted.rows(at), nominal[at], free, at)),
+                strict=True,
+            ):
+                uncorrected[at], uncorrected_turn[at] = found.uncorrected, found.uncorrected_turn
+                commands[at], predicted[at] = found.solution.angles, found.predicted
+                residual_turn[at] = found.residual_turn
+                iterations = max(iterations, found.solution.iterations)
+                moved = np.abs(found.solution.angles - nominal[at])
+                self._refuse_unsolved(refused, at, found.solution, moved, found.pole)
         outside, nearest = self._refuse_outside(refused, commands, unit_doubt(wanted.points, self.arm.reach))
         reasons = np.asarray(refused, dtype=str)
         residual = np.linalg.norm(wanted.points - predicted, axis=1)
@@ -195,8 +197,7 @@ class _Task:
         ok = np.flatnonzero(reasons == "")
         points, turns = np.full((len(rows), 3), np.nan), np.full((len(rows), 3, 3), np.nan)
         if len(ok):
-            stand = NominalArm(self.arm).at(commands[ok], ok)
-            points[ok], turns[ok] = stand.points, stand.rotations
+            points[ok], turns[ok] = tool_frames(self.arm, commands[ok])
         return Compensated(
             self.arm,
             self.path.table.id,
@@ -229,8 +230,8 @@ class _Task:
         """Points and, where asked, orientations in base axes."""
         table, nominal = self.path.table, None
         if self.path.points is None or (self.options.pose and table.orientation is None):
-            nominal = NominalArm(self.arm).at(table.motor_angles, np.arange(len(table)))
-        points = nominal.points if self.path.points is None and nominal else self.to_base(_given(self.path.points))
+            nominal = tool_frames(self.arm, table.motor_angles)
+        points = nominal[0] if self.path.points is None and nominal else self.to_base(_given(self.path.points))
         if not self.options.pose:
             return Wanted(points)
         if table.orientation is None:
@@ -240,7 +241,7 @@ class _Task:
                     "Add them, or leave the orientation free.",
                 )  # fmt: skip
             assert nominal is not None
-            return Wanted(points, nominal.rotations)
+            return Wanted(points, nominal[1])
         unknown = np.asarray(np.isnan(table.orientation).any(axis=1))
         _refuse(refused, unknown, "no orientation")
         quaternions = np.where(unknown[:, None], [1.0, 0, 0, 0], table.orientation)
@@ -306,7 +307,7 @@ class _Task:
         for row in np.flatnonzero(moved.max(axis=1) > LARGEST_CORRECTION_RAD):
             size = np.degrees(moved[row, worst[row]])
             text = f"the correction turns joint {worst[row] + 1} by {size:.1f} degrees: close to a pole"
-            _refuse(refused, known[row : row + 1], text)
+            refused[known[row]] = refused[known[row]] or text
 
     def _refuse_outside(self, refused: NDArray[np.object_], commands: Array, doubt: str) -> tuple[Array, Array]:
         """Distances (N,) from the identified range and from the nearest identification row.
@@ -324,7 +325,7 @@ class _Task:
         for row, name in zip(where, label, strict=True):
             if outside[row] > self.options.allowed:
                 text = f"outside the identified range: {name} by {outside[row]:.2g} standard deviations{doubt}"
-                _refuse(refused, np.array([row]), text)
+                refused[row] = refused[row] or text
         return outside, nearest
 
 

@@ -25,6 +25,8 @@ ALLOWED = 0.2
 """A point may lie this many standard deviations outside: 6 % of an evenly filled range."""
 STILL = {"rad": 0.02, "mm": 5.0, "kg": 0.1, "degC": 2.0}
 """An input that stood still in the data may leave its value by this much."""
+ROWS_AT_A_TIME = 50_000
+"""Their extents in all directions take some tens of megabytes."""
 MOST_NEIGHBOURS = 2000
 """Of larger tables every k-th row is kept for the distance to the nearest one."""
 
@@ -79,12 +81,15 @@ class Domain:
 
     def outside(self, inputs: ArrayLike) -> tuple[Array, NDArray[np.str_]]:
         """How far (N,) rows (N, k) lie outside, in standard deviations (0 inside), and what does most ("" inside)."""
-        z = (np.asarray(inputs, dtype=float) - self.mean) / self.scale
-        extent = z @ _directions(self.moving, self.units).T
-        excess = np.maximum(np.maximum(self.low - extent, extent - self.high), 0.0)
-        distance = excess.max(axis=1)
+        table, directions = np.asarray(inputs, dtype=float), _directions(self.moving, self.units)
+        distance, worst = np.zeros(len(table)), np.zeros(len(table), dtype=np.intp)
+        for start in range(0, len(table), ROWS_AT_A_TIME):  # there are many directions
+            at = slice(start, start + ROWS_AT_A_TIME)
+            extent = (table[at] - self.mean) / self.scale @ directions.T
+            excess = np.maximum(np.maximum(self.low - extent, extent - self.high), 0.0)
+            distance[at], worst[at] = excess.max(axis=1), np.argmax(excess, axis=1)
         labels = np.array(_labels(self.names, self.moving, self.units))
-        return distance, np.where(distance > 0, labels[np.argmax(excess, axis=1)], "")
+        return distance, np.where(distance > 0, labels[worst], "")
 
     def nearest(self, inputs: ArrayLike) -> Array:
         """(N,) distance to the nearest identification row, in standard deviations per input (root mean square)."""

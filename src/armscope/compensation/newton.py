@@ -14,11 +14,14 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.compensation.forward import Forward, Rows, Stand
+from armscope.core.parallel import each_piece
 from armscope.core.types import Array
 
 TOLERANCE_M = 1e-9
 ITERATIONS = 30
 LARGEST_NEWTON_STEP_RAD = 0.3
+ROWS_AT_A_TIME = 20_000
+"""Frames, Jacobians and steps of so many rows take some hundred megabytes."""
 POLE = 0.01
 """An arm with a smaller singular value of the scaled Jacobian is at a pole (a wrist: 0.8 degrees from straight)."""
 
@@ -124,6 +127,22 @@ def solve_commands(
         Angles (N, m), rad, which rows converged, the motor whose limit stopped a row, how near a singularity each is.
     """
     rows = np.arange(len(wanted)) if rows is None else rows
+    found = each_piece(row_pieces(len(wanted)), lambda at: _solved(forward, wanted.rows(at), start[at], free, rows[at]))
+    return Solution(
+        np.concatenate([each.angles for each in found]),
+        np.concatenate([each.converged for each in found]),
+        np.concatenate([each.limit for each in found]),
+        np.concatenate([each.singular for each in found]),
+        max(each.iterations for each in found),
+    )
+
+
+def row_pieces(count: int) -> list[NDArray[np.intp]]:
+    """Numbers of all rows, some at a time; one empty piece where there are none."""
+    return np.array_split(np.arange(count), max(1, -(-count // ROWS_AT_A_TIME)))
+
+
+def _solved(forward: Forward, wanted: Wanted, start: Array, free: NDArray[np.bool_], rows: Rows) -> Solution:
     low, high = forward.arm.limits.T
     moves = np.tile(free, (len(wanted), 1))
     origin, limit = start.copy(), np.zeros(len(wanted), dtype=np.intp)

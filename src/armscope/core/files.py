@@ -15,10 +15,9 @@ import tempfile
 import zlib
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pandas as pd
 import yaml
 
 from armscope.core import outputs
@@ -26,8 +25,13 @@ from armscope.core.inputs import InputError, nearest, note_read
 from armscope.core.locks import alive
 from armscope.core.streams import copy_into, is_stream
 
+if TYPE_CHECKING:
+    import pandas as pd  # slow to import, and the workflow starts often
+
 LARGEST_UNPACKED_SHARE = 200
 """Bytes for each packed one: recordings unpack to ten times their size, a bomb to a thousand times."""
+ROWS_AT_A_TIME = 50_000
+"""Numbers as text take several times their memory."""
 LONGEST_WHOLE = 18
 """Digits of a whole number."""
 
@@ -68,6 +72,8 @@ def read_table(path: Path | str, columns: Iterable[str] = (), what: str = "a tab
     Raises:
         InputError: no such file, no table, a column is missing.
     """
+    import pandas as pd
+
     note_read(path)
     try:
         table = pd.read_csv(path)
@@ -223,15 +229,25 @@ def write_table(path: Path | str, table: pd.DataFrame, digits: int = 10) -> None
         table: what to write.
         digits: significant digits of its numbers.
     """
-    text = table.to_csv(index=False, float_format=f"%.{digits}g", lineterminator="\n")
-    with replacing(path) as beside:
-        # no name and no time in the header, so that the same table has the same bytes
-        beside.write_bytes(gzip.compress(text.encode(), mtime=0) if str(path).endswith(".gz") else text.encode())
+    # no name and no time in gzip's header, so that the same table has the same bytes
+    packer = zlib.compressobj(9, zlib.DEFLATED, 31) if str(path).endswith(".gz") else None
+    with replacing(path) as beside, beside.open("wb") as stream:
+        for start in range(0, max(len(table), 1), ROWS_AT_A_TIME):
+            some = table.iloc[start : start + ROWS_AT_A_TIME]
+            text = some.to_csv(index=False, header=start == 0, float_format=f"%.{digits}g", lineterminator="\n")
+            stream.write(text.encode() if packer is None else packer.compress(text.encode()))
+        if packer is not None:
+            stream.write(packer.flush())
 
 
 def write_json(path: Path | str, content: Any) -> None:
     """Write JSON, indented, with numpy scalars and arrays as plain numbers; NaN becomes null."""
-    write_text(path, json.dumps(_plain(content), indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+    write_text(path, as_json(content) + "\n")
+
+
+def as_json(content: Any) -> str:
+    """JSON as `write_json` writes it."""
+    return json.dumps(_plain(content), indent=2, ensure_ascii=False, allow_nan=False)
 
 
 def write_yaml(path: Path | str, content: Any) -> None:

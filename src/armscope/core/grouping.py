@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
@@ -22,13 +23,14 @@ def same_configuration(angles: Array, *beside: NDArray[np.generic]) -> Indices:
     Returns:
         (N,) number of each row's configuration, from 0.
     """
-    keys = [np.round(angles, SAME_CONFIGURATION_DIGITS)]
-    for each in beside:
-        columns = each.reshape(len(angles), -1)
-        if not np.issubdtype(columns.dtype, np.number):
-            columns = np.unique(columns, return_inverse=True)[1].reshape(columns.shape)
-        keys.append(np.nan_to_num(columns.astype(np.float64)))
-    return np.asarray(np.unique(np.column_stack(keys), axis=0, return_inverse=True)[1].reshape(-1))
+    number = np.zeros(len(angles), dtype=np.intp)
+    for each in (np.round(angles, SAME_CONFIGURATION_DIGITS), *beside):
+        for column in each.reshape(len(angles), -1).T:
+            known = np.nan_to_num(column) if np.issubdtype(column.dtype, np.number) else column.astype(object)
+            code = pd.factorize(known, sort=True)[0]
+            # one column after the other: sorting whole rows takes ten times as long
+            number = pd.factorize(number * (int(code.max()) + 1) + code, sort=True)[0]
+    return number
 
 
 def by_label(labels: NDArray[np.str_]) -> tuple[tuple[str, ...], Indices]:

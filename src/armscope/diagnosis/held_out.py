@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.grouping import same_configuration
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
 from armscope.diagnosis.constants import FOLDING
 from armscope.fitting.design_matrix import columns, structured_design
@@ -99,6 +100,8 @@ def cross_validate(
         chosen = _chosen_again(trained, best)
         readings = [*_readings(trained, sets, best, noise), chosen]
         values[fold] = np.array([h.coefficients(len(problem.scale)) / problem.scale for h in readings])
+    some = spread_evenly(len(split.of_row), FOLDING.judged_rows)
+    split, rows = replace(split, of_row=split.of_row[some]), rows.some(some)
     errors = _held_out_errors(problem, blocks, split, rows, values)
     own = left_over(rows, np.array([h.coefficients(len(problem.scale)) / problem.scale for h in fitted]))
     fold_of = split.fold[split.of_row]
@@ -163,6 +166,12 @@ class Rows:
     recordings: Recordings
     weights: RowWeights
     layout: ParameterLayout
+
+    def some(self, which: Indices) -> Rows:
+        """Some of the rows."""
+        if len(which) == len(self.recordings):
+            return self
+        return replace(self, recordings=self.recordings.rows(which), weights=self.weights.take(which))
 
     @property
     def slices(self) -> dict[str, slice]:

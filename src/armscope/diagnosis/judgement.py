@@ -7,12 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Progress
 from armscope.diagnosis.constants import TELLING
 from armscope.diagnosis.held_out import Rows, cross_validate
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary import alternatives as certainty
 from armscope.diagnosis.summary.attribution_map import atlas
+from armscope.diagnosis.summary.causes import causes
 from armscope.diagnosis.summary.effects import Weighed, found_effect, rest_of_a_curve, scattered_effects, with_weight
 from armscope.diagnosis.summary.homogeneity import subset_consistency
 from armscope.diagnosis.summary.next_poses import next_poses
@@ -75,7 +77,7 @@ def judge(
         search,
         {c.candidate: certainty.alternatives(search, best, c.candidate) for c in best.chosen},
         certainty.inclusion_frequency(state, resamples, rng),
-        fit.model.scene(state.recordings),
+        fit.model.scene(state.recordings.rows(spread_evenly(len(state.recordings), TELLING.curve_rows))),
         _plain_gram(state),
         model_error(fit, state.recordings, state.noise.least_mm),
     )
@@ -103,6 +105,7 @@ def judge(
     named = [replace(e, carries_over=over.get(c, "")) for c, e in zip(order, named, strict=True)]
     effects = tuple(sorted([*named, *scattered], key=lambda effect: -effect.share))
     unexplained = _unexplained(state, search, effects, background)
+    told = causes(state, search, dict(zip(order, named, strict=True)), scattered, background)
     answer, mismatch = _answer(effects, background, unexplained)
     separating = next_poses(state, weighed.rivals, rng)
     draft = Diagnosis(
@@ -118,6 +121,7 @@ def judge(
         noise_source=state.noise.source + ("; it grows with the distance" if state.growth else ""),
         residual_before_mm=float(np.sqrt(variance)),
         residual_after_mm=_weighted_rms(fit),
+        causes=told,
         effects=effects,
         background=together(background),
         background_families=background,

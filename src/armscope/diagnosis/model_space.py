@@ -71,13 +71,9 @@ def build_model_space(
 
 def _families(layout: ParameterLayout) -> tuple[BackgroundFamily, ...]:
     """Every family is measured against its tolerances; geometric errors are free, since every arm has them."""
-    families = zip(FAMILIES, layout.background[:-1], layout.background_scale[:-1], strict=True)
-    return tuple(
-        ToleranceFamily(name, columns, tolerance, BACKGROUNDS.tolerance_shares)
-        if name == GEOMETRIC
-        else ToleranceFamily(name, columns, tolerance, BACKGROUNDS.plausible_shares, is_priced=True)
-        for name, columns, tolerance in families
-    )
+    shares = (BACKGROUNDS.tolerance_shares, BACKGROUNDS.elastic_shares, BACKGROUNDS.gear_shares)
+    families = zip(FAMILIES, layout.background[:-1], layout.background_scale[:-1], shares, strict=True)
+    return tuple(ToleranceFamily(*family, is_priced=family[0] != GEOMETRIC) for family in families)
 
 
 def _masses(

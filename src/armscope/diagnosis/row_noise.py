@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 
 from armscope.core.sampling import spread_evenly
@@ -44,7 +46,7 @@ class NoiseOfRows:
     def __init__(self, start: FittedModel, table: LinearisedTable, noise: Noise, residuals: ChannelResiduals) -> None:
         recordings = table.recordings
         self.recordings, self.least_mm = recordings, noise.least_mm
-        self.moved, self.pose = motor_jacobians(start, table), poses(recordings)
+        self.start, self.table, self.pose = start, table, poses(recordings)
         self.residuals = residuals
         self.scatter: list[Scattered] = []
         self.growth: Growth | None = None
@@ -52,6 +54,11 @@ class NoiseOfRows:
         near = np.ones(len(recordings), dtype=bool)
         self.rows = RowNoise(uncertainty, independence_weights(residuals.points_mm, self.pose, near))
         self.weights = self.rows.first_weights(residuals, self.least_mm)
+
+    @functools.cached_property
+    def moved(self) -> Array:
+        """(m, N, 3) displacement of the tool by each motor, mm/rad: where rows scatter, or scatter is looked for."""
+        return motor_jacobians(self.start, self.table)
 
     def follow(self, other: NoiseOfRows, residuals: ChannelResiduals, noise_mm: float) -> None:
         """Go on from what other rows told.
@@ -62,7 +69,7 @@ class NoiseOfRows:
             noise_mm: per axis.
         """
         self.scatter, self.growth = other.scatter, other.growth
-        self.weigh(residuals, noise_mm, whitening(self.scatter, self.moved, noise_mm))
+        self.weigh(residuals, noise_mm, whitening(self.scatter, self.moved, noise_mm) if self.scatter else None)
 
     def weigh(self, residuals: ChannelResiduals, noise_mm: float, white: Array | None) -> None:
         """What the residuals tell about the rows' noise, and their weights by it.
@@ -126,6 +133,8 @@ class NoiseOfRows:
     def _take(self, found: list[Scattered]) -> None:
         """Whiten the rows by scatter of these places and sizes, and weigh them anew."""
         self.scatter = found
-        between = noise_between(self.residuals.points_mm, self.moved, found, self.least_mm)
-        white = whitening(found, self.moved, between)
+        white = None
+        if found:
+            between = noise_between(self.residuals.points_mm, self.moved, found, self.least_mm)
+            white = whitening(found, self.moved, between)
         self.weights = self.rows.weights(self.residuals, self.least_mm, white)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Indices, Progress
 from armscope.diagnosis.constants import LOOP
+from armscope.diagnosis.earning import earned
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.row_noise import NoiseOfRows
@@ -20,6 +21,7 @@ from armscope.diagnosis.scans.pauses import pauses
 from armscope.fitting.joint_scatter import Scattered
 from armscope.fitting.linearisation import LinearisedTable, Measured, linearised, normal_equations_by_block, residuals
 from armscope.fitting.refit import Refit, refit
+from armscope.inference.edits import replaced
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.normal_equations import NormalEquations, total
@@ -27,7 +29,8 @@ from armscope.inference.problem import Problem, background_sizes, build_problem
 from armscope.inference.search import Search
 from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.noise import Growth, Noise
-from armscope.physics.backgrounds import backgrounds
+from armscope.physics.backgrounds import FAMILIES, backgrounds, gear_waves
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.drift import BASE_DRIFT, base_shifts_of_runs
 from armscope.physics.effect import Effect, Placed
 from armscope.physics.elastic import TWO_AXES, stiffest_of_two
@@ -96,8 +99,8 @@ class SelectionLoop:
         self.recordings = recordings
         self.frames, self.progress = frames, progress
         self.block_of_row = block_of_row
-        self.candidates = [*library(start.arm, recordings), *base_shifts_of_runs(set_ups_of(frames))]
-        self.families = list(backgrounds(start.arm, recordings).values())
+        self.candidates: list[Placed] = []
+        self.families: list[list[Placed]] = []
         self.model = start
         self.noise = NoiseOfRows(start, self.table, noise, residuals(start, self.table))
         self.loads: list[Placed] = []
@@ -121,15 +124,21 @@ class SelectionLoop:
             previous = state
             self.candidates = [*self.candidates, *new]
         self._refine(of_a_sample)
-        return self.selected()
+        return self.selected() if of_a_sample else self.earned()
 
     def _refine(self, of_a_sample: bool) -> None:
-        """Finer forms of the curves that were chosen; what they can't follow may be scatter."""
+        """Finer forms of the curves and gears that were chosen; what they can't follow may be scatter."""
         fine = [refined(self.model.arm, self.recordings, self.space.placed[c]) for c in self.best.candidates]
-        if not any(fine):
+        gears = FAMILIES.index("transmission")
+        if not self.best.background[gears] and not any(fine):
             return
         self.candidates = [*self.candidates, *[placed for placed in fine if placed is not None]]
-        self.round(self._where_it_ended())
+        starts = self._where_it_ended() or []
+        if not of_a_sample:  # a long table tells every joint's curve
+            self.families[gears] = gear_waves(self.recordings, PLAUSIBLE.fine_waves)
+            # several curves of several joints may be what all gears have a little of
+            starts += [replaced(start, gears, LOOP.size_of_gears) for start in starts if not start[gears]]
+        self.round(starts)
         # what looked like scatter may have been what the coarse curves could not follow
         self.noise.look_for_scatter()
         if not of_a_sample:
@@ -137,7 +146,7 @@ class SelectionLoop:
 
     def follow(self, other: SelectionLoop, candidates: Sequence[Placed]) -> None:
         """Go on from where the rounds on a sample of the rows ended, with fewer candidates."""
-        self.candidates = list(candidates)
+        self.candidates, self.families = list(candidates), other.families
         self.model, self.last = other.model, other.last
         self.noise.follow(other.noise, residuals(self.model, self.table), other.fit.noise)
 
@@ -152,6 +161,10 @@ class SelectionLoop:
             starts: backgrounds from which the search starts; all of the space's where not given.
             scanning: whether scanned numbers are looked for.
         """
+        if not self.families:  # on all rows of a long table they are those that its sample left
+            arm, shifts = self.model.arm, base_shifts_of_runs(set_ups_of(self.frames))
+            self.candidates = [*library(arm, self.recordings), *shifts]
+            self.families = list(backgrounds(arm, self.recordings).values())
         self.point, payload, self.loads = _on_loads(self.model, self.recordings)
         self.space = build_model_space(self.frames, self.families, [*self.candidates, *payload], self.loads)
         weights = self.noise.weights
@@ -191,6 +204,15 @@ class SelectionLoop:
             if (c.nested and self.space.nonnegative[c.candidate] and part.values[0] < 0)
             or (part.placed.variant == TWO_AXES and self._pushes(part))
         ]
+
+    def earned(self) -> Selected:
+        """Where the rounds stand, without the names that make held-out rows worse."""
+        left = earned(self.problem, self.blocks, self.best)
+        if len(left.chosen) < len(self.best.chosen):
+            self.best = left
+            self.fit = self._fitted()
+            self.model = self.fit.model
+        return self.selected()
 
     def _pushes(self, part: Part) -> bool:
         """Whether a compliance about two axes is surely negative about one of them."""

@@ -47,6 +47,12 @@ class FittingSteps(Constants):
         unit="terms",
     )
     chunk_rows: int = constant(1500, "linearised at a time", "judgement: memory; the result is the same", unit="rows")
+    chunks_of_a_part: int = constant(
+        16,
+        "summed up by one process, part by part, where several are allowed",
+        "judgement: parts even enough for a few processes; the result does not depend on their number",
+        unit="chunks",
+    )
     kept_rows: int = constant(
         15_000, "tables up to this long keep their drivers between passes", "derived: at most some 150 MB", unit="rows"
     )

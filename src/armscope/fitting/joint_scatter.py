@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.fitting.constants import SCATTER
-from armscope.fitting.linearisation import Measured, linearised
+from armscope.fitting.linearisation import Chunks, Measured, linearised
 from armscope.physics.effect import motor
 from armscope.physics.model import FittedModel
 
@@ -30,10 +30,17 @@ class Scattered:
 
 def motor_jacobians(model: FittedModel, table: Measured) -> Array:
     """(m, N, 3) displacement of the tool by each motor, base axes, mm/rad."""
+
+    motors = [motor(j + 1) for j in range(model.arm.n_motors)]
+
+    def of_part(chunks: Chunks) -> list[tuple[Indices, list[Array | None]]]:
+        return [(rows, [posture.displacement(each) for each in motors]) for rows, posture in chunks]
+
     moved = np.empty((model.arm.n_motors, len(table), 3))
-    for rows, posture in linearised(table).chunks(model):
-        for j in range(model.arm.n_motors):
-            moved[j, rows] = posture.displacement(motor(j + 1))
+    for part in linearised(table).each_part(model, of_part):
+        for rows, displacements in part:
+            for j, displacement in enumerate(displacements):
+                moved[j, rows] = displacement
     moved *= 1e3
     return moved
 

@@ -7,15 +7,17 @@ Lengths are mm here: y and the columns are displacements of the tool in base axe
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.parallel import each_piece
 from armscope.core.types import Array, Indices
 from armscope.fitting.constants import STEPS
-from armscope.fitting.design_matrix import structured_design
+from armscope.fitting.design_matrix import StructuredDesign, structured_design
 from armscope.fitting.parameter_layout import ParameterLayout
 from armscope.inference.normal_equations import NormalEquations
 from armscope.measurement.channel import Channel, ChannelResiduals
@@ -26,6 +28,10 @@ from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.model import FittedModel
 from armscope.physics.scene import Posture, Scene
 from armscope.recordings import Recordings
+
+Result = TypeVar("Result")
+Chunks = Iterator[tuple[Indices, Posture]]
+"""(rows, posture), chunk by chunk."""
 
 
 @dataclass(eq=False)
@@ -61,22 +67,51 @@ class LinearisedTable:
         """Some of the rows; nothing is kept of them."""
         return LinearisedTable(self.recordings.rows(rows), self.channels)
 
-    def chunks(self, model: FittedModel, order: Indices | None = None) -> Iterator[tuple[Indices, Posture]]:
-        """(rows, posture) of the model, chunk by chunk; in an order of rows (N,), unless the table has its own."""
+    def chunks(self, model: FittedModel, order: Indices | None = None, part: slice = slice(None)) -> Chunks:
+        """(rows, posture) of the model, chunk by chunk.
+
+        Args:
+            model: whose posture it is.
+            order: (N,) of rows, unless the table has its own.
+            part: which rows of that order, where nothing is kept.
+
+        Returns:
+            Numbers of n rows, and how the model stands there.
+        """
         if not self.keeps:
-            yield from ((rows, model.posture(scene)) for rows, scene in self._made(model, order))
+            yield from ((rows, model.posture(scene)) for rows, scene in self._made(model, order, part))
             return
-        self._scenes = self._scenes or list(self._made(model, self.order))
+        self._scenes = self._scenes or list(self._made(model, self.order, slice(None)))
         if self._model is not model:
             self._postures = [model.posture(scene) for _, scene in self._scenes]
             self._model = model
         yield from ((rows, posture) for (rows, _), posture in zip(self._scenes, self._postures, strict=True))
 
-    def _made(self, model: FittedModel, order: Indices | None) -> Iterator[tuple[Indices, Scene]]:
-        order = np.arange(len(self)) if order is None else order
-        for start in range(0, len(self), STEPS.chunk_rows):
+    def _made(self, model: FittedModel, order: Indices | None, part: slice) -> Iterator[tuple[Indices, Scene]]:
+        order = (np.arange(len(self)) if order is None else order)[part]
+        for start in range(0, len(order), STEPS.chunk_rows):
             rows = order[start : start + STEPS.chunk_rows]
             yield rows, model.scene(self.recordings.rows(rows))
+
+    def each_part(
+        self,
+        model: FittedModel,
+        work: Callable[[Chunks], Result],
+        order: Indices | None = None,
+    ) -> list[Result]:
+        """What ``work`` makes of the chunks of each part of the table, in their order; a long table has several.
+
+        Args:
+            model: whose posture is taken.
+            work: done by several processes where they are allowed; see `armscope.core.parallel`.
+            order: (N,) of rows, unless the table has its own.
+
+        Returns:
+            One result per part, the same for any number of processes.
+        """
+        size = len(self) if self.keeps else STEPS.chunk_rows * STEPS.chunks_of_a_part
+        parts = [slice(start, start + size) for start in range(0, len(self), size)]
+        return each_piece(parts, lambda part: work(self.chunks(model, order, part)))
 
 
 Measured = LinearisedTable | Recordings
@@ -91,10 +126,15 @@ def linearised(rows: Measured) -> LinearisedTable:
 def residuals(model: FittedModel, rows: Measured) -> ChannelResiduals:
     """What a model leaves of every row in every channel: measured minus modelled."""
     table = linearised(rows)
+
+    def of_part(chunks: Chunks) -> list[tuple[Indices, list[Array]]]:
+        return [(at, [channel.residual(model, posture) for channel in table.channels]) for at, posture in chunks]
+
     left = {channel: np.empty((len(table), channel.width)) for channel in table.channels}
-    for at, posture in table.chunks(model):
-        for channel, values in left.items():
-            values[at] = channel.residual(model, posture)
+    for part in table.each_part(model, of_part):
+        for at, of_channels in part:
+            for values, residual in zip(left.values(), of_channels, strict=True):
+                values[at] = residual
     return ChannelResiduals(left)
 
 
@@ -124,25 +164,58 @@ def normal_equations_by_block(
     column_order = pool.column_order
     current = current_parameters(pool, model)[column_order.order]
     count, p = int(blocks.max()) + 1, len(pool.terms)
-    G = [np.zeros((p, p)) for _ in range(count)]
-    b, yy, n = np.zeros((count, p)), np.zeros(count), np.zeros(count)
     table = linearised(rows)
+
+    def of_part(chunks: Chunks) -> dict[int, _Sums]:
+        sums: dict[int, _Sums] = {}
+        for chunk, posture in chunks:
+            whitener = weights.whitener(chunk)
+            seen = structured_design(WhitenedPosture(posture, whitener), column_order)
+            y = whitener.response(model, posture).T + seen.matvec(current)
+            numbers, inside = weights.numbers(chunk), blocks[chunk]
+            for block in np.unique(inside):
+                at = _where(inside == block)
+                sums.setdefault(int(block), _Sums.of(p)).add(seen.at(at), y[:, at], float(numbers[at].sum()))
+        return sums
+
     order = np.argsort(blocks, kind="stable") if count > 1 and not table.keeps else None
-    for chunk, posture in table.chunks(model, order):
-        whitener = weights.whitener(chunk)
-        seen = structured_design(WhitenedPosture(posture, whitener), column_order)
-        y = whitener.response(model, posture).T + seen.matvec(current)
-        numbers, inside = weights.numbers(chunk), blocks[chunk]
-        for block in np.unique(inside):
-            at = _where(inside == block)
-            part, yb = seen.at(at), y[:, at]
-            part.add_products(G[block])
-            b[block] += part.rmatvec(yb)
-            yy[block] += np.vdot(yb, yb)
-            n[block] += numbers[at].sum()
+    whole = [_Sums.of(p) for _ in range(count)]
+    for part in table.each_part(model, of_part, order):
+        for block, sums in part.items():
+            whole[block].join(sums)
     back = column_order.back
     # one after the other: each has millions of numbers
-    return [NormalEquations(column_order.whole(G.pop(0)), b[k][back], float(yy[k]), float(n[k])) for k in range(count)]
+    whole.reverse()
+    return [(s := whole.pop()).equations(column_order.whole(s.G), back) for _ in range(count)]
+
+
+@dataclass(eq=False)
+class _Sums:
+    """Sums over some rows in the order of a layout's columns; of G only the upper blocks."""
+
+    G: Array
+    b: Array
+    yy: float = 0.0
+    n: float = 0.0
+
+    @classmethod
+    def of(cls, p: int) -> _Sums:
+        return cls(np.zeros((p, p)), np.zeros(p))
+
+    def add(self, seen: StructuredDesign, y: Array, n: float) -> None:
+        seen.add_products(self.G)
+        self.b += seen.rmatvec(y)
+        self.yy += float(np.vdot(y, y))
+        self.n += n
+
+    def join(self, other: _Sums) -> None:
+        self.G += other.G
+        self.b += other.b
+        self.yy += other.yy
+        self.n += other.n
+
+    def equations(self, G: Array, back: Indices) -> NormalEquations:
+        return NormalEquations(G, self.b[back], self.yy, self.n)
 
 
 def _where(inside: NDArray[np.bool_]) -> slice | Indices:

@@ -15,7 +15,7 @@ from armscope.physics.model import Base, FittedModel
 from armscope.physics.scene import Part
 from armscope.physics.set_ups import SetUps, in_order_of_time
 from armscope.recordings import Recordings
-from armscope.robot import Arm, chain
+from armscope.robot import Arm, tool_frames
 
 
 def fit_frames(arm: Arm, recordings: Recordings, tool_per_run: bool = False, set_ups: SetUps = ()) -> FittedModel:
@@ -33,21 +33,21 @@ def fit_frames(arm: Arm, recordings: Recordings, tool_per_run: bool = False, set
     Returns:
         The model, its frames in SI units.
     """
-    frames = chain(arm, recordings.motor_angles)
+    tool, tool_rotation = tool_frames(arm, recordings.motor_angles)
     keys = tool_keys(recordings, tool_per_run)
     which_tool = _tool_of_row(recordings, keys)
     runs, which_run = np.unique(recordings.run, return_inverse=True)
     first_of = {run: together[0] for together in set_ups for run in together}
     stands, base_of_run = np.unique([first_of.get(str(run), str(run)) for run in runs], return_inverse=True)
     which_base = base_of_run[which_run]
-    poses = FlangePoses(frames.tool, frames.tool_rotation, recordings.positions, which_base, which_tool)
+    poses = FlangePoses(tool, tool_rotation, recordings.positions, which_base, which_tool)
     found = place_frames(poses, poses.start(np.zeros((len(keys), 3)), len(stands)), STEPS.registration, _weights).state
     bases = [Base(*each) for each in zip(found.rotations, found.translations, strict=True)]
     return FittedModel(
         arm,
         {run: bases[base_of_run[np.searchsorted(runs, run)]] for run in in_order_of_time(recordings)},
         _tool_parts(recordings, tool_per_run, found.tools),
-        tool_turns=_tool_turns(recordings, frames.tool_rotation, bases, which_base, keys, which_tool),
+        tool_turns=_tool_turns(recordings, tool_rotation, bases, which_base, keys, which_tool),
     )
 
 
@@ -81,13 +81,10 @@ def _tool_parts(recordings: Recordings, per_run: bool, tools: Array) -> tuple[Pa
 
 
 def _tool_of_row(recordings: Recordings, keys: list[tuple[str, str | None]]) -> NDArray[np.intp]:
-    index = {key: number for number, key in enumerate(keys)}
-    return np.array(
-        [
-            index[(str(t), None)] if (str(t), None) in index else index[(str(t), str(r))]
-            for t, r in zip(recordings.target, recordings.run, strict=True)
-        ]
-    )
+    numbers = np.empty(len(recordings), dtype=np.intp)
+    for number, (target, run) in enumerate(keys):
+        numbers[(recordings.target == target) & (True if run is None else recordings.run == run)] = number
+    return numbers
 
 
 def _weights(residual: Array) -> Array:

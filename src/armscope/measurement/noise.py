@@ -80,8 +80,12 @@ def independence_weights(residuals: Array, pose: Indices, trusted: NDArray[np.bo
     within = np.sum((residuals[trusted] - means[pose[trusted]]) ** 2) / (3 * freedom)
     squares, k = np.sum(means[seen] ** 2, axis=1), visits[seen]
     ratios = np.concatenate([[0.0], np.geomspace(1e-3, 1e4, 57)])
-    variance = max(within, 1e-18) * (ratios[:, None] + 1 / k)
-    likelihood = -0.5 * np.sum(3 * np.log(variance) + squares / variance, axis=1)
+
+    def log_likelihood(ratio: float) -> float:
+        variance = max(within, 1e-18) * (ratio + 1 / k)
+        return -0.5 * float(np.sum(3 * np.log(variance) + squares / variance))
+
+    likelihood = np.array([log_likelihood(ratio) for ratio in ratios])  # one after the other: a long table has many
     best = int(np.argmax(likelihood))
     if likelihood[best] - likelihood[0] < NOISE.sure_nats:
         return np.ones(len(pose))
@@ -130,15 +134,17 @@ def growth(residuals: Array, distance: Array, trusted: NDArray[np.bool_]) -> Gro
     if len(d) < NOISE.fewest_for_growth or squares.sum() <= 0:
         return None
     ratios = np.concatenate([[0.0], np.geomspace(0.01, 100.0, 81) / np.median(d)])
-    shape = 1 + (ratios[:, None] * d) ** 2
-    near = np.mean(squares / shape, axis=1) / 3
-    likelihood = -1.5 * (len(d) * np.log(near) + np.sum(np.log(shape), axis=1))
+    variance, likelihood = np.empty((2, len(ratios)))
+    for n, ratio in enumerate(ratios):  # one after the other: a long table has many rows
+        shape = 1 + (ratio * d) ** 2
+        variance[n] = np.mean(squares / shape) / 3
+        likelihood[n] = -1.5 * (len(d) * np.log(variance[n]) + np.sum(np.log(shape)))
     best = int(np.argmax(likelihood))
     gain = float(likelihood[best] - likelihood[0]) - 0.5 * float(np.log(3 * len(d))) - NOISE.sure_nats
-    low, high = np.quantile(np.sqrt(shape[best]), [0.05, 0.95])
+    low, high = np.quantile(np.hypot(1.0, ratios[best] * d), [0.05, 0.95])
     if gain < 0 or high < NOISE.least_growth * low:
         return None
-    size = float(np.sqrt(near[best]))
+    size = float(np.sqrt(variance[best]))
     return Growth(size, size * float(ratios[best]), gain)
 
 

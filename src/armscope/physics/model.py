@@ -9,11 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError
+from armscope.core.parallel import each_piece
 from armscope.core.types import Array
 from armscope.physics.frames import ToolKey
 from armscope.physics.scene import Part, Posture, Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
+from armscope.robot.kinematics import ROWS_AT_A_TIME
 
 FARTHEST_IN_REACHES, FARTHEST_TOOL_M = 3.0, 1.0
 """An arm's tool is never as far from the base: what puts it there is no model of it."""
@@ -118,7 +120,7 @@ def predict(model: FittedModel, recordings: Recordings) -> Array:
             where no arm of this size can.
     """
     recordings = model.in_known_runs(recordings)
-    tool = model.posture(model.scene(recordings)).tool
+    tool = np.concatenate(each_piece(_pieces(recordings), lambda at: _posture(model, recordings, at).tool))
     distance = np.linalg.norm(tool, axis=1)
     near = distance <= FARTHEST_IN_REACHES * model.arm.reach + FARTHEST_TOOL_M
     if not near.all():
@@ -129,13 +131,23 @@ def predict(model: FittedModel, recordings: Recordings) -> Array:
     return model.to_measurement(tool, recordings.run)
 
 
+def _pieces(recordings: Recordings) -> list[slice]:
+    """All rows, some at a time: all that drives effects there takes some kilobytes a row."""
+    return [slice(start, start + ROWS_AT_A_TIME) for start in range(0, len(recordings), ROWS_AT_A_TIME)]
+
+
+def _posture(model: FittedModel, recordings: Recordings, at: slice) -> Posture:
+    return model.posture(model.scene(recordings.rows(at)))
+
+
 def predict_orientation(model: FittedModel, recordings: Recordings) -> Array:
     """Orientations (N, 3, 3) of the arm's last frame in the measurement frame, with all effects in place.
 
     A tool frame that is turned against the last frame is not part of the model: positions do not show it.
     """
     recordings = model.in_known_runs(recordings)
-    rotations = model.posture(model.scene(recordings)).frames.tool_rotation
+    pieces = _pieces(recordings)
+    rotations = np.concatenate(each_piece(pieces, lambda at: _posture(model, recordings, at).frames.tool_rotation))
     turned = np.empty_like(rotations)
     for run in np.unique(recordings.run):
         rows = recordings.run == run

@@ -3,7 +3,7 @@
 from armscope.robot.arm import Arm, load_arm
 from armscope.robot.description import RobotDescription
 from armscope.robot.description_file import load_description
-from armscope.robot.kinematics import Chain, chain, forward_kinematics, position_jacobian, twist_jacobian
+from armscope.robot.kinematics import Chain, chain, forward_kinematics, position_jacobian, tool_frames, twist_jacobian
 
 __all__ = [
     "Arm",
@@ -14,5 +14,6 @@ __all__ = [
     "load_arm",
     "load_description",
     "position_jacobian",
+    "tool_frames",
     "twist_jacobian",
 ]

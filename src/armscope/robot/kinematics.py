@@ -85,6 +85,28 @@ def chain(arm: Arm, motor_angles: Array, twists: Twists | None = None) -> Chain:
     return Chain(joint_rotation, joint_origin, link_rotation, link_origin, rotation, tool)
 
 
+ROWS_AT_A_TIME = 10_000
+"""All frames of so many poses take some ten megabytes."""
+
+
+def tool_frames(arm: Arm, motor_angles: Array) -> tuple[Array, Array]:
+    """Tool points and orientations alone, at any number of poses: all frames of some of them at a time.
+
+    Args:
+        arm: the arm.
+        motor_angles: (N, m) rad.
+
+    Returns:
+        (N, 3) m and (N, 3, 3), in the base frame.
+    """
+    points, rotations = np.empty((len(motor_angles), 3)), np.empty((len(motor_angles), 3, 3))
+    for start in range(0, len(motor_angles), ROWS_AT_A_TIME):
+        at = slice(start, start + ROWS_AT_A_TIME)
+        frames = chain(arm, motor_angles[at])
+        points[at], rotations[at] = frames.tool, frames.tool_rotation
+    return points, rotations
+
+
 def forward_kinematics(arm: Arm, motor_angles: Array, twists: Twists | None = None) -> Array:
     """Tool points (N, 3), m, in the base frame, at motor angles (N, m) rad.
 

@@ -12,9 +12,10 @@ import pandas as pd
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics.scene import Part
-from armscope.verdict.contributions import Cause, Contributions
+from armscope.verdict.contributions import Cause, Contributions, rms
 from armscope.verdict.schema import INTERVAL, Diagnosis, FoundEffect
-from armscope.verdict.sentences import phrase
+from armscope.verdict.schema import Cause as FoundCause
+from armscope.verdict.sentences import cure_of_family, phrase
 from armscope.verdict.wording import capitalised, read_parameter, undetermined
 
 CHANGES = {
@@ -49,6 +50,8 @@ CHANGES = {
 """By effect: what is changed, in two words, and how. The rest of the cure stands in the effect's own words."""
 NUMBERS = ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg")
 """Of a D-H row, as robot.yaml calls them."""
+WORTH_ALL = 0.1
+"""Share of the squared error from which the small errors in all joints and links are a task of their own."""
 STEADY = 0.02
 """A motion whose range is below this share of its size is told as one number."""
 
@@ -80,12 +83,31 @@ class Task:
 
 
 def tasks(verdict: Diagnosis, worth: Contributions) -> list[Task]:
-    """The work order of a verdict: one task per cause."""
-    return [
+    """The work order of a verdict: one task per major effect, and one for small errors that make up a cause."""
+    single = [
         _task(verdict, worth, number, cause, effect)
         for number, cause in enumerate(worth.causes, start=1)
         for effect in cause.effects[:1]
     ]
+    everywhere = [cause for cause in verdict.causes if cause.everywhere and verdict.background.share > WORTH_ALL]
+    return [*single, *(_calibration(worth, len(single) + 1, cause) for cause in everywhere[:1])]
+
+
+def _calibration(worth: Contributions, number: int, cause: FoundCause) -> Task:
+    """What takes out the small errors of all joints and links at once."""
+    named = sum((each.moved for each in worth.causes), np.zeros_like(worth.left))
+    return Task(
+        number=number,
+        what="Small errors in all joints and links, as any arm has",
+        place="whole arm",
+        change="calibration",
+        motion="",
+        instruction=cure_of_family(cause.family, (), True),
+        cure="",
+        alone_mm=rms(worth.before - worth.everywhere),
+        then_mm=rms(worth.before - worth.everywhere - named),
+        confirm="Diagnose again after the repairs above: what is left of it is for a calibration.",
+    )
 
 
 def _task(verdict: Diagnosis, worth: Contributions, number: int, cause: Cause, effect: FoundEffect) -> Task:

@@ -58,7 +58,7 @@ def atlas(layout: ParameterLayout, model: FittedModel, recordings: Recordings, w
     # cancel
     fitted = normal_equations_by_block(layout, model, table, w, np.zeros(len(rows), dtype=np.intp))[0]
     drivers = _drivers(model, recordings)
-    whole = _whole_effects(model, recordings)
+    whole = _whole_effects(model, table)
     names = tuple(dict.fromkeys([*(name for name, _ in drivers), *(name for _, name, _ in whole)]))
     locations = _locations(model, whole)
     before = np.full((len(locations), len(DIRECTIONS), len(names)), np.nan)

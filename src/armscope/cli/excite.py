@@ -1,0 +1,92 @@
+"""The command that plans a motion from which masses, friction and their rivals can be told."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from armscope.cli.commands import Commands
+from armscope.core.inputs import InputError
+
+if TYPE_CHECKING:
+    from armscope.poses.exciting.search import Excitation
+
+app = Commands()
+
+
+@app.command()
+def excite(
+    robot: Annotated[Path, typer.Argument(help="robot.yaml with masses; limits in `drives` or its URDF")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="motion to play; .json and .png beside it")] = Path(
+        "trajectory.csv"
+    ),
+    separate: Annotated[
+        Path | None, typer.Option(help="verdict.json: tell its causes from their alternatives, instead of everything")
+    ] = None,
+    period_s: Annotated[float, typer.Option(min=0.5, help="the motion repeats after this time")] = 20.0,
+    harmonics: Annotated[int, typer.Option(min=2, max=50, help="highest frequency: harmonics / period")] = 5,
+    rate_hz: Annotated[float, typer.Option(min=1, help="samples per second of the table")] = 100.0,
+    floor_mm: Annotated[float | None, typer.Option(help="height of the floor in the base frame")] = None,
+    radius_mm: Annotated[
+        float | None, typer.Option(min=0, help="of the links; else the URDF's shapes, or 4 % of reach")
+    ] = None,
+    rounds: Annotated[int, typer.Option(min=0, help="of bettering the best of 24 random motions")] = 600,
+    seed: Annotated[int, typer.Option(min=0, help="of the search")] = 0,
+) -> None:
+    """Plan a motion that shows masses and friction best, inside all limits and clear of floor and arm."""
+    from armscope.core.streams import is_stream
+    from armscope.poses.exciting.output import pairs_of, trajectory_table, write_excitation
+    from armscope.poses.exciting.search import MotionWish
+    from armscope.poses.exciting.search import excite as find
+    from armscope.poses.obstacles import Surroundings
+    from armscope.report.figures.exciting_motion import motion_figure
+    from armscope.report.style import save_figure
+    from armscope.robot import load_arm
+
+    if output.suffix != ".csv" and not is_stream(output):
+        raise InputError("--output", "", str(output), "a table that ends in .csv")
+    if rate_hz < 2 * harmonics / period_s:
+        rule = "a wave needs two samples at least: twice --harmonics / --period-s"
+        raise InputError("--rate-hz", "", rate_hz, rule)
+    arm = load_arm(robot)
+    pairs = () if separate is None else pairs_of(separate)
+    radius, floor = (None if each is None else each * 1e-3 for each in (radius_mm, floor_mm))
+    around = Surroundings(radius, floor)
+    found = find(
+        arm, MotionWish(period_s, harmonics, rounds, seed, pairs), around, _told if sys.stderr.isatty() else None
+    )
+    write_excitation(output, found, rate_hz)
+    if not is_stream(output):
+        figure = motion_figure(found, trajectory_table(found, rate_hz))
+        save_figure(figure, output.with_suffix(".png"), formats=("png", "svg"))
+    _tell(found)
+    print(output)
+
+
+def _told(done: int, of: int) -> None:
+    if done % 20 == 0 or done == of:
+        end = "\n" if done == of else ""
+        print(f"\r{done} of {of} motions tried", end=end, file=sys.stderr, flush=True)
+
+
+def _tell(found: Excitation) -> None:
+    from armscope.poses.exciting.output import collisions_in_words
+
+    before, after = found.before, found.after
+    print(f"condition number {before.condition:.3g} of the median random motion, {after.condition:.3g} of this one")
+    for pair, was, is_now in zip(found.pairs, before.separations, after.separations, strict=True):
+        words = " and ".join(" at ".join(cause) for cause in pair)
+        print(f"{words}: {was:.0%} of the torque of one can't be imitated by the other, now {is_now:.0%}")
+    for pair in found.inseparable:
+        print(f"no motion tells apart {' and '.join(' at '.join(cause) for cause in pair)}")
+    shown = found.shown
+    print(f"{len(shown.base)} independent parameters; weakest: {after.weakest}")
+    if shown.nothing:
+        print(f"moves no motor, whatever the motion: {', '.join(shown.nothing)}")
+    if shown.together:
+        print(f"shows only as sums with others: {', '.join(shown.together)}")
+    for note in (*found.limits.assumed, collisions_in_words(found)):
+        print(f"note: {note}", file=sys.stderr)

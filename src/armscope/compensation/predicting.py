@@ -1,0 +1,126 @@
+"""Where an arm will be: by a diagnosed model, by a black-box model, or by its description alone."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from scipy.spatial.transform import Rotation
+
+from armscope.compensation.black_box import domain_inputs
+from armscope.compensation.domain import ALLOWED
+from armscope.compensation.error_model_file import load_error_model
+from armscope.compensation.physical import FILE, drivers_of, load_identified, missing_context
+from armscope.core.inputs import InputError, read_yaml
+from armscope.core.types import Array
+from armscope.physics.drivers import KINDS
+from armscope.physics.model import FittedModel, predict_orientation
+from armscope.physics.model import predict as predicted_points
+from armscope.physics.model_file import load_model
+from armscope.recordings import Recordings, read_recordings
+from armscope.robot import load_arm, tool_frames
+from armscope.robot.urdf_file import is_xml
+
+Found = tuple[Array, Array | None, Recordings, list[str]]
+"""Points (N, 3), m, orientations (N, 3, 3), the rows they are of, and what a user should know."""
+
+
+def predict_file(model: Path, poses: Path, pose: bool = False) -> tuple[pd.DataFrame, list[str]]:
+    """The tool point by a file, in the measurement frame (by a robot.yaml or a URDF: in the base frame).
+
+    Args:
+        model: model.yaml, errormodel.json, robot.yaml or a URDF.
+        poses: a table of motor angles and whatever context the model follows.
+        pose: whether orientations come, too.
+
+    Returns:
+        Columns id, run, x_mm, y_mm, z_mm and, if asked for, qw, qx, qy, qz; and notes.
+
+    Raises:
+        InputError: a file that can't be used, or context that the model follows and the table lacks.
+    """
+    if model.suffix == ".json":
+        found = _by_black_box(model, poses, pose)
+    elif is_xml(model) or (isinstance(content := read_yaml(model), dict) and {"dh", "urdf"} & set(content)):
+        found = _by_description(model, poses, pose)
+    else:
+        found = _by_physics(model, poses, pose)
+    points, rotations, rows, notes = found
+    return points_table(points, rotations, rows), notes
+
+
+def points_table(points: Array, rotations: Array | None, rows: Recordings) -> pd.DataFrame:
+    """Points and orientations of some rows as a table.
+
+    Args:
+        points: (N, 3), m.
+        rotations: (N, 3, 3), or None.
+        rows: what they are of.
+
+    Returns:
+        Columns id, run, x_mm, y_mm, z_mm and, where there are rotations, qw, qx, qy, qz.
+    """
+    table = pd.DataFrame({"id": rows.id, "run": rows.run})
+    table[["x_mm", "y_mm", "z_mm"]] = points * 1e3
+    if rotations is not None:
+        table[["qx", "qy", "qz", "qw"]] = Rotation.from_matrix(rotations).as_quat(canonical=True)
+        table = table[["id", "run", "x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz"]]
+    return table
+
+
+def _by_physics(model: Path, poses: Path, pose: bool) -> Found:
+    """Points (N, 3), m, and orientations (N, 3, 3) in the measurement frame, and the rows they are of."""
+    fitted = load_model(model)
+    rows = read_recordings(poses, fitted.arm.n_motors, measured=False)
+    notes = _refuse_missing_context(model, fitted, rows)
+    notes += [
+        f"run {run!r} is not in the model: its base is taken from run {list(fitted.bases)[-1]!r}"
+        for run in fitted.unknown_runs(rows)
+    ]
+    return predicted_points(fitted, rows), predict_orientation(fitted, rows) if pose else None, rows, notes
+
+
+def _refuse_missing_context(model: Path, fitted: FittedModel, rows: Recordings) -> list[str]:
+    """What an effect follows must be known in every row: nothing is taken for zero; notes where that is not known.
+
+    Raises:
+        InputError: it is not.
+    """
+    beside = model.parent / FILE
+    if not beside.is_file():
+        if rows.payload is None and any("payload" in KINDS[kind].follows for kind in drivers_of(fitted)):
+            return [f"no payload_kg, and no {FILE} beside the model: the arm carries nothing"]
+        return []
+    for column, missing in missing_context(fitted, load_identified(beside), rows).items():
+        place = "line 1" if missing.all() else f"row {int(np.argmax(missing)) + 2}, column {column}"
+        cure = "Write 0 where the arm carries nothing." if column == "payload_kg" else "Add it to the table."
+        rule = "an effect in the model follows it, so it must be known in every row"
+        raise InputError(rows.source, place, f"no column {column}" if missing.all() else "nothing", rule, cure)
+    return []
+
+
+def _by_description(robot: Path, poses: Path, pose: bool) -> Found:
+    """As `_by_physics` for an arm that does what its robot.yaml says, nominal or calibrated; in its base frame."""
+    arm = load_arm(robot)
+    rows = read_recordings(poses, arm.n_motors, measured=False)
+    points, rotations = tool_frames(arm, rows.motor_angles)
+    return points, rotations if pose else None, rows, []
+
+
+def _by_black_box(model: Path, poses: Path, pose: bool) -> Found:
+    """As `_by_physics` for a black-box model; poses outside the identified range are named."""
+    fitted = load_error_model(model)
+    rows = read_recordings(poses, fitted.arm.n_motors, measured=False)
+    if pose and fitted.turning is None:
+        raise InputError(
+            model,
+            "turning",
+            "nothing",
+            "the model was fitted to positions only",
+            "Fit it to recordings with qw ... qz.",
+        )
+    points, rotations = fitted.as_measured(rows.motor_angles)
+    outside = fitted.domain.outside(domain_inputs(fitted, rows.motor_angles))[0] > ALLOWED
+    notes = [f"{outside.sum()} of {len(rows)} rows lie outside the identified range"] if outside.any() else []
+    return points, rotations if pose else None, rows, notes

@@ -1,0 +1,97 @@
+"""Work on pieces of a long table, shared among processes. What comes out does not depend on how many there are."""
+
+from __future__ import annotations
+
+import contextlib
+import multiprocessing
+import os
+import signal
+from collections.abc import Callable, Iterator, Sequence
+from contextvars import ContextVar
+from typing import Any, TypeVar
+
+Piece = TypeVar("Piece")
+Result = TypeVar("Result")
+
+_PROCESSES: ContextVar[int] = ContextVar("processes", default=1)
+
+
+@contextlib.contextmanager
+def processes(count: int) -> Iterator[None]:
+    """Within the block, `each_piece` shares its work among so many processes."""
+    before = _PROCESSES.set(count)
+    try:
+        yield
+    finally:
+        _PROCESSES.reset(before)
+
+
+def each_piece(pieces: Sequence[Piece], work: Callable[[Piece], Result]) -> list[Result]:
+    """What ``work`` makes of each piece, in the order of the pieces.
+
+    Args:
+        pieces: of the work; they must not depend on each other.
+        work: done in a process of its own, which starts with all that this one knows; what it changes is lost.
+
+    Returns:
+        One result per piece, the same for any number of processes.
+
+    Raises:
+        MemoryError: a process was ended from outside, as happens where memory runs out.
+    """
+    count = min(_PROCESSES.get(), len(pieces))
+    if count < 2 or "fork" not in multiprocessing.get_all_start_methods():
+        return [work(piece) for piece in pieces]
+    return _forked(len(pieces), lambda number: work(pieces[number]), count)
+
+
+def _forked(many: int, work: Callable[[int], Result], count: int) -> list[Result]:
+    """As `each_piece`: the first process takes every n-th piece, the second those that follow them, ..."""
+    context = multiprocessing.get_context("fork")
+    lines, workers = [], []
+    for first in range(count):
+        receiving, sending = context.Pipe(duplex=False)
+        worker = context.Process(target=_run, args=(work, range(first, many, count), sending), daemon=True)
+        worker.start()
+        sending.close()
+        lines.append(receiving)
+        workers.append(worker)
+    results: list[Any] = [None] * many
+    try:
+        for number in range(many):
+            results[number] = _received(lines[number % count])
+    finally:
+        for worker in workers:
+            worker.terminate()
+            worker.join()
+    return results
+
+
+def _run(work: Callable[[int], Result], numbers: range, line: Any) -> None:
+    _let_go(line.fileno())
+    with contextlib.suppress(BrokenPipeError):  # nobody waits any more
+        for number in numbers:
+            try:
+                result = work(number)
+            except Exception as error:  # it is raised again where the result is waited for
+                line.send((None, error))
+                return
+            line.send((result, None))
+
+
+def _let_go(line: int) -> None:
+    """A process that helps holds no file of its parent's, whose locks would outlive it, and leaves Ctrl-C to it."""
+    os.closerange(3, line)
+    os.closerange(line + 1, os.sysconf("SC_OPEN_MAX"))
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+
+def _received(line: Any) -> Any:
+    try:
+        result, error = line.recv()
+    except EOFError as closed:
+        raise MemoryError("a process that shared the work was ended from outside") from closed
+    if error is not None:
+        raise error
+    return result

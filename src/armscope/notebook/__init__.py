@@ -1,0 +1,27 @@
+"""What a notebook or a script calls: each command as a function, in the same order of arguments."""
+
+from armscope.notebook.commands import (
+    calibrate,
+    check,
+    choose_poses,
+    compensate,
+    diagnose,
+    predict,
+    read_recordings,
+    read_robot,
+)
+from armscope.notebook.result import Diagnosed
+from armscope.verdict.files import read_verdict
+
+__all__ = [
+    "Diagnosed",
+    "calibrate",
+    "check",
+    "choose_poses",
+    "compensate",
+    "diagnose",
+    "predict",
+    "read_recordings",
+    "read_robot",
+    "read_verdict",
+]

@@ -1,0 +1,232 @@
+"""The commands as functions. Whatever a command reads may be a path, or what such a file holds."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+from threadpoolctl import threadpool_limits
+
+from armscope.calibration import Calibration
+from armscope.calibration import calibrate as calibrate_arm
+from armscope.check import CheckReport
+from armscope.check import check as check_table
+from armscope.check.preconditions import check_table as usable_rows
+from armscope.compensation import (
+    Compensated,
+    ErrorModel,
+    Options,
+    WantedPath,
+    as_path,
+    compensate_black_box,
+    compensate_physical,
+    identified_on,
+    load_error_model,
+    load_identified,
+    read_path,
+)
+from armscope.compensation.physical import FILE as DOMAIN
+from armscope.compensation.predicting import points_table, predict_file
+from armscope.core.inputs import InputError
+from armscope.diagnosis import Settings
+from armscope.diagnosis import diagnose as diagnose_arm
+from armscope.notebook.result import Diagnosed
+from armscope.physics.model import FittedModel
+from armscope.physics.model import predict as predicted_points
+from armscope.physics.model_file import load_model
+from armscope.poses.choose import Choice, choose
+from armscope.recordings import Recordings, as_recordings
+from armscope.recordings import read_recordings as read_table
+from armscope.robot import Arm, load_arm
+
+Robot = Arm | Path | str
+Table = Recordings | pd.DataFrame | Path | str
+Model = Diagnosed | FittedModel | Path | str
+
+
+def read_robot(robot: Robot) -> Arm:
+    """The arm of a robot.yaml or of a URDF (its tip is then guessed: `description.source` says so).
+
+    Raises:
+        InputError: the file can't be used; it says what, where, and how to mend it.
+    """
+    if isinstance(robot, Arm):
+        return robot
+    if not isinstance(robot, str | Path):
+        rule = "a robot.yaml, a URDF or an arm"
+        raise InputError("robot", "", type(robot).__name__, rule, "The recordings come first, then the robot.")
+    return load_arm(robot)
+
+
+def read_recordings(recordings: Table, robot: Robot | None = None, measured: bool = True) -> Recordings:
+    """A recordings table.
+
+    Args:
+        recordings: the path of a CSV, or a data frame with its columns.
+        robot: whose motors must be there; None takes as many as the table has.
+        measured: whether points must be there; False reads poses.
+
+    Returns:
+        The rows, SI units.
+
+    Raises:
+        InputError: the table can't be used.
+    """
+    n_motors = None if robot is None else read_robot(robot).n_motors
+    if isinstance(recordings, Recordings):
+        return recordings
+    if isinstance(recordings, pd.DataFrame):
+        return as_recordings(recordings, "data frame", n_motors, measured)
+    if not isinstance(recordings, str | Path):
+        cure = "The recordings come first, then the robot."
+        raise InputError("recordings", "", type(recordings).__name__, "a table, or the path of one", cure)
+    if Path(recordings).suffix in (".yaml", ".yml", ".urdf"):
+        cure = "The recordings come first, then the robot, as on the command line."
+        raise InputError(recordings, "", "no table", "a recordings table is needed here", cure)
+    return read_table(recordings, n_motors, measured)
+
+
+def check(recordings: Table, robot: Robot | None = None) -> CheckReport:
+    """What a table holds and what looks wrong in it: `armscope check`.
+
+    Raises:
+        InputError: a file can't be used.
+    """
+    arm = None if robot is None else read_robot(robot)
+    return check_table(read_recordings(recordings), arm)
+
+
+def diagnose(recordings: Table, robot: Robot, settings: Settings | None = None, **options: Any) -> Diagnosed:
+    """Where simulation and recordings differ, and which physics was left out: `armscope diagnose`.
+
+    Args:
+        recordings: the table.
+        robot: the nominal arm.
+        settings: all settings at once, or
+        options: some of them by name, see `armscope.diagnosis.Settings` (``seed=1, resamples=0``).
+
+    Returns:
+        The verdict.
+
+    Raises:
+        InputError: something that can't be used; it says what, where, and how to mend it.
+    """
+    if settings is not None and options:
+        raise InputError("diagnose", "", sorted(options)[0], "settings, or single options: one of the two")
+    known = set(Settings.__dataclass_fields__)
+    if wrong := sorted(set(options) - known):
+        raise InputError("diagnose", "", wrong[0], f"one of {', '.join(sorted(known))}")
+    table, arm = read_recordings(recordings), read_robot(robot)
+    with threadpool_limits(1):  # small matrices: threads of BLAS would only wait for each other
+        return Diagnosed(**vars(diagnose_arm(arm, table, settings or Settings(**options))))
+
+
+def calibrate(recordings: Table, robot: Robot, **options: Any) -> Calibration:
+    """Plain geometric calibration: `armscope calibrate`.
+
+    Args:
+        recordings: the table.
+        robot: the nominal arm.
+        options: of `armscope.calibration.calibrate` (``level="offsets", robust=True``).
+
+    Returns:
+        Constants, frames and what could not be told apart.
+
+    Raises:
+        InputError: something that can't be used.
+    """
+    table, arm = read_recordings(recordings, robot), read_robot(robot)
+    with threadpool_limits(1):
+        return calibrate_arm(arm, table, **options)
+
+
+def predict(model: Model, poses: Table, pose: bool = False) -> pd.DataFrame:
+    """Where the tool point will be, mm: `armscope predict`.
+
+    Args:
+        model: a diagnosis, a fitted model, or the path of model.yaml, errormodel.json, robot.yaml or a URDF.
+        poses: motor angles and whatever context the model follows.
+        pose: whether orientations come, too (of paths only).
+
+    Returns:
+        id, run, x_mm, y_mm, z_mm.
+
+    Raises:
+        InputError: something that can't be used.
+    """
+    if isinstance(model, str | Path) and isinstance(poses, str | Path):
+        return predict_file(Path(model), Path(poses), pose)[0]
+    fitted = (
+        model.model if isinstance(model, Diagnosed) else load_model(model) if isinstance(model, str | Path) else model
+    )
+    rows = read_recordings(poses, fitted.arm, measured=False)
+    return points_table(predicted_points(fitted, rows), None, rows)
+
+
+def compensate(
+    model: Model, path: WantedPath | pd.DataFrame | Path | str, recordings: Table | None = None, **options: Any
+) -> Compensated:
+    """Commands under which the real arm reaches the wanted points: `armscope compensate`.
+
+    Args:
+        model: a diagnosis, a fitted model, or the path of model.yaml or errormodel.json.
+        path: wanted points.
+        recordings: on which the model was identified; of a diagnosis its own, beside a model.yaml its domain.json.
+        options: of `armscope.compensation.Options` (``frame="measurement", pose=True``).
+
+    Returns:
+        Commands, what they will reach, and which rows have none; `to_table()` is what the command writes.
+
+    Raises:
+        InputError: something that can't be used.
+    """
+    chosen = Options(**options)
+    if isinstance(model, str | Path) and str(model).endswith(".json"):
+        error_model: ErrorModel = load_error_model(model)
+        return compensate_black_box(error_model, _wanted(path, error_model.arm), chosen)
+    fitted = (
+        model.model if isinstance(model, Diagnosed) else load_model(model) if isinstance(model, str | Path) else model
+    )
+    if recordings is not None:
+        identified = identified_on(fitted.arm, usable_rows(fitted.arm, read_recordings(recordings)).recordings)
+    elif isinstance(model, Diagnosed):
+        identified = identified_on(fitted.arm, model.recordings)
+    elif isinstance(model, str | Path) and (Path(model).parent / DOMAIN).is_file():
+        identified = load_identified(Path(model).parent / DOMAIN)
+    else:
+        cure = "Give the recordings of the diagnosis."
+        raise InputError("recordings", "", "nothing", "the identified range must be known", cure)
+    return compensate_physical(fitted, identified, _wanted(path, fitted.arm), chosen)
+
+
+def _fitted(model: Model) -> FittedModel:
+    if isinstance(model, str | Path):
+        return load_model(model)
+    fitted = model.model if isinstance(model, Diagnosed) else model
+    if not isinstance(fitted, FittedModel):
+        raise InputError("model", "", type(model).__name__, "a diagnosis, a fitted model or a path")
+    return fitted
+
+
+def _wanted(path: WantedPath | pd.DataFrame | Path | str, arm: Arm) -> WantedPath:
+    if isinstance(path, WantedPath):
+        return path
+    return as_path(path, "data frame", arm) if isinstance(path, pd.DataFrame) else read_path(path, arm)
+
+
+def choose_poses(robot: Robot, count: int = 85, **options: Any) -> Choice:
+    """The poses that show a set of effects best: `armscope poses`.
+
+    Args:
+        robot: the nominal arm.
+        count: how many to measure.
+        options: of `armscope.poses.choose.choose` (``effects=("joint_compliance",), seed=1``).
+
+    Returns:
+        The chosen poses and what they are worth.
+
+    Raises:
+        InputError: something that can't be used.
+    """
+    return choose(read_robot(robot), count, **options)

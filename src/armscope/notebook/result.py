@@ -1,0 +1,107 @@
+"""A diagnosis as a notebook shows it: one paragraph, a table of causes, figures, and the files of the command."""
+
+from __future__ import annotations
+
+import html
+import math
+from pathlib import Path
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from armscope.compensation.physical import FILE, identified_on, save_identified
+from armscope.compensation.predicting import points_table
+from armscope.core.inputs import InputError, nearest
+from armscope.core.outputs import Delivery
+from armscope.physics.model import predict
+from armscope.recordings import Recordings, as_recordings, read_recordings
+from armscope.report.pages.diagnosis import write_report
+from armscope.report.sections.registry import SECTIONS
+from armscope.report.subject import Subject
+from armscope.verdict.files import write_verdict
+from armscope.verdict.schema import Diagnosis
+from armscope.verdict.wording import millimetres, percent
+
+
+class Diagnosed(Diagnosis):
+    """A `Diagnosis` with what a notebook asks of it; `to_json()` is the content of verdict.json."""
+
+    def __repr__(self) -> str:
+        told = [
+            self.headline,
+            f"{self.arm}, {self.rows} rows, noise {millimetres(self.noise_mm)} per axis;",
+            f"{self._left()}.",
+        ]
+        causes = [f"{e.title} ({percent(e.share)}, {millimetres(e.rms_at_tool_mm)})" for e in self.effects]
+        return " ".join([*told, *([f"Causes: {'; '.join(causes)}."] if causes else [])])
+
+    def _left(self) -> str:
+        """RMS without and with the model, on rows that took no part where that was tried."""
+        held, tried = self.held_out, math.isfinite(self.held_out.after)
+        before, after = (held.before, held.after) if tried else (self.residual_before_mm, self.residual_after_mm)
+        return (
+            f"{'held out' if tried else 'on the fitted rows'} {millimetres(before)} before, {millimetres(after)} after"
+        )
+
+    def _repr_html_(self) -> str:
+        cells = [(e.title, percent(e.share), millimetres(e.rms_at_tool_mm), e.cure) for e in self.effects]
+        rows = "".join("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in cells)
+        head = "".join(f"<th>{name}</th>" for name in ("cause", "share", "RMS per axis", "cure"))
+        about = f"{self.arm}, {self.rows} rows; {self._left()}; noise {millimetres(self.noise_mm)} per axis"
+        table = f"<table><tr>{head}</tr>{rows}</table>" if rows else ""
+        return f"<p><b>{html.escape(self.headline)}</b></p><p>{html.escape(about)}</p>{table}"
+
+    def report(self, folder: Path | str = "armscope-report", force: bool = False) -> Path:
+        """Write all that `armscope diagnose -o folder` writes.
+
+        Args:
+            folder: for report.html, verdict.json, model.yaml and figures.
+            force: overwrite files that armscope did not write.
+
+        Returns:
+            The page's path.
+
+        Raises:
+            InputError: the folder holds files of the same names that armscope did not write.
+        """
+        folder = Path(folder)
+        delivery = Delivery("diagnose", [], [folder], force)
+        with delivery.running():
+            write_verdict(self, folder)
+            save_identified(folder / FILE, identified_on(self.model.arm, self.recordings))
+            write_report(self, folder)
+            delivery.put()
+        return folder / "report.html"
+
+    def plot(self, name: str = "arm") -> Figure:
+        """A figure of the report.
+
+        Args:
+            name: "arm", "waterfall", "atlas", ...: a wrong one lists what there is.
+
+        Returns:
+            The figure.
+
+        Raises:
+            InputError: this diagnosis has no figure of that name.
+        """
+        subject, names = Subject(self), []
+        for section in (section for section in SECTIONS if section.applies(self)):
+            for figure in section.figures:
+                for drawn in figure(subject):
+                    if drawn.name == name:
+                        return drawn.figure
+                    names.append(drawn.name)
+        raise InputError("plot", "", name, f"one of {', '.join(names)}", nearest(name, names))
+
+    def predict(self, poses: Recordings | pd.DataFrame | Path | str) -> pd.DataFrame:
+        """Where the tool point will be at other poses, mm, in the measurement frame.
+
+        Raises:
+            InputError: the poses can't be used.
+        """
+        motors = self.model.arm.n_motors
+        if isinstance(poses, pd.DataFrame):
+            poses = as_recordings(poses, "data frame", motors, measured=False)
+        rows = poses if isinstance(poses, Recordings) else read_recordings(poses, motors, measured=False)
+        return points_table(predict(self.model, rows), None, rows)

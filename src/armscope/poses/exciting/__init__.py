@@ -1,0 +1,1 @@
+"""Exciting motions: trajectories from which masses, friction and their rivals can be told."""

@@ -1,0 +1,146 @@
+"""What a motion shows: the motors' torques per unit of every inertial and friction parameter, and per unit of a cause.
+
+Inertial parameters are pinocchio's ten per link (mass, first moments, inertias about the joint's origin); torques of
+motors follow from the chain's by virtual work through `actuation`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pinocchio as pin
+
+from armscope.core.location import Location
+from armscope.core.types import Array
+from armscope.robot import Arm
+
+LINK_NAMES = ("mass", "m x", "m y", "m z", "I xx", "I xy", "I yy", "I xz", "I yz", "I zz")
+JOINT_NAMES = ("offset", "Coulomb", "viscous", "rotor inertia")
+STANDSTILL = 0.01
+"""rad/s: the width over which the sign of a speed turns."""
+STRIBECK = 0.1
+"""rad/s: a typical speed of the Stribeck effect, for its pattern."""
+CURVE_DEGREE = 5
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """N samples of m motors: rad, rad/s, rad/s^2; ``step``: s between them."""
+
+    angle: Array
+    speed: Array
+    acceleration: Array
+    step: float
+
+    def sign(self) -> Array:
+        """(N, m) of the speeds."""
+        found: Array = np.tanh(self.speed / STANDSTILL)
+        return found
+
+
+def link_columns(arm: Arm, motion: Motion) -> Array:
+    """(N, m, 10 n) torque of the motors per unit of each inertial parameter."""
+    data = arm.model.createData()
+    chain = [values @ arm.actuation.T for values in (motion.angle, motion.speed, motion.acceleration)]
+    found = np.empty((len(motion.angle), arm.n_motors, 10 * arm.n_joints))
+    for row, (q, v, a) in enumerate(zip(*chain, strict=True)):
+        found[row] = arm.actuation.T @ pin.computeJointTorqueRegressor(arm.model, data, _as_stored(arm, q), v, a)
+    return found
+
+
+def _as_stored(arm: Arm, angle: Array) -> Array:
+    """pinocchio stores a joint without limits as cosine and sine."""
+    if arm.model.nq == arm.n_joints:
+        return angle
+    return np.asarray(pin.integrate(arm.model, pin.neutral(arm.model), angle))
+
+
+def joint_columns(motion: Motion) -> Array:
+    """(N, m, 4 m) torque per unit of offset, Coulomb, viscous friction and rotor inertia, motor by motor."""
+    count = motion.angle.shape[1]
+    found = np.zeros((len(motion.angle), count, 4 * count))
+    patterns = (np.ones_like(motion.angle), motion.sign(), motion.speed, motion.acceleration)
+    for motor in range(count):
+        for number, pattern in enumerate(patterns):
+            found[:, motor, 4 * motor + number] = pattern[:, motor]
+    return found
+
+
+def names(arm: Arm) -> list[str]:
+    """Of the columns of `all_columns`."""
+    links = [f"{name} of link {link + 1}" for link in range(arm.n_joints) for name in LINK_NAMES]
+    return links + [f"{name} of joint {motor + 1}" for motor in range(arm.n_motors) for name in JOINT_NAMES]
+
+
+def all_columns(arm: Arm, motion: Motion) -> Array:
+    """(N, m, 10 n + 4 m) of links and joints."""
+    return np.concatenate([link_columns(arm, motion), joint_columns(motion)], axis=2)
+
+
+def stated_parameters(arm: Arm) -> Array:
+    """(10 n,) inertial parameters of the links as stated."""
+    return np.concatenate([arm.model.inertias[joint].toDynamicParameters() for joint in range(1, arm.model.njoints)])
+
+
+def stated_friction(arm: Arm) -> Array:
+    """(4 m,) as `joint_columns`; zero where robot.yaml does not say."""
+    found = np.zeros((arm.n_motors, 4))
+    for motor, drive in enumerate(arm.description.drives or ()):
+        found[motor, 1:] = [drive.coulomb_nm or 0, drive.viscous_nm_s_rad or 0, drive.rotor_inertia_kg_m2 or 0]
+    return found.reshape(-1)
+
+
+def cause_columns(arm: Arm, motion: Motion, links: Array, effect: str, location: str) -> Array | None:
+    """Torque patterns of a cause at a place, to first order.
+
+    Args:
+        arm: the arm.
+        motion: the motion.
+        links: (N, m, 10 n) of `link_columns`.
+        effect: name of a cause of arms in motion.
+        location: its place.
+
+    Returns:
+        (N, m, k) torques; None if the cause is not known here.
+    """
+    where = Location.of(location)
+    if where.kind == "link" and effect in LINK_SLICES:
+        block = 10 * where.index + np.array(LINK_SLICES[effect])
+        return links[:, :, block]
+    if effect == "payload_error":
+        return links[:, :, -10:-6]
+    if where.kind != "joint" or where.source:
+        return None
+    patterns = _joint_patterns(motion, links @ stated_parameters(arm), where.index)
+    if effect not in patterns:
+        return None
+    found = np.zeros((*motion.angle.shape, patterns[effect].shape[1]))
+    found[:, where.index] = patterns[effect]
+    return found
+
+
+LINK_SLICES = {"link_mass": range(4), "link_first_moment": range(1, 4), "link_inertia": range(4, 10)}
+"""Parameters of a link that a cause moves; a heavier link moves its first moments with it."""
+
+
+def _joint_patterns(motion: Motion, rigid: Array, j: int) -> dict[str, Array]:
+    speed, angle, sign = motion.speed[:, j], motion.angle[:, j], motion.sign()[:, j]
+    centred = (angle - angle.mean()) / max(float(np.ptp(angle)) / 2, 1e-9)
+    one = np.ones_like(angle)
+    single = {
+        "coulomb_friction": sign,
+        "viscous_friction": speed,
+        "asymmetric_friction": np.abs(speed),
+        "stribeck_friction": np.exp(-((speed / STRIBECK) ** 2)) * sign,
+        "load_friction": np.abs(rigid[:, j]) * sign,
+        "rotor_inertia": motion.acceleration[:, j],
+        "torque_offset": one,
+        "motor_constant": rigid[:, j],
+        "torque_delay": -np.gradient(rigid[:, j], motion.step),
+    }
+    curves = {
+        "gravity_balance": np.column_stack([one, angle]),
+        "cable_torque": np.polynomial.chebyshev.chebvander(centred, CURVE_DEGREE),
+    }
+    return {name: pattern[:, None] for name, pattern in single.items()} | curves

@@ -1,0 +1,192 @@
+"""How well a motion shows what it is meant to show: D-optimality of the base parameters, or how far rivals differ."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import qr
+
+from armscope.core.inputs import InputError
+from armscope.core.location import Location
+from armscope.core.types import Array
+from armscope.design.fourier import Limits
+from armscope.poses.exciting.columns import Motion, all_columns, cause_columns, joint_columns, link_columns, names
+from armscope.robot import Arm
+
+REFERENCE_SAMPLES = 400
+"""Random states from which it is seen what any motion at all could show."""
+DEPENDENT = 1e-8
+"""Columns whose part of their own is below this share of the largest depend on others (exact in floating point)."""
+FEEBLE = 1e-9
+SAME = 1e-6
+"""Two causes whose torques differ by less than this share in random states are one: no motion tells them apart."""
+
+Pair = tuple[tuple[str, str], tuple[str, str]]
+
+
+@dataclass(frozen=True, eq=False)
+class Showable:
+    """What motions of an arm can show at all.
+
+    Attributes:
+        base: columns (of `names`) that are independent of one another; the others move nothing, or only together.
+        scale: (b,) RMS of the base columns over random states: the unit in which they count.
+        weight: (m,) 1 / (RMS torque) of the motors over random states.
+        nothing: names of parameters that move no motor whatever the motion.
+        together: names that show only as a sum with others.
+    """
+
+    base: Array
+    scale: Array
+    weight: Array
+    nothing: tuple[str, ...]
+    together: tuple[str, ...]
+
+
+def shown_at_all(arm: Arm, limits: Limits, rng: np.random.Generator) -> Showable:
+    """By columns at random states within the limits (Gautier 1991: pivoted QR of the regressor).
+
+    Args:
+        arm: the arm.
+        limits: of angle, speed, acceleration.
+        rng: of the states.
+
+    Returns:
+        Base parameters, their units, and what stays hidden.
+    """
+    low, high = limits.angle.T
+    shape = (REFERENCE_SAMPLES, len(low))
+    angle = rng.uniform(low, high, shape)
+    speed, acceleration = (rng.uniform(-most, most, shape) for most in (limits.speed, limits.acceleration))
+    columns = all_columns(arm, Motion(angle, speed, acceleration, 1.0))
+    weight = 1 / np.maximum(np.sqrt(np.mean(np.sum(columns**2, axis=2), axis=0)), FEEBLE)
+    flat = (columns * weight[:, None]).reshape(-1, columns.shape[2])
+    size = np.sqrt(np.mean(flat**2, axis=0))
+    there = np.flatnonzero(size > DEPENDENT * size.max())
+    _, triangle, order = qr(flat[:, there] / size[there], mode="economic", pivoting=True)
+    rank = int(np.sum(np.abs(np.diag(triangle)) > DEPENDENT * np.abs(triangle[0, 0])))
+    base = np.sort(there[order[:rank]])
+    called = names(arm)
+    hidden = set(range(len(called))) - set(there)
+    dependent = set(there) - set(base)
+    return Showable(
+        base,
+        size[base],
+        weight,
+        tuple(called[k] for k in sorted(hidden)),
+        tuple(called[k] for k in sorted(dependent)),
+    )
+
+
+@dataclass(frozen=True)
+class MotionScore:
+    """Of a motion.
+
+    Attributes:
+        value: what is maximised: log det of the information per sample, or the least separation of the pairs.
+        condition: of the base regressor, columns in their units.
+        weakest: the base parameter that shows least.
+        separations: for each pair the share of one cause's torque that the other can't imitate, 0 ... 1.
+    """
+
+    value: float
+    condition: float
+    weakest: str = ""
+    separations: tuple[float, ...] = ()
+
+
+def motion_score(arm: Arm, shown: Showable, motion: Motion, pairs: tuple[Pair, ...] = ()) -> MotionScore:
+    """How good a motion is.
+
+    Args:
+        arm: the arm.
+        shown: what its motions can show at all.
+        motion: the motion.
+        pairs: causes to be told apart; none: all base parameters shall show.
+
+    Returns:
+        Its score; larger values are better.
+    """
+    columns = all_columns(arm, motion) * shown.weight[:, None]
+    flat = columns.reshape(-1, columns.shape[2])[:, shown.base] / shown.scale / np.sqrt(len(columns))
+    information = flat.T @ flat
+    eigenvalues, vectors = np.linalg.eigh(information)
+    condition = float(np.sqrt(eigenvalues[-1] / max(eigenvalues[0], FEEBLE**2)))
+    weakest = names(arm)[int(shown.base[int(np.argmax(np.abs(vectors[:, 0])))])]
+    if not pairs:
+        _, value = np.linalg.slogdet(information + FEEBLE * np.eye(len(information)))
+        return MotionScore(float(value), condition, weakest)
+    separations = tuple(separation(arm, shown, motion, pair) for pair in pairs)
+    return MotionScore(min(separations), condition, weakest, separations)
+
+
+def separation(arm: Arm, shown: Showable, motion: Motion, pair: Pair) -> float:
+    """The share of the smaller-looking cause's torque that the other, with offset and friction, can't imitate.
+
+    Each direction of the first cause counts by its RMS torque; the share is the least of both ways round.
+
+    Args:
+        arm: the arm.
+        shown: what its motions can show at all.
+        motion: the motion.
+        pair: two (effect, location).
+
+    Returns:
+        The share, 0 ... 1.
+
+    Raises:
+        InputError: a cause that is not known here.
+    """
+    links = link_columns(arm, motion)
+    one, other = (_pattern(arm, motion, links, cause) * shown.weight[:, None] for cause in pair)
+    own = {(Location.of(cause[1]).index, BACKGROUND_OF.get(cause[0])) for cause in pair}
+    free = joint_columns(motion) * shown.weight[:, None]
+    kept = [k for k in range(free.shape[2]) if k % 4 != 0 and (k // 4, k % 4) not in own]
+    background = free[:, :, kept].reshape(-1, len(kept))
+    flat = [each.reshape(-1, each.shape[2]) for each in (one, other)]
+    ways = ((flat[0], flat[1]), (flat[1], flat[0]))
+    return min(_not_imitated(target, np.hstack([rival, background])) for target, rival in ways)
+
+
+BACKGROUND_OF = {"torque_offset": 0, "coulomb_friction": 1, "viscous_friction": 2, "rotor_inertia": 3}
+"""Causes that are themselves what is fitted at every joint: number in `JOINT_NAMES`."""
+
+
+def _pattern(arm: Arm, motion: Motion, links: Array, cause: tuple[str, str]) -> Array:
+    found = cause_columns(arm, motion, links, *cause)
+    if found is None:
+        raise InputError("--separate", "", " ".join(cause), "this cause has no torque pattern to plan a motion by")
+    return found
+
+
+def told_apart(
+    arm: Arm, shown: Showable, limits: Limits, pairs: tuple[Pair, ...], rng: np.random.Generator
+) -> tuple[tuple[Pair, ...], tuple[Pair, ...]]:
+    """Pairs that some motion tells apart, and those that none does, by random states within the limits.
+
+    Args:
+        arm: the arm.
+        shown: what its motions can show at all.
+        limits: of angle, speed, acceleration.
+        pairs: causes to be told apart.
+        rng: of the states.
+
+    Returns:
+        The two kinds of pairs.
+    """
+    low, high = limits.angle.T
+    shape = (REFERENCE_SAMPLES, len(low))
+    speed, acceleration = (rng.uniform(-most, most, shape) for most in (limits.speed, limits.acceleration))
+    states = Motion(rng.uniform(low, high, shape), speed, acceleration, 1.0)
+    apart = [separation(arm, shown, states, pair) > SAME for pair in pairs]
+    return (
+        tuple(pair for pair, can in zip(pairs, apart, strict=True) if can),
+        tuple(pair for pair, can in zip(pairs, apart, strict=True) if not can),
+    )
+
+
+def _not_imitated(target: Array, rivals: Array) -> float:
+    scale = np.maximum(np.linalg.norm(rivals, axis=0), FEEBLE)
+    left = target - (rivals / scale) @ np.linalg.lstsq(rivals / scale, target, rcond=1e-9)[0]
+    return float(np.sqrt(np.sum(left**2) / max(float(np.sum(target**2)), FEEBLE)))

@@ -1,0 +1,113 @@
+"""An exciting motion as files: trajectory.csv to play, trajectory.json to judge it by."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from armscope.core.files import read_json, write_json, write_table
+from armscope.core.inputs import InputError
+from armscope.core.streams import is_stream
+from armscope.poses.body import collision_shapes
+from armscope.poses.exciting.columns import Motion, all_columns, stated_friction, stated_parameters
+from armscope.poses.exciting.criterion import MotionScore, Pair
+from armscope.poses.exciting.search import Excitation
+
+
+def trajectory_table(found: Excitation, rate: float) -> pd.DataFrame:
+    """time_s, q1_rad ..., dq1_rad_s ..., ddq1_rad_s2 ..., and the stated model's torques tau1_nm ..., over one period.
+
+    Args:
+        found: the motion.
+        rate: samples per second.
+    """
+    time = np.arange(round(found.path.period * rate) + 1) / rate
+    angle, speed, acceleration = found.path.at(time)
+    numbers = np.concatenate([stated_parameters(found.arm), stated_friction(found.arm)])
+    torque = all_columns(found.arm, Motion(angle, speed, acceleration, 1 / rate)) @ numbers
+    columns: dict[str, Any] = {"time_s": time}
+    for pattern, values in (
+        ("q{}_rad", angle), ("dq{}_rad_s", speed), ("ddq{}_rad_s2", acceleration), ("tau{}_nm", torque),
+    ):  # fmt: skip
+        columns |= {pattern.format(motor + 1): values[:, motor] for motor in range(values.shape[1])}
+    return pd.DataFrame(columns)
+
+
+def write_excitation(path: Path, found: Excitation, rate: float) -> None:
+    """Write trajectory.csv, and trajectory.json beside it (a pipe gets the table alone).
+
+    Args:
+        path: of the table.
+        found: the motion.
+        rate: samples per second.
+    """
+    write_table(path, trajectory_table(found, rate), digits=9)
+    if not is_stream(path):
+        write_json(path.with_suffix(".json"), _content(found))
+
+
+def _content(found: Excitation) -> dict[str, Any]:
+    limits, path = found.limits, found.path
+    return {
+        "robot": found.arm.name,
+        "separates": [_words(pair) for pair in found.pairs] or "everything: all base parameters",
+        "no_motion_separates": [_words(pair) for pair in found.inseparable],
+        "random_motion": _score(found.before),
+        "this_motion": _score(found.after),
+        "base_parameters": len(found.shown.base),
+        "shows_nothing_of": list(found.shown.nothing),
+        "shows_only_together_with_others": list(found.shown.together),
+        "period_s": path.period,
+        "harmonics": path.harmonics,
+        "largest": {
+            "speed_share": (np.abs(path.over_period()[1]).max(axis=0) / limits.path.speed).round(4),
+            "acceleration_share": (np.abs(path.over_period()[2]).max(axis=0) / limits.path.acceleration).round(4),
+            "torque_nm": found.torque.round(3),
+            "torque_limit_nm": limits.torque,
+        },
+        "assumed": [*limits.assumed, collisions_in_words(found)],
+        "motions_tried": found.tried,
+        "motions_refused": found.refused,
+        "fourier": {"centre_rad": path.centre, "sine_rad": path.sine, "cosine_rad": path.cosine},
+    }
+
+
+def _score(score: MotionScore) -> dict[str, Any]:
+    about: dict[str, Any] = {"condition_number": score.condition, "weakest": score.weakest}
+    if score.separations:
+        return about | {"share_not_imitated": list(score.separations)}
+    return about | {"log_det_information": score.value}
+
+
+def _words(pair: Pair) -> str:
+    return " | ".join(" ".join(cause) for cause in pair)
+
+
+def collisions_in_words(found: Excitation) -> str:
+    """What collisions were looked for with."""
+    floor = "no floor" if found.around.floor is None else f"a floor at {found.around.floor * 1e3:g} mm"
+    if found.around.radius is None and collision_shapes(found.arm.description):
+        return f"collisions by the URDF's shapes, {floor}"
+    return f"links as capsules of {found.around.radius_of(found.arm) * 1e3:.0f} mm radius, {floor}"
+
+
+def pairs_of(verdict: Path) -> tuple[Pair, ...]:
+    """The causes that a verdict on a motion could not tell apart: each with each of its alternatives.
+
+    Raises:
+        InputError: it is no verdict, or nothing in it has an alternative.
+    """
+    content = read_json(verdict, "verdict.json of a diagnosis of a motion")
+    if not isinstance(content, dict) or not isinstance(content.get("effects"), list):
+        raise InputError(verdict, "", "no list of effects", "verdict.json of a diagnosis of a motion is needed here")
+    pairs = []
+    for effect in content["effects"]:
+        own = (str(effect.get("effect")), str(effect.get("location")))
+        pairs += [(own, (str(o["effect"]), str(o["location"]))) for o in effect.get("alternatives", [])]
+    if not pairs:
+        rule = "no cause in it has an alternative, so there is nothing to separate"
+        raise InputError(verdict, "effects", "no alternatives", rule, "Leave --separate out: everything shall show.")
+    return tuple(dict.fromkeys(pairs))

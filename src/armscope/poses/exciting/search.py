@@ -1,0 +1,178 @@
+"""The search for an exciting motion: random Fourier series, the best of them bettered joint by joint."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from armscope.core.inputs import InputError
+from armscope.core.types import Array
+from armscope.design.fourier import FourierPath, random_path
+from armscope.poses.exciting.columns import Motion, all_columns, stated_friction, stated_parameters
+from armscope.poses.exciting.criterion import MotionScore, Pair, Showable, motion_score, shown_at_all, told_apart
+from armscope.poses.exciting.limits import MotionLimits, limits_of
+from armscope.poses.obstacles import Surroundings, refusals
+from armscope.robot import Arm
+
+SAMPLES = 80
+"""Samples of a motion in the search; a period of 5 to 10 harmonics is smooth beyond that."""
+STARTS = 24
+"""Random motions of which the best is bettered; their median is what "before" means."""
+USES = (0.95, 0.7, 0.5, 0.35)
+"""Shares of the limits that are tried in turn until torques and surroundings allow the motion."""
+NARROWING, LEAST_STEP = 0.35, 0.02
+"""How far coefficients are moved at first, as a share of their size; less and less towards the end."""
+
+
+@dataclass(frozen=True, eq=False)
+class Excitation:
+    """A motion and what it is worth.
+
+    Attributes:
+        arm, limits, around: what it is for.
+        path: the motion.
+        shown: what any motion could show.
+        before: the scores of the random motions, median first by `value`.
+        after: its own score.
+        pairs: what it tells apart; empty: everything.
+        inseparable: pairs that were asked for and that no motion tells apart.
+        torque: (m,) largest torque of the stated model along it, N m.
+        tried: motions that were looked at; `refused`: of them beyond torque limits or in collision.
+    """
+
+    arm: Arm
+    limits: MotionLimits
+    around: Surroundings
+    path: FourierPath
+    shown: Showable
+    before: MotionScore
+    after: MotionScore
+    pairs: tuple[Pair, ...]
+    inseparable: tuple[Pair, ...]
+    torque: Array
+    tried: int
+    refused: int
+
+
+@dataclass(frozen=True)
+class MotionWish:
+    """What motion is wanted: seconds of its period, harmonics, rounds of bettering, seed, causes to tell apart."""
+
+    period: float = 20.0
+    harmonics: int = 5
+    rounds: int = 400
+    seed: int = 0
+    pairs: tuple[Pair, ...] = ()
+
+
+def excite(
+    arm: Arm, wanted: MotionWish, around: Surroundings, progress: Callable[[int, int], None] | None = None
+) -> Excitation:
+    """Find a motion that shows what is wanted.
+
+    Args:
+        arm: with masses.
+        wanted: of the motion.
+        around: floor and body.
+        progress: called with rounds done and all rounds.
+
+    Returns:
+        The motion, with its score beside that of random ones.
+
+    Raises:
+        InputError: no masses; a cause that is not known; no motion is possible.
+    """
+    rng = np.random.default_rng(wanted.seed)
+    limits = limits_of(arm)
+    shown = shown_at_all(arm, limits.path, rng)
+    pairs, inseparable = told_apart(arm, shown, limits.path, wanted.pairs, rng)
+    search = _Search(arm, limits, around, shown, replace(wanted, pairs=pairs))
+    found = [path for path in (search.allowed(_draw(limits, wanted, rng)) for _ in range(STARTS)) if path is not None]
+    if not found:
+        rule = "none of the random motions keeps clear of the floor, of the arm itself and of its torque limits"
+        raise InputError(arm.name, "", f"{STARTS} motions refused", rule, "Less load, a longer --period, other limits.")
+    path, before, best = _bettered(search, found, rng, progress)
+    torque = np.abs(search.torques(path)).max(axis=0)
+    return Excitation(
+        arm, limits, around, path, shown, before, best, pairs, inseparable, torque, search.tried, search.refused
+    )
+
+
+def _bettered(
+    search: _Search, found: list[FourierPath], rng: np.random.Generator, progress: Callable[[int, int], None] | None
+) -> tuple[FourierPath, MotionScore, MotionScore]:
+    """The best of some motions, bettered; the score of the median one, and its own."""
+    scores = [search.score(path) for path in found]
+    order = np.argsort([each.value for each in scores])
+    before = scores[int(order[(len(order) - 1) // 2])]
+    path, best = found[int(order[-1])], scores[int(order[-1])]
+    rounds = search.wanted.rounds
+    for number in range(rounds):
+        step = NARROWING * (1 - number / rounds) + LEAST_STEP
+        tried = _moved(path, step, rng).resting().fitted(search.limits.path, USES[0])
+        worth = search.score(tried)
+        if worth.value > best.value and search.possible(tried):
+            path, best = tried, worth
+        if progress is not None:
+            progress(number + 1, rounds)
+    return path, before, best
+
+
+class _Search:
+    """Scores and refuses motions of one arm."""
+
+    def __init__(
+        self, arm: Arm, limits: MotionLimits, around: Surroundings, shown: Showable, wanted: MotionWish
+    ) -> None:
+        self.arm, self.limits, self.around, self.shown, self.wanted = arm, limits, around, shown, wanted
+        self.numbers = np.concatenate([stated_parameters(arm), stated_friction(arm)])
+        self.tried = self.refused = 0
+
+    def motion(self, path: FourierPath) -> Motion:
+        time = np.arange(SAMPLES) * path.period / SAMPLES
+        return Motion(*path.at(time), step=path.period / SAMPLES)
+
+    def score(self, path: FourierPath) -> MotionScore:
+        self.tried += 1
+        return motion_score(self.arm, self.shown, self.motion(path), self.wanted.pairs)
+
+    def torques(self, path: FourierPath) -> Array:
+        """(N, m) of the stated model."""
+        found: Array = all_columns(self.arm, self.motion(path)) @ self.numbers
+        return found
+
+    def possible(self, path: FourierPath) -> bool:
+        """Whether torques and surroundings allow it."""
+        if np.any(np.abs(self.torques(path)) > self.limits.torque):
+            self.refused += 1
+            return False
+        angle, _, _ = path.over_period()
+        clear = bool((refusals(self.arm, angle, self.around) == "").all())
+        self.refused += not clear
+        return clear
+
+    def allowed(self, path: FourierPath) -> FourierPath | None:
+        """The motion, made smaller where it must be."""
+        for use in USES:
+            smaller = path.fitted(self.limits.path, use)
+            if self.possible(smaller):
+                return smaller
+        return None
+
+
+def _draw(limits: MotionLimits, wanted: MotionWish, rng: np.random.Generator) -> FourierPath:
+    return random_path(limits.path, wanted.harmonics, wanted.period, rng)
+
+
+def _moved(path: FourierPath, step: float, rng: np.random.Generator) -> FourierPath:
+    """One or two joints' coefficients and centres moved at random."""
+    count = len(path.centre)
+    chosen = rng.choice(count, size=min(count, int(rng.integers(1, 3))), replace=False)
+    sine, cosine, centre = (np.array(each) for each in (path.sine, path.cosine, path.centre))
+    size = step * np.sqrt(np.mean(sine[chosen] ** 2 + cosine[chosen] ** 2, axis=1, keepdims=True))
+    sine[chosen] += size * rng.normal(size=(len(chosen), path.harmonics))
+    cosine[chosen] += size * rng.normal(size=(len(chosen), path.harmonics))
+    centre[chosen] += step * rng.normal(size=len(chosen))
+    return replace(path, sine=sine, cosine=cosine, centre=centre)
