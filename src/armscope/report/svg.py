@@ -143,6 +143,9 @@ class Drawing:
             f'height="{self.height:.0f}" role="img" aria-label={alt} font-family="{FONT}"{white}>{shapes}</svg>'
         )
 
+    def _repr_svg_(self) -> str:
+        return self.svg(paper=True)
+
 
 @dataclass(frozen=True)
 class Panel:

@@ -29,7 +29,7 @@ MOST_CAUSES = 6
 
 
 @dataclass(frozen=True, eq=False)
-class Cause:
+class Repair:
     """Effects that are cured together, with their contribution (n, 3), mm in base axes; NaN-free."""
 
     name: str
@@ -52,8 +52,8 @@ class Contributions:
 
     rows: Indices
     left: Array
-    causes: tuple[Cause, ...]
-    smaller: Cause | None
+    causes: tuple[Repair, ...]
+    smaller: Repair | None
     everywhere: Array
 
     @property
@@ -98,12 +98,12 @@ def contributions(verdict: Diagnosis) -> Contributions:
     main, minor = main_and_minor(verdict.effects)
     parts = _parts_of(verdict)
     causes = tuple(
-        Cause(effect.title, (effect,), parts[id(effect)], moved_by(parts[id(effect)])) for effect in main[:MOST_CAUSES]
+        Repair(effect.title, (effect,), parts[id(effect)], moved_by(parts[id(effect)])) for effect in main[:MOST_CAUSES]
     )
     rest = [effect for effect in (*main[MOST_CAUSES:], *minor) if parts[id(effect)]]
     together = tuple(part for effect in rest for part in parts[id(effect)])
     name = f"{len(rest)} smaller causes together" if len(rest) > 1 else "one smaller cause"
-    smaller = Cause(name, tuple(rest), together, moved_by(together)) if rest else None
+    smaller = Repair(name, tuple(rest), together, moved_by(together)) if rest else None
     left, before = free(verdict.residuals.after[rows]), free(verdict.residuals.before[rows])
     explained = sum((cause.moved for cause in (*causes, *([smaller] if smaller else []))), np.zeros_like(left))
     if not verdict.background.present:  # tiny, and without a line of its own

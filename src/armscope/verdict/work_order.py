@@ -12,9 +12,8 @@ import pandas as pd
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics.scene import Part
-from armscope.verdict.contributions import Cause, Contributions, rms
-from armscope.verdict.schema import INTERVAL, Diagnosis, FoundEffect
-from armscope.verdict.schema import Cause as FoundCause
+from armscope.verdict.contributions import Contributions, Repair, rms
+from armscope.verdict.schema import INTERVAL, Cause, Diagnosis, FoundEffect
 from armscope.verdict.sentences import cure_of_family, phrase
 from armscope.verdict.wording import capitalised, read_parameter, undetermined
 
@@ -93,7 +92,7 @@ def tasks(verdict: Diagnosis, worth: Contributions) -> list[Task]:
     return [*single, *(_calibration(worth, len(single) + 1, cause) for cause in everywhere[:1])]
 
 
-def _calibration(worth: Contributions, number: int, cause: FoundCause) -> Task:
+def _calibration(worth: Contributions, number: int, cause: Cause) -> Task:
     """What takes out the small errors of all joints and links at once."""
     named = sum((each.moved for each in worth.causes), np.zeros_like(worth.left))
     return Task(
@@ -110,7 +109,7 @@ def _calibration(worth: Contributions, number: int, cause: FoundCause) -> Task:
     )
 
 
-def _task(verdict: Diagnosis, worth: Contributions, number: int, cause: Cause, effect: FoundEffect) -> Task:
+def _task(verdict: Diagnosis, worth: Contributions, number: int, cause: Repair, effect: FoundEffect) -> Task:
     change, how = CHANGES.get(effect.effect, ("", ""))
     words = {"location": effect.location, "zero": "–", "ratio": "–", "row": "–", "size": "size not known"}
     words["opposite"] = motion(verdict, cause.parts, -1) or "its opposite"

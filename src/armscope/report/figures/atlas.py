@@ -20,7 +20,7 @@ LEAST_END = 0.05
 
 
 @dataclass(frozen=True)
-class Cell:
+class AtlasCell:
     """A share's text ("" for none), its colour's step (None: there is no such effect), and whether it was named."""
 
     text: str
@@ -38,7 +38,7 @@ class Map:
     """Drivers in words, and by location its cells before any effect and after the fitted model."""
 
     drivers: tuple[str, ...]
-    rows: tuple[tuple[str, tuple[Cell, ...], tuple[Cell, ...]], ...]
+    rows: tuple[tuple[str, tuple[AtlasCell, ...], tuple[AtlasCell, ...]], ...]
 
 
 def attribution(verdict: Diagnosis) -> bool:
@@ -54,7 +54,7 @@ def atlas_map(atlas: Atlas, effects: Sequence[FoundEffect]) -> Map:
     named = {(effect.location, atlas_column(effect)) for effect in effects}
     end = max(LEAST_END, float(np.nanmax(share, initial=0.0)))
 
-    def cells(values: Array, row: int, frames: bool) -> tuple[Cell, ...]:
+    def cells(values: Array, row: int, frames: bool) -> tuple[AtlasCell, ...]:
         return tuple(
             _cell(values[row, column], end, frames and (atlas.locations[row], atlas.drivers[column]) in named)
             for column in columns
@@ -66,10 +66,10 @@ def atlas_map(atlas: Atlas, effects: Sequence[FoundEffect]) -> Map:
     )
 
 
-def _cell(share: float, end: float, named: bool) -> Cell:
+def _cell(share: float, end: float, named: bool) -> AtlasCell:
     if not np.isfinite(share):
-        return Cell("", None, named)
-    return Cell(f"{100 * share:.0f}" if share >= WORTH_A_NUMBER else "", share_level(share / end), named)
+        return AtlasCell("", None, named)
+    return AtlasCell(f"{100 * share:.0f}" if share >= WORTH_A_NUMBER else "", share_level(share / end), named)
 
 
 def _best_direction(values: Array) -> Array:
