@@ -235,6 +235,11 @@ class TellingRules(Constants):
     )
     grid: int = constant(361, "at which a curve is told", "convention: a turn in degrees", unit="points")
     atlas_rows: int = constant(4000, "that the atlas looks at, spread evenly", "judgement: time", unit="rows")
+    undetermined: float = constant(
+        0.7,
+        "of a plausible size, beyond which a value's standard error leaves it undetermined",
+        "derived: the rows then halve what was believed before, at most",
+    )
     chance: float = constant(
         0.99, "with which all agreeing subsets of a verdict stay below the limit", "convention: 99 %"
     )
