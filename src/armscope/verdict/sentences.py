@@ -10,13 +10,13 @@ from armscope.physics.registry import effect_named
 from armscope.verdict.schema import Cause, Diagnosis, FoundEffect, Verdict
 from armscope.verdict.wording import (
     capitalised,
+    implausible,
     main_and_minor,
     millimetres,
     percent,
     plain,
     reach,
     spelled,
-    undetermined,
 )
 
 MOST_TOLD = 3
@@ -196,7 +196,7 @@ def atlas_column(effect: FoundEffect) -> str:
 
 
 def _told(effect: FoundEffect) -> Told:
-    numbers = {p.name: Number(p.value, p.unit, p.stderr) for p in effect.parameters if not undetermined(p, effect)}
+    numbers = {p.name: Number(p.value, p.unit, p.stderr) for p in effect.parameters if not implausible(p, effect)}
     if effect.curve is not None and len(effect.curve.value):
         farthest = reach(effect.curve)
         numbers[farthest.name] = Number(farthest.value, farthest.unit, farthest.stderr)

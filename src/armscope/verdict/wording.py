@@ -152,7 +152,7 @@ made to a few tenths of a mm, mastering is good to a few mrad, steel and alumini
 ABOUT_THE_ARM = ("geometric", "transmission", "thermal", "instrument")
 
 
-def undetermined(parameter: Parameter, effect: FoundEffect) -> bool:
+def implausible(parameter: Parameter, effect: FoundEffect) -> bool:
     """Whether a value can't be told: it lies beyond what arms have, or the rows leave it open beyond that."""
     bound = IMPLAUSIBLE.get(parameter.unit)
     if bound is None or effect.family not in ABOUT_THE_ARM or parameter.name in ("phase", "direction"):

@@ -15,7 +15,7 @@ from armscope.physics.scene import Part
 from armscope.verdict.contributions import Contributions, Repair, rms
 from armscope.verdict.schema import INTERVAL, Cause, Diagnosis, FoundEffect
 from armscope.verdict.sentences import cure_of_family, phrase
-from armscope.verdict.wording import capitalised, read_parameter, undetermined
+from armscope.verdict.wording import capitalised, implausible, read_parameter
 
 CHANGES = {
     "joint_offset": ("mastering", "Set the zero of {location} anew: {zero}."),
@@ -113,7 +113,7 @@ def _task(verdict: Diagnosis, worth: Contributions, number: int, cause: Repair, 
     change, how = CHANGES.get(effect.effect, ("", ""))
     words = {"location": effect.location, "zero": "–", "ratio": "–", "row": "–", "size": "size not known"}
     words["opposite"] = motion(verdict, cause.parts, -1) or "its opposite"
-    told = {p.name: p for p in effect.parameters if not undetermined(p, effect)}
+    told = {p.name: p for p in effect.parameters if not implausible(p, effect)}
     if "offset" in told:
         words["zero"] = f"where the controller shows 0°, the joint stands at {angle(told['offset'].value)}"
     if "compliance" in told:
@@ -144,7 +144,7 @@ def angle(radians: float) -> str:
 
 def _row(effect: FoundEffect) -> Iterator[str]:
     for p in effect.parameters:
-        if undetermined(p, effect):
+        if implausible(p, effect):
             continue
         size = f"{_signed(p.value, 3)} mm" if p.unit == "mm" else angle(p.value)
         yield f"{p.name} = stated {p.name} {size}"
@@ -208,7 +208,7 @@ def zero_offsets(verdict: Diagnosis) -> pd.DataFrame:
     rows = []
     for j in range(1, verdict.model.arm.n_motors + 1):
         found = [p for e in verdict.effects if (e.effect, e.location) == ("joint_offset", f"joint {j}")
-                 for p in e.parameters if p.name == "offset" and not undetermined(p, e)]  # fmt: skip
+                 for p in e.parameters if p.name == "offset" and not implausible(p, e)]  # fmt: skip
         value, half = (found[0].value, INTERVAL * found[0].stderr) if found else (0.0, float("nan"))
         rows.append((f"joint {j}", math.degrees(value), 1e3 * value, 1e3 * half, "named" if found else "not named"))
     columns = ["joint", "actual_minus_commanded_deg", "actual_minus_commanded_mrad", "half_interval_95_mrad", "cause"]
@@ -223,7 +223,7 @@ def corrected_rows(verdict: Diagnosis) -> pd.DataFrame | None:
     rows = []
     for j, stated in enumerate(dh.joints, start=1):
         found = {p.name: p for e in verdict.effects if (e.effect, e.location) == ("link_geometry", f"link {j}")
-                 for p in e.parameters if not undetermined(p, e)}  # fmt: skip
+                 for p in e.parameters if not implausible(p, e)}  # fmt: skip
         row: dict[str, object] = {"row": j, "convention": dh.convention}
         numbers = (stated.a_mm, stated.alpha_deg, stated.d_mm, stated.theta_offset_deg)
         for name, key, value in zip(NUMBERS, ("a", "alpha", "d", "theta"), numbers, strict=True):

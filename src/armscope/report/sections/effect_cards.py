@@ -14,12 +14,12 @@ from armscope.verdict.wording import (
     capitalised,
     effect_in_words,
     evidence_in_words,
+    implausible,
     millimetres,
     percent,
     plain,
     reach,
     read_parameter,
-    undetermined,
 )
 
 MOST_PARAMETERS = 8
@@ -133,7 +133,7 @@ def reading_of(parameter: Parameter, effect: FoundEffect) -> Reading:
     cancelled by others in these poses (d of neighbouring parallel axes, for instance).
     """
     reading = read_parameter(parameter, effect.effect)
-    if undetermined(parameter, effect):
+    if implausible(parameter, effect):
         return Reading(reading.label, "undetermined", "beyond what arms have: it stands in for others")
     lever_mm = {"mm": 1.0, "rad": 1e3}.get(parameter.unit)  # an angle acts at about a metre
     open_mm = parameter.stderr * lever_mm if lever_mm is not None and math.isfinite(parameter.stderr) else 0.0
