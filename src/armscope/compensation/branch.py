@@ -115,9 +115,10 @@ def _from_many_starts(
     nominal: NominalArm, target: Wanted, near: Array, free: NDArray[np.bool_]
 ) -> tuple[Array | None, str]:
     """The solution nearest to ``near`` from starts spread over the limits."""
+    from scipy.stats import qmc  # takes half a second: seldom needed
+
     if np.linalg.norm(target.points[0]) > nominal.arm.reach:
         return None, BEYOND_REACH
-    from scipy.stats import qmc  # takes long to import: only where it is used
 
     limits = np.where(np.isfinite(nominal.arm.limits), nominal.arm.limits, [-np.pi, np.pi])
     starts = qmc.scale(qmc.Halton(nominal.arm.n_motors, scramble=False).random(STARTS), *limits.T)

@@ -161,9 +161,9 @@ class NamingRules(Constants):
         "judgement: the rest is then a tenth",
     )
     main_share: float = constant(
-        0.75,
+        0.9,
         "of a curve of a joint's angle, of what only it explains, that one line or wave must be to be told as that",
-        "judgement: the rest is then half as large as it",
+        "judgement: the rest is then a third as large as it",
     )
     stands_out_nats: float = constant(
         20.0,
@@ -192,7 +192,13 @@ class NamingRules(Constants):
         10.0, "alternatives that lose more are not listed", "judgement: 20000 to 1", unit="nats"
     )
     listed_nats_of_special_cases: float = constant(
-        40.0, "the same for a curve's special cases", "judgement: most of the curve may be one of them", unit="nats"
+        40.0,
+        "the same for a curve's special cases, and for effects of more freedom that fit alike",
+        "judgement: most of the curve may be one of them; what freedom costs is no measurement",
+        unit="nats",
+    )
+    alike_nats: float = constant(
+        1.0, "by which what fits alike may fit worse", "derived: a likelihood ratio of e is no evidence", unit="nats"
     )
     looked_at: int = constant(12, "weighed in an effect's place", "judgement: time", unit="additions")
     coarsely: float = constant(
@@ -235,6 +241,7 @@ class TellingRules(Constants):
     )
     grid: int = constant(361, "at which a curve is told", "convention: a turn in degrees", unit="points")
     atlas_rows: int = constant(4000, "that the atlas looks at, spread evenly", "judgement: time", unit="rows")
+    implausible_values: int = constant(3, "told at most", "judgement: nobody reads more", unit="values")
     undetermined: float = constant(
         0.7,
         "of a plausible size, beyond which a value's standard error leaves it undetermined",

@@ -269,7 +269,7 @@ def _unwound(arm: Arm, q: Array) -> Array:
 
 def _spread(arm: Arm, limits: Array) -> Array:
     """Poses spread evenly between limits (half a turn either way where there are none)."""
-    from scipy.stats import qmc  # takes long to import: only where it is used
+    from scipy.stats import qmc  # takes half a second: seldom needed
 
     low, high = np.where(np.isfinite(limits), limits, [-np.pi, np.pi]).T
     return qmc.scale(qmc.Halton(arm.n_motors, scramble=False).random(CLOUD), low, high)

@@ -13,8 +13,6 @@ from armscope.physics.effect import Placed
 from armscope.physics.scene import Part
 from armscope.verdict.schema import Notice, Parameter
 
-MOST_LISTED = 3
-
 Reading = Callable[[Array], Array]
 
 
@@ -53,9 +51,10 @@ def beyond_plausible(parts: Sequence[Part]) -> Notice | None:
     ]
     if not beyond:
         return None
+    listed = "; ".join(beyond[: TELLING.implausible_values])
     text = (
-        f"Larger than arms show that were built to their drawing: {'; '.join(beyond[:MOST_LISTED])}. Is this "
-        "another model of the arm, another convention of its rows, or a wrong unit?"
+        f"Larger than arms show that were built to their drawing: {listed}. Is this another model of the arm, "
+        "another convention of its rows, or a wrong unit?"
     )
     return Notice("implausible", text)
 
