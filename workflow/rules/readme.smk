@@ -20,18 +20,22 @@ rule example:
         "armscope diagnose {input.recordings} --robot {input.robot} -o {params.folder} --force > {log} 2>&1"
 
 
+# the full proof takes hours, so nothing here runs it: what is there of it is taken, else the README keeps what it says
+PROVEN = [path for path in (f"{PROOF}/full/tables/{name}.csv" for name in ("aims", "worlds")) if Path(path).is_file()]
+
+
 rule readme:
     input:
         claims=f"{PAPER}/claims.csv",
         table2=f"{PAPER}/table2.csv",
-        aims=f"{PROOF}/full/tables/aims.csv",
-        worlds=f"{PROOF}/full/tables/worlds.csv",
+        audit=f"{PAPER}/audit.csv",
         arm=f"{RESULTS}/examples/five-effects/figures/arm.png",
     output:
         touch(f"{RESULTS}/readme.done"),
     params:
         folder=subpath(input.claims, parent=True),
-        proof=subpath(input.aims, parent=True),
+        proof=f"{PROOF}/full/tables",
+        proven=[hashlib.sha256(Path(path).read_bytes()).hexdigest() for path in PROVEN],
         code=code("armscope.cli.paper_pages:readme_"),
     log:
         f"{RESULTS}/logs/readme.log",

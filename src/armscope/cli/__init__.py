@@ -15,6 +15,7 @@ from armscope.cli import (
     compensation,
     diagnosis,
     excite,
+    fleet,
     init,
     outlook,
     paper,
@@ -49,6 +50,7 @@ app.add_typer(
     rich_help_panel=EXPERIMENTS,
 )
 app.add_typer(real.app, name="real", help="Real arms in the reference protocol.", rich_help_panel=EXPERIMENTS)
+app.add_typer(fleet.app, name="fleet", help="Many arms: one diagnosis each, and a page over all.")
 app.add_typer(sweep.app, name="sweep", help="Variants of swarm and model.", rich_help_panel=EXPERIMENTS)
 
 

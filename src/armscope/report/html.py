@@ -88,6 +88,6 @@ def significant(value: float, digits: int = 3) -> str:
     if value == 0:
         return "0"
     if 1e-4 <= abs(value) < 1e5:
-        decimals = max(0, digits - 1 - int(f"{abs(value):e}".split("e")[1]))
+        decimals = max(0, digits - 1 - int(f"{value:.{digits - 1}e}".split("e")[1]))
         return f"{value:.{decimals}f}"
     return f"{value:.{digits - 1}e}"
