@@ -83,6 +83,12 @@ class ScanBudget(Constants):
 
     scanned_rows: int = constant(4000, "looked at, spread evenly", "judgement: time", unit="rows")
     lines_kept: int = constant(2, "per joint that go on to compete", "judgement: time", unit="mesh counts")
+    ordinary_lines: int = constant(
+        128, "up to which lines are scanned in every round", "judgement: time", unit="periods per turn"
+    )
+    scan_of_fine_lines: int = constant(
+        2, "in which finer ones are scanned, too", "judgement: the largest effects are known then; time", unit="round"
+    )
     shortest_piece: int = constant(
         8, "on either side of a jump", "judgement: fewer do not tell a jump from bad shots", unit="rows"
     )
