@@ -8,7 +8,7 @@ rule example:
     output:
         verdict=f"{RESULTS}/examples/{{example}}/verdict.json",
         report=f"{RESULTS}/examples/{{example}}/report.html",
-        arm=f"{RESULTS}/examples/{{example}}/figures/arm.png",
+        arm=f"{RESULTS}/examples/{{example}}/figures/arm.svg",
     params:
         folder=subpath(output.verdict, parent=True),
         code=code("armscope.cli.diagnosis:diagnose"),
@@ -29,7 +29,7 @@ rule readme:
         claims=f"{PAPER}/claims.csv",
         table2=f"{PAPER}/table2.csv",
         audit=f"{PAPER}/audit.csv",
-        arm=f"{RESULTS}/examples/five-effects/figures/arm.png",
+        arm=f"{RESULTS}/examples/five-effects/figures/arm.svg",
     output:
         touch(f"{RESULTS}/readme.done"),
     params:
@@ -42,4 +42,4 @@ rule readme:
     benchmark:
         f"{RESULTS}/logs/benchmarks/readme.tsv"
     shell:
-        "(armscope paper readme README.md {params.folder} {params.proof} && cp {input.arm} docs/figures/five-effects.png) > {log} 2>&1"
+        "(armscope paper readme README.md {params.folder} {params.proof} && cp {input.arm} docs/figures/five-effects.svg) > {log} 2>&1"

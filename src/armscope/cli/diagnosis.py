@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from armscope.cli.commands import Commands, Threads
-from armscope.cli.endings import MISMATCH, UNUSABLE
+from armscope.cli.endings import MISMATCH, UNUSABLE, waiting_since
 
 if TYPE_CHECKING:
     import numpy as np
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from armscope.recordings import Recordings
 
 app = Commands()
+
+PAGES = ("report.html", "work-order.html", "zero_offsets.csv", "corrected_dh.csv")
 
 
 @app.command()
@@ -60,6 +62,7 @@ def diagnose(
     from armscope.cli.robots import print_json, robot_of, table_of
     from armscope.recordings.motions import is_motion_table
 
+    started = waiting_since()
     if is_motion_table(recordings):
         with _progress("diagnosing") as tell:
             mismatch = diagnose_motions(recordings, robot, output, (cutoff, held_out or [], run or []), json, tell)
@@ -78,7 +81,7 @@ def diagnose(
     from armscope.diagnosis import diagnose as diagnose_arm
     from armscope.verdict.files import FILES
 
-    writable(output, *FILES, DOMAIN, "report.html")
+    writable(output, *FILES, DOMAIN, *(PAGES if report else ()))
     if run:
         table = table.rows(_rows_of_runs(table, run))
     if first_id is not None:
@@ -94,7 +97,7 @@ def diagnose(
             from armscope.report.pages.diagnosis import write_report
 
             tell("drawing the report", 0.95)
-            write_report(verdict, output)
+            write_report(verdict, output, started)
     obstacle = verdict.notices[-1:] if verdict.mismatch is None else ()
     for notice in (*(each for each in verdict.notices if each.kind == "check"), *obstacle):
         print(f"note: {notice.text}", file=sys.stderr)

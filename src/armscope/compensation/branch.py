@@ -119,6 +119,7 @@ def _from_many_starts(
 
     if np.linalg.norm(target.points[0]) > nominal.arm.reach:
         return None, BEYOND_REACH
+
     limits = np.where(np.isfinite(nominal.arm.limits), nominal.arm.limits, [-np.pi, np.pi])
     starts = qmc.scale(qmc.Halton(nominal.arm.n_motors, scramble=False).random(STARTS), *limits.T)
     starts = np.where(free, starts, near)

@@ -83,6 +83,12 @@ class ScanBudget(Constants):
 
     scanned_rows: int = constant(4000, "looked at, spread evenly", "judgement: time", unit="rows")
     lines_kept: int = constant(2, "per joint that go on to compete", "judgement: time", unit="mesh counts")
+    ordinary_lines: int = constant(
+        128, "up to which lines are scanned in every round", "judgement: time", unit="periods per turn"
+    )
+    scan_of_fine_lines: int = constant(
+        2, "in which finer ones are scanned, too", "judgement: the largest effects are known then; time", unit="round"
+    )
     shortest_piece: int = constant(
         8, "on either side of a jump", "judgement: fewer do not tell a jump from bad shots", unit="rows"
     )
@@ -247,7 +253,9 @@ class TellingRules(Constants):
         "of a plausible size, beyond which a value's standard error leaves it undetermined",
         "derived: the rows then halve what was believed before, at most",
     )
-    chance: float = constant(0.99, "with which subsets that agree stay below the limit", "convention: 99 %")
+    chance: float = constant(
+        0.99, "with which all agreeing subsets of a verdict stay below the limit", "convention: 99 %"
+    )
     most_payloads: int = constant(6, "compared one by one", "judgement: time", unit="payloads")
     curve_rows: int = constant(
         50_000, "from which the range of what drives a curve is taken, spread evenly", "judgement: memory", unit="rows"
