@@ -6,13 +6,14 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: help reproduce test benchmark proof fuzz clean
+.PHONY: help reproduce test benchmark proof fuzz campaign clean
 help:
 	@echo "make reproduce   the paper, end to end: Table 2, Figs 1-11, claims, report"
 	@echo "make test        lint, types, unit tests, a small run of the whole workflow"
 	@echo "make benchmark   speed beside other packages, as ratios from one run"
 	@echo "make proof       the diagnosis on worlds with concealed effects"
-	@echo "make fuzz        an hour of bad files for every reader (SECONDS=60: a minute)"
+	@echo "make fuzz        an hour of bad files (SECONDS=60: a minute), and 3000 for every reader"
+	@echo "make campaign    what happens when it is broken on purpose (TIMES=1: a few minutes)"
 	@echo "make clean       remove .venv and results"
 
 reproduce: .venv/installed
@@ -43,6 +44,7 @@ proof: .venv/installed
 SECONDS ?= 3600
 fuzz: .venv/installed-test
 	$(BIN)/python -m tests.fuzz --seconds $(SECONDS)
+	$(BIN)/python -m tests.fuzz --files 3000 --seconds 1e6
 
 .venv/bin/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "armscope needs python 3.11 or newer: make PYTHON=/path/to/python3.11"; exit 1; }
@@ -51,6 +53,7 @@ fuzz: .venv/installed-test
 .venv/installed: .venv/bin/python requirements.txt pyproject.toml
 	$(BIN)/pip install --quiet --disable-pip-version-check -r requirements.txt
 	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps --editable .
+	$(BIN)/python -c "from armscope.swarm import kernel; kernel.compile_now()"
 	@touch $@
 
 .venv/installed-test: .venv/installed requirements-test.txt
@@ -67,6 +70,12 @@ fuzz: .venv/installed-test
 	$(PYTHON) -m venv .venv-figaroh
 	.venv-figaroh/bin/pip install --quiet --disable-pip-version-check -r benchmarks/peers/requirements-figaroh.txt
 	@touch $@
+
+# kills, full disks, too little memory, two of everything, SLURM: prints a table, docs/trust.md is made from it
+TIMES ?= 20
+campaign: .venv/installed-test
+	-$(BIN)/pip install --quiet --disable-pip-version-check -r requirements-cluster.txt pip-audit
+	$(BIN)/python -m tests.campaign --times $(TIMES) --page docs/trust.md
 
 clean:
 	rm -rf .venv .venv-peers .venv-figaroh results .snakemake

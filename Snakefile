@@ -24,6 +24,7 @@ include: "workflow/rules/bench.smk"
 include: "workflow/rules/compensation.smk"
 include: "workflow/rules/poses.smk"
 include: "workflow/rules/readme.smk"
+include: "workflow/rules/fleet.smk"
 
 
 # what takes less time than its own submission to a cluster, or needs the network or the checkout itself

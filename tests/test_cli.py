@@ -40,7 +40,6 @@ READERS = [
     "paper sub-volumes BAD --errors BAD -o OUT",
     "paper claims BAD --sensitivity BAD -o OUT",
     "paper reading BAD -o OUT",
-    "paper figure fig04 BAD BAD BAD -o OUT",
     "paper convergence-figure BAD -o OUT",
     "sweep draw BAD -o OUT",
     "poses -r BAD -o OUT.csv",
@@ -53,6 +52,7 @@ READERS = [
     "real protocol RECORDINGS ROBOT BAD -o OUT",
 ]
 FOLDER_READERS = [
+    "paper figure fig04 BAD -o OUT",
     "proof diagnose BAD -o OUT",
     "proof score BAD -o OUT",
     "proof figures BAD -o OUT",

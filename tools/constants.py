@@ -16,7 +16,7 @@ import armscope
 from armscope.core.constants import BASES, Constants, entries
 
 PAGE = Path(__file__).parents[1] / "docs" / "constants.md"
-ROOMS = ("measurement", "inference", "fitting", "diagnosis")
+ROOMS = ("measurement", "inference", "fitting", "diagnosis", "motion")
 HEAD = """# Numbers that decide
 
 Made from the code by `python -m tools.constants`. A number is *measured* (an experiment is named), *derived* (a

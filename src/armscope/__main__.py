@@ -1,16 +1,18 @@
 """`python -m armscope` and the command `armscope`: even while it imports, Ctrl-C is answered in one line."""
 
 import sys
+import time
 
 
 def main() -> None:
     """Run the command line."""
+    started = time.time()
     try:
         from armscope.cli import main as run
     except KeyboardInterrupt:
         print("armscope: interrupted; nothing was left half-written", file=sys.stderr)
         sys.exit(130)
-    run()
+    run(started)
 
 
 if __name__ == "__main__":

@@ -16,10 +16,12 @@ from armscope.physics.model import predict
 from armscope.physics.model_file import load_model
 from armscope.real.reference import load_reference
 from armscope.recordings import read_recordings
+from armscope.recordings.importing.draft import draft_mapping
 from armscope.recordings.importing.fetching import load_source
 from armscope.recordings.importing.mapping import load_mapping
 from armscope.recordings.importing.tables import import_recordings
 from armscope.robot import chain, load_arm
+from armscope.robot.dh_table import parse_dh_table
 from armscope.verdict.files import read_verdict
 
 ROOT = Path(__file__).parents[2]
@@ -109,9 +111,24 @@ def _seeds(*patterns: str) -> tuple[Path, ...]:
     return found
 
 
+def _first_urdf(path: Path) -> None:
+    _arm(path)
+
+
+def _pasted(path: Path) -> None:
+    try:
+        text = path.read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        return  # standard input is decoded before it is read
+    parse_dh_table(text, "arm")
+
+
 READERS = {
     "robot.yaml": Reader(_arm, _seeds("config/robots/*.yaml", "examples/*/robot.yaml")),
     "urdf": Reader(_arm_of_urdf, (URDF,)),
+    "urdf alone": Reader(_first_urdf, (URDF,)),
+    "dh table": Reader(_pasted, _seeds("tests/fuzz/corpus/dh/*")),
+    "foreign.csv": Reader(draft_mapping, (RAW, EXAMPLE / "recordings.csv")),
     "recordings.csv": Reader(_recordings, _seeds("tests/fuzz/corpus/recordings/*")),
     "poses.csv": Reader(_poses, _seeds("tests/fuzz/corpus/path/*")),
     "path.csv": Reader(_path, _seeds("tests/fuzz/corpus/path/*")),

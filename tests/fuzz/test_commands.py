@@ -24,6 +24,10 @@ LINES = [
     ("recordings.csv", "fit-error-model BAD -r ROBOT -o OUT.json"),
     ("mapping.yaml", "import RAW -m BAD -o OUT.csv.gz"),
     ("source.yaml", "fetch BAD -o OUT --recordings-dir ."),
+    ("urdf", "check RECORDINGS -r BAD"),
+    ("urdf", "init BAD -o OUT.yaml"),
+    ("foreign.csv", "init BAD -o OUT.yaml"),
+    ("recordings.csv", "compare RECORDINGS BAD -r ROBOT -o OUT"),
     ("recordings.csv", "calibrate BAD -r ROBOT -o OUT --splits 0"),
 ]
 

@@ -10,8 +10,8 @@ PARALLEL = [{"proof", "real"}, {"report", "proof"}, {"report", "real"}, {"report
 """Rooms that do the same to different things, or draw what the other computes."""
 SAME_OF_MANY = {"schema", "draw_all"}
 """Of each file format its schema, of each set of figures all of it."""
-OF_THEIR_OWN = {"cli", "world"}
-"""Commands are named as what they call; worlds have an engine of their own that shares the field's words, no code."""
+OF_THEIR_OWN = {"cli", "notebook", "world"}
+"""Commands, also as functions, are named as what they call; worlds share the field's words, and no code."""
 STILL_TWICE = {
     *("Alternative", "Curve", "FittedModel", "HeldOut", "Orientations", "RealArm", "columns"),
     *("curve_of", "evaluate", "headline", "held_out", "moved_base", "split"),

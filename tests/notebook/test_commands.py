@@ -48,9 +48,9 @@ def test_it_predicts_what_the_command_does(found):
 
 
 def test_it_draws_and_names_the_figures_that_there_are(found):
-    assert found.plot().axes
-    with pytest.raises(InputError, match=r"'atlass'.*'atlas'"):
-        found.plot("atlass")
+    assert found.plot()._repr_svg_().startswith("<svg")
+    with pytest.raises(InputError, match=r"'armm'.*'arm'"):
+        found.plot("armm")
 
 
 def test_it_compensates_and_chooses(found):

@@ -6,7 +6,7 @@ import pytest
 
 from armscope.errormodels import FDP_AI, FDP_CI, FOURIER_2_AI, POLYNOMIAL_4_AI, SDP_AI, SDP_CI, fit_swarms
 from armscope.paper.residuals import residual_table
-from armscope.paper.virtual import identification_poses, measure_virtual, paper_paths_mm, trajectory_poses
+from armscope.paper.virtual import PlannedPaths, PlannedPoses, identification_poses, measure_virtual, trajectory_poses
 from armscope.robot import load_arm
 from armscope.world.tolerances import geometric_errors
 from armscope.world.tracker import Tracker
@@ -30,12 +30,12 @@ def errors(arm):
 
 @pytest.fixture(scope="session")
 def trajectories(arm):
-    return trajectory_poses(arm, paper_paths_mm(CORNERS_MM, 50, STARTS_MM, 20, 5, 200, 400))
+    return trajectory_poses(arm, PlannedPaths(CORNERS_MM, 50, STARTS_MM, 20, 5, 200, 400).by_name())
 
 
 @pytest.fixture(scope="session")
 def identification(errors, trajectories):
-    return identification_poses(errors, trajectories, 85, 1000, 0.1, 3.1, seed=1)
+    return identification_poses(errors, trajectories, PlannedPoses(85, 1000, 0.1, 3.1), seed=1)
 
 
 @pytest.fixture(scope="session")

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from armscope.core.inputs import InputError
-from armscope.errormodels import FDP_AI, FDP_CI
+from armscope.errormodels import FDP_AI, FDP_CI, ModelSpec
 from armscope.paper.enough_poses import COUNTS, enough_poses, smallest_sufficient
 from armscope.paper.method import method_table
 from armscope.paper.scenarios import JOINTLY, Varied, check_reach, scenarios
@@ -103,6 +103,15 @@ def test_the_method_table_has_every_combination_and_least_squares_below_all(stud
     assert set(claims["key"]) == {"alternative", "iterations"}
     one = table.set_index(["basis", "layout", "update", "model"])["excess_median"]
     assert one["raw", "joint", "original", "FDP(CI)"] > 10 > one["qr", "per axis", "constriction", "FDP(CI)"]
+
+
+def test_a_model_of_which_nothing_is_claimed_stands_in_the_method_table_alone(study):
+    robots = list(study.measurements.robots[1:2])
+    third = ModelSpec("polynomial", 3, "angular")
+    table, claims = method_table(study.measurements, (third,), robots, [1], SwarmSettings(particles=10, iterations=5))
+    assert set(table["model"]) == {third.name}
+    assert claims.empty
+    assert {"key", "share", "share_low"} <= set(claims.columns)
 
 
 def test_planted_reasons_are_found_and_chance_is_none():

@@ -9,7 +9,7 @@ from armscope.errormodels import FDP_CI
 from armscope.paper.anchoring import anchor
 from armscope.paper.measurements import Measurements, pose_arrays
 from armscope.paper.printed import printed_matrix
-from armscope.paper.virtual import paper_paths_mm, trajectory_poses
+from armscope.paper.virtual import PlannedPaths, trajectory_poses
 from armscope.robot import forward_kinematics
 from tests.paper.conftest import CORNERS_MM, ENSEMBLE, STARTS_MM
 
@@ -24,7 +24,7 @@ def test_trajectories_are_reached_with_the_wrist_held(arm, trajectories):
 
 
 def test_an_unreachable_trajectory_is_one_error_that_names_it(arm):
-    paths = paper_paths_mm(CORNERS_MM, 50, STARTS_MM, 20, 5, 200, 6000)
+    paths = PlannedPaths(CORNERS_MM, 50, STARTS_MM, 20, 5, 200, 6000).by_name()
     with pytest.raises(InputError, match=r"trajectory test 2: point \d+: found '.* mm: beyond reach'"):
         trajectory_poses(arm, paths)
 

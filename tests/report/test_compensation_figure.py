@@ -5,6 +5,7 @@ import pytest
 
 from armscope.compensation.closed_loop import NO_MODEL, cross_table
 from armscope.errormodels import FDP_CI, FOURIER_2_AI, fit_swarms
+from armscope.errormodels.extended import ModelSet
 from armscope.paper.closed_loop import paper_closed_loop
 from armscope.paper.measurements import Measurements, PoseSet
 from armscope.paper.outlook import paper_products, paper_regions
@@ -34,7 +35,9 @@ def study():
 def test_cross_table_and_its_figure_show_every_model(study, tmp_path):
     arm, measurements, errors = study
     fits = fit_swarms(measurements.fit_problems([FDP_CI], ["anchored"]), [0])
-    table = cross_table(paper_closed_loop(arm, measurements, fits, errors, [FOURIER_2_AI], diagnosed=False))
+    table = cross_table(
+        paper_closed_loop(arm, measurements, fits, errors, ModelSet(products=(FOURIER_2_AI,)), diagnosed=False)
+    )
     rms = table[(table["axis"] == "3D") & (table["stage"] == "closed loop")].set_index("model")["rms_mm"]
     assert list(rms.index) == [NO_MODEL, "FDP(CI)", "Fourier 2 (AI) with products"]
     assert rms["Fourier 2 (AI) with products"] < 0.5 * rms["FDP(CI)"] < 0.25 * rms[NO_MODEL]

@@ -1,29 +1,37 @@
-import matplotlib.pyplot as plt
-import numpy as np
-import pandas as pd
-import pytest
-from matplotlib.colors import to_rgb
+import re
+import xml.etree.ElementTree as ET
 
-from armscope.core.sampling import spread_evenly
+import numpy as np
+import pytest
+
+from armscope.report.colours import SHARES, SIGNED, UNTOUCHED, between, page_variables, scale_end, share_colour
 from armscope.report.figures.along_joints import draw_along_joints, running_mean
 from armscope.report.figures.arm import location_shares
-from armscope.report.figures.arm_picture import draw_arm, share_colours, shares_by_place
-from armscope.report.figures.arm_shape import arm_shape, typical_pose
-from armscope.report.figures.atlas import atlas_tables, draw_atlas
-from armscope.report.figures.effect_curve import curve_of
+from armscope.report.figures.arm_picture import draw_arm
+from armscope.report.figures.arm_shape import arm_shape, shares_by_place, typical_pose
+from armscope.report.figures.atlas import atlas_map
+from armscope.report.figures.effect_curve import curve_of, draw_curves
 from armscope.report.figures.next_poses import draw_poses
-from armscope.report.figures.residual_vectors import draw_vectors, nice
 from armscope.report.figures.waterfall import draw_waterfall, gathered, waterfall_steps
+from armscope.report.svg import Drawing, nice, ticks
 from armscope.robot import load_arm
 from armscope.verdict.schema import Parameter
 from tests.report import verdicts
 from tests.report.verdicts import ROBOTS, found
 
+SVG = "{http://www.w3.org/2000/svg}"
 
-@pytest.fixture(autouse=True)
-def _close_figures():
-    yield
-    plt.close("all")
+
+def shapes(figure, kind="path"):
+    return list(ET.fromstring(figure.svg()).iter(f"{SVG}{kind}"))
+
+
+def texts(figure):
+    return [text.text for text in shapes(figure, "text")]
+
+
+def points(path):
+    return np.array([[float(n) for n in pair.split()] for pair in re.findall(r"-?[0-9.]+ -?[0-9.]+", path.get("d"))])
 
 
 @pytest.fixture(scope="module")
@@ -36,21 +44,17 @@ def angles(arm):
     return np.random.default_rng(3).uniform(-1, 1, (30, arm.n_motors))
 
 
-def texts(figure):
-    return [text.get_text() for axes in figure.axes for text in axes.texts]
-
-
-def faces(figure):
-    return [tuple(np.round(patch.get_facecolor()[:3], 6)) for patch in figure.axes[0].patches]
-
-
-def test_the_guilty_joint_is_the_darkest_patch_and_says_its_share(arm, angles):
+def test_the_guilty_joint_has_the_darkest_face_and_says_its_share(arm, angles):
     figure = draw_arm(arm, angles, {"joint 2": 0.6, "link 3": 0.1})
-    darkest = tuple(np.round(to_rgb(share_colours()(1.0)), 6))
-    (patch,) = [patch for patch, face in zip(figure.axes[0].patches, faces(figure), strict=True) if face == darkest]
+    worst = [path for path in shapes(figure) if path.get("fill") == share_colour(1.0)]
+    assert len(worst) == 2, "the side and the face of one disc"
     row, view = typical_pose(arm, angles)
-    centres = view.flat(arm_shape(arm, angles[row]).centres)
-    assert np.argmin(np.linalg.norm(centres - patch.get_xy().mean(axis=0), axis=1)) == 1
+    centres = view.flat(arm_shape(arm, angles[row]).centres) * [1, -1]
+    faces = [points(path) for path in shapes(figure) if path.get("stroke-width") == "0.9" and len(points(path)) == 36]
+    drawn = np.array([face.mean(axis=0) for face in faces])
+    scale = np.ptp(drawn, axis=0).max() / np.ptp(centres, axis=0).max()
+    at = points(worst[1]).mean(axis=0) - drawn.mean(axis=0)
+    assert np.argmin(np.linalg.norm(scale * (centres - centres.mean(axis=0)) - at, axis=1)) == 1
     assert "J2  60 %" in texts(figure)
     assert "L3  10 %" in texts(figure)
     assert "J4" in texts(figure)
@@ -58,7 +62,9 @@ def test_the_guilty_joint_is_the_darkest_patch_and_says_its_share(arm, angles):
 
 def test_an_arm_without_fault_is_drawn_without_colours_and_without_a_colour_bar(arm, angles):
     figure = draw_arm(arm, angles, {})
-    assert len(figure.axes) == 1
+    assert not shapes(figure, "rect")
+    assert not any("--s" in path.get("fill") for path in shapes(figure))
+    assert any(path.get("fill") == UNTOUCHED for path in shapes(figure))
     assert not any("%" in text for text in texts(figure))
 
 
@@ -77,9 +83,23 @@ def test_a_coupling_counts_with_the_joint_that_it_turns():
 
 def test_colours_grow_darker_evenly():
     """Lightness must tell the share without hue, and fall monotonically."""
-    red, green, blue = share_colours()(np.linspace(0, 1, 50))[:, :3].T
+    colours = [between(SHARES, part) for part in np.linspace(0, 1, 50)]
+    red, green, blue = np.array([[int(colour[at : at + 2], 16) / 255 for at in (1, 3, 5)] for colour in colours]).T
     lightness = 0.2126 * red**2.2 + 0.7152 * green**2.2 + 0.0722 * blue**2.2
     assert np.all(np.diff(lightness) < 0)
+
+
+def test_a_dark_page_turns_the_scale_round():
+    light, dark = page_variables().split("@media")
+    assert f"--s0: {SHARES[0]};" in light
+    assert f"--s0: {SHARES[-1]};" in dark
+
+
+def test_a_colour_between_two_lies_between_them():
+    assert between(SIGNED, 0) == SIGNED[0]
+    assert between(SIGNED, 1) == SIGNED[-1]
+    assert between(("#000000", "#646464"), 0.25) == "#191919"
+    assert [scale_end(share) for share in (0, 0.03, 0.41, 2)] == [0, 0.05, 0.6, 2]
 
 
 def test_a_curve_and_its_summary_are_not_counted_twice():
@@ -96,25 +116,20 @@ def test_what_is_left_unexplained_colours_its_place():
     assert shares["base"] == pytest.approx((0.05 / case.verdict.residual_before_mm) ** 2)
 
 
-def test_the_atlas_writes_numbers_only_where_they_matter():
-    shares = pd.DataFrame({"load": [0.42, 0.004], "angle": [np.nan, 0.07]}, index=["joint 1", "joint 2"])
-    figure = draw_atlas(shares, marked=[("joint 1", "load"), ("joint 9", "load")])
-    assert sorted(texts(figure)) == ["42", "7"]
-    frames = [patch for patch in figure.axes[0].patches if not patch.get_fill()]
-    assert [patch.get_xy() for patch in frames] == [(-0.5, -0.5)]
-
-
 def test_the_atlas_takes_the_best_direction_and_leaves_out_what_does_not_exist():
     case = verdicts.single()
     share = np.full((2, 6, 3), np.nan)
     share[0, :, 0] = [0.1, 0.3, 0.2, 0, 0, 0]
     share[1, 4, 2] = 0.5
-    atlas = verdicts.Atlas(("base", "joint 1"), ("tx",) * 6, ("constant", "speed", "gravity load"), share, share / 2)
-    table, left, marked = atlas_tables(atlas, case.verdict.effects)
-    assert list(table.columns) == ["constant", "gravity load"]
-    assert table.loc["base", "constant"] == 0.3
-    assert left.loc["joint 1", "gravity load"] == 0.25
-    assert marked == [("joint 2", "gravity load")]
+    atlas = verdicts.Atlas(("base", "joint 2"), ("tx",) * 6, ("constant", "speed", "gravity load"), share, share / 20)
+    shown = atlas_map(atlas, case.verdict.effects)
+    assert shown.drivers == ("constant", "gravity load")
+    (base, before, _), (joint, loaded, left) = shown.rows
+    assert (base, joint) == ("base", "joint 2")
+    assert before[0].text == "30"
+    assert before[1].level is None
+    assert (loaded[1].text, loaded[1].named, loaded[1].level) == ("50", True, len(SHARES) - 1)
+    assert (left[1].text, left[1].named) == ("", False), "numbers stand only where they matter"
 
 
 @pytest.mark.parametrize(
@@ -126,24 +141,35 @@ def test_the_atlas_takes_the_best_direction_and_leaves_out_what_does_not_exist()
     ],
 )
 def test_named_effects_are_framed_where_the_atlas_shows_them(effect, location, cell):
-    atlas = verdicts.case(effects=()).verdict.atlas
-    atlas = verdicts.Atlas(("base", *(f"joint {j}" for j in range(1, 7))), *list(vars(atlas).values())[1:3],
-                           atlas.share[:7], atlas.left[:7])  # fmt: skip
-    assert atlas_tables(atlas, [found(effect, location)])[2] == [cell]
+    places = ("base", *(f"{kind} {j}" for kind in ("joint", "link") for j in range(1, 7)))
+    share = np.full((len(places), 1, len(verdicts.DRIVERS)), 0.2)
+    shown = atlas_map(verdicts.Atlas(places, ("rz",), verdicts.DRIVERS, share, share), [found(effect, location)])
+    named = [
+        (place, driver)
+        for place, before, _ in shown.rows
+        for driver, each in zip(shown.drivers, before, strict=True)
+        if each.named
+    ]
+    assert named == [cell]
+    assert not any(each.named for _, _, after in shown.rows for each in after)
 
 
 def test_a_wave_of_unknown_count_is_framed_nowhere():
     atlas = verdicts.case(effects=()).verdict.atlas
     mesh = found("gear_mesh", "joint 1", Parameter("per_turn", "1/turn", 37, 0))
-    assert atlas_tables(atlas, [mesh])[2] == []
+    assert not any(each.named for _, before, _ in atlas_map(atlas, [mesh]).rows for each in before)
 
 
 def test_the_waterfall_ends_at_the_last_step_and_shows_the_noise():
     figure = draw_waterfall([("start", 0.8), ("+ a", 0.3), ("+ b", 0.04)], 0.03, [("poly", 0.5), ("wild", 40.0)])
     assert {"0.800 mm", "0.300 mm", "0.040 mm", "0.500 mm", "noise 0.030 mm", "40.00 mm →"} <= set(texts(figure))
-    lines = [line.get_xdata()[0] for line in figure.axes[0].lines if line.get_linestyle() == "--"]
-    assert lines == [0.03]
-    assert figure.axes[0].get_xlim()[1] < 2
+    bars = [(float(bar.get("x")), float(bar.get("width"))) for bar in shapes(figure, "rect")]
+    zero, scale = bars[0][0], bars[0][1] / 0.8
+    ends = [(round((x - zero) / scale, 3), round((x + wide - zero) / scale, 3)) for x, wide in bars]
+    assert np.allclose(ends[:5], [(0, 0.8), (0, 0.3), (0.3, 0.8), (0, 0.04), (0.04, 0.3)], atol=2e-3)
+    (noise,) = (points(path) for path in shapes(figure) if path.get("stroke-dasharray"))
+    assert (noise[0, 0] - zero) / scale == pytest.approx(0.03, abs=2e-3)
+    assert max(x + wide for x, wide in bars) <= figure.width
 
 
 def test_steps_are_in_words_and_a_step_that_nobody_asked_for_is_left_out():
@@ -164,28 +190,6 @@ def test_minor_steps_in_a_row_are_drawn_as_one():
     assert drawn[4].held_out_mm == 0.5
 
 
-def test_arrows_have_the_stated_scale_and_long_tables_are_thinned():
-    random = np.random.default_rng(0)
-    points = random.uniform(-1, 1, (12_000, 3))
-    before = random.normal(0, 0.1, points.shape)
-    figure = draw_vectors(points, before, 0.1 * before)
-    quivers = [c for axes in figure.axes[:4] for c in axes.collections if hasattr(c, "U")]
-    assert [quiver.N for quiver in quivers] == [350] * 4
-    rows = spread_evenly(12_000, 350)
-    factor = float(figure.get_suptitle().split("drawn ")[1].split(" times")[0])
-    assert np.allclose(quivers[0].U, factor * before[rows, 0])
-    assert np.allclose(quivers[1].U, 0.1 * factor * before[rows, 0])
-
-
-def test_the_side_view_shows_what_sags_as_pointing_down_and_what_stretches_as_pointing_out():
-    points = np.array([[1.0, 0, 1], [0, 1, 1], [-1, 0, 1]])
-    outwards_and_down = np.array([[0.2, 0, -0.5], [0, 0.2, -0.5], [-0.2, 0, -0.5]])
-    figure = draw_vectors(points, outwards_and_down, outwards_and_down)
-    side = next(c for c in figure.axes[2].collections if hasattr(c, "U"))
-    assert np.ptp(side.U) < 1e-9
-    assert side.U[0] > 0 > side.V[0]
-
-
 def test_a_joints_own_error_shows_in_its_own_panel():
     random = np.random.default_rng(0)
     angles = random.uniform(-2, 2, (400, 2))
@@ -194,10 +198,11 @@ def test_a_joints_own_error_shows_in_its_own_panel():
     residual = np.zeros((400, 3))
     residual[:, 0] = np.sin(angles[:, 0])
     figure = draw_along_joints(angles, jacobian, residual, 0 * residual)
-    curve = {line.get_label(): line for line in figure.axes[0].lines}["before"]
-    assert np.allclose(curve.get_ydata(), np.sin(np.radians(curve.get_xdata())), atol=0.06)
-    other = {line.get_label(): line for line in figure.axes[1].lines}["before"]
-    assert np.abs(other.get_ydata()).max() < 0.3
+    lines = [points(path) for path in shapes(figure) if path.get("stroke-width") == "2.2" and path.get("fill")]
+    own, flat, other, _ = [line[:, 1] for line in lines[:4]]
+    assert np.ptp(own) > 10 * np.ptp(flat)
+    assert np.ptp(own) > 3 * np.ptp(other)
+    assert np.argmin(own) > np.argmax(own), "up is positive: the sine is lowest at -90 and highest at +90 degrees"
 
 
 def test_a_running_mean_is_the_mean_of_equal_groups():
@@ -212,8 +217,19 @@ def test_nice_numbers_do_not_exceed_what_they_round(value, step):
 
 
 def test_poses_to_measure_are_drawn_up_to_eight(arm, angles):
-    figure = draw_poses(arm, angles[:12])
-    assert [axes.get_title() for axes in figure.axes] == [f"pose {n}" for n in range(1, 9)]
+    assert texts(draw_poses(arm, angles[:12])) == [f"pose {n}" for n in range(1, 9)]
+
+
+def test_no_ones_name_ends_a_drawing():
+    drawing = Drawing(10, 10, '"><script>')
+    drawing.text((1, 1), "<b>&$")
+    assert texts(drawing) == ["<b>&$"]
+    assert "<script>" not in drawing.svg()
+
+
+def test_ticks_are_round_and_within():
+    assert ticks(-0.32, 0.29) == pytest.approx([-0.3, -0.2, -0.1, 0, 0.1, 0.2])
+    assert ticks(0, float("nan")) == []
 
 
 def test_a_curve_is_drawn_in_degrees_with_the_95_percent_band():
@@ -223,3 +239,12 @@ def test_a_curve_is_drawn_in_degrees_with_the_95_percent_band():
     assert curve.y_label == "joint 4 turns by (µrad)"
     assert np.allclose(curve.high - curve.value, 1.96 * 12, rtol=1e-3)
     assert curve.value.max() == pytest.approx(150, rel=0.01)
+
+
+def test_a_curve_is_drawn_where_its_numbers_are():
+    effect = verdicts.unknown_curve()
+    figure = draw_curves([curve_of(effect, effect.curve)])
+    (line,) = [points(path) for path in shapes(figure) if path.get("stroke-width") == "2"]
+    top = line[np.argmin(line[:, 1]), 0]
+    peak = np.interp(0.8, (-np.pi, np.pi), (line[0, 0], line[-1, 0]))
+    assert top == pytest.approx(peak, abs=3)

@@ -3,7 +3,6 @@ import re
 import shutil
 import subprocess
 
-import numpy as np
 import pytest
 
 from armscope.report.pages.diagnosis import write_report
@@ -11,7 +10,6 @@ from armscope.report.sections.assumed import assumptions
 from armscope.report.sections.registry import SECTIONS
 from armscope.verdict.sentences import headline
 from tests.report import verdicts
-from tests.report.test_error_field import browsed
 from tests.report.verdicts import CASES
 
 PAGES = ["five", "clean", "unknowns", "cannot_tell"]
@@ -78,7 +76,7 @@ def written(request, pages):
 
 def test_the_page_needs_nothing_but_itself(written):
     _, _, source, page = written
-    assert all(ref.startswith(("data:image/", "#")) for ref in page.references)
+    assert all(ref.startswith("#") or ref == "work-order.html" for ref in page.references)
     assert not {"link", "iframe", "object"} & set(page.tags)
     assert "default-src 'none'" in source.split("<title>")[0]  # the browser itself refuses to fetch anything
     style = source.split("<style>", 1)[1].split("</style>")[0]
@@ -96,7 +94,7 @@ def test_every_link_inside_the_page_leads_somewhere(written):
 def test_the_answer_stands_first(written):
     case, _, _, page = written
     sentence = headline(case.verdict)
-    assert page.words.find(sentence) < 400
+    assert 0 <= page.words.find(sentence) < 400
     assert sentence in page.words
 
 
@@ -115,10 +113,13 @@ def test_the_figures_are_files_too(written):
     case, path, _, page = written
     figures = path.parent / "figures"
     names = {file.stem for file in figures.iterdir()}
-    assert {"arm", "atlas", "vectors", "along_joints"} <= names
+    assert {"arm", "along_joints"} <= names
     assert ("waterfall" in names) == bool(case.verdict.waterfall)
-    assert all((figures / f"{name}{suffix}").stat().st_size > 3000 for name in names for suffix in (".png", ".svg"))
-    assert page.tags.count("img") == len(names)
+    for file in figures.iterdir():
+        assert file.suffix == ".svg"
+        drawn = file.read_text().replace(' style="background: #fff"', "")
+        assert drawn in path.read_text(), "the page shows what the file holds"
+    assert page.tags.count("img") == 0
 
 
 def test_suspect_rows_and_next_poses_are_listed(pages):
@@ -159,7 +160,8 @@ def test_where_nothing_was_fitted_nothing_is_promised(pages):
     """No model, no number for it, no validation, no advice to act on."""
     page = Page(pages("cannot_tell").read_text())
     assert "No effect was fitted" in page.words
-    assert "mismatch with the fitted model" not in page.words
+    assert "error with the fitted model" not in page.words
+    assert "What to do" not in page.words
 
 
 def test_the_same_verdict_gives_the_same_page(pages, tmp_path):
@@ -170,11 +172,14 @@ def test_the_same_verdict_gives_the_same_page(pages, tmp_path):
 
 MEASURE = """<script>addEventListener("load", () => {
   const wide = [...document.querySelectorAll("main *")].filter(e => !e.closest(".scroll, .wide")
-    && e.getBoundingClientRect().right > innerWidth + 1).length;
-  const broken = [...document.images].filter(i => !i.complete || i.naturalWidth < 100).length;
+    && !e.closest("svg") && e.getBoundingClientRect().right > innerWidth + 1).length;
+  const high = document.documentElement.scrollHeight;
+  document.querySelectorAll("details").forEach(d => { d.open = true; });
+  const drawn = [...document.querySelectorAll(".wide svg")];
+  const broken = drawn.filter(i => i.getBoundingClientRect().width < 100).length;
   document.querySelectorAll("figure.field").forEach(f => f.field.draw());
-  document.body.innerHTML = `MEASURED ${wide} too wide, ${broken} broken of ${document.images.length}, `
-    + `${document.documentElement.scrollWidth <= innerWidth} at ${innerWidth}`;
+  document.body.innerHTML = `MEASURED ${wide} too wide, ${broken} broken of ${drawn.length}, `
+    + `${document.documentElement.scrollWidth <= innerWidth} at ${innerWidth}, ${high} high`;
 });</script>"""
 
 
@@ -203,37 +208,40 @@ def test_a_browser_shows_it_whole_at_desktop_and_narrow_width(five, tmp_path, wi
     assert f"MEASURED 0 too wide, 0 broken of {images}, true at {width}" in done.stdout, done.stderr[-500:]
 
 
-LISTEN = """<script>
-const heard = [];
-addEventListener("error", e => heard.push(e.message));
-addEventListener("securitypolicyviolation", e => heard.push("asked for " + e.blockedURI));
-addEventListener("load", () => {
-  const field = document.querySelector("figure.field").field, stage = document.getElementById("field-stage");
-  const told = () => document.querySelector(".field-told").textContent, before = told();
-  stage.value = 1; stage.dispatchEvent(new Event("change"));
-  const result = { heard, before, after: told(), count: field.count, suspects: [...field.suspects.keys()] };
-  const node = Object.assign(document.createElement("pre"), { id: "result", textContent: JSON.stringify(result) });
-  document.body.replaceChildren(node);
-});</script>"""
+ABOVE_THE_FOLD = ("nats", "driver", "posture to posture", "everywhere")
 
 
-@pytest.mark.browser
-@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
-def test_the_error_field_of_a_report_says_what_the_verdict_says(five, tmp_path):
-    verdict = CASES["five"]().verdict
-    seen = browsed(five, tmp_path, LISTEN)
-    assert seen["heard"] == []
-    assert seen["count"] == verdict.rows
-    assert len(seen["suspects"]) == len(verdict.suspects)
-    for name in ("before", "after"):
-        rms = np.sqrt(np.mean(np.sum(getattr(verdict.residuals, name) ** 2, axis=1)))
-        assert f"RMS {rms:.3g} mm 3D distance" in seen[name]
+def test_plain_words_stand_above_the_fold(written):
+    """Up to where the trouble is: what a service engineer reads first."""
+    page = written[3]
+    first = page.words[: page.words.index("The arm in one of the recorded poses")].lower()
+    assert [word for word in ABOVE_THE_FOLD if word in first] == []
+
+
+def test_explained_never_stands_beside_more_than_noise(tmp_path):
+    told = verdicts.Notice("model error", "What is left is more than noise, and no effect explains it: joint 2 errs.")
+    case = verdicts.case(effects=(verdicts.compliance(),), notices=(told,))
+    source = write_report(case.verdict, tmp_path).read_text()
+    assert '<span class="tag depends">partly explained</span>' in source
+    assert 'class="tag holds"' not in source.split("<body>")[1]
+
+
+def test_a_value_beyond_what_arms_have_is_not_printed(tmp_path):
+    numbers = verdicts.Parameter("a", "mm", 844.0, 65.0), verdicts.Parameter("alpha", "rad", 7e-4, 1e-5)
+    case = verdicts.case(effects=(verdicts.found("link_geometry", "link 2", *numbers),))
+    path = write_report(case.verdict, tmp_path)
+    for page in (path, path.with_name("work-order.html"), path.with_name("corrected_dh.csv")):
+        assert "844" not in page.read_text().split("application/json")[0]
+    assert "undetermined" in path.read_text()
+    assert "844" not in case.verdict.headline
 
 
 def test_every_section_that_applies_stands_on_the_page_in_its_order_and_is_linked(written):
     case, _, _, page = written
     wanted = [section.name for section in SECTIONS if section.applies(case.verdict)]
-    assert [name for name in page.ids if name in {section.name for section in SECTIONS}] == wanted
+    folded = {section.name for section in SECTIONS if section.folded}
+    shown = [name for name in page.ids if name in {section.name for section in SECTIONS}]
+    assert shown == sorted(wanted, key=folded.__contains__), "what is folded stands below"
     assert [ref[1:] for ref in page.references if ref[1:] in wanted][: len(wanted)] == wanted
 
 

@@ -282,7 +282,7 @@ def test_a_number_that_the_poses_leave_open_gets_no_digits():
     effect = found("link_geometry", "link 3", Parameter("a", "mm", 0.6, 0.02), Parameter("d", "mm", -0.01, 40.0))
     told = {reading.label: reading for reading in card(effect, 1).readings}
     assert told["length a"].value == "0.600 mm"
-    assert told["length d"].value == "left open"
+    assert told["length d"].value == "undetermined"
 
 
 def test_an_effect_that_resampling_rarely_finds_is_said_to_be_one_way_of_putting_it():

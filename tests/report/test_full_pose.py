@@ -5,6 +5,7 @@ import pytest
 
 from armscope.compensation.closed_loop import NO_MODEL
 from armscope.errormodels import FDP_CI, FOURIER_2_AI
+from armscope.errormodels.extended import ModelSet
 from armscope.paper.full_pose import BENT_WRIST, paper_full_pose
 from armscope.paper.measurements import Measurements, PoseSet
 from armscope.robot import chain
@@ -24,7 +25,8 @@ def table():
         nominal = chain(arm, angles).tool * 1e3
         sets.append(PoseSet(name, angles, nominal, np.zeros((1, *nominal.shape))))
     measurements = Measurements(("anchored",), tuple(sets))
-    found = paper_full_pose(arm, measurements, errors, [FDP_CI], [FOURIER_2_AI], [(FDP_CI, 2)], seed=1, diagnosed=False)
+    models = ModelSet((FDP_CI,), (FOURIER_2_AI,), ((FDP_CI, 2),))
+    found = paper_full_pose(arm, measurements, errors, models, seed=1, diagnosed=False)
     return found, measurements, errors
 
 

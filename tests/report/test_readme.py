@@ -7,6 +7,7 @@ from armscope.core.inputs import InputError
 from armscope.report.pages.readme import _percent, fill_readme
 
 TEXT = "# before\n<!-- results: begin (by a rule) -->\nold numbers\n<!-- results: end -->\nafter\n"
+TEXT = TEXT.replace("# before\n", "# before\n<!-- proof: begin -->\nof a former proof\n<!-- proof: end -->\n")
 
 
 @pytest.fixture
@@ -57,9 +58,11 @@ def test_numbers_between_the_marks_are_replaced_by_those_of_the_results(results)
     readme.write_text(TEXT)
     fill_readme(readme, results, results)
     text = readme.read_text()
-    assert text.startswith("# before\n<!-- results: begin (by a rule) -->\n")
+    assert text.startswith("# before\n<!-- proof: begin -->\n")
+    assert "<!-- proof: end -->\n<!-- results: begin (by a rule) -->\n" in text
     assert text.endswith("<!-- results: end -->\nafter\n")
     assert "old numbers" not in text
+    assert "of a former proof" not in text
     assert "| It works | fails: 100 % (96–100) | holds: 100 % (96–100) | holds under all (0–100 %) |" in text
     assert "NOT FOR THE README" not in text
     assert "*No path that the text allows" in text
@@ -75,6 +78,15 @@ def test_filling_twice_gives_the_same_file(results):
     once = readme.read_bytes()
     fill_readme(readme, results, results)
     assert readme.read_bytes() == once
+
+
+def test_what_is_said_of_the_proof_stays_where_its_tables_are_missing(results):
+    readme = results / "README.md"
+    readme.write_text(TEXT)
+    fill_readme(readme, results, results / "no proof here")
+    text = readme.read_text()
+    assert "of a former proof" in text
+    assert "old numbers" not in text
 
 
 def test_a_readme_without_marks_is_left_alone(results):

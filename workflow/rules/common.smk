@@ -53,7 +53,7 @@ def require_reach(robot, others, chosen):
     mark = Path(RESULTS) / "settings" / "reach.checked"
     if mark.is_file() and mark.read_text(encoding="utf-8") == seen:
         return
-    from armscope.cli.paper_settings import follow_all  # slow to import, and seldom needed
+    from armscope.cli.paper_plans import follow_all  # slow to import, and seldom needed
 
     try:
         follow_all(robot, chosen)

@@ -30,23 +30,27 @@ rule figure:
         "--settings {input.settings} -o {params.folder} > {log} 2>&1"
 
 
-rule figure_real:
-    input:
-        poses=f"{RESULTS}/real/{{set}}/paper/poses.csv",
-        errors=f"{RESULTS}/real/{{set}}/paper/errors.csv",
-        fits=f"{RESULTS}/real/{{set}}/paper/fits.json.gz",
-    output:
-        multiext(f"{RESULTS}/real/{{set}}/paper/figures/{{figure}}", png=".png", svg=".svg", pdf=".pdf"),
-    wildcard_constraints:
-        figure=r"fig\d\d",
-    params:
-        code=code("armscope.cli.paper_pages:figure"),
-    log:
-        f"{RESULTS}/logs/real/{{set}}/{{figure}}.log",
-    benchmark:
-        f"{RESULTS}/logs/benchmarks/real/{{set}}/{{figure}}.tsv"
-    shell:
-        "armscope paper figure {wildcards.figure} {input.poses} {input.errors} {input.fits} -o {output.png} > {log} 2>&1"
+if REAL:
+
+    rule figure_real:
+        # of all real arms in one job, for the same reason
+        input:
+            expand(f"{RESULTS}/real/{{set}}/paper/{{file}}", set=REAL, file=("poses.csv", "errors.csv", "fits.json.gz")),
+        output:
+            png=expand(f"{RESULTS}/real/{{set}}/paper/figures/{{{{figure}}}}.png", set=REAL),
+            svg=expand(f"{RESULTS}/real/{{set}}/paper/figures/{{{{figure}}}}.svg", set=REAL),
+        wildcard_constraints:
+            figure=r"fig\d\d",
+        params:
+            studies=[f"{RESULTS}/real/{name}/paper" for name in REAL],
+            outputs=lambda wildcards, output: " ".join(f"-o {path}" for path in output.png),
+            code=code("armscope.cli.paper_pages:figure"),
+        log:
+            f"{RESULTS}/logs/real/{{figure}}.log",
+        benchmark:
+            f"{RESULTS}/logs/benchmarks/real/{{figure}}.tsv"
+        shell:
+            "armscope paper figure {wildcards.figure} {params.studies} {params.outputs} > {log} 2>&1"
 
 
 rule convergence_figure:

@@ -5,9 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
 
 from armscope.core.types import Array
 from armscope.recordings import Recordings
@@ -155,6 +152,11 @@ def _one_context(name: str, unit: str, values: Array) -> Context:
 
 def _repeats(recordings: Recordings) -> Repeats:
     looked_at = min(len(recordings), MOST_ROWS_FOR_REPEATS)
+    # these take long to import, and the reader's errors come before them
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
     some = recordings.rows(slice(looked_at))
     _, group = np.unique(np.char.add(some.run, np.char.add("\n", some.target)), return_inverse=True)
     rows = np.column_stack([group, some.motor_angles, some.positions])

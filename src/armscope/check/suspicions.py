@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
 
 from armscope.calibration.fit import placed, rms_distance, robust_least_squares
 from armscope.calibration.model import SetUp, set_up
@@ -195,6 +194,8 @@ def _exchanged_rows(arm: Arm, recordings: Recordings) -> list[Suspicion]:
     predicted = some.positions[far] - residuals[far]
     between = np.linalg.norm(predicted[:, None] - some.positions[far][None], axis=2)
     between[rows.base[far][:, None] != rows.base[far][None]] = 1e6
+    from scipy.optimize import linear_sum_assignment  # takes long to import, and is seldom needed
+
     angles_of, points_of = linear_sum_assignment(between)
     matched = (between[angles_of, points_of] < 6 * usual) & (angles_of != points_of)
     if not matched.any():

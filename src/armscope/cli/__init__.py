@@ -12,9 +12,11 @@ import typer
 
 from armscope.cli import (
     calibration,
+    comparison,
     compensation,
     diagnosis,
     excite,
+    fleet,
     init,
     outlook,
     paper,
@@ -35,6 +37,7 @@ app = typer.Typer(
 )
 app.add_typer(diagnosis.app)
 app.add_typer(compensation.app)
+app.add_typer(comparison.app)
 app.add_typer(outlook.app)
 app.add_typer(poses.app)
 app.add_typer(excite.app)
@@ -49,6 +52,7 @@ app.add_typer(
     rich_help_panel=EXPERIMENTS,
 )
 app.add_typer(real.app, name="real", help="Real arms in the reference protocol.", rich_help_panel=EXPERIMENTS)
+app.add_typer(fleet.app, name="fleet", help="Many arms: one diagnosis each, and a page over all.")
 app.add_typer(sweep.app, name="sweep", help="Variants of swarm and model.", rich_help_panel=EXPERIMENTS)
 
 
@@ -87,10 +91,14 @@ def print_schema(
     print(json.dumps(schemas[of](), indent=2))
 
 
-def main() -> None:
-    """Run the command line; whatever goes wrong ends it with one clear line and an exit code of its own."""
+def main(started: float | None = None) -> None:
+    """Run the command line; whatever goes wrong ends it with one clear line and an exit code of its own.
+
+    Args:
+        started: when its user began to wait (`time.time`); None: now.
+    """
     # many small matrices: threads of BLAS would wait for each other and for other jobs; read when numpy is imported
     for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ.setdefault(variable, "1")
-    with endings():
+    with endings(started):
         app()

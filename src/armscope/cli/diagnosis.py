@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from armscope.cli.commands import Commands, Threads
-from armscope.cli.endings import MISMATCH, UNUSABLE
+from armscope.cli.endings import MISMATCH, UNUSABLE, waiting_since
 
 if TYPE_CHECKING:
     import numpy as np
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from armscope.recordings import Recordings
 
 app = Commands()
+
+PAGES = ("report.html", "work-order.html", "zero_offsets.csv", "corrected_dh.csv")
 
 
 @app.command()
@@ -42,17 +44,31 @@ def diagnose(
     exit_code: Annotated[
         bool, typer.Option("--exit-code", help="end with 0: nothing missing, 10: a mismatch, 2: cannot tell")
     ] = False,
+    cutoff: Annotated[
+        float | None, typer.Option(min=0.01, help="motions: of the low-pass, Hz; chosen if left out")
+    ] = None,
+    held_out: Annotated[list[str] | None, typer.Option(help="motions: a run that takes no part in the fit")] = None,
     json: Annotated[bool, typer.Option("--json", help="print verdict.json in place of words")] = False,
     threads: Threads = 1,
 ) -> None:
     """Find where simulation and recordings differ, and which physics was left out.
 
-    Ends with 0 when the diagnosis was made, whatever it found (see --exit-code), and with 2 when the recordings can't
-    be used: then nothing is written, unless --anyway.
+    A table of torques or currents over time (motions.csv) is recognised by its columns. Ends with 0 when the diagnosis
+    was made, whatever it found (see --exit-code), and with 2 when the recordings can't be used: then nothing is
+    written, unless --anyway.
     """
     from armscope.cli.cost import DIAGNOSE, announce
+    from armscope.cli.motion import diagnose_motions
     from armscope.cli.robots import print_json, robot_of, table_of
+    from armscope.recordings.motions import is_motion_table
 
+    started = waiting_since()
+    if is_motion_table(recordings):
+        with _progress("diagnosing") as tell:
+            mismatch = diagnose_motions(recordings, robot, output, (cutoff, held_out or [], run or []), json, tell)
+        if exit_code and mismatch is not False:
+            raise typer.Exit(MISMATCH if mismatch else UNUSABLE)
+        return
     arm = robot_of(robot)
     announce(recordings, DIAGNOSE, threads)
     table = table_of(recordings, arm.n_motors)
@@ -65,7 +81,7 @@ def diagnose(
     from armscope.diagnosis import diagnose as diagnose_arm
     from armscope.verdict.files import FILES
 
-    writable(output, *FILES, DOMAIN, "report.html")
+    writable(output, *FILES, DOMAIN, *(PAGES if report else ()))
     if run:
         table = table.rows(_rows_of_runs(table, run))
     if first_id is not None:
@@ -81,7 +97,7 @@ def diagnose(
             from armscope.report.pages.diagnosis import write_report
 
             tell("drawing the report", 0.95)
-            write_report(verdict, output)
+            write_report(verdict, output, started)
     obstacle = verdict.notices[-1:] if verdict.mismatch is None else ()
     for notice in (*(each for each in verdict.notices if each.kind == "check"), *obstacle):
         print(f"note: {notice.text}", file=sys.stderr)

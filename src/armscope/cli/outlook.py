@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from armscope.errormodels import ModelSpec
+    from armscope.errormodels.extended import ModelSet
     from armscope.paper.measurements import Measurements
     from armscope.robot import Arm
 
@@ -56,10 +57,9 @@ def closed_loop(
     from armscope.robot import load_arm
 
     measurements = read_measurements(poses, errors)
-    specs = [model_named(name) for name in products or ()]
-    arm, truth, divided = load_arm(robot), _true_errors(robots), _divided(regions)
+    arm, truth, models = load_arm(robot), _true_errors(robots), _model_set((), products, regions)
     _check_nominal(robot, arm, poses, measurements)
-    left = paper_closed_loop(arm, measurements, read_fits(fits), truth, specs, divided, diagnosed)
+    left = paper_closed_loop(arm, measurements, read_fits(fits), truth, models, diagnosed)
     table = cross_table(left)
     write_table(output, table)
     if points is not None:
@@ -88,11 +88,8 @@ def full_pose(
 
     measurements, arm = read_measurements(poses, errors), load_arm(robot)
     _check_nominal(robot, arm, poses, measurements)
-    names = model or ("FDP(CI)", "SDP(CI)", "FDP(AI)", "SDP(AI)")
-    specs, multiplied = [model_named(name) for name in names], [model_named(name) for name in products or ()]
-    truth = _true_errors(robots)
-    table = paper_full_pose(arm, measurements, truth, specs, multiplied, _divided(regions), seed)
-    write_table(output, table, digits=6)
+    models = _model_set(model or ("FDP(CI)", "SDP(CI)", "FDP(AI)", "SDP(AI)"), products, regions)
+    write_table(output, paper_full_pose(arm, measurements, _true_errors(robots), models, seed), digits=6)
 
 
 @app.command("cross-table", rich_help_panel=EXPERIMENTS)
@@ -111,25 +108,28 @@ def cross_table_(
     from armscope.core.files import read_table, write_table
     from armscope.paper.closed_loop import real_left_over
 
-    specs, divided = [model_named(name) for name in products or ()], _divided(regions)
+    models = _model_set((), products, regions)
     tables = [read_table(virtual).assign(arm="virtual")]
     for folder in real or ():
         measurements = read_measurements(folder / "poses.csv", folder / "errors.csv")
-        left = real_left_over(measurements, read_fits(folder / "fits.json.gz"), specs, divided)
+        left = real_left_over(measurements, read_fits(folder / "fits.json.gz"), models)
         tables.append(cross_table(left).assign(arm=measurements.robots[0]))
     table = pd.concat(tables, ignore_index=True)
     write_table(output, table[["arm", *table.columns.drop("arm")]])
 
 
-def _divided(regions: list[str] | None) -> list[tuple[ModelSpec, int]]:
-    """Models and numbers of regions from "FDP(CI)=4"."""
-    found = []
+def _model_set(plain: Sequence[str], products: Sequence[str] | None, regions: Sequence[str] | None) -> ModelSet:
+    """Models by their names; regions as in "FDP(CI)=4"."""
+    from armscope.errormodels.extended import ModelSet
+
+    divided = []
     for text in regions or ():
         name, _, count = text.partition("=")
         if not count.isdecimal() or int(count) < 1 or int(count) & (int(count) - 1):
             raise InputError("--regions", "", text, "a model and 2, 4, 8, ... regions, like FDP(CI)=4")
-        found.append((model_named(name), int(count)))
-    return found
+        divided.append((model_named(name), int(count)))
+    multiplied = tuple(model_named(name) for name in products or ())
+    return ModelSet(tuple(model_named(name) for name in plain), multiplied, tuple(divided))
 
 
 @app.command("regions", rich_help_panel=EXPERIMENTS)

@@ -38,7 +38,8 @@ def measure(
     output: Annotated[Path, typer.Option("--output", "-o", help="folder for poses, errors, robots and observability")],
 ) -> None:
     """Anchor virtual robots to the printed equations and measure them on identification poses and test paths."""
-    from armscope.cli.paper_settings import MeasureSettings, plan_of
+    from armscope.cli.paper_plans import plan_of
+    from armscope.cli.paper_settings import MeasureSettings
     from armscope.core.files import write_table
     from armscope.paper.enough_poses import enough_poses
     from armscope.paper.study import measured

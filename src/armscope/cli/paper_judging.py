@@ -29,7 +29,7 @@ Robot = Annotated[Path, typer.Argument(help="robot.yaml")]
 @app.command()
 def reach(robot: Robot, settings: Settings, output: Output) -> None:
     """Follow the test paths under all assumptions that will be tried, before anything else is done with them."""
-    from armscope.cli.paper_settings import follow_all
+    from armscope.cli.paper_plans import follow_all
     from armscope.core.files import write_table
 
     write_table(output, follow_all(robot, settings))
@@ -46,7 +46,8 @@ def scenario(
     """Judge every claim under other assumptions, one scenario after the other."""
     import pandas as pd
 
-    from armscope.cli.paper_settings import ScenarioSettings, fitting_of, scenarios_of
+    from armscope.cli.paper_plans import fitting_of, scenarios_of
+    from armscope.cli.paper_settings import ScenarioSettings
     from armscope.core.files import write_table
     from armscope.paper.sensitivity import COLUMNS, judge_scenario
     from armscope.robot import load_arm
@@ -160,7 +161,8 @@ def audit_(
     settings: Settings,
 ) -> None:
     """Whether the printed table, equations and trajectories can all be true."""
-    from armscope.cli.paper_settings import AuditSettings, audit_scope_of
+    from armscope.cli.paper_plans import audit_scope_of
+    from armscope.cli.paper_settings import AuditSettings
     from armscope.core.files import write_table
     from armscope.paper.audit import audit
 

@@ -17,12 +17,10 @@ app = Commands("paper")
 @app.command()
 def figure(
     name: Annotated[str, typer.Argument(help="fig03 ... fig11")],
-    poses: Poses,
-    errors: Errors,
-    fits: Fits,
-    output: Annotated[Path, typer.Option("--output", "-o", help="a path; PNG, SVG and PDF are written there")],
+    studies: Annotated[list[Path], typer.Argument(help="folders with poses.csv, errors.csv and fits.json.gz")],
+    output: Annotated[list[Path], typer.Option("--output", "-o", help="a path for each study, for PNG and SVG")],
 ) -> None:
-    """Draw one figure of the paper from what was measured and fitted, of any arm."""
+    """Draw one figure of the paper from what was measured and fitted, of any arms."""
     import pandas as pd
 
     from armscope.core.inputs import nearest
@@ -32,7 +30,12 @@ def figure(
     known = [each for each in FIGURES if each not in ARM_FIGURES]
     if name not in known:
         raise InputError("the figure's name", "", name, "the paper's plots are Figs. 3-11", nearest(name, known))
-    save_figure(draw(name, PaperResults(read_measurements(poses, errors), read_fits(fits), pd.DataFrame())), output)
+    if len(output) != len(studies):
+        raise InputError("-o", "", f"{len(output)} paths", f"each of the {len(studies)} studies needs one")
+    for study, path in zip(studies, output, strict=True):
+        measurements = read_measurements(study / "poses.csv", study / "errors.csv")
+        shown = PaperResults(measurements, read_fits(study / "fits.json.gz"), pd.DataFrame())
+        save_figure(draw(name, shown), path, formats=("png", "svg"))
 
 
 @app.command()

@@ -189,7 +189,7 @@ def page(
     arms = [RealArm(a.name, a.title, Path(a.folder), Path(a.reference), (a.run, a.first_id)) for a in chosen.arms]
     figures = output.parent / "figures"
     for arm in arms:
-        copy_file(arm.folder / "figures" / "arm.png", figures / f"real-{arm.name}.png")
+        copy_file(arm.folder / "figures" / "arm.svg", figures / f"real-{arm.name}.svg")
         if curves := shared(pd.read_csv(arm.folder / "curves_by_run.csv")):
             save_figure(draw_shared_curves(curves), figures / f"real-{arm.name}-curves.png", formats=("png",))
         if (told := arm.folder / "compliances.csv").exists():

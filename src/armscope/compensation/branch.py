@@ -10,7 +10,6 @@ from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 from armscope.compensation.forward import NominalArm
 from armscope.compensation.newton import POLE, Wanted, solve_commands
@@ -116,8 +115,11 @@ def _from_many_starts(
     nominal: NominalArm, target: Wanted, near: Array, free: NDArray[np.bool_]
 ) -> tuple[Array | None, str]:
     """The solution nearest to ``near`` from starts spread over the limits."""
+    from scipy.stats import qmc  # takes half a second: seldom needed
+
     if np.linalg.norm(target.points[0]) > nominal.arm.reach:
         return None, BEYOND_REACH
+
     limits = np.where(np.isfinite(nominal.arm.limits), nominal.arm.limits, [-np.pi, np.pi])
     starts = qmc.scale(qmc.Halton(nominal.arm.n_motors, scramble=False).random(STARTS), *limits.T)
     starts = np.where(free, starts, near)

@@ -200,6 +200,7 @@ class Config(Strict):
     paper: Paper
     real: dict[str, RealSet] = Field(default_factory=dict)
     sweep: str = "config/sweeps/default.csv"
+    fleet: str = Field("config/fleet.csv", description="arms that `snakemake fleet` diagnoses")
     poses: PoseStudy
     proof: Proof = Proof()
     proof_real: ProofReal = ProofReal()

@@ -83,6 +83,12 @@ class ScanBudget(Constants):
 
     scanned_rows: int = constant(4000, "looked at, spread evenly", "judgement: time", unit="rows")
     lines_kept: int = constant(2, "per joint that go on to compete", "judgement: time", unit="mesh counts")
+    ordinary_lines: int = constant(
+        128, "up to which lines are scanned in every round", "judgement: time", unit="periods per turn"
+    )
+    scan_of_fine_lines: int = constant(
+        2, "in which finer ones are scanned, too", "judgement: the largest effects are known then; time", unit="round"
+    )
     shortest_piece: int = constant(
         8, "on either side of a jump", "judgement: fewer do not tell a jump from bad shots", unit="rows"
     )
@@ -161,9 +167,9 @@ class NamingRules(Constants):
         "judgement: the rest is then a tenth",
     )
     main_share: float = constant(
-        0.75,
+        0.9,
         "of a curve of a joint's angle, of what only it explains, that one line or wave must be to be told as that",
-        "judgement: the rest is then half as large as it",
+        "judgement: the rest is then a third as large as it",
     )
     stands_out_nats: float = constant(
         20.0,
@@ -192,7 +198,13 @@ class NamingRules(Constants):
         10.0, "alternatives that lose more are not listed", "judgement: 20000 to 1", unit="nats"
     )
     listed_nats_of_special_cases: float = constant(
-        40.0, "the same for a curve's special cases", "judgement: most of the curve may be one of them", unit="nats"
+        40.0,
+        "the same for a curve's special cases, and for effects of more freedom that fit alike",
+        "judgement: most of the curve may be one of them; what freedom costs is no measurement",
+        unit="nats",
+    )
+    alike_nats: float = constant(
+        1.0, "by which what fits alike may fit worse", "derived: a likelihood ratio of e is no evidence", unit="nats"
     )
     looked_at: int = constant(12, "weighed in an effect's place", "judgement: time", unit="additions")
     coarsely: float = constant(
@@ -235,7 +247,15 @@ class TellingRules(Constants):
     )
     grid: int = constant(361, "at which a curve is told", "convention: a turn in degrees", unit="points")
     atlas_rows: int = constant(4000, "that the atlas looks at, spread evenly", "judgement: time", unit="rows")
-    chance: float = constant(0.99, "with which subsets that agree stay below the limit", "convention: 99 %")
+    implausible_values: int = constant(3, "told at most", "judgement: nobody reads more", unit="values")
+    undetermined: float = constant(
+        0.7,
+        "of a plausible size, beyond which a value's standard error leaves it undetermined",
+        "derived: the rows then halve what was believed before, at most",
+    )
+    chance: float = constant(
+        0.99, "with which all agreeing subsets of a verdict stay below the limit", "convention: 99 %"
+    )
     most_payloads: int = constant(6, "compared one by one", "judgement: time", unit="payloads")
     curve_rows: int = constant(
         50_000, "from which the range of what drives a curve is taken, spread evenly", "judgement: memory", unit="rows"

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 from scipy.special import log_ndtr
 
@@ -67,6 +66,8 @@ def lean(start: FittedModel, recordings: Recordings, noise: Noise, tool_per_run:
     """
     if not start.arm.has_masses:
         return None
+    from scipy.optimize import minimize  # takes long to import, and is seldom needed
+
     rows = spread_evenly(len(recordings), GRAVITY.rows)
     valley = _Valley(start, recordings.rows(rows), noise, tool_per_run)
     tried: list[Array] = [np.zeros(2)]

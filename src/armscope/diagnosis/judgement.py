@@ -18,6 +18,7 @@ from armscope.diagnosis.summary.causes import causes
 from armscope.diagnosis.summary.effects import Weighed, found_effect, rest_of_a_curve, scattered_effects, with_weight
 from armscope.diagnosis.summary.homogeneity import subset_consistency
 from armscope.diagnosis.summary.next_poses import next_poses
+from armscope.diagnosis.summary.parameters import beyond_plausible
 from armscope.diagnosis.summary.unexplained import (
     background_summaries,
     masses_in_error,
@@ -244,7 +245,8 @@ def _suspects(state: DiagnosisState) -> tuple[SuspectRow, ...]:
 
 def _carefully(state: DiagnosisState) -> list[Notice]:
     """What the fit itself says against too much trust."""
-    notices = []
+    implausible = beyond_plausible(state.fit.model.parts)
+    notices = [implausible] if implausible else []
     if state.growth is not None:
         away = np.linalg.norm(state.recordings.positions, axis=1)
         near, far = (f"{float(state.growth.at(d)):.2g} mm at {d:.1f} m" for d in (away.min(), away.max()))

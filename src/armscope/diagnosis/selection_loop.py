@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Indices, Progress
-from armscope.diagnosis.constants import LOOP
+from armscope.diagnosis.constants import LOOP, SCANS
 from armscope.diagnosis.earning import earned
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.diagnosis.promotion import named
@@ -41,6 +41,7 @@ from armscope.physics.model import FittedModel
 from armscope.physics.payload import PAYLOAD_ERROR, payload_errors
 from armscope.physics.registry import library
 from armscope.physics.scene import Part
+from armscope.physics.transmission import MESH_COUNTS
 from armscope.recordings import Recordings
 
 State = tuple[frozenset[str], NDArray[np.bool_]]
@@ -105,6 +106,7 @@ class SelectionLoop:
         self.noise = NoiseOfRows(start, self.table, noise, residuals(start, self.table))
         self.loads: list[Placed] = []
         self.last: tuple[Hypothesis, EffectSpace] | None = None
+        self.scans = 0
 
     def run(self, of_a_sample: bool = False) -> Selected:
         """Rounds until nothing changes; those on all rows still follow where these are a sample."""
@@ -253,7 +255,9 @@ class SelectionLoop:
         new: dict[tuple[tuple[str, str], str], Placed] = {}
         given = (self.best, search.empty()) if self.best.chosen else (self.best,)
         context = ScanContext(self.problem, self.space, self.point, self.recordings, self.noise.weights)
-        for found in (mesh_lines(context, given), jumps(context, given), self._paused(search, context)):
+        self.scans += 1
+        most = MESH_COUNTS[-1] if self.scans == SCANS.scan_of_fine_lines else SCANS.ordinary_lines
+        for found in (mesh_lines(context, given, most), jumps(context, given), self._paused(search, context)):
             for placed in found:
                 if (placed.key, placed.variant) not in known:
                     new[(placed.key, placed.variant)] = placed

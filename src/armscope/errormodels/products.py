@@ -2,10 +2,9 @@
 
 Candidates are products of one-input factors up to a total order: Chebyshev polynomials of the standardised input
 (family "polynomial"), or cosines and sines of its multiples (family "fourier"). Terms enter one by one: the next is the
-one
-that takes most off the squared errors of all axes together, given those that are in (orthogonal least squares; Chen,
-Billings & Luo 1989). How many: cross-validation that repeats the choice in every fold; the fewest terms within one
-standard error of the best.
+one that takes most off the squared errors of all axes together, given those that are in (orthogonal least squares;
+Chen, Billings & Luo 1989). How many: cross-validation that repeats the choice in every fold; the fewest terms within
+one standard error of the best.
 """
 
 from __future__ import annotations
@@ -16,6 +15,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+import scipy.linalg
 from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike
 
@@ -219,11 +219,11 @@ def _greedy(columns: Array, errors: Array, most: int) -> list[int]:
 
 def _missed(columns: Array, errors: Array, at: Array, true: Array, steps: list[int]) -> Array:
     """(steps,) mean squared length of the error vector left at other rows, for the first 1, 2, ... terms."""
-    missed = []
-    for count in range(1, len(steps) + 1):
-        fitted = np.linalg.lstsq(columns[:, steps[:count]], errors, rcond=None)[0]
-        missed.append(np.mean(np.sum((true - at[:, steps[:count]] @ fitted) ** 2, axis=1)))
-    return np.array(missed)
+    q, r = np.linalg.qr(columns[:, steps])
+    # R^-1 is triangular, so that its first k columns belong to the first k terms
+    along = scipy.linalg.solve_triangular(r, at[:, steps].T, trans="T").T
+    predicted = np.cumsum(along[:, :, None] * (q.T @ errors), axis=1)
+    return np.asarray(np.mean(np.sum((true[:, None] - predicted) ** 2, axis=2), axis=0))
 
 
 def _compared(fit: Array, held_out: Array) -> pd.DataFrame:

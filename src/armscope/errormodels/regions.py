@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from armscope.core.types import Array
 from armscope.errormodels.features import FeatureSet, ModelSpec, checked_inputs
+from armscope.errormodels.products import ProductFeatures
 
 OVERLAP = 0.5
 """Half the width of the blended band, in standard deviations of the rows that a cut divides."""
@@ -133,7 +134,7 @@ def fit_regions(features: FeatureSet, cut: Cut | None, inputs: ArrayLike, errors
     return np.array(fitted)
 
 
-def blended(features: FeatureSet, cut: Cut | None, coefficients: Array, inputs: ArrayLike) -> Array:
+def blended(features: FeatureSet | ProductFeatures, cut: Cut | None, coefficients: Array, inputs: ArrayLike) -> Array:
     """Predicted errors (N, axes), mm, of all regions' models together.
 
     Args:

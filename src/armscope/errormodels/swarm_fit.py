@@ -118,14 +118,15 @@ class _Job(NamedTuple):
 
 @dataclass(frozen=True)
 class _Prepared:
-    """One problem in the coordinates of its basis."""
+    """One problem in the coordinates of its basis, and its least-squares solution."""
 
     problem: FitProblem
     features: FeatureSet
-    inputs: Array
     errors: Array
     basis: Basis
     layout: Layout
+    least_squares: Array
+    least_squares_mm: Array
 
     @property
     def axes(self) -> tuple[str, ...]:
@@ -163,21 +164,38 @@ class _Prepared:
         ]
 
 
-def _prepared(problem: FitProblem, job: _Job) -> _Prepared:
-    inputs = checked_inputs(problem.inputs)
-    errors = np.asarray(problem.errors_mm, dtype=float)
+def _checked_errors(problem: FitProblem) -> Array:
+    rows, errors = len(checked_inputs(problem.inputs)), np.asarray(problem.errors_mm, dtype=float)
     if errors.ndim == 1:
         errors = errors[:, None]
-    if errors.ndim != 2 or errors.shape[1] not in (1, 3) or len(errors) != len(inputs):
+    if errors.ndim != 2 or errors.shape[1] not in (1, 3) or len(errors) != rows:
         raise ValueError(
-            f"errors of shape {np.shape(problem.errors_mm)} for {len(inputs)} rows of inputs: must be rows x 3, or rows"
+            f"errors of shape {np.shape(problem.errors_mm)} for {rows} rows of inputs: must be rows x 3, or rows"
         )
     if not np.isfinite(errors).all():
         row = int(np.argwhere(~np.isfinite(errors))[0, 0])
         raise ValueError(f"error {errors[row]!r} in row {row}: all must be finite")
-    features = problem.spec.features(inputs)
-    basis = make_basis(job.kind, features.matrix(inputs), features.term_names)
-    return _Prepared(problem, features, inputs, errors, basis, job.layout)
+    return errors
+
+
+def _prepared(problems: Sequence[FitProblem], job: _Job) -> list[_Prepared]:
+    """All problems in their order; those of one model on the very same rows share their basis."""
+    on_same_rows: dict[tuple[ModelSpec, int], list[int]] = {}
+    for k, problem in enumerate(problems):
+        on_same_rows.setdefault((problem.spec, id(problem.inputs)), []).append(k)
+    prepared: dict[int, _Prepared] = {}
+    for (spec, _), members in on_same_rows.items():
+        inputs = checked_inputs(problems[members[0]].inputs)
+        features = spec.features(inputs)
+        basis = make_basis(job.kind, features.matrix(inputs), features.term_names)
+        errors = [_checked_errors(problems[k]) for k in members]
+        coefficients, rms = fit_least_squares(features, inputs, np.hstack(errors))
+        first = 0
+        for k, mine in zip(members, errors, strict=True):
+            axes = slice(first, first + mine.shape[1])
+            prepared[k] = _Prepared(problems[k], features, mine, basis, job.layout, coefficients[axes], rms[axes])
+            first = axes.stop
+    return [prepared[k] for k in range(len(problems))]
 
 
 def _fit(problems: Sequence[FitProblem], seeds: Sequence[int], job: _Job, search: Search) -> list[FittedModel]:
@@ -185,7 +203,7 @@ def _fit(problems: Sequence[FitProblem], seeds: Sequence[int], job: _Job, search
         return []
     if not len(seeds) or len(set(seeds)) < len(seeds) or any(seed < 0 for seed in seeds):
         raise ValueError(f"seeds = {list(seeds)!r}: must be different whole numbers, 0 or more, at least one")
-    prepared = [_prepared(problem, job) for problem in problems]
+    prepared = _prepared(problems, job)
     fitted: dict[int, FittedModel] = {}
     for dimensions in sorted({each.dimensions for each in prepared}):
         chosen = [k for k, each in enumerate(prepared) if each.dimensions == dimensions]
@@ -222,7 +240,6 @@ def _fitted(each: _Prepared, seeds: Sequence[int], result: SwarmResult, swarms: 
     shape = (len(seeds), each.swarms_per_seed)
     coordinates = result.positions[swarms].reshape(len(seeds), len(each.axes), -1)
     fitness = result.fitness[swarms].reshape(shape)
-    least_squares, least_squares_mm = fit_least_squares(each.features, each.inputs, each.errors)
     return FittedModel(
         label=each.problem.label,
         features=each.features,
@@ -233,12 +250,12 @@ def _fitted(each: _Prepared, seeds: Sequence[int], result: SwarmResult, swarms: 
         dropped=each.basis.dropped,
         coefficients=each.basis.raw_coefficients(coordinates),
         fitness_mm=fitness if each.layout is Layout.PER_AXIS else each.basis.residual_rms(each.errors, coordinates),
-        least_squares=least_squares,
-        least_squares_mm=least_squares_mm,
+        least_squares=each.least_squares,
+        least_squares_mm=each.least_squares_mm,
         reasons=result.reasons[swarms].reshape(shape),
         iterations=result.iterations[swarms].reshape(shape),
         history_mm=result.history[swarms].reshape(*shape, -1),
-        rows=len(each.inputs),
+        rows=len(each.errors),
         particles=job.particles,
         layout=each.layout,
     )

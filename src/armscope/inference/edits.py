@@ -149,7 +149,9 @@ class Edits:
         """Each effect's and each background's size set to the best one, in turn."""
         best = hypothesis
         for number, family in enumerate(self.space.families):
-            for size in range(family.sizes):
+            now = best.background[number]
+            # from none to any, else to the next ones: evidence has one summit over the sizes
+            for size in range(family.sizes) if now == 0 else {0, now - 1, min(now + 1, family.sizes - 1)} - {now}:
                 background = replaced(best.background, number, size)
                 if len(family.columns) and background != best.background:
                     best = self._better(best, best.chosen, background)

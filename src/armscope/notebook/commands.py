@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,8 @@ from armscope.calibration import calibrate as calibrate_arm
 from armscope.check import CheckReport
 from armscope.check import check as check_table
 from armscope.check.preconditions import check_table as usable_rows
+from armscope.comparison import Comparison
+from armscope.comparison import compare as compare_recordings
 from armscope.compensation import (
     Compensated,
     ErrorModel,
@@ -198,6 +201,32 @@ def compensate(
         cure = "Give the recordings of the diagnosis."
         raise InputError("recordings", "", "nothing", "the identified range must be known", cure)
     return compensate_physical(fitted, identified, _wanted(path, fitted.arm), chosen)
+
+
+def compare(*recordings: Table, robot: Robot, names: Sequence[str] = (), of_arms: bool = False) -> Comparison:
+    """What changed between two or more recordings of one arm: `armscope compare`.
+
+    Args:
+        recordings: in the order of time.
+        robot: the nominal arm.
+        names: of the recordings; else their files' or numbers.
+        of_arms: they are of several arms of one type: which is unlike the others.
+
+    Returns:
+        The joint test that nothing changed, and every change with its interval.
+
+    Raises:
+        InputError: something that can't be used.
+    """
+    arm = read_robot(robot)
+    named = list(names) or [
+        str(each) if isinstance(each, str | Path) else f"{n}" for n, each in enumerate(recordings, 1)
+    ]
+    if len(set(named)) != len(recordings):
+        raise InputError("names", "", named, "as many different names as recordings")
+    tables = [read_recordings(each, arm) for each in recordings]
+    with threadpool_limits(1):
+        return compare_recordings(arm, dict(zip(named, tables, strict=True)), of_arms)
 
 
 def _fitted(model: Model) -> FittedModel:

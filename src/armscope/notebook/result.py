@@ -7,7 +7,6 @@ import math
 from pathlib import Path
 
 import pandas as pd
-from matplotlib.figure import Figure
 
 from armscope.compensation.physical import FILE, identified_on, save_identified
 from armscope.compensation.predicting import points_table
@@ -18,6 +17,7 @@ from armscope.recordings import Recordings, as_recordings, read_recordings
 from armscope.report.pages.diagnosis import write_report
 from armscope.report.sections.registry import SECTIONS
 from armscope.report.subject import Subject
+from armscope.report.svg import Drawing
 from armscope.verdict.files import write_verdict
 from armscope.verdict.schema import Diagnosis
 from armscope.verdict.wording import millimetres, percent
@@ -73,14 +73,14 @@ class Diagnosed(Diagnosis):
             delivery.put()
         return folder / "report.html"
 
-    def plot(self, name: str = "arm") -> Figure:
+    def plot(self, name: str = "arm") -> Drawing:
         """A figure of the report.
 
         Args:
-            name: "arm", "waterfall", "atlas", ...: a wrong one lists what there is.
+            name: "arm", "waterfall", "along_joints", ...: a wrong one lists what there is.
 
         Returns:
-            The figure.
+            The figure, which a notebook shows; ``.svg()`` gives its content.
 
         Raises:
             InputError: this diagnosis has no figure of that name.

@@ -3,7 +3,7 @@
 The way of a study, each step a pure function of the ones before:
 
     errors = geometric_errors(arm, link_m, link_rad, base_m, base_rad)        # armscope.world.tolerances
-    paths = paper_paths_mm(...)                                               # name -> (N, 3) mm
+    paths = PlannedPaths(...).by_name()                                       # name -> (N, 3) mm
     trajectories = trajectory_poses(arm, paths)                               # pose table
     identification, choice = identification_poses(errors, trajectories, ...)  # pose table, observability index
     study = measure_virtual(errors, concat([identification, trajectories]), tracker, ensemble, seed)

@@ -21,9 +21,8 @@ from armscope.compensation.closed_loop import (
 from armscope.compensation.physical import identified_on
 from armscope.core.types import Array
 from armscope.diagnosis import Settings, diagnose
-from armscope.errormodels import FeatureSet, FittedModel, ModelSpec
-from armscope.errormodels.products import ProductFeatures, fit_products
-from armscope.errormodels.regions import Cut, blended, divide, fit_regions, halvings_of, weights
+from armscope.errormodels import FittedModel
+from armscope.errormodels.extended import ExtendedModel, ModelSet, with_products, with_regions
 from armscope.paper.measurements import Measurements, PoseSet
 from armscope.physics.model import Base
 from armscope.recordings.table import as_recordings
@@ -31,6 +30,7 @@ from armscope.robot import Arm
 from armscope.world.tolerances import geometric_errors
 
 DIAGNOSED = "Diagnosed physics"
+NO_MORE = ModelSet()
 
 
 def paper_closed_loop(
@@ -38,8 +38,7 @@ def paper_closed_loop(
     measurements: Measurements,
     fits: Sequence[FittedModel],
     errors: Array,
-    products: Sequence[ModelSpec] = (),
-    regions: Sequence[tuple[ModelSpec, int]] = (),
+    models: ModelSet = NO_MORE,
     diagnosed: bool = True,
 ) -> pd.DataFrame:
     """What is left at every point by model, trajectory and stage, for a study's first robot; see `remaining_errors`.
@@ -49,8 +48,7 @@ def paper_closed_loop(
         measurements: of the virtual robots.
         fits: of the first robot; of each model the swarm with the smallest residual counts.
         errors: (K,) its true geometric errors, m and rad, in the order of `geometric_errors`.
-        products: add models with a sparse choice of products, by least squares.
-        regions: add models of so many blended regions, by least squares.
+        models: further ones, with products or regions, by least squares.
         diagnosed: add physics diagnosed from the identification rows.
 
     Returns:
@@ -63,13 +61,8 @@ def paper_closed_loop(
         for fit in fits
         if fit.label == measurements.robots[0]
     }
-    for spec in products:
-        model = _with_products(arm, spec, identification)
-        candidates[model.name] = black_box_candidate(model)
-    for spec, count in regions:
-        candidates[f"{spec.name}, {count} regions"] = black_box_candidate(
-            _with_regions(arm, spec, count, identification)
-        )
+    for model in _extended(models, identification):
+        candidates[model.name] = black_box_candidate(_error_model(arm, model, identification))
     if diagnosed:
         candidates[DIAGNOSED] = _diagnosed(arm, identification)
     return remaining_errors(
@@ -81,35 +74,27 @@ def paper_closed_loop(
     )
 
 
+def _extended(models: ModelSet, rows: PoseSet) -> list[ExtendedModel]:
+    """The extended models, fitted to the first robot's errors."""
+    errors = rows.errors_mm[0]
+    return [
+        *(with_products(spec, rows.inputs(spec), errors, np.random.default_rng(0))[0] for spec in models.products),
+        *(with_regions(spec, rows.inputs(spec), errors, count) for spec, count in models.regions),
+    ]
+
+
 def _measured(poses: PoseSet) -> MeasuredPath:
     return MeasuredPath(poses.motor_angles, poses.nominal_mm, poses.errors_mm[0])
 
 
-def _with_products(arm: Arm, spec: ModelSpec, identification: PoseSet) -> ErrorModel:
-    inputs, errors = identification.inputs(spec), identification.errors_mm[0]
-    features, coefficients, _ = fit_products(spec, inputs, errors, np.random.default_rng(0))
-    rms_mm = np.sqrt(np.mean((errors - features.matrix(inputs) @ coefficients.T) ** 2, axis=0))
-    base = Base(np.eye(3), np.zeros(3))
-    domain = domain_of(arm, spec, identification.motor_angles)
-    return ErrorModel(arm, features, coefficients[None], "least squares", rms_mm, base, domain)
+def _error_model(arm: Arm, model: ExtendedModel, rows: PoseSet) -> ErrorModel:
+    spec, base = model.features.spec, Base(np.eye(3), np.zeros(3))
+    rms_mm = np.sqrt(np.mean((rows.errors_mm[0] - model.predict(rows.inputs(spec))) ** 2, axis=0))
+    domain = domain_of(arm, spec, rows.motor_angles)
+    return ErrorModel(arm, model.features, model.coefficients, "least squares", rms_mm, base, domain, model.cut)
 
 
-def _with_regions(arm: Arm, spec: ModelSpec, count: int, identification: PoseSet) -> ErrorModel:
-    inputs, errors = identification.inputs(spec), identification.errors_mm[0]
-    features, cut = spec.features(inputs), divide(inputs, halvings_of(count))
-    coefficients = fit_regions(features, cut, inputs, errors)
-    rms_mm = np.sqrt(np.mean((errors - blended(features, cut, coefficients, inputs)) ** 2, axis=0))
-    base = Base(np.eye(3), np.zeros(3))
-    domain = domain_of(arm, spec, identification.motor_angles)
-    return ErrorModel(arm, features, coefficients, "least squares", rms_mm, base, domain, cut)
-
-
-def real_left_over(
-    measurements: Measurements,
-    fits: Sequence[FittedModel],
-    products: Sequence[ModelSpec] = (),
-    regions: Sequence[tuple[ModelSpec, int]] = (),
-) -> pd.DataFrame:
+def real_left_over(measurements: Measurements, fits: Sequence[FittedModel], models: ModelSet = NO_MORE) -> pd.DataFrame:
     """What is left at every point of a real arm's recordings, by model: fitted rows and held-out rows, by prediction.
 
     Such an arm can't be sent anywhere: what is left of its held-out errors is what a correction would leave, to first
@@ -117,26 +102,16 @@ def real_left_over(
 
     Args:
         measurements: of the arm.
-        fits: the paper's models.
-        products: models of products to fit, too.
-        regions: models with their number of regions to fit, too.
+        fits: the paper's models; of each axis the swarm with the smallest residual counts.
+        models: further ones, with products or regions, by least squares.
 
     Returns:
         As `remaining_errors`, with the stages "fit" and "prediction" only.
     """
     rows = measurements.identification
     found: dict[str, Callable[[PoseSet], Array]] = {NO_MODEL: lambda each: np.zeros_like(each.errors_mm[0])}
-    for fit in fits:
-        found[fit.name] = _best_of(fit)
-    for spec in products:
-        features, coefficients, _ = fit_products(spec, rows.inputs(spec), rows.errors_mm[0], np.random.default_rng(0))
-        found[features.name] = _predictor(spec, features, None, coefficients[None])
-    for spec, count in regions:
-        inputs = rows.inputs(spec)
-        sums, cut = spec.features(inputs), divide(inputs, halvings_of(count))
-        found[f"{spec.name}, {count} regions"] = _predictor(
-            spec, sums, cut, fit_regions(sums, cut, inputs, rows.errors_mm[0])
-        )
+    fitted: list[FittedModel | ExtendedModel] = [*fits, *_extended(models, rows)]
+    found |= {model.name: _predictor(model) for model in fitted}
     return pd.concat(
         [
             vectors(name, each.name, "fit" if each is rows else "prediction", each.errors_mm[0] - predict(each))
@@ -147,22 +122,8 @@ def real_left_over(
     )
 
 
-def _best_of(fit: FittedModel) -> Callable[[PoseSet], Array]:
-    """Of each axis the swarm with the smallest residual."""
-    coefficients = fit.coefficients[fit.best_seeds, np.arange(len(fit.axes))]
-    return _predictor(fit.features.spec, fit.features, None, coefficients[None])
-
-
-def _predictor(
-    spec: ModelSpec, features: FeatureSet | ProductFeatures, cut: Cut | None, coefficients: Array
-) -> Callable[[PoseSet], Array]:
-    def predict(poses: PoseSet) -> Array:
-        inputs = poses.inputs(spec)
-        shares = weights(cut, inputs)
-        predicted: Array = np.einsum("nr,nt,rat->na", shares, features.matrix(inputs), coefficients)
-        return predicted
-
-    return predict
+def _predictor(model: FittedModel | ExtendedModel) -> Callable[[PoseSet], Array]:
+    return lambda poses: model.predict(poses.inputs(model.features.spec))
 
 
 def _diagnosed(arm: Arm, identification: PoseSet) -> Corrector:

@@ -35,7 +35,7 @@ def enough_poses(plan: StudyPlan, study: VirtualStudy, spec: ModelSpec = FDP_CI)
     """
     paths = study.measurements.held_out
     followed = np.concatenate([each.motor_angles for each in paths])
-    ranges = identification_ranges(plan.errors, followed, plan.poses.margin_rad, plan.poses.motor_6_rad)
+    ranges = identification_ranges(plan.errors, followed, plan.poses)
     angles = candidate_poses(*ranges, COUNTS[-1], plan.seed)
     rng = np.random.default_rng(plan.seed)
     nominal = forward_kinematics(plan.arm, angles)

@@ -6,7 +6,8 @@ same tool points are followed with a bent wrist, and identification poses of the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import functools
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -27,7 +28,7 @@ from armscope.compensation.physical import identified_on
 from armscope.compensation.result import Compensated
 from armscope.core.types import Array
 from armscope.diagnosis import Settings, diagnose
-from armscope.errormodels import ModelSpec
+from armscope.errormodels.extended import ModelSet
 from armscope.paper.closed_loop import DIAGNOSED
 from armscope.paper.measurements import Measurements
 from armscope.physics.model import predict, predict_orientation
@@ -60,9 +61,7 @@ def paper_full_pose(
     arm: Arm,
     measurements: Measurements,
     errors: Array,
-    specs: Sequence[ModelSpec],
-    products: Sequence[ModelSpec] = (),
-    regions: Sequence[tuple[ModelSpec, int]] = (),
+    models: ModelSet,
     seed: int = 0,
     diagnosed: bool = True,
 ) -> pd.DataFrame:
@@ -72,9 +71,7 @@ def paper_full_pose(
         arm: the nominal arm.
         measurements: whose held-out sets give the trajectories' tool points, and the number of identification poses.
         errors: (K,) the robot's true geometric errors, m and rad, in the order of `geometric_errors`.
-        specs: models to fit as they are.
-        products: models to extend by a sparse choice of products.
-        regions: models of so many blended regions.
+        models: to fit, plain and extended.
         seed: of the identification poses and the noise.
         diagnosed: add physics diagnosed from the positions alone.
 
@@ -91,24 +88,25 @@ def paper_full_pose(
     count = len(measurements.identification.motor_angles)
     identification = _identification(truth, np.concatenate(list(paths.values())), count, seed)
     recordings = _measured(truth, errors, identification, np.random.default_rng(seed))
-    models = _models(arm, recordings, specs, products, regions)
+    fitted = _models(arm, recordings, models)
     if diagnosed:
-        models[DIAGNOSED] = _physics(arm, recordings)
+        fitted[DIAGNOSED] = _physics(arm, recordings)
     rows = _rows(NO_MODEL, "identification", "fit", *_gap(_of(recordings), _nominal(arm, identification)))
     for name, angles in paths.items():
         real = _pose(truth.stand(angles, errors / truth.sigmas))
         for stage in ("prediction", "closed loop"):
             rows += _rows(NO_MODEL, name, stage, *_gap(real, _nominal(arm, angles)))
-    for title, model in models.items():
+    for title, model in fitted.items():
         rows += _rows(title, "identification", "fit", *_gap(_of(recordings), model.stand(identification)))
         for name, angles in paths.items():
             real = _pose(truth.stand(angles, errors / truth.sigmas))
             rows += _rows(title, name, "prediction", *_gap(real, model.stand(angles)))
             result = model.compensate(_wanted(arm, angles, name))
-            reached = result.reached
-            loop = _pose(truth.stand(result.commands[reached], errors / truth.sigmas)) if reached.any() else None
-            gap = None if loop is None else _gap(loop, _nominal(arm, angles[reached]))
-            rows += _rows(title, name, "closed loop", *(gap or (np.empty((0, 3)),) * 2), int(np.sum(~reached)))
+            reached, gap = result.reached, (np.empty((0, 3)), np.empty((0, 3)))
+            if reached.any():
+                loop = _pose(truth.stand(result.commands[reached], errors / truth.sigmas))
+                gap = _gap(loop, _nominal(arm, angles[reached]))
+            rows += _rows(title, name, "closed loop", *gap, int(np.sum(~reached)))
     return pd.DataFrame(rows)
 
 
@@ -149,19 +147,11 @@ def _wanted(arm: Arm, angles: Array, name: str) -> WantedPath:
     return as_path(_table(angles, *_nominal(arm, angles)), f"trajectory {name}", arm)
 
 
-def _models(
-    arm: Arm,
-    recordings: Recordings,
-    specs: Sequence[ModelSpec],
-    products: Sequence[ModelSpec],
-    regions: Sequence[tuple[ModelSpec, int]],
-) -> dict[str, _Model]:
-    fitted = {spec.name: fit_error_model(arm, recordings, spec) for spec in specs}
-    fitted |= {f"{spec.name} with products": fit_error_model(arm, recordings, spec, products=True) for spec in products}
-    fitted |= {
-        f"{spec.name}, {count} regions": fit_error_model(arm, recordings, spec, regions=count)
-        for spec, count in regions
-    }
+def _models(arm: Arm, recordings: Recordings, models: ModelSet) -> dict[str, _Model]:
+    fit = functools.partial(fit_error_model, arm, recordings)
+    fitted = {spec.name: fit(spec) for spec in models.plain}
+    fitted |= {f"{spec.name} with products": fit(spec, products=True) for spec in models.products}
+    fitted |= {f"{spec.name}, {count} regions": fit(spec, regions=count) for spec, count in models.regions}
     return {name: _black_box(model) for name, model in fitted.items()}
 
 
@@ -193,8 +183,7 @@ def _nominal(arm: Arm, angles: Array) -> tuple[Array, Array]:
 
 
 def _of(recordings: Recordings) -> tuple[Array, Array]:
-    assert recordings.orientation is not None
-    return recordings.positions, Rotation.from_quat(recordings.orientation[:, [1, 2, 3, 0]]).as_matrix()
+    return recordings.positions, Rotation.from_quat(recordings.quaternions, scalar_first=True).as_matrix()
 
 
 def _gap(pose: tuple[Array, Array], other: tuple[Array, Array]) -> tuple[Array, Array]:

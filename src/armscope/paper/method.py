@@ -18,6 +18,7 @@ from armscope.errormodels.features import ModelSpec
 from armscope.paper.claims.catalogue import CLAIMS
 from armscope.paper.claims.evidence import Evidence
 from armscope.paper.claims.judges import CLOSE_PER_CENT, arrival, cost_ratio
+from armscope.paper.claims.table import missing_models
 from armscope.paper.claims.verdicts import interval
 from armscope.paper.measurements import Measurements
 from armscope.swarm import SwarmSettings
@@ -28,6 +29,7 @@ UPDATES = ("original", "constriction", "inertia")
 JUDGED = ("alternative", "iterations", "fourier", "same_outcome")
 """The claims whose fate follows from the method."""
 
+CLAIM_COLUMNS = ["basis", "layout", "update", "key", "true", "robots", "share", "share_low", "share_high"]
 PRINTED_BASIS, PRINTED_LAYOUT, PRINTED_UPDATE = BASES[0], LAYOUTS[0], UPDATES[0]
 RANDOM_SEARCH = "random search"
 
@@ -74,7 +76,7 @@ def method_table(
     blind = fit_random_search(problems, seeds, as_printed(settings), PRINTED_BASIS, PRINTED_LAYOUT)
     where = {"basis": PRINTED_BASIS, "layout": PRINTED_LAYOUT, "update": RANDOM_SEARCH}
     tables += [{**where, **row} for row in _by_model(blind)]
-    return pd.DataFrame(tables), pd.DataFrame(judged)
+    return pd.DataFrame(tables), pd.DataFrame(judged, columns=CLAIM_COLUMNS)
 
 
 def _by_model(fits: Sequence[FittedModel]) -> list[dict[str, object]]:
@@ -104,7 +106,7 @@ def _by_model(fits: Sequence[FittedModel]) -> list[dict[str, object]]:
 def _judged(evidence: Evidence) -> list[dict[str, object]]:
     rows: list[dict[str, object]] = []
     for claim in CLAIMS:
-        if claim.key in JUDGED and set(claim.needs) <= set(evidence.models):
+        if claim.key in JUDGED and not missing_models(claim, evidence):
             outcome = claim.judge(evidence)
             if outcome is not None:
                 true, robots = int(outcome.per_robot.sum()), len(outcome.per_robot)

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
 
 from armscope.core.types import Array
 from armscope.errormodels import FDP_CI, FOURIER_2_AI, POLYNOMIAL_4_AI, SDP_AI, SDP_CI, ModelSpec
-from armscope.errormodels.products import candidate_terms, fit_products
-from armscope.errormodels.regions import blended, chosen_regions, compare_regions, divide, fit_regions, halvings_of
-from armscope.paper.measurements import Measurements, PoseSet
+from armscope.errormodels.extended import with_products, with_regions
+from armscope.errormodels.products import ProductFeatures, candidate_terms
+from armscope.errormodels.regions import chosen_regions, compare_regions
+from armscope.paper.measurements import Measurements
 
 
 def paper_regions(
@@ -34,18 +35,12 @@ def paper_regions(
     for spec in specs:
         inputs = identification.inputs(spec)
         table = compare_regions(spec, inputs, errors, np.random.default_rng(seed), most_halvings)
+        divided = [with_regions(spec, inputs, errors, int(count)) for count in table["regions"]]
         for path in measurements.held_out:
-            table[path.name] = [_left_by_regions(spec, identification, path, int(n)) for n in table["regions"]]
+            table[path.name] = [_length(path.errors_mm[0] - model.predict(path.inputs(spec))) for model in divided]
         parts.append(table.assign(model=spec.name))
     table = pd.concat(parts, ignore_index=True)
     return table[["model", *table.columns.drop("model")]]
-
-
-def _left_by_regions(spec: ModelSpec, identification: PoseSet, path: PoseSet, regions: int) -> float:
-    inputs, features = identification.inputs(spec), spec.features(identification.inputs(spec))
-    cut = divide(inputs, halvings_of(regions))
-    coefficients = fit_regions(features, cut, inputs, identification.errors_mm[0])
-    return _length(path.errors_mm[0] - blended(features, cut, coefficients, path.inputs(spec)))
 
 
 def _length(left: Array) -> float:
@@ -70,21 +65,22 @@ def paper_products(measurements: Measurements, specs: Sequence[ModelSpec], seed:
     errors, rows = identification.errors_mm[0], []
     for spec in specs:
         inputs = identification.inputs(spec)
-        sums = spec.features(inputs)
         one = compare_regions(spec, inputs, errors, np.random.default_rng(seed), most_halvings=0)
-        products, coefficients, compared = fit_products(spec, inputs, errors, np.random.default_rng(seed))
-        chosen = compared[compared["chosen"]]
+        products, compared = with_products(spec, inputs, errors, np.random.default_rng(seed))
+        plain, terms = with_regions(spec, inputs, errors, 1), products.features
+        assert isinstance(terms, ProductFeatures)
+        candidates = len(candidate_terms(spec, terms.half_range))
         by_kind = (
-            ("sums", sums, fit_regions(sums, None, inputs, errors)[0], one, sums.coefficients_per_axis),
-            ("products", products, coefficients, chosen, len(candidate_terms(spec, products.half_range))),
+            ("sums", plain, one, plain.features.coefficients_per_axis),
+            ("products", products, compared[compared["chosen"]], candidates),
         )
-        for kind, features, fitted, scores, candidates in by_kind:
+        for kind, model, scores, tried in by_kind:
             left = {
-                path.name: _length(path.errors_mm[0] - features.matrix(path.inputs(spec)) @ fitted.T)
-                for path in measurements.held_out
+                each.name: _length(each.errors_mm[0] - model.predict(each.inputs(spec)))
+                for each in measurements.held_out
             }
             numbers = {name: float(scores[name].iloc[0]) for name in ("fit_rms_mm", "held_out_rms_mm", "stderr_mm")}
-            counts = {"candidates": candidates, "terms": features.coefficients_per_axis}
+            counts = {"candidates": tried, "terms": model.features.coefficients_per_axis}
             rows.append({"model": spec.name, "kind": kind, **counts, **numbers, **left})
     return pd.DataFrame(rows)
 
@@ -127,22 +123,24 @@ def _extended(
     measurements: Measurements, robot: int, spec: ModelSpec, divided: bool, multiplied: bool, seed: int
 ) -> list[tuple[str, int, dict[str, float]]]:
     """(kind, size, RMS by trajectory) of one model of one robot, plain and extended."""
-    rows, sums = measurements.identification, spec.features(measurements.identification.inputs(spec))
+    rows = measurements.identification
     inputs, errors = rows.inputs(spec), rows.errors_mm[robot]
-
-    def left(predict: Callable[[Array], Array]) -> dict[str, float]:
-        return {each.name: _length(each.errors_mm[robot] - predict(each.inputs(spec))) for each in measurements.sets}
-
-    def by_regions(count: int) -> dict[str, float]:
-        cut = divide(inputs, halvings_of(count))
-        coefficients = fit_regions(sums, cut, inputs, errors)
-        return left(lambda at: blended(sums, cut, coefficients, at))
-
-    found = [(PLAIN, sums.coefficients_per_axis, by_regions(1))]
+    plain = with_regions(spec, inputs, errors, 1)
+    found = [(PLAIN, plain.features.coefficients_per_axis, plain)]
     if divided:
         count = chosen_regions(compare_regions(spec, inputs, errors, np.random.default_rng(seed)))
-        found.append((SUB_VOLUMES, count, by_regions(count)))
+        found.append((SUB_VOLUMES, count, with_regions(spec, inputs, errors, count)))
     if multiplied:
-        features, fitted, _ = fit_products(spec, inputs, errors, np.random.default_rng(seed))
-        found.append((PRODUCTS, features.coefficients_per_axis, left(lambda at: features.matrix(at) @ fitted.T)))
-    return found
+        model, _ = with_products(spec, inputs, errors, np.random.default_rng(seed))
+        found.append((PRODUCTS, model.features.coefficients_per_axis, model))
+    return [
+        (
+            kind,
+            size,
+            {
+                each.name: _length(each.errors_mm[robot] - model.predict(each.inputs(spec)))
+                for each in measurements.sets
+            },
+        )
+        for kind, size, model in found
+    ]

@@ -11,10 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array
+from armscope.fitting.constants import STEPS
+from armscope.fitting.placement import FlangePoses, place_frames
 from armscope.paper.measurements import Measurements, PoseSet
 from armscope.paper.printed import IDENTIFICATION
 from armscope.recordings import Recordings
@@ -26,9 +27,6 @@ HELD_OUT = "held out"
 MOST_CANDIDATES = 3000
 LARGEST_SHARE = 0.7
 """At most this share of the configurations is used for identification, where there are few."""
-
-FRAME_ITERATIONS = 50
-FRAME_STEP = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,8 +113,17 @@ def real_measurements(arm: Arm, recordings: Recordings, seed: int, count: int = 
     frames = chain(arm, recordings.motor_angles)
     # the last frame's origin: the nominal tool point without its offset
     origins = frames.tool - frames.tool_rotation @ arm.tool
-    fit = _FrameFit(frames.tool_rotation, origins, recordings.positions, target)
-    rotation, position, tools = fit.solve(identified, np.tile(arm.tool, (len(targets), 1)))
+    chosen = np.flatnonzero(identified)
+    poses = FlangePoses(
+        origins[chosen],
+        frames.tool_rotation[chosen],
+        recordings.positions[chosen],
+        np.zeros_like(chosen),
+        target[chosen],
+    )
+    start = poses.start(np.tile(arm.tool, (len(targets), 1)), 1)
+    placed = place_frames(poses, start, STEPS.registration, lambda left: np.ones(len(left))).state
+    rotation, position, tools = placed.rotations[0], placed.translations[0], placed.tools
     nominal = origins + np.einsum("nij,nj->ni", frames.tool_rotation, tools[target])
     measured = (recordings.positions - position) @ rotation
     errors = (measured - nominal) * 1e3
@@ -132,46 +139,3 @@ def _configurations(recordings: Recordings) -> NDArray[np.intp]:
     """(N,) number of each row's configuration: rows of one run and id with equal angles are targets of one."""
     keys = np.column_stack([recordings.run, recordings.id, recordings.motor_angles.astype(str)])
     return np.asarray(np.unique(keys, axis=0, return_inverse=True)[1]).ravel()
-
-
-@dataclass(frozen=True, eq=False)
-class _FrameFit:
-    """measured = R (R_i tool + o_i) + t: Gauss-Newton for R, t and the tool of each target."""
-
-    tool_rotation: Array
-    origins: Array
-    measured: Array
-    target: NDArray[np.intp]
-
-    def solve(self, rows: NDArray[np.bool_], tools: Array) -> tuple[Array, Array, Array]:
-        """(R, t, tools) from the given rows."""
-        turned, origins = self.tool_rotation[rows], self.origins[rows]
-        measured, target = self.measured[rows], self.target[rows]
-        nominal = origins + np.einsum("nij,nj->ni", turned, tools[target])
-        centre, goal = nominal.mean(axis=0), measured.mean(axis=0)
-        rotation = Rotation.align_vectors(measured - goal, nominal - centre)[0].as_matrix()
-        position = goal - rotation @ centre
-        for _ in range(FRAME_ITERATIONS):
-            nominal = origins + np.einsum("nij,nj->ni", turned, tools[target])
-            predicted = nominal @ rotation.T
-            columns = self._columns(predicted, rotation @ turned, target, len(tools))
-            gap = (measured - predicted - position).ravel()
-            step = np.linalg.lstsq(columns, gap, rcond=1e-10)[0]
-            rotation = Rotation.from_rotvec(step[:3]).as_matrix() @ rotation
-            position = position + step[3:6]
-            tools = tools + step[6:].reshape(-1, 3)
-            if np.abs(step).max() < FRAME_STEP:
-                break
-        return rotation, position, tools
-
-    @staticmethod
-    def _columns(predicted: Array, turned: Array, target: NDArray[np.intp], n_targets: int) -> Array:
-        """(3 N, 6 + 3 targets) slopes of the predicted points by a turn, a shift and the tools."""
-        n_rows = len(predicted)
-        columns = np.zeros((n_rows, 3, 6 + 3 * n_targets))
-        columns[:, :, :3] = np.swapaxes(np.cross(np.eye(3), predicted[:, None, :]), 1, 2)
-        columns[:, :, 3:6] = np.eye(3)
-        for number in range(n_targets):
-            mine = target == number
-            columns[mine, :, 6 + 3 * number : 9 + 3 * number] = turned[mine]
-        return columns.reshape(3 * n_rows, -1)

@@ -101,24 +101,25 @@ def spatial_rms(measurements: Measurements, fits: Sequence[FittedModel], least_s
         Columns (model, trajectory, axis); RMS in mm, the median over the seeds; "Uncompensated" is one of the models.
     """
     robots = list(dict.fromkeys(fit.label for fit in fits))
-    rows = {robot: measurements.robots.index(robot) for robot in robots}
-    values: dict[tuple[str, str, str], dict[str, float]] = {}
+    alike: dict[tuple[str, int], list[FittedModel]] = {}
+    for fit in fits:
+        alike.setdefault((fit.name, len(fit.seeds)), []).append(fit)
+    values: dict[tuple[str, str, str], Array] = {}
 
-    def note(robot: str, model: str, trajectory: str, left: Array) -> None:
-        squares = np.einsum("sna,sna->sa", left, left) / left.shape[1]
-        rms = np.sqrt(np.column_stack([squares, squares.sum(axis=1)]))
-        for axis, value in zip((*AXES, SPATIAL), np.median(rms, axis=0), strict=True):
-            values.setdefault((model, trajectory, axis), {})[robot] = float(value)
+    def note(model: str, trajectory: str, labels: Sequence[str], left: Array) -> None:
+        """Of residuals (R, S, N, 3)."""
+        squares = np.einsum("rsna,rsna->rsa", left, left) / left.shape[2]
+        rms = np.sqrt(np.concatenate([squares, squares.sum(axis=2, keepdims=True)], axis=2))
+        places = [robots.index(label) for label in labels]
+        for axis, of_axis in zip((*AXES, SPATIAL), np.median(rms, axis=1).T, strict=True):
+            values.setdefault((model, trajectory, axis), np.full(len(robots), np.nan))[places] = of_axis
 
     for each in measurements.sets:
-        terms: dict[str, Array] = {}
-        for robot in robots:
-            note(robot, UNCOMPENSATED, each.name, each.errors_mm[rows[robot]][None])
-        for fit in fits:
-            if fit.name not in terms:
-                terms[fit.name] = fit.features.matrix(each.inputs(fit.features.spec))
-            chosen = fit.least_squares[None] if least_squares else fit.coefficients
-            left = each.errors_mm[rows[fit.label]] - np.matmul(terms[fit.name], chosen.transpose(0, 2, 1))
-            note(fit.label, fit.name, each.name, left)
-    table = pd.DataFrame(values, index=robots)
-    return table.rename_axis(columns=["model", "trajectory", "axis"])
+        errors = {robot: each.errors_mm[measurements.robots.index(robot), None] for robot in robots}
+        note(UNCOMPENSATED, each.name, robots, np.stack(list(errors.values())))
+        for (model, _), mine in alike.items():
+            terms = mine[0].features.matrix(each.inputs(mine[0].features.spec))
+            chosen = np.stack([fit.least_squares[None] if least_squares else fit.coefficients for fit in mine])
+            left = np.stack([errors[fit.label] for fit in mine]) - terms @ chosen.swapaxes(2, 3)
+            note(model, each.name, [fit.label for fit in mine], left)
+    return pd.DataFrame(values, index=robots).rename_axis(columns=["model", "trajectory", "axis"])

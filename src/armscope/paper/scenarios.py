@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import pandas as pd
-from scipy.stats import qmc
 
 from armscope.core.inputs import InputError
-from armscope.paper.study import Point, Sizes, StudyPlan
+from armscope.paper.study import Sizes, StudyPlan
+from armscope.paper.virtual import Point
 from armscope.robot import Arm
 
 Corners = tuple[Point, Point, Point, Point]
@@ -81,6 +81,8 @@ def _together(
     base: StudyPlan, levels: Mapping[str, Sequence[tuple[str, Change]]], varied: Varied
 ) -> Iterator[tuple[str, StudyPlan]]:
     """A Latin hypercube over the levels of all assumptions, the study's own among them."""
+    from scipy.stats import qmc  # takes half a second: seldom needed
+
     if not varied.together:
         return
     design = qmc.LatinHypercube(len(levels), rng=varied.seed).random(varied.together)

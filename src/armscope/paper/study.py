@@ -9,55 +9,18 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from armscope.core.types import Array
 from armscope.paper.virtual import (
+    PlannedPaths,
+    PlannedPoses,
     VirtualStudy,
     identification_poses,
     measure_virtual,
-    paper_paths_mm,
     trajectory_poses,
 )
 from armscope.robot import Arm
 from armscope.world.poses import Choice
 from armscope.world.tolerances import GeometricErrors, geometric_errors
 from armscope.world.tracker import Tracker
-
-Point = tuple[float, float, float]
-
-
-@dataclass(frozen=True)
-class PlannedPaths:
-    """The three test trajectories, mm; see `armscope.paper.virtual.paper_paths_mm`."""
-
-    corners_mm: tuple[Point, Point, Point, Point]
-    points_per_side: int
-    spiral_starts_mm: tuple[Point, Point]
-    enlargement_mm: float
-    turns_pi: float
-    spiral_points: int
-    rise_mm: float
-
-    def by_name(self) -> dict[str, Array]:
-        """Name -> (N, 3) tool points in the base frame, mm."""
-        return paper_paths_mm(
-            self.corners_mm,
-            self.points_per_side,
-            self.spiral_starts_mm,
-            self.enlargement_mm,
-            self.turns_pi,
-            self.spiral_points,
-            self.rise_mm,
-        )
-
-
-@dataclass(frozen=True)
-class PlannedPoses:
-    """The identification poses; see `armscope.paper.virtual.identification_poses`."""
-
-    count: int
-    candidates: int
-    margin_rad: float
-    motor_6_rad: float
 
 
 @dataclass(frozen=True)
@@ -119,9 +82,7 @@ def measured(plan: StudyPlan) -> tuple[VirtualStudy, Choice]:
     Raises:
         InputError: a path that can't be reached.
     """
-    errors, trajectories, poses = plan.errors, plan.follow(), plan.poses
-    identification, choice = identification_poses(
-        errors, trajectories, poses.count, poses.candidates, poses.margin_rad, poses.motor_6_rad, plan.seed
-    )
+    errors, trajectories = plan.errors, plan.follow()
+    identification, choice = identification_poses(errors, trajectories, plan.poses, plan.seed)
     at = pd.concat([identification, trajectories], ignore_index=True)
     return measure_virtual(errors, at, plan.tracker, plan.ensemble, plan.seed, plan.repeat_m), choice

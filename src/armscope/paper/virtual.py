@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from numpy.typing import ArrayLike
 
 from armscope.core.types import Array
 from armscope.paper.anchoring import AnchoredRobots, anchor
@@ -19,6 +18,8 @@ from armscope.world.poses import Choice, candidate_poses, choose_poses, joint_ra
 from armscope.world.tolerances import GeometricErrors
 from armscope.world.tracker import Tracker
 from armscope.world.trajectories import archimedes_spiral, rectangle
+
+Point = tuple[float, float, float]
 
 HELD = {4: 0.0, 5: 0.0}
 """theta4 = theta5 = 0 throughout (below Eq. 14)."""
@@ -32,35 +33,53 @@ class VirtualStudy:
     measurements: Measurements
 
 
-def paper_paths_mm(
-    corners_mm: ArrayLike,
-    points_per_side: int,
-    spiral_starts_mm: ArrayLike,
-    enlargement_mm: float,
-    turns_pi: float,
-    spiral_points: int,
-    rise_mm: float,
-) -> dict[str, Array]:
-    """The three test trajectories (sections 7.1, 7.2): name -> (N, 3) tool points in the base frame, mm.
+@dataclass(frozen=True)
+class PlannedPaths:
+    """The three test trajectories (sections 7.1, 7.2), mm in the base frame.
 
-    Args:
-        corners_mm: (4, 3) corners of trajectory I, the first at (1100, 800, 600).
+    Attributes:
+        corners_mm: of trajectory I, the first at (1100, 800, 600).
         points_per_side: 50.
-        spiral_starts_mm: (2, 3) starts of II and III.
+        spiral_starts_mm: of II and III.
         enlargement_mm: W of Eqs. (21)-(22), 20.
         turns_pi: phi runs from 0 to this many times pi, 5.
         spiral_points: 200.
         rise_mm: change of the third coordinate (z of II, x of III) along the whole spiral.
-
-    Returns:
-        Points by the trajectory's name.
     """
-    second, third = np.asarray(spiral_starts_mm, dtype=float)
-    return {
-        "test 1": rectangle(corners_mm, points_per_side),
-        "test 2": archimedes_spiral(second, "xy", enlargement_mm, turns_pi, spiral_points, rise_mm),
-        "test 3": archimedes_spiral(third, "yz", enlargement_mm, turns_pi, spiral_points, rise_mm),
-    }
+
+    corners_mm: tuple[Point, Point, Point, Point]
+    points_per_side: int
+    spiral_starts_mm: tuple[Point, Point]
+    enlargement_mm: float
+    turns_pi: float
+    spiral_points: int
+    rise_mm: float
+
+    def by_name(self) -> dict[str, Array]:
+        """Name -> (N, 3) tool points in the base frame, mm."""
+        (second, third), shape = self.spiral_starts_mm, (self.enlargement_mm, self.turns_pi, self.spiral_points)
+        return {
+            "test 1": rectangle(self.corners_mm, self.points_per_side),
+            "test 2": archimedes_spiral(second, "xy", *shape, self.rise_mm),
+            "test 3": archimedes_spiral(third, "yz", *shape, self.rise_mm),
+        }
+
+
+@dataclass(frozen=True)
+class PlannedPoses:
+    """The identification poses.
+
+    Attributes:
+        count: 85.
+        candidates: how many, spread evenly over the ranges, to choose from.
+        margin_rad: by which the paths' joint ranges are widened to both sides.
+        motor_6_rad: theta6 ranges over +- this instead (the paths hardly move it).
+    """
+
+    count: int
+    candidates: int
+    margin_rad: float
+    motor_6_rad: float
 
 
 def trajectory_poses(arm: Arm, paths_mm: Mapping[str, Array]) -> pd.DataFrame:
@@ -79,52 +98,40 @@ def trajectory_poses(arm: Arm, paths_mm: Mapping[str, Array]) -> pd.DataFrame:
 
 
 def identification_poses(
-    errors: GeometricErrors,
-    trajectories: pd.DataFrame,
-    count: int,
-    candidates: int,
-    margin_rad: float,
-    motor_6_rad: float,
-    seed: int,
+    errors: GeometricErrors, trajectories: pd.DataFrame, planned: PlannedPoses, seed: int
 ) -> tuple[pd.DataFrame, Choice]:
     """Poses that cover the trajectories' joint ranges and show the geometric errors best.
 
     Args:
         errors: the geometric errors to be shown (`armscope.world.tolerances.geometric_errors`).
         trajectories: pose table of the test paths: only the range of each motor is taken from it.
-        count: 85.
-        candidates: how many poses, spread evenly over the ranges, to choose from.
-        margin_rad: the ranges are widened by this much to both sides.
-        motor_6_rad: theta6 ranges over +- this instead (the paths hardly move it).
+        planned: how many, out of which.
         seed: of the candidates and of the random choices that the observability index is compared with.
 
     Returns:
         The pose table of "identification", and the choice with its observability index.
     """
-    low, high = identification_ranges(errors, pose_arrays(trajectories)[0], margin_rad, motor_6_rad)
-    poses = candidate_poses(low, high, candidates, seed)
-    choice = choose_poses(errors.jacobian(chain(errors.arm, poses)), count, np.random.default_rng(seed))
+    low, high = identification_ranges(errors, pose_arrays(trajectories)[0], planned)
+    poses = candidate_poses(low, high, planned.candidates, seed)
+    choice = choose_poses(errors.jacobian(chain(errors.arm, poses)), planned.count, np.random.default_rng(seed))
     chosen = poses[choice.rows]
     return pose_table(IDENTIFICATION, chosen, forward_kinematics(errors.arm, chosen) * 1e3), choice
 
 
-def identification_ranges(
-    errors: GeometricErrors, path_angles: Array, margin_rad: float, motor_6_rad: float
-) -> tuple[Array, Array]:
+def identification_ranges(errors: GeometricErrors, path_angles: Array, planned: PlannedPoses) -> tuple[Array, Array]:
     """(low, high) of the motors, (m,) rad: the ranges of the test paths (N, m), widened, theta6 by itself.
 
     Args:
         errors: the possible geometric errors, with their arm.
         path_angles: (N, m) rad along the test paths.
-        margin_rad: by which the paths' ranges are widened.
-        motor_6_rad: half the range of theta6.
+        planned: by how much the ranges are widened.
 
     Returns:
         Two arrays (m,), rad.
     """
-    low, high = joint_ranges(path_angles, margin_rad)
+    low, high = joint_ranges(path_angles, planned.margin_rad)
     if len(low) >= 6:
-        low[5], high[5] = -motor_6_rad, motor_6_rad
+        low[5], high[5] = -planned.motor_6_rad, planned.motor_6_rad
     return np.maximum(low, errors.arm.limits[:, 0]), np.minimum(high, errors.arm.limits[:, 1])
 
 

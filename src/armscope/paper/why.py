@@ -141,16 +141,19 @@ def _chosen(errors: Array, number: Array) -> list[int]:
         candidates = [k for k in range(errors.shape[1]) if k not in chosen and np.ptp(errors[:, k]) > 0]
         if len(number) <= 2 * (len(chosen) + 1) + 2 or not candidates:
             break
-        shares = [_left_out_share(_columns(errors, [*chosen, k]), number) for k in candidates]
+        shares = _left_out_shares(np.stack([_columns(errors, [*chosen, k]) for k in candidates]), number)
         top = int(np.argmax(shares))
         if shares[top] < best + WORTH:
             break
-        chosen, best = [*chosen, candidates[top]], shares[top]
+        chosen, best = [*chosen, candidates[top]], float(shares[top])
     return chosen
 
 
-def _left_out_share(columns: Array, number: Array) -> float:
-    """Share of the variance that a linear fit explains in leave-one-out, by its hat matrix."""
-    hat = columns @ np.linalg.pinv(columns)
-    left = (number - hat @ number) / np.maximum(1e-12, 1 - np.diag(hat))
-    return float(1 - np.sum(left**2) / np.sum((number - number.mean()) ** 2))
+def _left_out_shares(columns: Array, number: Array) -> Array:
+    """(K,) shares of the variance that linear fits (K, R, n) explain in leave-one-out, by their hat matrices."""
+    turned = columns.swapaxes(1, 2)
+    inverse = np.linalg.pinv(turned @ columns, hermitian=True) @ turned
+    leverage = np.einsum("krn,knr->kr", columns, inverse)
+    fitted = np.squeeze(columns @ (inverse @ number[:, None]), axis=2)
+    left = (number - fitted) / np.maximum(1e-12, 1 - leverage)
+    return np.asarray(1 - np.sum(left**2, axis=1) / np.sum((number - number.mean()) ** 2))

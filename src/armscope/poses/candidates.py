@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
@@ -56,6 +55,8 @@ def candidates(arm: Arm, count: int, around: Surroundings, seed: int, payload_kg
     Raises:
         InputError: hardly any pose is possible.
     """
+    from scipy.stats import qmc  # takes long to import: only where poses are chosen
+
     low, high = ranges(arm)
     sequence = qmc.Halton(arm.n_motors, rng=np.random.default_rng(seed))
     kept: list[Array] = []

@@ -12,7 +12,6 @@ from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 from armscope.core.types import Array
 from armscope.poses.body import Capsule, Shape, collision_shapes, pieces
@@ -75,6 +74,8 @@ def refusals(arm: Arm, motor_angles: Array, around: Surroundings) -> NDArray[np.
     Returns:
         (N,) texts.
     """
+    from scipy.stats import qmc  # takes long to import: only where poses are chosen
+
     low, high = ranges(arm)
     probes = low + qmc.Halton(arm.n_motors, scramble=False).random(PROBES) * (high - low)
     frames = chain(arm, np.concatenate([probes, motor_angles]))

@@ -5,14 +5,13 @@ from __future__ import annotations
 import base64
 import importlib.resources
 import re
-import zlib
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 import jinja2
 import pandas as pd
 from markupsafe import Markup
-from pandas.io.formats.style import Styler
 
 from armscope.core.files import write_text
 from armscope.core.outputs import readable
@@ -70,17 +69,20 @@ def html_table(rows: pd.DataFrame, digits: int = 3) -> Markup:
 
     Names and words come from users' files: whatever they hold is shown, never obeyed.
     """
-    text = [name for name in rows.columns if not pd.api.types.is_numeric_dtype(rows[name])]
+    looks = ["" if pd.api.types.is_numeric_dtype(rows[name]) else ' class="words"' for name in rows.columns]
 
     def shown(value: Any) -> str:
+        if pd.isna(value):
+            return "–"
         return significant(value, digits) if isinstance(value, float) else str(value)
 
-    left: Any = {name: [{"selector": "th, td", "props": "text-align: left; white-space: normal"}] for name in text}
-    same_for_same_rows = f"{zlib.crc32(rows.to_csv().encode()):08x}"
-    styler = Styler(rows, uuid=same_for_same_rows, cell_ids=False).hide(axis="index")
-    styler = styler.format(shown, na_rep="–", escape="html").format_index(axis="columns", escape="html")
-    html = styler.set_table_styles(left, overwrite=False).to_html()
-    return Markup('<div class="scroll">{}</div>').format(Markup(html))
+    def line(tag: str, values: Iterable[Any]) -> Markup:
+        cells = zip(looks, values, strict=True)
+        return Markup("\n").join(Markup(f"<{tag}{look}>{{}}</{tag}>").format(shown(value)) for look, value in cells)
+
+    body = Markup("").join(Markup("<tr>{}</tr>").format(line("td", row)) for row in rows.itertuples(index=False))
+    head = Markup("<tr>{}</tr>").format(line("th", rows.columns))
+    return Markup('<div class="scroll"><table><thead>{}</thead><tbody>{}</tbody></table></div>').format(head, body)
 
 
 def significant(value: float, digits: int = 3) -> str:
@@ -88,6 +90,6 @@ def significant(value: float, digits: int = 3) -> str:
     if value == 0:
         return "0"
     if 1e-4 <= abs(value) < 1e5:
-        decimals = max(0, digits - 1 - int(f"{abs(value):e}".split("e")[1]))
+        decimals = max(0, digits - 1 - int(f"{value:.{digits - 1}e}".split("e")[1]))
         return f"{value:.{decimals}f}"
     return f"{value:.{digits - 1}e}"

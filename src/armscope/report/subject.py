@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from matplotlib.figure import Figure
-
 from armscope.errormodels.reference_models import held_out_rms
 from armscope.recordings import Recordings
+from armscope.report.svg import Drawing
 from armscope.robot import Arm
+from armscope.verdict.contributions import Contributions, contributions
 from armscope.verdict.schema import Diagnosis
+from armscope.verdict.work_order import Task, tasks
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,6 +33,16 @@ class Subject:
         return self.verdict.recordings
 
     @cached_property
+    def worth(self) -> Contributions:
+        """What each cause moves, and what curing it would leave."""
+        return contributions(self.verdict)
+
+    @cached_property
+    def tasks(self) -> list[Task]:
+        """The work order."""
+        return tasks(self.verdict, self.worth)
+
+    @cached_property
     def references(self) -> list[tuple[str, float]]:
         """(model, RMS per axis in mm on held-out rows) of the paper's models."""
         return held_out_rms(self.arm, self.recordings, self.verdict.residuals.before)
@@ -39,11 +50,10 @@ class Subject:
 
 @dataclass(frozen=True, eq=False)
 class Drawn:
-    """A figure, the name of its file, and what it shows, for those who can't see it."""
+    """A figure and the name of its file."""
 
     name: str
-    figure: Figure
-    alt: str
+    figure: Drawing
 
 
 @dataclass(frozen=True)
@@ -53,13 +63,17 @@ class Section:
     Attributes:
         name: its anchor.
         link: what leads to it from the top of the page.
+        title: its heading.
         context: what its template is filled with, beside ``verdict`` and ``figures`` (the saved ones by name).
         figures: each draws what this verdict has something for.
         applies: whether the page has it at all.
+        folded: whether it opens only when it is asked for.
     """
 
     name: str
     link: str
+    title: str
     context: Callable[[Subject], dict[str, Any]] = lambda subject: {}
     figures: tuple[Callable[[Subject], Iterable[Drawn]], ...] = ()
     applies: Callable[[Diagnosis], bool] = lambda verdict: True
+    folded: bool = False

@@ -15,7 +15,6 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import cKDTree
-from scipy.stats import qmc
 
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
@@ -270,6 +269,8 @@ def _unwound(arm: Arm, q: Array) -> Array:
 
 def _spread(arm: Arm, limits: Array) -> Array:
     """Poses spread evenly between limits (half a turn either way where there are none)."""
+    from scipy.stats import qmc  # takes half a second: seldom needed
+
     low, high = np.where(np.isfinite(limits), limits, [-np.pi, np.pi]).T
     return qmc.scale(qmc.Halton(arm.n_motors, scramble=False).random(CLOUD), low, high)
 

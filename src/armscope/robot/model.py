@@ -11,15 +11,16 @@ from armscope.robot.urdf import cut, frame_named, read_urdf, refuse_other_than_t
 TIP = "armscope_tip"
 
 
-def pinocchio_model(description: RobotDescription) -> pin.Model:
+def pinocchio_model(description: RobotDescription, sliding: bool = False) -> pin.Model:
     """The arm's chain as a pinocchio model (m, kg): joints about z for D-H arms, as in the file for a URDF.
 
     Joint frame j has its origin in the D-H origin that lies on axis j: frame j-1 for `standard`, frame j for
-    `modified` rows. The frame `TIP` is the last D-H frame, or the URDF's `tip`.
+    `modified` rows. The frame `TIP` is the last D-H frame, or the URDF's `tip`. Joints of a URDF may be ``sliding``
+    where only torques are asked for.
     """
     if description.dh is not None:
         return _from_dh(description)
-    return _from_urdf(description)
+    return _from_urdf(description, sliding)
 
 
 def dh_halves(row: DHRow, convention: str) -> tuple[pin.SE3, pin.SE3]:
@@ -56,12 +57,12 @@ def _from_dh(description: RobotDescription) -> pin.Model:
     return model
 
 
-def _from_urdf(description: RobotDescription) -> pin.Model:
+def _from_urdf(description: RobotDescription, sliding: bool) -> pin.Model:
     assert description.urdf is not None
     full = read_urdf(description.urdf)
     locked, configuration, tip_name = cut(description, full)
     model = pin.buildReducedModel(full, locked, configuration)
-    refuse_other_than_turning(description.urdf, model)
+    refuse_other_than_turning(description.urdf, model, sliding)
     tip = frame_named(model, tip_name)
     model.addFrame(pin.Frame(TIP, tip.parentJoint, 0, tip.placement, pin.FrameType.OP_FRAME))
     _append_tool_load(model, description)

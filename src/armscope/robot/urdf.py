@@ -111,16 +111,21 @@ def _tell_frames_apart(full: pin.Model) -> None:
             frame.name += " (link)" if frame.type == pin.FrameType.BODY else " (fixed)"
 
 
-def refuse_other_than_turning(file: str, model: pin.Model) -> None:
-    """Only hinges can be diagnosed.
+def refuse_other_than_turning(file: str, model: pin.Model, sliding: bool = False) -> None:
+    """Only hinges can be diagnosed; in motion, joints that slide along one axis, too.
+
+    Args:
+        file: the URDF, for the error.
+        model: the chain.
+        sliding: whether joints may slide.
 
     Raises:
-        InputError: a joint of the chain is none.
+        InputError: a joint of the chain is none of these.
     """
     for joint in range(1, model.njoints):
         name, kind = model.names[joint], model.joints[joint].shortname().removeprefix("JointModel")
         other = next((told for begin, told in sorted(KINDS.items(), reverse=True) if kind.startswith(begin)), "")
-        if other:
+        if other and not (sliding and other == SLIDING):
             cure = "Make it a fixed joint in the file."
             if other == SLIDING:
                 cure = f"Hold it where it stood (m): `hold_joints: {{{name}: 0}}`."

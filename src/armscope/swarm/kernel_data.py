@@ -27,6 +27,7 @@ class Problems(NamedTuple):
     width: Array  # S x D
     speed_limits: Array  # S x D
     coefficients: Array  # T x 3
+    first_blocks: Words  # D: the block of rows in which each column of the factors begins
     particles: int
     threshold: float
     orthonormal: bool

@@ -68,6 +68,7 @@ class EffectFile(_Part):
     inclusion: float | None
     description: str
     carries_over: str
+    undetermined: tuple[str, ...] = ()
 
 
 class BeforeAfter(_Part):

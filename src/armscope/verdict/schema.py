@@ -102,6 +102,7 @@ class FoundEffect:
         carries_over: what is known about it on other runs, payloads or regions; empty where that was not tested.
         description: the shape of its curve in words; empty where it has none.
         curve: its shape over the driver, where it has one. Lives in memory (and in curves.csv) only.
+        undetermined: parameters that these rows leave open: held near zero, and not told.
         physics, confirm, cure: one sentence each, the definition's; not in verdict.json.
     """
 
@@ -124,6 +125,7 @@ class FoundEffect:
     cure: str = ""
     carries_over: str = ""
     description: str = ""
+    undetermined: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if self.curve is not None and not self.description:

@@ -10,6 +10,7 @@ from armscope.physics.registry import effect_named
 from armscope.verdict.schema import Cause, Diagnosis, FoundEffect, Verdict
 from armscope.verdict.wording import (
     capitalised,
+    implausible,
     main_and_minor,
     millimetres,
     percent,
@@ -22,8 +23,8 @@ MOST_TOLD = 3
 """More causes than this are counted, not told."""
 _KINDS = {"geometric": "shape", "elastic": "stiffness", "transmission": "drives"}
 _EVERYWHERE = {
-    "geometric": "the geometry is off a little everywhere, as on any arm",
-    "elastic": "everything gives way a little, as in any arm",
+    "geometric": "the geometry is off a little in all joints and links, as on any arm",
+    "elastic": "all joints and links give way a little, as in any arm",
     "transmission": "all drives err a little, as in any arm",
 }
 _CURES = {
@@ -89,7 +90,7 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], everywhere: bool
         The clause.
     """
     told = [effect for effect in members if not effect.minor][:1] or ([] if everywhere else list(members[:1]))
-    small = _EVERYWHERE.get(family, f"small {family} errors everywhere, as in any arm")
+    small = _EVERYWHERE.get(family, f"small {family} errors in all joints and links, as in any arm")
     if not told:
         return small
     more = len(members) - len(told)
@@ -195,7 +196,7 @@ def atlas_column(effect: FoundEffect) -> str:
 
 
 def _told(effect: FoundEffect) -> Told:
-    numbers = {p.name: Number(p.value, p.unit, p.stderr) for p in effect.parameters}
+    numbers = {p.name: Number(p.value, p.unit, p.stderr) for p in effect.parameters if not implausible(p, effect)}
     if effect.curve is not None and len(effect.curve.value):
         farthest = reach(effect.curve)
         numbers[farthest.name] = Number(farthest.value, farthest.unit, farthest.stderr)

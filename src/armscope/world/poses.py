@@ -12,7 +12,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.stats import qmc
 
 from armscope.core.types import Array
 
@@ -52,6 +51,8 @@ def candidate_poses(low: ArrayLike, high: ArrayLike, count: int, seed: int) -> A
     Returns:
         (count, m) rad.
     """
+    from scipy.stats import qmc  # takes half a second: seldom needed
+
     low, high = np.asarray(low, dtype=float), np.asarray(high, dtype=float)
     moving = np.flatnonzero(high > low)
     poses = np.tile(low, (count, 1))

@@ -8,6 +8,7 @@ from typer.testing import CliRunner
 
 from armscope.cli import app
 from armscope.proof.motion import making, reading
+from armscope.proof.motion.answers import read_answer
 from armscope.proof.motion.diagnosing import diagnose_worlds
 from armscope.proof.motion.truth import unseal
 from armscope.world.motion.catalogue import MotionSpec, Wish
@@ -57,6 +58,15 @@ def test_the_truth_itself_scores_as_right(proof):
     assert cases["held_out_ratio"].tolist() == [0.0]
     assert pd.read_csv(proof / "tables" / "intervals.csv")["covered"].tolist() == [True]
     assert "exact set of names, single causes" in said
+
+
+def test_a_verdict_without_prediction_keeps_its_names_and_is_infinitely_wrong_on_the_test_path(tmp_path):
+    verdict = {"effects": [], "unexplained": {"present": False}, "mismatch": False, "answer": "nothing missing"}
+    (tmp_path / "verdict.json").write_text(json.dumps(verdict))
+    (tmp_path / "not_predicted.txt").write_text("armscope predict: no model.yaml\n")
+    answer = read_answer(tmp_path)
+    assert (answer.failed, answer.predicted, answer.answer) == ("", None, "nothing missing")
+    assert "model.yaml" in answer.not_predicted
 
 
 def test_a_world_that_cannot_be_diagnosed_is_written_down_as_failed(tmp_path):

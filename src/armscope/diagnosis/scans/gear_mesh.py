@@ -15,14 +15,14 @@ from armscope.physics.placing import moving_joints
 from armscope.physics.transmission import MESH_COUNTS, mesh
 
 
-def mesh_lines(context: ScanContext, given: Sequence[Hypothesis]) -> Iterator[Placed]:
-    """The most promising mesh counts of each joint, given each of some hypotheses."""
+def mesh_lines(context: ScanContext, given: Sequence[Hypothesis], most: int = MESH_COUNTS[-1]) -> Iterator[Placed]:
+    """The most promising mesh counts of each joint up to ``most``, given each of some hypotheses."""
     count = len(context.recordings)
     rows = np.unique(np.linspace(0, count - 1, min(count, SCANS.scanned_rows)).astype(np.intp))
     columns, weights = columns_of(given), context.weights.take(rows, len(rows) / count)
     table = context.recordings.rows(rows)
     for j in moving_joints(context.recordings):
-        placed = [mesh(j, count) for count in MESH_COUNTS]
+        placed = [mesh(j, count) for count in MESH_COUNTS if count <= most]
         terms = [p.terms for p in placed]
         # joint by joint: the waves' products with each other grow with the square of their number
         sums = column_blocks(terms, context.space.layout, columns, context.model, table, weights)

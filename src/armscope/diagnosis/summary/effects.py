@@ -15,7 +15,7 @@ from armscope.diagnosis.scans.context import ScanContext
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary import alternatives as certainty
 from armscope.diagnosis.summary.effect_curve import curve_of
-from armscope.diagnosis.summary.parameters import parameters
+from armscope.diagnosis.summary.parameters import parameters, undetermined
 from armscope.fitting.discrepancy import ModelError
 from armscope.fitting.joint_scatter import motor_jacobians
 from armscope.fitting.refit import Refit
@@ -78,6 +78,8 @@ def found_effect(weighed: Weighed, chosen: SelectedEffect, part: Part, share: fl
     apart = [certainty.discriminability(state.best, other, candidate, rival) for _, rival, other in rivals]
     close = [rival for nats, (_, rival, _) in zip(apart, rivals, strict=True) if nats < INDISTINGUISHABLE_NATS]
     named_as, title = certainty.name(candidate, close)
+    left_open = undetermined(placed, covariance)
+    told = tuple(p for p in parameters(placed, part.values, covariance) if p.name not in left_open)
     return FoundEffect(
         effect=placed.name,
         location=placed.location,
@@ -86,7 +88,8 @@ def found_effect(weighed: Weighed, chosen: SelectedEffect, part: Part, share: fl
         named_as=named_as,
         title=title,
         minor=False,
-        parameters=_with_moment(state, search, chosen, placed, parameters(placed, part.values, covariance)),
+        parameters=_with_moment(state, search, chosen, placed, told),
+        undetermined=left_open,
         rms_at_tool_mm=rms,
         share=share,
         evidence_nats=float(_worth(state, search, chosen)),

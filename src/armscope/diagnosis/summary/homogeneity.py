@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.special import chdtri
 
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Indices
@@ -32,8 +32,10 @@ def subset_consistency(state: DiagnosisState) -> dict[int, str]:
         for c in state.best.chosen
         if (placed := state.space.placed[c.candidate]).parametrisation == "plain" and placed.family != "drift"
     ]
-    for parts, kind in _divisions(state):
-        for candidate, agrees in _agreements(state.problem, state.best, plain, parts).items():
+    divisions = list(_divisions(state))
+    chance = (1 - TELLING.chance) / max(len(divisions) * len(plain), 1)  # one false alarm in a hundred verdicts
+    for parts, kind in divisions:
+        for candidate, agrees in _agreements(state.problem, state.best, plain, parts, chance).items():
             told.setdefault(candidate, []).append(_sentence(len(parts), kind, agrees))
     return {candidate: " ".join(sentences) for candidate, sentences in told.items()}
 
@@ -78,9 +80,9 @@ def _halves(recordings: Recordings, point: FittedModel) -> Indices:
 
 
 def _agreements(
-    problem: Problem, best: Hypothesis, asked: Sequence[int], parts: Sequence[NormalEquations]
+    problem: Problem, best: Hypothesis, asked: Sequence[int], parts: Sequence[NormalEquations], chance: float
 ) -> dict[int, bool]:
-    """Whether the parts' own posteriors under the chosen hypothesis scatter within chance (one in a hundred)."""
+    """Whether the parts' own posteriors under the chosen hypothesis scatter no more than they do by this chance."""
     # a line alone, without what is left of its curve: that could be another's line in each part
     lines = tuple(c for c in best.chosen if problem.space.candidates[c.candidate].variant != REST_OF_LOAD)
     alone = [evaluate(problem.with_equations(part), lines, best.background, best.noise) for part in parts]
@@ -91,7 +93,7 @@ def _agreements(
         variances = np.array([h.variances(columns) for h in alone])
         mean = np.sum(values / variances, axis=0) / np.sum(1 / variances, axis=0)
         misfit = float(np.sum((values - mean) ** 2 / variances))
-        agree[candidate] = misfit < chi2.ppf(TELLING.chance, values.size - values.shape[1])
+        agree[candidate] = misfit < chdtri(values.size - values.shape[1], chance)
     return agree
 
 

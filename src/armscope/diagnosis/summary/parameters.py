@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.diagnosis.constants import TELLING
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.effect import Placed
-from armscope.verdict.schema import Parameter
+from armscope.physics.scene import Part
+from armscope.verdict.schema import Notice, Parameter
 
 Reading = Callable[[Array], Array]
 
@@ -36,6 +39,41 @@ def parameters(placed: Placed, values: Array, covariance: Array) -> tuple[Parame
     ]
     told += [Parameter(name, unit, float(value), 0.0) for name, unit, value in placed.scanned]
     return tuple(told)
+
+
+def beyond_plausible(parts: Sequence[Part]) -> Notice | None:
+    """What to say where a value is larger than real arms show; None where none is."""
+    beyond = [
+        f"{term.name} of {part.placed} by {value / term.si:.3g} {term.unit}"
+        for part in parts
+        for term, value in zip(part.placed.terms, part.values, strict=True)
+        if part.placed.parametrisation != "curve" and abs(value) > PLAUSIBLE.beyond * term.plausible
+    ]
+    if not beyond:
+        return None
+    listed = "; ".join(beyond[: TELLING.implausible_values])
+    text = (
+        f"Larger than arms show that were built to their drawing: {listed}. Is this another model of the arm, "
+        "another convention of its rows, or a wrong unit?"
+    )
+    return Notice("implausible", text)
+
+
+def undetermined(placed: Placed, covariance: Array) -> tuple[str, ...]:
+    """Names of parameters that the rows tell hardly better than is known of any arm; they are held near zero.
+
+    Args:
+        placed: the effect.
+        covariance: (k, k) of its terms' values, SI units.
+
+    Returns:
+        Names; none of waves and curves, which are told as a whole.
+    """
+    if placed.parametrisation != "plain":
+        return ()
+    stderr = np.sqrt(np.diag(covariance))
+    limits = [TELLING.undetermined * term.plausible for term in placed.terms]
+    return tuple(t.name for t, error, limit in zip(placed.terms, stderr, limits, strict=True) if error > limit)
 
 
 def _reading(placed: Placed) -> tuple[list[str], list[str], Reading]:

@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pandas as pd
-from scipy.stats import fisher_exact
 
 from armscope.paper.anchoring import ANCHORED
 from armscope.paper.claims.catalogue import CLAIMS
@@ -37,7 +36,7 @@ def judge_claims(evidence: Mapping[str, Evidence]) -> tuple[pd.DataFrame, pd.Dat
     for claim in CLAIMS:
         for method, of_method in _methods(claim, evidence):
             place: dict[str, object] = {"key": claim.key, "method": method}
-            reason = _missing(claim, of_method)
+            reason = missing_models(claim, of_method)
             judged = None if reason else claim.judge(of_method)
             if judged is None:
                 rows.append({**place, "verdict": SKIPPED, "why_skipped": reason or "not run"})
@@ -56,7 +55,7 @@ def _methods(claim: Claim, evidence: Mapping[str, Evidence]) -> list[tuple[str, 
     return [(LEAST_SQUARES, evidence[IMPROVED])]
 
 
-def _missing(claim: Claim, evidence: Evidence) -> str:
+def missing_models(claim: Claim, evidence: Evidence) -> str:
     """Why the configured models don't let a claim be judged; "" if they do."""
     absent = [name for name in claim.needs if name not in evidence.models]
     if absent:
@@ -148,5 +147,7 @@ def _varied(row: pd.Series, sensitivity: pd.DataFrame) -> dict[str, object]:
 
 def _differs(base: pd.Series, other: pd.Series, level: float) -> bool:
     """Whether two shares of robots differ (Fisher's exact test)."""
+    from scipy.stats import fisher_exact  # takes half a second: seldom needed
+
     counts = np.array([[each["true"], each["robots"] - each["true"]] for each in (base, other)], dtype=int)
     return bool(fisher_exact(counts).pvalue < level)

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-
-from scipy.stats import binomtest
+from functools import cache
 
 HOLDS_FROM, FAILS_TO = 0.95, 0.05
 """A claim holds if it is true of at least this share of the robots, fails if of at most that one."""
@@ -13,6 +12,7 @@ HOLDS, FAILS, DEPENDS, OPEN = "holds", "fails", "depends on the robot", "too few
 DECISIVE = (HOLDS, FAILS, DEPENDS)
 
 
+@cache
 def interval(true: int, robots: int) -> tuple[float, float]:
     """Exact 95 % interval of a share (Clopper & Pearson 1934).
 
@@ -20,6 +20,8 @@ def interval(true: int, robots: int) -> tuple[float, float]:
         true: of how many robots a claim is true.
         robots: of how many.
     """
+    from scipy.stats import binomtest  # takes half a second: seldom needed
+
     found = binomtest(true, robots).proportion_ci(0.95, "exact")
     return float(found.low), float(found.high)
 

@@ -14,6 +14,8 @@ from armscope.proof.definitions import Name
 from armscope.proof.matching import UNKNOWN
 
 VERDICT, PREDICTED = "verdict.json", "test_predicted.csv"
+NOT_PREDICTED = "not_predicted.txt"
+"""Why there is a verdict but no prediction: names count then, the held-out error is infinite."""
 KEPT = (VERDICT, "model.yaml", PREDICTED)
 Numbers = dict[str, tuple[float, float, str]]
 
@@ -27,7 +29,7 @@ class MotionAnswer:
         claims: its causes, one per name, and what it calls unknown.
         mismatch, answer: as in verdict.json.
         background: ordinary friction and rotors by joint: (value, standard error, unit) by name.
-        predicted: torques of the test path.
+        predicted: torques of the test path; None: there are none, ``not_predicted`` says why.
     """
 
     world: str
@@ -37,12 +39,14 @@ class MotionAnswer:
     background: tuple[tuple[str, Numbers], ...] = ()
     predicted: pd.DataFrame | None = None
     failed: str = ""
+    not_predicted: str = ""
 
 
 def read_answer(folder: Path) -> MotionAnswer:
     """The answer in a world's folder of the diagnosing job."""
     if (folder / FAILURE).is_file():
         return MotionAnswer(folder.name, failed=(folder / FAILURE).read_text(encoding="utf-8").strip())
+    why = folder / NOT_PREDICTED
     verdict = read_json(folder / VERDICT, "the verdict of a moving world")
     return MotionAnswer(
         world=folder.name,
@@ -50,7 +54,8 @@ def read_answer(folder: Path) -> MotionAnswer:
         mismatch=verdict["mismatch"],
         answer=verdict["answer"],
         background=tuple((joint["joint"], _numbers(joint["parameters"])) for joint in verdict.get("background", [])),
-        predicted=read_table(folder / PREDICTED),
+        predicted=None if why.is_file() else read_table(folder / PREDICTED),
+        not_predicted=why.read_text(encoding="utf-8").strip() if why.is_file() else "",
     )
 
 

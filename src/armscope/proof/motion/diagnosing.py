@@ -14,7 +14,7 @@ from pathlib import Path
 
 from armscope.core.files import copy_file, new_folder, write_text
 from armscope.proof.answers import FAILURE
-from armscope.proof.motion.answers import KEPT, PREDICTED
+from armscope.proof.motion.answers import KEPT, NOT_PREDICTED, PREDICTED
 
 LONGEST_S = 1200.0
 LAST_WORDS = 2000
@@ -34,16 +34,16 @@ def diagnose_worlds(worlds: Iterable[Path], output: Path) -> None:
         with tempfile.TemporaryDirectory() as folder:
             made = Path(folder) / "found"
             failure = _run("diagnose", world / "motions.csv", "--robot", world / "robot.yaml", "-o", made)
-            failure = failure or _run(
-                "predict", made / "model.yaml", world / "test_motions.csv", "-o", made / PREDICTED
-            )
+            silent = failure or _run("predict", made / "model.yaml", world / "test_motions.csv", "-o", made / PREDICTED)
             for name in KEPT:
                 if (made / name).is_file():
                     copy_file(made / name, output / world.name / name)
+        # one world's failure must not lose the others' answers: it is written down, and scored as wrong
         if failure:
-            # one world's failure must not lose the others' answers: it is written down, and scored as wrong
             write_text(output / world.name / FAILURE, failure)
-        print(f"{world.name}: {time.perf_counter() - started:.1f} s{' FAILED' if failure else ''}", flush=True)
+        elif silent:
+            write_text(output / world.name / NOT_PREDICTED, silent)
+        print(f"{world.name}: {time.perf_counter() - started:.1f} s{' FAILED' if silent else ''}", flush=True)
 
 
 def _run(*words: object) -> str:

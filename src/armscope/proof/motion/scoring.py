@@ -27,7 +27,7 @@ Row = dict[str, object]
 COMMON = ("world", "category", "arm", "fresh", "weakest")
 COLUMNS = {
     "worlds": (*COMMON, "stated", "rows", "concealed", "said", "answer", "mismatch", "silent", "exact", "missed",
-               "wrong_names", "outside", "outside_right", "held_out_ratio", "failed"),
+               "wrong_names", "outside", "outside_right", "held_out_ratio", "failed", "not_predicted"),
     "effects": (*COMMON, "effect", "location", "shape", "strength", "outcome", "right", "ambiguous", "among_all",
                 "said_effect", "said_location"),
     "names": (*COMMON, "effect", "location", "minor", "evidence_nats", "right", "effect_right"),
@@ -81,6 +81,7 @@ def _world(world: MotionWorld, matches: list[Match], left: list[NamedEffect]) ->
         "outside_right": outside in ("located", "acceptable") if truth.outside else None,
         "held_out_ratio": held_out_ratio(truth, answer),
         "failed": answer.failed,
+        "not_predicted": answer.not_predicted,
     }
 
 

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.figure import Figure
 
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.recordings.motion import moving
-from armscope.report.style import BLACK, BLUE, VERMILION, legend_above, styled
+from armscope.report.colours import AFTER, BEFORE
 from armscope.report.subject import Drawn, Subject
+from armscope.report.svg import Drawing, Panel
 from armscope.robot import chain, position_jacobian
 
-MOST_DOTS = 1500
+MOST_DOTS = 400
+WIDE, HIGH = 290.0, 190.0
+"""Of one joint's panel, px."""
 MOST_ROWS = 20_000
 """Running means along the joints need no more rows than this."""
 WINDOWS = 12
@@ -29,10 +30,10 @@ def along_joints_figure(subject: Subject) -> Iterator[Drawn]:
     if moving(angles).any():
         jacobian = position_jacobian(subject.arm, chain(subject.arm, angles))
         drawn = draw_along_joints(angles, jacobian, residuals.before[rows], residuals.after[rows])
-        yield Drawn("along_joints", drawn, "Residual along each joint's motion against its angle, before and after")
+        yield Drawn("along_joints", drawn)
 
 
-def draw_along_joints(motor_angles: Array, jacobian: Array, before: Array, after: Array) -> Figure:
+def draw_along_joints(motor_angles: Array, jacobian: Array, before: Array, after: Array) -> Drawing:
     """The residual along the way that each joint moves the tool, against the joint's angle.
 
     Args:
@@ -49,27 +50,21 @@ def draw_along_joints(motor_angles: Array, jacobian: Array, before: Array, after
     along = [np.einsum("nci,nc->ni", ways, residual) for residual in (before, after)]
     limit = 1.15 * float(np.percentile(np.abs(along[0]), 99)) + 1e-9
     columns = min(3, len(joints))
-    rows = -(-len(joints) // columns)
-    dot = float(np.clip(260 / np.sqrt(len(shown)) / 3, 2.5, 12))
-    with styled():
-        figure, panels = plt.subplots(
-            rows, columns, figsize=(2.9 * columns + 0.4, 2.0 * rows + 0.6), sharey=True, squeeze=False
-        )
-        for panel in panels.flat[len(joints) :]:
-            panel.set_visible(False)
-        for panel, joint in zip(panels.flat, joints, strict=False):
-            angle = np.degrees(motor_angles[:, joint])
-            panel.axhline(0, color=BLACK, linewidth=0.6)
-            for values, colour, name in zip(along, (VERMILION, BLUE), ("before", "after"), strict=True):
-                panel.scatter(angle[shown], values[shown, joint], s=dot, color=colour, alpha=0.35, linewidth=0,
-                              rasterized=True)  # fmt: skip
-                panel.plot(*running_mean(angle, values[:, joint]), color=colour, linewidth=1.8, label=name)
-            panel.set_ylim(-limit, limit)
-            panel.set_title(f"joint {joint + 1}")
-        figure.supxlabel("angle of the joint (deg)", fontsize=9)
-        figure.supylabel("residual along its motion (mm)", fontsize=9)
-        legend_above(figure)
-    return figure
+    alt = "Residual along each joint's motion against its angle, before and after"
+    drawing = Drawing(56 + WIDE * columns, HIGH * -(-len(joints) // columns) + 26, alt)
+    for place, joint in enumerate(joints):
+        angle = np.degrees(motor_angles[:, joint])
+        corner = 56 + WIDE * (place % columns), 24 + HIGH * (place // columns)
+        panel = Panel(drawing, *corner, WIDE - 16, HIGH - 52, (angle.min(), angle.max()), (-limit, limit))
+        label = "residual along its motion (mm)" if place == 0 else ""
+        panel.frame(f"joint {joint + 1}", "angle (deg)", label, y_ticks=place % columns == 0)
+        for values, colour in zip(along, (BEFORE, AFTER), strict=True):
+            drawing.dots(panel.at(angle[shown], values[shown, joint]), colour, 2.2, 0.45)
+            drawing.line(panel.at(*running_mean(angle, values[:, joint])), colour, 2.2, 1)
+    for x, colour, name in ((56.0, BEFORE, "before"), (150.0, AFTER, "after")):
+        drawing.line(np.array([[x, drawing.height - 9], [x + 22, drawing.height - 9]]), colour, 2.4)
+        drawing.text((x + 28, drawing.height - 9), name)
+    return drawing
 
 
 def running_mean(angle: Array, values: Array) -> tuple[Array, Array]:

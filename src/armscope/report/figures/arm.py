@@ -12,7 +12,7 @@ from armscope.verdict.schema import Verdict
 def arm_figure(subject: Subject) -> Iterator[Drawn]:
     """The arm in a recorded pose."""
     picture = draw_arm(subject.arm, subject.recordings.motor_angles, location_shares(subject.verdict))
-    yield Drawn("arm", picture, "The arm in a recorded pose, joints and links coloured by their share of the mismatch")
+    yield Drawn("arm", picture)
 
 
 def location_shares(verdict: Verdict) -> dict[str, float]:

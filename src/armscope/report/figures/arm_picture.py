@@ -4,38 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from itertools import pairwise
-from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Colormap, LinearSegmentedColormap, Normalize, to_rgb, to_rgba
-from matplotlib.figure import Figure
-from matplotlib.patches import Polygon
-from scipy.spatial import ConvexHull
 
 from armscope.core.location import Location
 from armscope.core.types import Array
-from armscope.report.figures.arm_shape import ArmShape, View, arm_shape, typical_pose
-from armscope.report.style import BLACK, GREY, styled
+from armscope.report.colours import INK, OUTLINE, QUIET, UNTOUCHED, scale_end, share_colour
+from armscope.report.figures.arm_labels import Labels
+from armscope.report.figures.arm_shape import ArmShape, View, arm_shape, shares_by_place, typical_pose
+from armscope.report.svg import Drawing
 from armscope.robot import Arm
 
-UNTOUCHED = "#E4E8EC"
-"""A place without a share."""
-OUTLINE = "#3A424A"
 NAMED_SHARE = 0.005
 """Shares below half a percent get no number."""
+HEIGHT = 430.0
+"""Of the picture, px."""
+MARGIN = 0.19
+"""Room for labels around the arm, in its sizes."""
+SHADOW = "rgba(0, 0, 0, 0.22)"
+"""Over what faces away from the light."""
+STEPS = np.array([0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0])
+"""Lengths of the scale bar, m."""
 
 
-def share_colours() -> Colormap:
-    """Light to dark, even in lightness for every kind of colour vision: magma without its black end."""
-    dark_to_light = plt.get_cmap("magma")(np.linspace(0.18, 1.0, 256))
-    dark_to_light[-12:] = np.linspace(dark_to_light[-12], to_rgba("#FFFBF0"), 12)
-    return LinearSegmentedColormap.from_list("share", dark_to_light[::-1])
-
-
-def draw_arm(arm: Arm, motor_angles: Array, shares: Mapping[str, float]) -> Figure:
+def draw_arm(arm: Arm, motor_angles: Array, shares: Mapping[str, float]) -> Drawing:
     """The arm in a typical recorded pose, coloured by share.
 
     Args:
@@ -48,247 +40,188 @@ def draw_arm(arm: Arm, motor_angles: Array, shares: Mapping[str, float]) -> Figu
         The figure.
     """
     row, view = typical_pose(arm, motor_angles)
-    shape = arm_shape(arm, motor_angles[row])
-    by_place = shares_by_place(shares)
-    top = round_up(max([0.0, *by_place.values()]))
-    norm, colours = Normalize(0, top), share_colours()
-
-    def colour(place: str) -> Any:
-        share = by_place.get(place, 0.0)
-        return colours(norm(share)) if share > 0 else UNTOUCHED
-
-    with styled():
-        flat = view.flat(shape.points)
-        wide, high = np.ptp(flat, axis=0) + 0.34 * np.max(np.ptp(flat, axis=0))
-        figure, axes = plt.subplots(figsize=(float(np.clip(5.4 * wide / high, 3.4, 7.0)) + 1.0, 5.4))
-        picture = _Picture(axes, shape, view)
-        picture.frame_it()
-        picture.floor(colour("base"))
-        for location, line in shape.parts:
-            picture.link(line, colour(location), place=location)
-            if by_place.get(location, 0) > 0:
-                picture.collar(line, colour(location), place=location)
-        if shape.rod is not None:
-            picture.linkage(shape.rod, colour("parallelogram"))
-        for joint, (centre, axis) in enumerate(zip(shape.centres, shape.axes, strict=True), start=1):
-            picture.disc(centre, axis, colour(f"joint {joint}"), joint)
-        picture.tool(colour("tool"), colour("payload") if by_place.get("payload", 0) > 0 else None)
-        if by_place.get("instrument", 0) > 0:
-            picture.instrument(colour("instrument"))
-        picture.compass()
-        picture.labels(by_place)
-        if top > 0:
-            bar = figure.colorbar(ScalarMappable(norm, colours), ax=axes, shrink=0.7, pad=0.01, aspect=28)
-            bar.set_label("share of the mismatch (%)")
-            bar.ax.yaxis.set_major_formatter(lambda value, _: f"{100 * value:.0f}")
-            bar.outline.set_linewidth(0)
-    return figure
-
-
-def shares_by_place(shares: Mapping[str, float]) -> dict[str, float]:
-    """Shares added up by what can be drawn: "joint 6 from joint 5" counts with joint 6."""
-    total: dict[str, float] = {}
-    for location, share in shares.items():
-        place = location.split(" from ")[0]
-        total[place] = total.get(place, 0.0) + max(float(share), 0.0)
-    return total
-
-
-def round_up(share: float) -> float:
-    """The end of the colour bar: the next of 5, 10, 20, 40, 60, 80, 100 %."""
-    if share <= 0:
-        return 0.0
-    return next((step for step in (0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0) if share <= step), share)
+    picture = _Picture(arm_shape(arm, motor_angles[row]), view, shares_by_place(shares))
+    picture.whole_arm()
+    return picture.drawing
 
 
 class _Picture:
-    """One arm on one axes; sizes are fractions of the picture's height."""
+    """One arm on one drawing; `to` turns metres of the picture's plane into px."""
 
-    def __init__(self, axes: Axes, shape: ArmShape, view: View) -> None:
-        self.axes, self.shape, self.view = axes, shape, view
+    def __init__(self, shape: ArmShape, view: View, shares: Mapping[str, float]) -> None:
+        self.shape, self.view, self.shares = shape, view, shares
         flat = view.flat(shape.points)
-        self.low, self.high = flat.min(axis=0), flat.max(axis=0)
-        self.size = float(max(np.max(self.high - self.low), 1e-3))
+        low, high = flat.min(axis=0), flat.max(axis=0)
+        size = float(max(np.max(high - low), 1e-3))
+        self.low, self.high = low - MARGIN * size, high + MARGIN * size
+        self.scale = HEIGHT / float(self.high[1] - self.low[1])
+        self.size = size * self.scale
+        self.end = scale_end(max([0.0, *shares.values()]))
+        self.wide = float(self.high[0] - self.low[0]) * self.scale
+        alt = "The arm in a recorded pose, joints and links coloured by their share of the mismatch"
+        self.drawing = Drawing(self.wide + (64 if self.end else 0), HEIGHT, alt)
         self.n_joints = len(shape.centres)
-        self.obstacles: list[tuple[Array, float]] = []  # points with the radius that labels keep away from
+        self.labels = Labels(self.drawing, self.wide, HEIGHT)
 
-    def frame_it(self) -> None:
-        margin = 0.17 * self.size
-        self.axes.set_aspect("equal")
-        self.axes.set_xlim(self.low[0] - margin, self.high[0] + margin)
-        self.axes.set_ylim(self.low[1] - margin, self.high[1] + margin)
-        self.axes.set_axis_off()
+    def to(self, points: Array) -> Array:
+        """(.., 2) px of points (.., 3) m."""
+        flat = (self.view.flat(points) - self.low) * self.scale
+        flat[..., 1] = HEIGHT - flat[..., 1]
+        return np.asarray(flat)
+
+    def colour(self, place: str) -> str:
+        share = self.shares.get(place, 0.0)
+        return share_colour(share / self.end) if share > 0 else UNTOUCHED
+
+    def blamed(self, place: str) -> bool:
+        return self.shares.get(place, 0.0) > 0
 
     def radius(self, joint: float) -> float:
-        """Half the thickness of the arm at a joint: slimmer towards the tool."""
+        """Half the thickness of the arm at a joint, px: slimmer towards the tool."""
         return self.size * float(np.interp(joint, [0, self.n_joints + 1], [0.042, 0.021]))
 
-    def floor(self, colour: Any) -> None:
+    def whole_arm(self) -> None:
+        self.floor()
+        for location, line in self.shape.parts:
+            self.link(line, location)
+            if self.blamed(location):
+                self.collar(line, location)
+        if self.shape.rod is not None:
+            self.linkage(self.shape.rod)
+        for joint, (centre, axis) in enumerate(zip(self.shape.centres, self.shape.axes, strict=True), start=1):
+            self.disc(centre, axis, joint)
+        self.tool()
+        if self.blamed("instrument"):
+            self.instrument()
+        self.compass()
+        self.write()
+        if self.end:
+            self.colour_bar()
+
+    def floor(self) -> None:
         """The plate that the arm stands on, coloured as the base."""
         ring = np.linspace(0, 2 * np.pi, 60)
-        plate = 0.11 * self.size * np.column_stack([np.cos(ring), np.sin(ring), 0 * ring])
-        body = np.vstack([self.view.flat(plate), self.view.flat(plate - [0, 0, 0.035 * self.size])])
-        hull = body[ConvexHull(body).vertices]
-        self.axes.add_patch(Polygon(hull, facecolor=_shaded(colour), edgecolor=OUTLINE, linewidth=1.0, zorder=1))
-        top = Polygon(self.view.flat(plate), facecolor=colour, edgecolor=OUTLINE, linewidth=0.7, zorder=1.1)
-        self.axes.add_patch(top)
-        self.obstacles.extend((point, 0.012 * self.size) for point in body[::3])
+        radius = 0.11 * self.size / self.scale
+        plate = radius * np.column_stack([np.cos(ring), np.sin(ring), 0 * ring])
+        below = plate - [0, 0, 0.3 * radius]
+        side = _hull(self.to(np.vstack([plate, below])))
+        self.drawing.polygon(side, self.colour("base"), OUTLINE, 1.0, order=1)
+        self.drawing.polygon(side, SHADOW, order=1.05)
+        self.drawing.polygon(self.to(plate), self.colour("base"), OUTLINE, 0.8, order=1.1)
+        self.labels.avoid(self.to(below[::4]), 5)
 
-    def link(self, line: Array, colour: Any, place: str) -> None:
+    def link(self, line: Array, place: str) -> None:
         number = _number(place) if place != "tool" else self.n_joints + 1
-        width = 0.62 * self.radius(number)
-        order = 10 + self._order(line.mean(axis=0))
-        for extra, face, above in ((0.0045 * self.size, OUTLINE, 0.0), (0.0, colour, 0.1)):
-            for start, end in pairwise(line):
-                outline = _capsule(self.view.flat(start), self.view.flat(end), width + extra)
-                self.axes.add_patch(Polygon(outline, facecolor=face, edgecolor="none", zorder=order + above))
-        for start, end in pairwise(line):
-            for along in np.linspace(0, 1, 12):
-                self.obstacles.append((self.view.flat(start + along * (end - start)), width))
+        width = 1.24 * self.radius(number)
+        order, flat = 10 + self._order(line.mean(axis=0)), self.to(line)
+        self.drawing.line(flat, OUTLINE, width + 2, order)
+        self.drawing.line(flat, self.colour(place), width, order + 0.1)
+        self.labels.avoid(_along(flat), width / 2)
 
-    def collar(self, line: Array, colour: Any, place: str) -> None:
+    def collar(self, line: Array, place: str) -> None:
         """A link too short to be seen shows its colour as a ring around the joint that covers it."""
-        if np.linalg.norm(np.diff(line, axis=0), axis=1).sum() > 0.12 * self.size or not place.startswith("link"):
+        if np.linalg.norm(np.diff(line, axis=0), axis=1).sum() * self.scale > 0.12 * self.size:
             return
-        centre, radius = self.view.flat(_halfway(line)), 2.0 * self.radius(_number(place))
-        ring = _capsule(centre, centre, radius)
-        self.axes.add_patch(Polygon(ring, facecolor=colour, edgecolor=OUTLINE, linewidth=1.0, zorder=19))
-        self.obstacles.append((centre, radius))
+        if place.startswith("link"):
+            at, radius = self.to(_halfway(line)), 2.0 * self.radius(_number(place))
+            self.drawing.circle(at, radius, self.colour(place), OUTLINE, order=19)
+            self.labels.avoid(at[None], radius)
 
-    def linkage(self, rod: Array, colour: Any) -> None:
-        flat = self.view.flat(rod)
-        order = 9 + self._order(rod.mean(axis=0))
-        for width, face in ((5.0, OUTLINE), (3.4, colour)):
-            self.axes.plot(*flat.T, color=face, linewidth=width, solid_capstyle="round", zorder=order)
-        for start, end in pairwise(rod):
-            for along in np.linspace(0, 1, 12):
-                self.obstacles.append((self.view.flat(start + along * (end - start)), 0.01 * self.size))
+    def linkage(self, rod: Array) -> None:
+        flat, order = self.to(rod), 9 + self._order(rod.mean(axis=0))
+        self.drawing.line(flat, OUTLINE, 6, order)
+        self.drawing.line(flat, self.colour("parallelogram"), 4, order + 0.1)
+        self.labels.avoid(_along(flat), 4)
 
-    def disc(self, centre: Array, axis: Array, colour: Any, joint: int) -> None:
+    def disc(self, centre: Array, axis: Array, joint: int) -> None:
         """A short cylinder about the joint's axis, and the axis with an arrow in its positive direction."""
-        radius = 1.15 * self.radius(joint)
+        radius = 1.15 * self.radius(joint) / self.scale
         across = np.linalg.svd(axis[None])[2][1:]
-        ring = np.linspace(0, 2 * np.pi, 48, endpoint=False)
+        ring = np.linspace(0, 2 * np.pi, 36, endpoint=False)
         circle = radius * (np.cos(ring)[:, None] * across[0] + np.sin(ring)[:, None] * across[1])
         towards = axis if self.view.depth(axis) >= 0 else -axis
-        front, back = (self.view.flat(centre + side * 0.72 * radius * towards + circle) for side in (1, -1))
+        front, back = (self.to(centre + side * 0.72 * radius * towards + circle) for side in (1, -1))
         order = 20 + self._order(centre)  # over all links: the discs are what the eye looks for
-        body = np.vstack([front, back])
-        hull = body[ConvexHull(body, qhull_options="QJ").vertices]
-        tip, tail = (self.view.flat(centre + side * 2.3 * radius * axis) for side in (1, -1))
-        self.axes.annotate(
-            "", tuple(tip), tuple(tail), zorder=order - 0.3,
-            arrowprops={"arrowstyle": "-|>", "color": OUTLINE, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 0,
-                        "linestyle": (0, (5, 2, 1, 2))},
-        )  # fmt: skip
-        self.axes.add_patch(Polygon(hull, facecolor=_shaded(colour), edgecolor=OUTLINE, linewidth=1.0, zorder=order))
-        self.axes.add_patch(Polygon(front, facecolor=colour, edgecolor=OUTLINE, linewidth=0.7, zorder=order + 0.05))
-        self.obstacles.append((self.view.flat(centre), 1.1 * radius))
-        self.obstacles.append((tip, 0.01 * self.size))
+        tail, tip = (self.to(centre + side * 2.3 * radius * axis) for side in (-1, 1))
+        self.drawing.arrow(tail, tip, OUTLINE, order - 0.3)
+        side = _hull(np.vstack([front, back]))
+        self.drawing.polygon(side, self.colour(f"joint {joint}"), OUTLINE, 1.2, order)
+        self.drawing.polygon(side, SHADOW, order=order + 0.02)
+        self.drawing.polygon(front, self.colour(f"joint {joint}"), OUTLINE, 0.9, order + 0.05)
+        self.labels.avoid(self.to(centre)[None], 1.1 * radius * self.scale)
+        self.labels.avoid(tip[None], 4)
 
-    def tool(self, colour: Any, payload: Any | None) -> None:
-        point = self.view.flat(self.shape.tool)
-        self.axes.plot(*point, marker="o", markersize=6, color=colour, markeredgecolor=BLACK, zorder=40)
-        self.axes.plot(*point, marker="+", markersize=12, color=BLACK, markeredgewidth=1.0, zorder=41)
-        self.obstacles.append((point, 0.02 * self.size))
-        if payload is not None:
+    def tool(self) -> None:
+        at = self.to(self.shape.tool)
+        self.drawing.circle(at, 4, self.colour("tool"), INK, order=40)
+        for arm in (np.array([8, 0]), np.array([0, 8])):
+            self.drawing.line(np.array([at - arm, at + arm]), INK, 1.2, 41)
+        self.labels.avoid(at[None], 9)
+        if self.blamed("payload"):
             side = 0.035 * self.size
-            low = point - [side, 3.4 * side]
-            box = low + 2 * side * np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
-            self.axes.plot([point[0]] * 2, [point[1], low[1] + 2 * side], color=OUTLINE, linewidth=1.0, zorder=38)
-            self.axes.add_patch(Polygon(box, facecolor=payload, edgecolor=OUTLINE, zorder=39))
-            self.obstacles.append((box.mean(axis=0), 1.3 * side))
+            corners = at + side * np.array([[-1, 1.4], [1, 1.4], [1, 3.4], [-1, 3.4]])
+            self.drawing.line(np.array([at, at + np.array([0, 1.4 * side])]), OUTLINE, 1.2, 38)
+            self.drawing.polygon(corners, self.colour("payload"), OUTLINE, order=39)
+            self.labels.avoid(corners.mean(axis=0)[None], 1.3 * side)
 
-    def instrument(self, colour: Any) -> None:
+    def instrument(self) -> None:
         """A tracker on its stand, in the corner that is farthest from the arm."""
-        (left, right), (bottom, top) = self.axes.get_xlim(), self.axes.get_ylim()
         unit = 0.03 * self.size
-        feet = np.array([[left + 3 * unit, bottom + 4 * unit], [right - 3 * unit, bottom + 4 * unit],
-                         [right - 3 * unit, top - 6 * unit]])  # fmt: skip
-        gaps = np.linalg.norm(feet[:, None] - self.view.flat(self.shape.points), axis=2).min(axis=1)
-        x, foot = feet[np.argmax(gaps)]
+        feet = np.array([[3 * unit, HEIGHT - 4 * unit], [self.wide - 3 * unit, HEIGHT - 4 * unit],
+                         [self.wide - 3 * unit, 6 * unit]])  # fmt: skip
+        flat = self.to(self.shape.points)
+        foot = feet[np.argmax(np.linalg.norm(feet[:, None] - flat, axis=2).min(axis=1))]
         for end in (-1, 0, 1):
-            self.axes.plot([x, x + end * unit], [foot + 3 * unit, foot], color=OUTLINE, linewidth=1.2, zorder=5)
-        head = np.array([x, foot + 3.6 * unit]) + unit * np.array([[-1, -0.6], [1, -0.6], [1, 0.6], [-1, 0.6]])
-        self.axes.add_patch(Polygon(head, facecolor=colour, edgecolor=OUTLINE, zorder=6))
+            self.drawing.line(foot + np.array([[0, -3 * unit], [end * unit, 0]]), OUTLINE, 1.4, 5)
+        head = foot - [0, 3.6 * unit] + unit * np.array([[-1, -0.6], [1, -0.6], [1, 0.6], [-1, 0.6]])
+        self.drawing.polygon(head, self.colour("instrument"), OUTLINE, order=6)
         self.instrument_at = head.mean(axis=0)
-        self.obstacles.append((self.instrument_at, 1.5 * unit))
-
-    def labels(self, shares: Mapping[str, float]) -> None:
-        """Names beside their places; a place with a share says how much."""
-        wanted: list[tuple[str, Array, str]] = [("base", self.view.flat(np.array([0, 0, -0.05 * self.size])), "base")]
-        for joint, centre in enumerate(self.shape.centres, start=1):
-            wanted.append((f"joint {joint}", self.view.flat(centre), f"J{joint}"))
-        for location, line in self.shape.parts:
-            number = int(_number(location))
-            length = float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum())
-            if location.startswith("link") and (length > 0.07 * self.size or shares.get(location, 0) >= NAMED_SHARE):
-                wanted.append((location, self.view.flat(_halfway(line)), f"L{number}"))
-        wanted.append(("tool", self.view.flat(self.shape.tool), "tool"))
-        if self.shape.rod is not None:
-            wanted.append(("parallelogram", self.view.flat(self.shape.rod[1:3].mean(axis=0)), "parallelogram"))
-        if shares.get("payload", 0) > 0:
-            wanted.append(("payload", self.view.flat(self.shape.tool) - [0, 0.09 * self.size], "payload"))
-        if shares.get("instrument", 0) > 0:
-            wanted.append(("instrument", self.instrument_at, "instrument"))
-        # those with a share first: they get the best places
-        for place, anchor, name in sorted(wanted, key=lambda label: -shares.get(label[0], 0.0)):
-            self._label(anchor, name, shares.get(place, 0.0), place)
-
-    def _label(self, anchor: Array, name: str, share: float, place: str) -> None:
-        matters = share >= NAMED_SHARE
-        text = f"{name}  {100 * share:.0f} %" if matters else name
-        half = np.array([(0.0125 if matters else 0.0105) * len(text), 0.017 if matters else 0.014]) * self.size
-        spot = self._free_spot(anchor, half)
-        if np.linalg.norm(spot - anchor) > 0.075 * self.size or matters:
-            self.axes.plot(*np.vstack([anchor, spot]).T, color=GREY, linewidth=0.6, zorder=45)
-        quiet = place.startswith("link") or place in ("base", "tool", "parallelogram")
-        self.axes.text(
-            spot[0], spot[1], text, ha="center", va="center", zorder=50, fontsize=10.5 if matters else 8.5,
-            fontweight="bold" if matters else "normal", color=BLACK if matters or not quiet else "#5C6670",
-            bbox={"boxstyle": "round,pad=0.18", "facecolor": "white", "linewidth": 0.6 if matters else 0,
-                  "edgecolor": OUTLINE if matters else "none", "alpha": 0.95 if matters else 0.75},
-        )  # fmt: skip
-        for x in np.linspace(-1, 1, 5):
-            self.obstacles.append((spot + half * [x, 0], float(half[1]) * 1.1))
-
-    def _free_spot(self, anchor: Array, half: Array) -> Array:
-        """The nearest place around the anchor where a label of this size covers nothing."""
-        points = np.array([point for point, _ in self.obstacles])
-        radii = np.array([radius for _, radius in self.obstacles])
-        inside = np.array([[*self.axes.get_xlim()], [*self.axes.get_ylim()]])
-        best, least = anchor, np.inf
-        for distance in (0.06, 0.085, 0.11, 0.14, 0.18, 0.23):
-            for angle in np.linspace(0, 2 * np.pi, 24, endpoint=False):
-                reach = distance * self.size + half[0] * abs(np.cos(angle))
-                spot = anchor + reach * np.array([np.cos(angle), np.sin(angle)])
-                clear = np.maximum(np.abs(points - spot) - half, 0)
-                overlap = np.maximum(radii + 0.008 * self.size - np.linalg.norm(clear, axis=1), 0).sum()
-                outside = np.maximum(inside[:, 0] - spot + half, 0) + np.maximum(spot + half - inside[:, 1], 0)
-                cost = 30 * overlap + 100 * outside.sum() + reach
-                if cost < least:
-                    best, least = spot, cost
-        return best
+        self.labels.avoid(self.instrument_at[None], 1.5 * unit)
 
     def compass(self) -> None:
         """A scale bar and the way gravity pulls."""
-        left, right = self.axes.get_xlim()
-        bottom, _ = self.axes.get_ylim()
-        nice = [0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0]
-        length = max((step for step in nice if step < 0.3 * self.size), default=nice[0])
-        base_is_left = self.view.flat(np.zeros(3))[0] < (left + right) / 2
-        x = right - 0.02 * (right - left) - length if base_is_left else left + 0.02 * (right - left)
-        y = bottom + 0.025 * self.size
-        self.obstacles.extend((np.array([x + along * length, y]), 0.05 * self.size) for along in np.linspace(0, 1, 6))
-        self.axes.plot([x, x + length], [y, y], color=OUTLINE, linewidth=2.0, solid_capstyle="butt", zorder=5)
-        self.axes.text(x + length / 2, y + 0.012 * self.size, f"{1e3 * length:.0f} mm", ha="center", va="bottom",
-                       fontsize=8, color=OUTLINE)  # fmt: skip
-        top = self.axes.get_ylim()[1]
-        start = np.array([left + 0.03 * (right - left), top - 0.02 * self.size])
-        self.axes.annotate("", (start[0], start[1] - 0.1 * self.size), tuple(start),
-                           arrowprops={"arrowstyle": "-|>", "color": OUTLINE, "linewidth": 1.2})  # fmt: skip
-        self.axes.text(start[0] + 0.015 * self.size, start[1] - 0.05 * self.size, "gravity", fontsize=8, color=OUTLINE,
-                       va="center")  # fmt: skip
+        metres = float(STEPS[0.3 * self.size / self.scale > STEPS].max(initial=STEPS[0]))
+        length = metres * self.scale
+        base_is_left = self.to(np.zeros(3))[0] < self.wide / 2
+        x, y = (self.wide - 8 - length if base_is_left else 8.0), HEIGHT - 8
+        self.drawing.line(np.array([[x, y], [x + length, y]]), OUTLINE, 2.2, 5)
+        self.drawing.text((x + length / 2, y - 10), f"{1e3 * metres:.0f} mm", size=11, anchor="middle", fill=QUIET)
+        self.labels.avoid(np.array([[x + part * length, y] for part in np.linspace(0, 1, 6)]), 18)
+        self.drawing.arrow(np.array([10, 6]), np.array([10, 44]), OUTLINE, 5)
+        self.drawing.text((17, 25), "gravity", size=11, fill=QUIET)
+        self.labels.avoid(np.array([[10.0, 25.0], [40.0, 25.0]]), 18)
+
+    def write(self) -> None:
+        """Names beside their places; a place with a share says how much."""
+        wanted = [("base", self.to(np.array([0, 0, -0.05 * self.size / self.scale])), "base")]
+        for joint, centre in enumerate(self.shape.centres, start=1):
+            wanted.append((f"joint {joint}", self.to(centre), f"J{joint}"))
+        for location, line in self.shape.parts:
+            length = float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum()) * self.scale
+            seen = length > 0.07 * self.size or self.shares.get(location, 0) > NAMED_SHARE
+            if location.startswith("link") and seen:
+                wanted.append((location, self.to(_halfway(line)), f"L{int(_number(location))}"))
+        wanted.append(("tool", self.to(self.shape.tool), "tool"))
+        if self.shape.rod is not None:
+            wanted.append(("parallelogram", self.to(self.shape.rod[1:3].mean(axis=0)), "parallelogram"))
+        if self.blamed("payload"):
+            wanted.append(("payload", self.to(self.shape.tool) + np.array([0, 0.09 * self.size]), "payload"))
+        if self.blamed("instrument"):
+            wanted.append(("instrument", self.instrument_at, "instrument"))
+        # those with a share first: they get the best places
+        for place, anchor, name in sorted(wanted, key=lambda label: -self.shares.get(label[0], 0.0)):
+            share = self.shares.get(place, 0.0)
+            matters = share >= NAMED_SHARE
+            self.labels.write(anchor, f"{name}  {100 * share:.0f} %" if matters else name, matters, self.size)
+
+    def colour_bar(self) -> None:
+        """The scale of shares beside the arm."""
+        x, top, high, steps = self.wide + 12, 0.14 * HEIGHT, 0.66 * HEIGHT, 40
+        for step in range(steps):
+            corner = (x, top + high * (1 - (step + 1) / steps))
+            self.drawing.rectangle(corner, (11, high / steps + 0.6), share_colour((step + 0.5) / steps))
+        for part in (0, 0.5, 1):
+            self.drawing.text((x + 15, top + high * (1 - part)), f"{100 * part * self.end:g} %", size=11, fill=QUIET)
 
     def _order(self, point: Array) -> float:
         """0 to 8: nearer parts are drawn over farther ones."""
@@ -296,16 +229,28 @@ class _Picture:
         return 8 * float((self.view.depth(point) - depths.min()) / (np.ptp(depths) + 1e-9))
 
 
-def _capsule(start: Array, end: Array, radius: float) -> Array:
-    """(K, 2) outline of a stroke with round ends."""
-    along = end - start
-    angle = np.arctan2(along[1], along[0])
-    half = np.linspace(-np.pi / 2, np.pi / 2, 14)
+def _along(flat: Array) -> Array:
+    """Points along a bent line (K, 2)."""
+    parts = np.linspace(0, 1, 12)[:, None]
+    return np.vstack([start + parts * (end - start) for start, end in pairwise(flat)])
 
-    def cap(centre: Array, turn: float) -> Array:
-        return centre + radius * np.column_stack([np.cos(turn + half), np.sin(turn + half)])
 
-    return np.vstack([cap(end, angle), cap(start, angle + np.pi)])
+def _hull(points: Array) -> Array:
+    """The convex outline of points (K, 2), in order: Andrew's monotone chain (1979)."""
+    ordered = points[np.lexsort(points.T[::-1])].tolist()
+
+    def half(run: list[list[float]]) -> list[list[float]]:
+        kept: list[list[float]] = []
+        for x, y in run:
+            while len(kept) > 1:
+                (ax, ay), (bx, by) = kept[-2:]
+                if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > 0:
+                    break
+                kept.pop()
+            kept.append([x, y])
+        return kept[:-1]
+
+    return np.array(half(ordered) + half(ordered[::-1]))
 
 
 def _halfway(line: Array) -> Array:
@@ -317,8 +262,3 @@ def _halfway(line: Array) -> Array:
 
 def _number(location: str) -> float:
     return float(Location.of(location).number)
-
-
-def _shaded(colour: Any) -> Array:
-    """The side of a disc: darker than its face."""
-    return 0.78 * np.array(to_rgb(colour))

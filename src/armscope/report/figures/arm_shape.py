@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -12,10 +13,14 @@ from armscope.core.types import Array
 from armscope.robot import Arm, Chain, chain
 from armscope.robot.centre_line import centre_lines
 
-MOST_POSES = 150
+MOST_POSES = 60
 """So many recorded poses, spread evenly over the rows, are looked at when the pose to draw is chosen."""
 AZIMUTHS = np.radians(np.arange(0, 360, 15))
 ELEVATION = np.radians(18)
+STATIONS = 24
+"""Points along the centre line at which it is seen whether the arm lies over itself."""
+APART = 0.12
+"""Pieces of the arm that are farther apart than this share of the picture don't hide each other."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +91,7 @@ def arm_shape(arm: Arm, motor_angles: Array) -> ArmShape:
 
 
 def typical_pose(arm: Arm, motor_angles: Array) -> tuple[int, View]:
-    """The recorded row, and the direction of view, in which the arm's joints lie farthest apart in the picture.
+    """The recorded row and the view in which the arm's joints lie farthest apart, and nothing over itself.
 
     Args:
         arm: the arm.
@@ -98,16 +103,26 @@ def typical_pose(arm: Arm, motor_angles: Array) -> tuple[int, View]:
     rows = spread_evenly(len(motor_angles), MOST_POSES)
     shapes = [arm_shape(arm, motor_angles[row]) for row in rows]
     nodes = np.array([np.vstack([np.zeros(3), shape.centres, shape.tool]) for shape in shapes])
+    lines = np.array([_stations(np.vstack([line for _, line in shape.parts])) for shape in shapes])
     spread = np.std(motor_angles, axis=0) + 1e-9
     unusual = np.sqrt(np.mean(((motor_angles[rows] - np.median(motor_angles, axis=0)) / spread) ** 2, axis=1))
     best = (-np.inf, 0, view_from(0.0))
     for azimuth in AZIMUTHS:
         view = view_from(float(azimuth))
-        scores = _legibility(view.flat(nodes)) - 0.02 * unusual
+        scores = _legibility(view.flat(nodes)) + 2 * _unfolded(view.flat(lines)) - 0.02 * unusual
         winner = int(np.argmax(scores))
         if scores[winner] > best[0] + 1e-9:
             best = (float(scores[winner]), int(rows[winner]), view)
     return best[1], best[2]
+
+
+def shares_by_place(shares: Mapping[str, float]) -> dict[str, float]:
+    """Shares added up by what can be drawn: "joint 6 from joint 5" counts with joint 6."""
+    total: dict[str, float] = {}
+    for location, share in shares.items():
+        place = location.split(" from ")[0]
+        total[place] = total.get(place, 0.0) + max(float(share), 0.0)
+    return total
 
 
 def upright(gravity: Array) -> Array:
@@ -132,6 +147,22 @@ def _legibility(nodes: Array) -> Array:
     first, second = np.triu_indices(nodes.shape[1], 1)
     pairs = near[:, first, second]
     scores: Array = pairs.mean(axis=1) + pairs.min(axis=1)
+    return scores
+
+
+def _stations(line: Array) -> Array:
+    """(`STATIONS`, 3) points spread evenly along a centre line (K, 3)."""
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
+    at = np.linspace(0, along[-1], STATIONS)
+    return np.column_stack([np.interp(at, along, line[:, axis]) for axis in range(3)])
+
+
+def _unfolded(lines: Array) -> Array:
+    """(N,) how far apart pieces (N, K, 2) that are no neighbours lie in the picture; 1 for far enough."""
+    gaps = np.linalg.norm(lines[:, :, None] - lines[:, None], axis=-1)
+    near = np.minimum(gaps / gaps.max(axis=(1, 2), keepdims=True), APART) / APART
+    first, second = np.triu_indices(lines.shape[1], lines.shape[1] // 5)
+    scores: Array = near[:, first, second].mean(axis=1)
     return scores
 
 

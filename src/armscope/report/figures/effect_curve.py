@@ -5,16 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.figure import Figure
 
 from armscope.core.numerals import shown_unit
 from armscope.core.types import Array
-from armscope.report.style import BLACK, BLUE, styled
+from armscope.report.colours import AFTER, OUTLINE, PALE
 from armscope.report.subject import Drawn, Subject
+from armscope.report.svg import Drawing, Panel
 from armscope.verdict.schema import INTERVAL, FoundEffect
 from armscope.verdict.schema import Curve as FoundCurve
+
+WIDTH, HEIGHT = 440.0, 220.0
+"""Of a curve's picture, px."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,34 +40,31 @@ class Curve:
     rows: Array | None = None
 
 
-def draw_curves(curves: Sequence[Curve]) -> Figure:
-    """Each curve with its band in a panel of its own."""
-    columns = min(2, len(curves))
-    rows = -(-len(curves) // columns)
-    with styled():
-        figure, panels = plt.subplots(
-            rows, columns, figsize=(4.3 * columns + (1.2 if columns == 1 else 0), 2.7 * rows), squeeze=False
-        )
-        for panel in panels.flat[len(curves) :]:
-            panel.set_visible(False)
-        for panel, curve in zip(panels.flat, curves, strict=False):
-            panel.axhline(0, color=BLACK, linewidth=0.6)
-            panel.fill_between(curve.x, curve.low, curve.high, color=BLUE, alpha=0.2, linewidth=0)
-            panel.plot(curve.x, curve.value, color=BLUE, linewidth=1.6)
-            panel.set(title=curve.title, xlabel=curve.x_label, ylabel=curve.y_label)
-            if curve.rows is not None:
-                ticks = np.unique(np.quantile(curve.rows, np.linspace(0, 1, 120)))
-                panel.plot(ticks, np.zeros_like(ticks), "|", color=BLACK, markersize=5, alpha=0.4,
-                           transform=panel.get_xaxis_transform(), clip_on=False)  # fmt: skip
-    return figure
+def draw_curves(curves: Sequence[Curve]) -> Drawing:
+    """Each curve with its band in a panel of its own, under each other."""
+    drawing = Drawing(WIDTH, HEIGHT * len(curves), "; ".join(f"{curve.title}, with its 95 % band" for curve in curves))
+    for place, curve in enumerate(curves):
+        low, high = float(np.min(curve.low)), float(np.max(curve.high))
+        edge = 0.06 * max(high - low, 1e-12)
+        ranges = (float(curve.x.min()), float(curve.x.max())), (min(low, 0.0) - edge, max(high, 0.0) + edge)
+        panel = Panel(drawing, 64, HEIGHT * place + 26, WIDTH - 76, HEIGHT - 70, *ranges)
+        panel.frame(curve.title, curve.x_label, curve.y_label)
+        band = np.vstack([panel.at(curve.x, curve.high), panel.at(curve.x, curve.low)[::-1]])
+        drawing.polygon(band, PALE, order=-1)
+        drawing.line(panel.at(np.array(ranges[0]), np.zeros(2)), OUTLINE, 0.8)
+        drawing.line(panel.at(curve.x, curve.value), AFTER, 2)
+        if curve.rows is not None:
+            marks = np.unique(np.quantile(curve.rows, np.linspace(0, 1, 120)))
+            for x, y in panel.at(marks, np.full(len(marks), ranges[1][0])):
+                drawing.line(np.array([[x, y], [x, y - 5]]), OUTLINE, 0.6)
+    return drawing
 
 
 def effect_curves(subject: Subject) -> Iterator[Drawn]:
     """A curve of every effect whose shape says more than a number, named by the effect's number."""
     for number, effect in enumerate(subject.verdict.effects, start=1):
         if effect.curve is not None and worth_drawing(effect):
-            alt = f"What happens at {effect.location} over the {effect.curve.driver}, with its 95 % band"
-            yield Drawn(f"curve_{number}", draw_curves([curve_of(effect, effect.curve)]), alt)
+            yield Drawn(f"curve_{number}", draw_curves([curve_of(effect, effect.curve)]))
 
 
 def worth_drawing(effect: FoundEffect) -> bool:

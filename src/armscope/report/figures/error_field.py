@@ -14,20 +14,20 @@ from typing import Any
 
 import numpy as np
 from markupsafe import Markup
-from matplotlib.colors import LinearSegmentedColormap, Normalize, to_hex, to_rgb
 from numpy.typing import ArrayLike
 
 from armscope.core.location import Location
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
-from armscope.report.figures.arm_picture import UNTOUCHED, round_up, share_colours, shares_by_place
-from armscope.report.figures.arm_shape import arm_shape, typical_pose, upright
-from armscope.report.style import BLUE, VERMILION
+from armscope.report.colours import NOTHING, SHARES, SIGNED, between, darker, scale_end
+from armscope.report.figures.arm_shape import arm_shape, shares_by_place, typical_pose, upright
 from armscope.robot import Arm, Chain, chain
 
 MOST_ROWS = 12_000
 """A page carries no more; of longer tables so many rows, spread evenly, and all suspects."""
 SHADES = 33
+FAINTEST = 0.14
+"""Where the scale of sizes starts: dots must be seen on paper."""
 NAMED_SHARE = 0.005
 
 
@@ -112,20 +112,11 @@ def figure_data(arm: Arm, shown: ErrorField) -> dict[str, Any]:
         "row": typical,
         "azimuth": float(np.arctan2(-view.right[0], view.right[1])),
         "elevation": float(np.arcsin(view.towards[2])),
-        "sizes": _shades(LinearSegmentedColormap.from_list("sizes", share_colours()(np.linspace(0.14, 1, 64)))),
-        "signed": _shades(signed_colours()),
+        "sizes": [between(SHARES, part) for part in np.linspace(FAINTEST, 1, SHADES)],
+        "signed": [between(SIGNED, part) for part in np.linspace(0, 1, SHADES)],
         "turn": upright(arm.gravity).ravel().tolist(),
         "arm": _arm_data(arm, shown.motor_angles[rows[typical]], shown.shares),
     }
-
-
-def signed_colours() -> LinearSegmentedColormap:
-    """Below and above nothing: blue, grey, vermilion; told apart by every kind of colour vision."""
-    return LinearSegmentedColormap.from_list("signed", ["#003D61", BLUE, "#CBD1D6", VERMILION, "#6E3000"])
-
-
-def _shades(colours: Any) -> list[str]:
-    return [to_hex(colours(part)) for part in np.linspace(0, 1, SHADES)]
 
 
 def _packed(values: ArrayLike) -> str:
@@ -139,11 +130,11 @@ def _arm_data(arm: Arm, motor_angles: Array, shares: Mapping[str, float]) -> dic
     bodies = _bodies(arm, frames, motor_angles)
     size = float(np.max(np.ptp(shape.points, axis=0)))
     by_place = shares_by_place(shares)
-    norm, colours = Normalize(0, round_up(max([0.0, *by_place.values()])) or 1.0), share_colours()
+    top = scale_end(max([0.0, *by_place.values()])) or 1.0
 
     def colour(place: str) -> str:
         share = by_place.get(place, 0.0)
-        return to_hex(colours(norm(share))) if share > 0 else UNTOUCHED
+        return between(SHARES, share / top) if share > 0 else NOTHING
 
     def width(number: float) -> float:
         return 1e3 * size * float(np.interp(number, [0, arm.n_joints + 1], [0.042, 0.021]))
@@ -172,7 +163,7 @@ def _arm_data(arm: Arm, motor_angles: Array, shares: Mapping[str, float]) -> dic
         radius = 1.15 * width(joint + 1)
         face = colour(f"joint {joint + 1}")
         discs.append({"at": (1e3 * centre).tolist(), "radius": radius, "half": 0.72 * radius, "colour": face,
-                      "side": _darker(face), "label": label})  # fmt: skip
+                      "side": darker(face), "label": label})  # fmt: skip
     data: dict[str, Any] = {
         "before": [
             {"turn": fixed[:3, :3].ravel().tolist(), "at": (1e3 * fixed[:3, 3]).tolist()} for fixed in arm.before
@@ -208,8 +199,3 @@ def _bodies(arm: Arm, frames: Chain, motor_angles: Array) -> list[tuple[Array, A
         turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
         bodies.append((frames.joint_rotation[0, joint] @ turn, frames.joint_origin[0, joint]))
     return bodies
-
-
-def _darker(colour: str) -> str:
-    red, green, blue = to_rgb(colour)
-    return to_hex((0.78 * red, 0.78 * green, 0.78 * blue))

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from armscope.core.types import Array
 from armscope.paper.measurements import PoseSet
-from armscope.report.figures.arm_shape import arm_shape
+from armscope.report.figures.arm_shape import ArmShape, arm_shape
 from armscope.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, styled
 from armscope.robot import Arm
 
@@ -44,11 +44,11 @@ def arm_with_frames(arm: Arm) -> Figure:
             panel.annotate(
                 names, (place[0], place[2]), xytext=(-8, 8), textcoords="offset points", color=BLUE, ha="right"
             )
-        _lengths(panel, arm, shape.parts)
+        _lengths(panel, arm, shape)
         panel.plot(*(1e3 * shape.tool[[0, 2]]), "*", color=VERMILION, markersize=13, label="reflector", zorder=4)
         panel.axhline(0, color=GREY, linewidth=1)
         panel.set(xlabel="x (mm)", ylabel="z (mm)", aspect="equal")
-        panel.margins(0.12)
+        panel.margins(0.22, 0.12)
         figure.legend(loc="outside upper center", ncols=4)
     return figure
 
@@ -65,35 +65,36 @@ def _together(centres: Array) -> list[tuple[Array, str]]:
     return [(at, ", ".join(f"$\\theta_{number}$" for number in names)) for at, names in places]
 
 
-def _lengths(panel: Axes, arm: Arm, parts: tuple[tuple[str, Array], ...]) -> None:
-    """The D-H lengths beside the pieces of the centre line that they are."""
+def _lengths(panel: Axes, arm: Arm, shape: ArmShape) -> None:
+    """The D-H lengths beside the pieces of the centre line that they are; the rod runs to the right of link 2."""
     description = arm.description.dh
     if description is None:
         return
     for number, row in enumerate(description.joints, start=1):
-        line = 1e3 * dict(parts)[f"link {number}"]
+        line = 1e3 * dict(shape.parts)[f"link {number}"]
+        side = -1 if number == 2 and shape.rod is not None else 1
         for (start, end), name, length in zip(
             ((line[0], line[1]), (line[1], line[2])), (f"d_{number}", f"a_{number}"), (row.d_mm, row.a_mm), strict=True
         ):
             if abs(length) >= LEAST_MM:
-                _beside(panel, start, end, f"${name}$ = {length:g}")
-    start, end = 1e3 * dict(parts)["tool"]
+                _beside(panel, start, end, f"${name}$ = {length:g}", side)
+    start, end = 1e3 * dict(shape.parts)["tool"]
     _beside(panel, start, end, f"{1e3 * np.linalg.norm(arm.tool):g}")
 
 
-def _beside(panel: Axes, start: Array, end: Array, text: str) -> None:
-    """A label to the lower right of a piece, clear of it."""
+def _beside(panel: Axes, start: Array, end: Array, text: str, side: int = 1) -> None:
+    """A label to the right of a piece or below it (``side`` -1: to its left); of a level piece, before its start."""
     along = (end - start)[[0, 2]]
     normal = np.array([along[1], -along[0]]) / np.linalg.norm(along)
     if normal[0] - normal[1] < 0:
         normal = -normal
-    middle = (start + end)[[0, 2]] / 2
-    steep = abs(along[1]) > abs(along[0])
+    at, offset, across = (start + end)[[0, 2]] / 2, 11 * side * normal, "left" if side > 0 else "right"
+    if abs(along[1]) < 0.05 * abs(along[0]):
+        at, offset, across = start[[0, 2]], np.array([-8.0, 0.0]), "right"
+    down = "top" if abs(along[1]) < abs(along[0]) and across == "left" else "center"
     panel.annotate(
-        text, tuple(middle), xytext=tuple(11 * normal), textcoords="offset points", fontsize=8,
-        ha="left" if steep else "center", va="center" if steep else "top", zorder=5,
-        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8},
-    )  # fmt: skip
+        text, tuple(at), xytext=tuple(offset), textcoords="offset points", fontsize=8, ha=across, va=down, zorder=5
+    )
 
 
 def measuring_setup(arm: Arm, poses: PoseSet, tracker_mm: Array) -> Figure:

@@ -6,18 +6,19 @@ import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from armscope.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, SKY, VERMILION, styled
+from armscope.report.colours import AFTER, BEFORE, GAIN, GOOD, INK, LINE, LOSS, OTHERS, PALE, QUIET
 from armscope.report.subject import Drawn, Subject
+from armscope.report.svg import LETTER, Drawing, number, ticks
 from armscope.verdict.schema import Verdict, WaterfallStep
 from armscope.verdict.wording import plain
 
-CLEAR = {"facecolor": "white", "edgecolor": "none", "pad": 0.8, "alpha": 0.85}
-"""Behind numbers, so that the noise's line does not strike them out."""
+WIDTH, ROW, BAR, LETTERS = 860.0, 27.0, 17.0, 12.0
+"""Of the picture, of a row and of its bar, and of the words, px."""
+WIDEST_NAMES = 330.0
+BEYOND = 1.6
+"""Other models' errors are drawn up to so many times the largest of the steps."""
 
 
 def draw_waterfall(
@@ -25,7 +26,7 @@ def draw_waterfall(
     noise_mm: float | None,
     references: Sequence[tuple[str, float]] = (),
     spreads: Sequence[float] | None = None,
-) -> Figure:
+) -> Drawing:
     """Held-out RMS as effects enter, the noise floor, and other models fitted to the same rows.
 
     Args:
@@ -37,72 +38,86 @@ def draw_waterfall(
     Returns:
         The figure.
     """
-    heights = [rms for _, rms in steps]
-    largest = max(heights)
     shown = [(name, rms) for name, rms in references if np.isfinite(rms)]
-    limit = 1.24 * max([largest, *(min(rms, 1.6 * largest) for _, rms in shown)])
-    n_bars = len(steps) + len(shown)
-    with styled():
-        figure, axes = plt.subplots(figsize=(8.2, 0.36 * n_bars + (0.6 if shown else 0) + 1.5))
-        for place, (_, rms) in enumerate(steps):
-            ends = place in (0, len(steps) - 1)
-            if ends:
-                axes.barh(place, rms, height=0.62, color=VERMILION if place == 0 else BLUE, zorder=3)
-            else:
-                _drop(axes, place, heights[place - 1], rms)
-            if ends and place > 0:
-                _gain(axes, place, heights[place - 1], rms)
-            error = None if spreads is None or not np.isfinite(spreads[place]) else spreads[place]
-            if error:
-                axes.errorbar(rms, place, xerr=error, color=BLACK, linewidth=0.9, capsize=2, zorder=4)
-            edge = max(rms, heights[place - 1] if place else rms) + (error or 0)
-            axes.text(edge + 0.012 * limit, place, _millimetres(rms), va="center", fontsize=8.5, zorder=7, bbox=CLEAR)
-            if place + 1 < len(steps):
-                axes.plot([rms, rms], [place - 0.31, place + 1.31], color=GREY, linewidth=0.7, zorder=2)
-        start = len(steps) + 0.75
-        if shown:
-            text = "for comparison, fitted to the same rows:"
-            axes.text(0, start - 0.72, text, fontsize=8.5, color="#5C6670", zorder=7, bbox=CLEAR)
-        for place, (_, rms) in enumerate(shown):
-            axes.barh(start + place, min(rms, limit), height=0.62, color="#C9CFD5", zorder=3)
-            beyond = rms > limit
-            axes.text(
-                (0.985 if beyond else 0.012) * limit + (0 if beyond else rms), start + place,
-                _millimetres(rms) + (" →" if beyond else ""), va="center", ha="right" if beyond else "left",
-                fontsize=8.5, zorder=7, bbox=None if beyond else CLEAR,
-            )  # fmt: skip
-        if noise_mm is not None:
-            axes.axvline(noise_mm, color=GREEN, linewidth=1.6, linestyle="--", zorder=6)
-            axes.annotate(
-                f"noise {_millimetres(noise_mm)}", (noise_mm, 1), (4, 3), xycoords=("data", "axes fraction"),
-                textcoords="offset points", color=GREEN, fontsize=8.5, fontweight="bold", annotation_clip=False,
-            )  # fmt: skip
-        ticks = [*range(len(steps)), *(start + np.arange(len(shown)))]
-        axes.set_yticks(ticks, [name for name, _ in steps] + [name for name, _ in shown])
-        axes.set_ylim(start + len(shown) - 0.3 if shown else len(steps) - 0.4, -0.6)
-        axes.set_xlim(0, limit)
-        whiskers = "\nwhiskers: standard deviation from fold to fold" if _any(spreads) else ""
-        axes.set_xlabel(f"RMS on held-out rows, per axis (mm){whiskers}")
-        axes.tick_params(axis="y", length=0)
-        axes.spines["left"].set_visible(False)
-        axes.grid(axis="y", visible=False)
-    return figure
+    return _Bars(steps, noise_mm, shown, spreads or [np.nan] * len(steps)).drawn()
 
 
-def _drop(axes: Axes, place: int, before: float, after: float) -> None:
-    """The bar that remains, pale, and what the step took away, or added."""
-    axes.barh(place, min(before, after), height=0.62, color=SKY, alpha=0.35, zorder=3)
-    colour = SKY if after <= before else ORANGE
-    axes.barh(place, before - after, left=after, height=0.62, color=colour, zorder=3)
+class _Bars:
+    """Bars under each other; x turns mm into px."""
 
+    def __init__(
+        self,
+        steps: Sequence[tuple[str, float]],
+        noise: float | None,
+        others: Sequence[tuple[str, float]],
+        spreads: Sequence[float],
+    ) -> None:
+        self.steps, self.noise, self.others, self.spreads = steps, noise, others, spreads
+        largest = max(rms for _, rms in steps)
+        self.limit = 1.2 * max([largest, *(min(rms, BEYOND * largest) for _, rms in others)])
+        longest = max(len(name) for name, _ in [*steps, *others])
+        self.left = min(LETTER * LETTERS * longest + 14, WIDEST_NAMES)
+        self.top, gap = 26.0, 30.0 if others else 0.0
+        self.bottom = self.top + ROW * (len(steps) + len(others)) + gap
+        self.drawing = Drawing(
+            WIDTH, self.bottom + 46, "Held-out error as effects enter the model, with its spread from fold to fold"
+        )
 
-def _gain(axes: Axes, place: int, before: float, after: float) -> None:
-    """What the last step took away, beside the bar of what is left."""
-    axes.barh(place, before - after, left=after, height=0.62, color=SKY if after <= before else ORANGE, zorder=3)
+    def x(self, millimetres: float) -> float:
+        return self.left + min(millimetres, self.limit) / self.limit * (WIDTH - self.left - 14)
 
+    def bar(self, top: float, start: float, end: float, colour: str) -> None:
+        low, high = sorted((self.x(start), self.x(end)))
+        self.drawing.rectangle((low, top + 0.5 * (ROW - BAR)), (high - low, BAR), colour)
 
-def _any(spreads: Sequence[float] | None) -> bool:
-    return spreads is not None and bool(np.isfinite(spreads).any())
+    def drawn(self) -> Drawing:
+        self.axis()
+        for place, (name, rms) in enumerate(self.steps):
+            self.step(place, name, rms)
+        start = self.top + ROW * len(self.steps) + 30
+        if self.others:
+            words = "for comparison, fitted to the same rows:"
+            self.drawing.text((self.left, start - 12), words, size=LETTERS, fill=QUIET)
+        for place, (name, rms) in enumerate(self.others):
+            top, beyond = start + ROW * place, rms > self.limit
+            self.drawing.text((self.left - 8, top + ROW / 2), name, size=LETTERS, anchor="end", fill=QUIET)
+            self.bar(top, 0, rms, OTHERS)
+            at = (WIDTH - 20, top + ROW / 2) if beyond else (self.x(rms) + 6, top + ROW / 2)
+            words = _millimetres(rms) + (" →" if beyond else "")
+            self.drawing.text(at, words, size=LETTERS, anchor="end" if beyond else "start")
+        return self.drawing
+
+    def step(self, place: int, name: str, rms: float) -> None:
+        top, last = self.top + ROW * place, len(self.steps) - 1
+        before = self.steps[place - 1][1] if place else rms
+        self.drawing.text((self.left - 8, top + ROW / 2), name, size=LETTERS, anchor="end")
+        if place in (0, last):
+            self.bar(top, 0, rms, AFTER if place else BEFORE)
+        else:
+            self.bar(top, 0, min(before, rms), PALE)
+        if place:
+            self.bar(top, rms, before, GAIN if rms <= before else LOSS)
+        spread = self.spreads[place] if np.isfinite(self.spreads[place]) else 0.0
+        middle = top + ROW / 2
+        if spread:
+            ends = np.array([[self.x(max(rms - spread, 0)), middle], [self.x(rms + spread), middle]])
+            self.drawing.line(ends, INK, 1.2, 2)
+        edge = self.x(max(rms + spread, before)) + 6
+        self.drawing.text((edge, middle), _millimetres(rms), size=LETTERS)
+
+    def axis(self) -> None:
+        for tick in ticks(0, self.limit):
+            x = self.x(tick)
+            self.drawing.line(np.array([[x, self.top - 4], [x, self.bottom]]), LINE, 0.8, -2)
+            self.drawing.text((x, self.bottom + 10), number(tick), size=11, anchor="middle", fill=QUIET)
+        whiskers = "; whiskers: standard deviation from fold to fold" if np.isfinite(self.spreads).any() else ""
+        words = f"RMS on held-out rows, per axis (mm){whiskers}"
+        self.drawing.text(((self.left + WIDTH) / 2, self.bottom + 30), words, size=LETTERS, anchor="middle")
+        if self.noise is not None:
+            x = self.x(self.noise)
+            self.drawing.line(np.array([[x, self.top - 6], [x, self.bottom]]), GOOD, 1.8, 3, "6 4")
+            words = f"noise {_millimetres(self.noise)}"
+            self.drawing.text((x + 3, self.top - 14), words, size=LETTERS, fill=GOOD, weight="bold")
 
 
 def _millimetres(value: float) -> str:
@@ -117,7 +132,7 @@ def waterfall_figure(subject: Subject) -> Iterator[Drawn]:
         noise = verdict.noise_mm if np.isfinite(verdict.noise_mm) else None
         steps, spreads = [(step.label, step.held_out_mm) for step in known], [step.spread_mm for step in known]
         drawn = draw_waterfall(steps, noise, subject.references, spreads)
-        yield Drawn("waterfall", drawn, "Held-out error as effects enter the model, with its spread from fold to fold")
+        yield Drawn("waterfall", drawn)
 
 
 def waterfall_steps(verdict: Verdict) -> list[WaterfallStep]:

@@ -1,9 +1,10 @@
-"""out/report.html: what a diagnosis found, on one page that needs no network."""
+"""out/report.html: what a diagnosis found, on one page that needs no network; and the work order to print."""
 
 from __future__ import annotations
 
 import importlib.metadata
 import math
+import time
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,31 +12,27 @@ from typing import Any
 
 from markupsafe import Markup
 
-from armscope.core.files import write_text
+from armscope.core.files import write_table, write_text
+from armscope.report.colours import page_variables
 from armscope.report.html import render_page
-from armscope.report.sections.better import improvement
 from armscope.report.sections.effects import findings
 from armscope.report.sections.registry import SECTIONS
-from armscope.report.style import save_figure
 from armscope.report.subject import Drawn, Section, Subject
-from armscope.verdict.schema import Diagnosis
-from armscope.verdict.wording import millimetres
+from armscope.verdict.schema import Diagnosis, Notice
+from armscope.verdict.sentences import more_than_noise, unusable
+from armscope.verdict.wording import millimetres, percent
+from armscope.verdict.work_order import corrected_rows, zero_offsets
 
-FORMATS = ("png", "svg")
 ANSWERS = {
     "nothing missing": ("holds", "nothing is missing"),
     "explained": ("holds", "explained"),
     "partly explained": ("depends", "partly explained"),
     "cannot tell": ("depends", "cannot tell"),
 }
-
-
-@dataclass(frozen=True)
-class SavedFigure:
-    """A figure's file for the page (SVG) and what it shows, for those who can't see it."""
-
-    path: Path
-    alt: str
+WARNINGS = ("check", "stated noise", "fewer rows than parameters", "too few rows")
+"""Kinds of notices that stand above everything; what the headline says already does not, others lie folded."""
+REPORT, ORDER = "report.html", "work-order.html"
+ZEROS, ROWS = "zero_offsets.csv", "corrected_dh.csv"
 
 
 @dataclass(frozen=True)
@@ -44,15 +41,21 @@ class Written:
 
     name: str
     link: str
+    title: str
+    folded: bool
     html: Markup
 
 
-def write_report(verdict: Diagnosis, folder: Path | str) -> Path:
-    """Write ``report.html`` and ``figures/*`` (PNG and SVG) for a diagnosis; returns the page's path.
+def write_report(verdict: Diagnosis, folder: Path | str, started: float | None = None) -> Path:
+    """Write ``report.html``, ``work-order.html``, its tables as CSV, and ``figures/*.svg``.
 
     Args:
         verdict: the diagnosis.
         folder: where the page goes.
+        started: when its reader began to wait (`time.time`), for the footer; None leaves it out.
+
+    Returns:
+        The page's path.
     """
     folder, subject = Path(folder), Subject(verdict)
     sections = [section for section in SECTIONS if section.applies(verdict)]
@@ -62,37 +65,93 @@ def write_report(verdict: Diagnosis, folder: Path | str) -> Path:
         for figure in section.figures
         for drawn in figure(subject)
     }
-    page = render_page("diagnosis.html.j2", **_head(verdict), sections=list(_written(sections, subject, figures)))
-    write_text(folder / "report.html", page)
-    return folder / "report.html"
+    written = list(_written(sections, subject, figures))
+    write_work_order(subject, folder)
+    seconds = "" if started is None else f"{time.time() - started:.1f}"
+    page = render_page("diagnosis.html.j2", **_head(verdict), sections=written, seconds=seconds)
+    write_text(folder / REPORT, page)
+    return folder / REPORT
 
 
-def _saved(drawn: Drawn, folder: Path) -> SavedFigure:
-    return SavedFigure(save_figure(drawn.figure, folder / drawn.name, FORMATS)[-1], drawn.alt)
+def write_work_order(subject: Subject, folder: Path) -> None:
+    """The work order as a page, and its numbers as tables.
+
+    Args:
+        subject: the diagnosis.
+        folder: where the files go.
+    """
+    verdict, zeros, rows = subject.verdict, zero_offsets(subject.verdict), corrected_rows(subject.verdict)
+    write_table(folder / ZEROS, zeros)
+    if rows is not None:
+        write_table(folder / ROWS, rows)
+    dh = verdict.model.arm.description.dh
+    content = {
+        **_about(verdict),
+        "tasks": subject.tasks,
+        "before": verdict.residual_before_mm,
+        "left": subject.worth.cured(range(len(subject.worth.causes))),
+        "mm": millimetres,
+        "background": percent(verdict.background.share),
+        "dh": None if rows is None else rows.to_dict("records"),
+        "convention": "" if dh is None else dh.convention,
+        "zeros": zeros[zeros["cause"] == "named"].to_dict("records"),
+    }
+    write_text(folder / ORDER, render_page("work_order.html.j2", **content))
 
 
-def _written(sections: Iterable[Section], subject: Subject, figures: dict[str, SavedFigure]) -> Iterable[Written]:
+def _saved(drawn: Drawn, folder: Path) -> Markup:
+    write_text(folder / f"{drawn.name}.svg", drawn.figure.svg(paper=True))
+    return Markup(drawn.figure.svg())  # its words were escaped when they were drawn
+
+
+def _written(sections: Iterable[Section], subject: Subject, figures: dict[str, Markup]) -> Iterable[Written]:
     for section in sections:
         context = {"verdict": subject.verdict, "figures": figures, **section.context(subject)}
         # its own template escaped what it was filled with
-        yield Written(section.name, section.link, Markup(render_page(f"diagnosis/{section.name}.html.j2", **context)))
+        html = Markup(render_page(f"diagnosis/{section.name}.html.j2", **context))
+        yield Written(section.name, section.link, section.title, section.folded, html)
 
 
-def _head(verdict: Diagnosis) -> dict[str, Any]:
-    """What stands above the sections."""
-    tag, answer = ANSWERS[verdict.answer]
+def _about(verdict: Diagnosis) -> dict[str, Any]:
+    """What both pages say of what they are about."""
     return {
         "version": importlib.metadata.version("armscope"),
         "verdict": verdict,
         "source": Path(verdict.source).name,
-        "headline": verdict.headline,
+        "warnings": [notice for notice in verdict.notices if _warns(notice, verdict)],
+    }
+
+
+def _head(verdict: Diagnosis) -> dict[str, Any]:
+    """What stands above the sections."""
+    tag, answer = _answer(verdict)
+    causes, _, rest = verdict.headline.partition(". ") if verdict.effects else (verdict.headline, "", "")
+    return {
+        **_about(verdict),
+        "headline": f"{causes}." if rest else causes,
+        "rest": rest,
         "tag": tag,
         "answer": answer,
         "tiles": _tiles(verdict),
-        "improvement": improvement(verdict),
         "open_question": findings(verdict)["open_question"],
-        "notices": [notice for notice in verdict.notices if not _said(notice.text, verdict.headline)],
+        "shades": Markup(page_variables()),
     }
+
+
+def _answer(verdict: Diagnosis) -> tuple[str, str]:
+    """Colour and words of the answer; never "explained" where more than noise is left, or the table is unusable."""
+    if unusable(verdict):
+        return "fails", "not to be relied on"
+    if verdict.answer == "explained" and more_than_noise(verdict):
+        return ANSWERS["partly explained"]
+    return ANSWERS[verdict.answer]
+
+
+def _warns(notice: Notice, verdict: Diagnosis) -> bool:
+    """Whether a notice stands above everything: it limits the whole verdict, and the headline doesn't say it."""
+    if notice.text.rstrip(".").lower() in verdict.headline.lower():
+        return False
+    return notice.kind in WARNINGS or verdict.mismatch is None
 
 
 def _tiles(verdict: Diagnosis) -> list[tuple[str, str, str]]:
@@ -104,18 +163,13 @@ def _tiles(verdict: Diagnosis) -> list[tuple[str, str, str]]:
     runs = f" in {len(verdict.runs)} runs" if len(verdict.runs) > 1 else ""
     known = math.isfinite(verdict.noise_mm)
     tiles = [
-        (millimetres(before), "mismatch before", where),
-        (millimetres(after), "mismatch with the fitted model", where),
+        (millimetres(before), "error now", where),
+        (millimetres(after), "error with the fitted model", where),
     ]
     if verdict.mismatch is None and not verdict.effects:
-        tiles = [(millimetres(before), "mismatch", "RMS per axis once base and tool are placed")]
+        tiles = [(millimetres(before), "error", "RMS per axis once base and tool are placed")]
     return [
         *tiles,
         (millimetres(verdict.noise_mm), "noise", f"per axis, {verdict.noise_source}" if known else "not known"),
         (f"{verdict.rows:,}".replace(",", " "), "recorded rows", f"{Path(verdict.source).name}{runs}"),
     ]
-
-
-def _said(text: str, sentence: str) -> bool:
-    """Whether a notice only repeats the headline."""
-    return text.rstrip(".").lower() in sentence.lower()

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -62,12 +63,12 @@ def claim_rows(claims: pd.DataFrame, why: pd.DataFrame) -> dict[str, list[ClaimR
                 source=str(best["source"]),
                 wording=_text(best["wording"]),
                 criterion=str(best["criterion"]),
-                printed=None if printed is None else _verdict(printed),
+                printed=None if printed is None else _printed(printed),
                 improved=_verdict(best),
                 remains=_remains(best),
                 number=_number(best),
                 number_is=str(best["number_is"]),
-                in_table="–" if pd.isna(best["number_printed"]) else significant(float(best["number_printed"])),
+                in_table=_in_table(best),
                 why=reasons.get((str(key), str(best["method"])), "") if best["verdict"] == DEPENDS else "",
             )
         )
@@ -87,19 +88,34 @@ def _verdict(row: pd.Series) -> Cell:
     return Cell(str(row["verdict"]), TAGS[str(row["verdict"])], below)
 
 
+def _printed(row: pd.Series) -> Cell:
+    """The printed method's verdict, and in a word what other assumptions make of it."""
+    cell = _verdict(row)
+    if row["under_assumptions"] == "not varied":
+        return cell
+    decided = f": {_text(row['depends_on'])}" if _text(row["depends_on"]) else ""
+    elsewhere = f"under other assumptions: {row['under_assumptions']}{decided}, {range_of_shares(row)}"
+    return Cell(cell.text, cell.tag, f"{cell.below}; {elsewhere}")
+
+
+def range_of_shares(row: Mapping[Hashable, Any] | pd.Series) -> str:
+    """The least and the largest share of the robots over all scenarios, %."""
+    least, most = (f"{100 * float(row[name]):.0f}" for name in ("share_least", "share_most"))
+    return f"{least} %" if least == most else f"{least}–{most} %"
+
+
 def _remains(row: pd.Series) -> Cell:
     """What remains of the improved method's verdict when the assumptions change."""
     found = str(row["under_assumptions"])
     if found == "not varied":
         return Cell("not varied", "open", "see config/thorough.yaml")
-    shares = f"{100 * float(row['share_least']):.0f}–{100 * float(row['share_most']):.0f} % of the robots"
     moved = f"; moved most by {_text(row['moved_by'])}" if _text(row["moved_by"]) else ""
-    below = f"{shares} in {int(row['scenarios'])} scenarios{moved}"
+    seen = f"{range_of_shares(row)} of the robots in {int(row['scenarios'])} scenarios"
     if found.endswith("under all"):
-        return Cell(found, "holds" if found.startswith(HOLDS) else "fails", below)
+        return Cell(found, "holds" if found.startswith(HOLDS) else "fails", seen + moved)
     if _text(row["depends_on"]):
-        return Cell(f"{found}: {_text(row['depends_on'])}", "depends", f"{shares} in {int(row['scenarios'])} scenarios")
-    return Cell(found, TAGS[found], below)
+        return Cell(f"{found}: {_text(row['depends_on'])}", "depends", seen)
+    return Cell(found, TAGS[found], seen + moved)
 
 
 def _number(row: pd.Series) -> str:
@@ -109,14 +125,23 @@ def _number(row: pd.Series) -> str:
     unit = f" {row['unit']}" if _text(row["unit"]) else ""
     if unit == " %" and abs(float(row["number_high"])) < 0.01:
         return "under 0.01 %"
-    number, low, high = (_sized(float(row[name])) for name in ("number", "number_low", "number_high"))
+    number, low, high = _sized([float(row[name]) for name in ("number", "number_low", "number_high")])
     return f"{number}{unit}" if low == high else f"{number}{unit} ({low}–{high})"
 
 
-def _sized(value: float) -> str:
-    if not np.isfinite(value):
-        return "∞"
-    return "≈ 0" if 0 < abs(value) < 1e-4 else significant(value)
+def _in_table(row: pd.Series) -> str:
+    """The same number from the printed Table 2."""
+    if pd.isna(row["number_printed"]):
+        return "–"
+    unit = f" {row['unit']}" if _text(row["unit"]) else ""
+    return f"{_sized([float(row['number_printed'])])[0]}{unit}"
+
+
+def _sized(values: Sequence[float]) -> list[str]:
+    """Numbers in the same form: counts without decimals."""
+    counts = all(value.is_integer() for value in values if np.isfinite(value))
+    words = [f"{value:.0f}" if counts else "≈ 0" if 0 < abs(value) < 1e-4 else significant(value) for value in values]
+    return [word if np.isfinite(value) else "∞" for word, value in zip(words, values, strict=True)]
 
 
 @dataclass(frozen=True)
@@ -126,6 +151,7 @@ class FirstScreen:
     count: int
     printed_holds: list[str]
     printed_fails: list[str]
+    printed_moved: list[str]
     always_holds: list[str]
     always_fails: list[str]
     improved_depends: list[str]
@@ -145,6 +171,7 @@ def first_screen(claims: pd.DataFrame) -> FirstScreen:
         count=int(own["key"].nunique()),
         printed_holds=named(printed[printed["verdict"] == HOLDS]),
         printed_fails=named(printed[printed["verdict"] == FAILS]),
+        printed_moved=named(printed[printed["under_assumptions"] == "depends on the assumption"]),
         always_holds=named(improved[under == f"{HOLDS} under all"]),
         always_fails=named(improved[under == f"{FAILS} under all"]),
         improved_depends=named(improved[under.isin([DEPENDS, "depends on the assumption"])]),

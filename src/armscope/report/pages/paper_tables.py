@@ -10,7 +10,7 @@ import pandas as pd
 from armscope.core.config import Paper, stated_numbers
 from armscope.paper.claims.catalogue import CLAIMS
 from armscope.paper.convergence import iterations_needed
-from armscope.paper.printed import AXES, TRAJECTORIES, UNCOMPENSATED, printed_texts
+from armscope.paper.printed import AXES, EQUATIONS, TRAJECTORIES, UNCOMPENSATED, printed_texts
 from armscope.paper.why import meaning
 from armscope.report.html import significant
 from armscope.report.text.audit import READING_WORDS, Contradictions
@@ -191,13 +191,19 @@ def term_words(term: str) -> str:
 
 
 def untold_rows(table: pd.DataFrame) -> pd.DataFrame:
-    """The cross-check in words."""
+    """The cross-check in words; printed numbers to the letter."""
+    texts = {
+        f"Eq. ({EQUATIONS[model] + AXES.index(axis)}), {axis}, {term}": text
+        for (model, axis, term), text in printed_texts().items()
+    }
     same = ["–" if pd.isna(value) else f"{100 * value:.0f} %" for value in table["same_sign"]]
     return pd.DataFrame(
         {
             "printed number": table["number"].map(lambda text: text.replace("theta", "θ").replace("^2", "²")),
             "unit": table["unit"].str.replace("^2", "²"),
-            "printed": table["printed"],
+            "printed": [
+                texts.get(name, f"{value:.1f}") for name, value in zip(table["number"], table["printed"], strict=True)
+            ],
             "anchored": table["anchored"],
             "5 %": table["low"],
             "median": table["median"],

@@ -13,35 +13,41 @@ from armscope.core.inputs import InputError
 from armscope.paper.printed import AXES, TRAJECTORIES
 from armscope.paper.residuals import SPATIAL
 from armscope.report.html import significant
+from armscope.report.pages.paper_claims import range_of_shares
 from armscope.report.text.audit import audit_sentence
-
-BEGIN, END = "<!-- results: begin", "<!-- results: end -->"
 
 
 def fill_readme(readme: Path, results: Path, proof: Path) -> None:
-    """Replace what stands between the two marks of a README by the numbers of a finished run.
+    """Replace what stands between the marks of a README by the numbers of finished runs.
 
     Args:
         readme: the file; it keeps everything outside the marks.
         results: folder with claims.csv, table2.csv and audit.csv.
-        proof: folder with the tables of the full proof.
+        proof: folder with the tables of the full proof; where it has none, what the README says of the proof stays.
 
     Raises:
-        InputError: the marks are missing.
+        InputError: marks are missing.
     """
-    text = readme.read_text(encoding="utf-8")
-    if BEGIN not in text or END not in text:
-        raise InputError(readme, "", "no marks", f"the numbers go between {BEGIN!r} and {END!r}")
-    before, _, rest = text.partition(BEGIN)
-    mark, _, rest = rest.partition("\n")
-    _, _, after = rest.partition(END)
     claims, table = read_table(results / "claims.csv"), read_table(results / "table2.csv")
     audited = f"*{audit_sentence(read_table(results / 'audit.csv'))}*"
-    aims, worlds = read_table(proof / "aims.csv"), read_table(proof / "worlds.csv")
-    block = "\n".join(
-        ["", *_proof_lines(aims, len(worlds)), "", *_claim_lines(claims), "", *_table_lines(table), "", audited, "", ""]
-    )
-    write_text(readme, f"{before}{BEGIN}{mark}\n{block}{END}{after}")
+    text = readme.read_text(encoding="utf-8")
+    text = _filled(text, "results", [*_claim_lines(claims), "", *_table_lines(table), "", audited], readme)
+    if (proof / "aims.csv").is_file():
+        aims, worlds = read_table(proof / "aims.csv"), read_table(proof / "worlds.csv")
+        text = _filled(text, "proof", _proof_lines(aims, len(worlds)), readme)
+    write_text(readme, text)
+
+
+def _filled(text: str, name: str, lines: list[str], readme: Path) -> str:
+    """A text with other lines between two marks."""
+    begin, end = f"<!-- {name}: begin", f"<!-- {name}: end -->"
+    if begin not in text or end not in text:
+        raise InputError(readme, "", "no marks", f"the numbers go between {begin!r} and {end!r}")
+    before, _, rest = text.partition(begin)
+    mark, _, rest = rest.partition("\n")
+    _, _, after = rest.partition(end)
+    block = "\n".join(["", *lines, "", ""])
+    return f"{before}{begin}{mark}\n{block}{end}{after}"
 
 
 def _proof_lines(aims: pd.DataFrame, worlds: int) -> list[str]:
@@ -105,9 +111,8 @@ def _verdict(row: dict[Hashable, Any]) -> str:
 
 def _remains(row: dict[Hashable, Any]) -> str:
     decided = row["depends_on"] if isinstance(row["depends_on"], str) and row["depends_on"] else ""
-    shares = f"{100 * row['share_least']:.0f}–{100 * row['share_most']:.0f} %"
     found = f"{row['under_assumptions']}: {decided}" if decided else str(row["under_assumptions"])
-    return found if found == "not varied" else f"{found} ({shares})"
+    return found if found == "not varied" else f"{found} ({range_of_shares(row)})"
 
 
 def _table_lines(table: pd.DataFrame) -> list[str]:

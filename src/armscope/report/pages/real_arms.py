@@ -66,7 +66,7 @@ def write_real_arms(path: Path, arms: Sequence[RealArm], figures: str, proof: Pa
     Args:
         path: where to.
         arms: in their order on the page.
-        figures: folder of the figures as the page names it; real-<name>.png in it.
+        figures: folder of the figures as the page names it; real-<name>.svg in it.
         proof: folder of the tables of `armscope real score`; None leaves the concealment out.
     """
     sections = [_section(arm, figures) for arm in arms]
@@ -109,7 +109,7 @@ def _section(arm: RealArm, figures: str) -> str:
     parts = [
         f"## {arm.title}",
         _what_is_wrong(verdict) + " " + _how_well(table, run),
-        f"![{arm.title}: the arm coloured by share of the mismatch]({figures}/real-{arm.name}.png)",
+        f"![{arm.title}: the arm coloured by share of the mismatch]({figures}/real-{arm.name}.svg)",
         _levels(table, reference.runs),
         _agreement(arm, reference.runs),
         PAPER,

@@ -21,6 +21,7 @@ def _context(subject: Subject) -> dict[str, Any]:
     settings = [(str(key).replace("_", " "), str(value)) for key, value in subject.verdict.settings.items()]
     return {
         "assumptions": assumptions(subject.verdict, subject.arm, subject.recordings),
+        "remarks": [notice.text for notice in subject.verdict.notices],
         "settings": pd.DataFrame(settings, columns=["setting", "value"]),
     }
 
@@ -81,4 +82,4 @@ def assumptions(verdict: Verdict, arm: Arm, recordings: Recordings) -> list[str]
     return sentences
 
 
-ASSUMED = Section("assumed", "Assumptions", _context)
+ASSUMED = Section("assumed", "Assumptions", "What was assumed, and what this cannot show", _context, folded=True)

@@ -2,7 +2,15 @@
 
 from __future__ import annotations
 
-from armscope.report.figures.atlas import atlas_figure, attribution
-from armscope.report.subject import Section
+from typing import Any
 
-ATLAS = Section("atlas", "Atlas", figures=(atlas_figure,), applies=attribution)
+from armscope.report.figures.atlas import atlas_map, attribution
+from armscope.report.subject import Section, Subject
+
+
+def _context(subject: Subject) -> dict[str, Any]:
+    atlas = subject.verdict.atlas
+    return {} if atlas is None else {"map": atlas_map(atlas, subject.verdict.effects)}
+
+
+ATLAS = Section("atlas", "Atlas", "The atlas: what each place could explain", _context, (), attribution, folded=True)

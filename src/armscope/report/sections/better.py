@@ -58,4 +58,5 @@ def _context(subject: Subject) -> dict[str, Any]:
     return {"improvement": improvement(subject.verdict), "steps": pd.DataFrame(steps, columns=names)}
 
 
-BETTER = Section("better", "How much better", _context, (waterfall_figure,))
+TITLE = "How much better the model predicts"
+BETTER = Section("better", "Validation", TITLE, _context, (waterfall_figure,), folded=True)

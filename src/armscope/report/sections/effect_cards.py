@@ -14,6 +14,7 @@ from armscope.verdict.wording import (
     capitalised,
     effect_in_words,
     evidence_in_words,
+    implausible,
     millimetres,
     percent,
     plain,
@@ -132,11 +133,13 @@ def reading_of(parameter: Parameter, effect: FoundEffect) -> Reading:
     cancelled by others in these poses (d of neighbouring parallel axes, for instance).
     """
     reading = read_parameter(parameter, effect.effect)
+    if implausible(parameter, effect):
+        return Reading(reading.label, "undetermined", "beyond what arms have: it stands in for others")
     lever_mm = {"mm": 1.0, "rad": 1e3}.get(parameter.unit)  # an angle acts at about a metre
     open_mm = parameter.stderr * lever_mm if lever_mm is not None and math.isfinite(parameter.stderr) else 0.0
     if len(effect.parameters) < 2 or open_mm < LEFT_OPEN * effect.rms_at_tool_mm or effect.effect == "unknown":
         return reading
-    return Reading(reading.label, "left open", "in these poses others take its place")
+    return Reading(reading.label, "undetermined", "in these poses others take its place")
 
 
 def what_kind(effect: FoundEffect) -> str:

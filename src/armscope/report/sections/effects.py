@@ -9,7 +9,7 @@ from armscope.report.figures.effect_curve import effect_curves, worth_drawing
 from armscope.report.sections.effect_cards import Card, card
 from armscope.report.subject import Section, Subject
 from armscope.verdict.schema import Diagnosis, FoundEffect, NextPoses
-from armscope.verdict.wording import main_and_minor, percent
+from armscope.verdict.wording import main_and_minor, millimetres, percent
 
 
 def findings(verdict: Diagnosis) -> dict[str, Any]:
@@ -35,7 +35,11 @@ def findings(verdict: Diagnosis) -> dict[str, Any]:
 
 
 def _context(subject: Subject) -> dict[str, Any]:
-    return findings(subject.verdict)
+    alone = {id(cause.effects[0]): subject.worth.cured([n]) for n, cause in enumerate(subject.worth.causes)}
+    main, _ = main_and_minor(subject.verdict.effects)
+    before = millimetres(subject.verdict.residual_before_mm)
+    worth = [f"{before} → {millimetres(alone[id(effect)])}" if id(effect) in alone else "" for effect in main]
+    return {**findings(subject.verdict), "worth": worth}
 
 
 def _concerns(poses: NextPoses | None, effects: Sequence[FoundEffect]) -> bool:
@@ -45,4 +49,4 @@ def _concerns(poses: NextPoses | None, effects: Sequence[FoundEffect]) -> bool:
     )
 
 
-EFFECTS = Section("effects", "What was found", _context, (effect_curves,))
+EFFECTS = Section("effects", "Causes", "What was found", _context, (effect_curves,))

@@ -29,4 +29,4 @@ def _next_poses(poses: NextPoses) -> pd.DataFrame:
     return table
 
 
-NEXT = Section("next", "What to measure next", _context, (next_poses_figure,))
+NEXT = Section("next", "What to measure next", "What to measure next", _context, (next_poses_figure,), folded=True)

@@ -29,4 +29,4 @@ GLOSSARY = (
 )  # fmt: skip
 
 
-TERMS = Section("terms", "Terms", lambda subject: {"glossary": GLOSSARY})
+TERMS = Section("terms", "Terms", "Terms", lambda subject: {"glossary": GLOSSARY}, folded=True)

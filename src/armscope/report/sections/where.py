@@ -13,4 +13,4 @@ def _context(subject: Subject) -> dict[str, Any]:
     return {**findings(subject.verdict), "arm": subject.arm}
 
 
-WHERE = Section("where", "Where", _context, (arm_figure,))
+WHERE = Section("where", "Where", "Where the trouble is", _context, (arm_figure,))

@@ -70,7 +70,7 @@
       if (!all.length) this.group = 0;
       const choices = make("div", { className: "field-choices" });
       if (data.models.length > 1) choices.append(choice("model", "model", data.models.map((m, n) => [n, m.name]), 0));
-      choices.append(choice("stage", "error", data.stages.map(([name], n) => [n, name]), 0));
+      if (data.stages.length > 1) choices.append(choice("stage", "error", data.stages.map(([name], n) => [n, name]), 0));
       choices.append(choice("axis", "axis", Object.entries(AXES), "3D"));
       if (data.groups.length > 1) choices.append(choice("group", data.group_word, [...all, ...sizes], -1));
       choices.append(box("arrows", "arrows"), box("arm", "arm"), box("own", "colours to what is shown"));
@@ -91,7 +91,7 @@
     }
 
     // ---- what is shown
-    get errors() { return this.fields[this.data.models[this.model].fields[this.stage]]; }
+    get errors() { return this.live || this.fields[this.data.models[this.model].fields[this.stage]]; }  // live: put in by another script
     get before() { return this.fields[this.data.models[this.model].fields[0]]; }
     inGroup(row) { return this.group < 0 || this.groups[row] === this.group; }
 

@@ -1,0 +1,62 @@
+"""How long commands take to say that an input can't be used: whole processes, wall and CPU seconds.
+
+python -m benchmarks.failing
+"""
+
+from __future__ import annotations
+
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+EXAMPLE = Path(__file__).parents[1] / "examples" / "five-effects"
+ROUNDS = 5
+AIM_S = 0.7
+LINES = (
+    "--help",
+    "diagnose RECORDINGS -r BAD.yaml -o OUT",
+    "diagnose BAD.csv -r ROBOT -o OUT",
+    "check BAD.csv -r ROBOT",
+    "calibrate BAD.csv -r ROBOT -o OUT",
+    "predict BAD.yaml RECORDINGS -o OUT.csv",
+    "compensate BAD.yaml RECORDINGS -o OUT.csv",
+    "poses -r BAD.yaml -o OUT.csv",
+    "compare BAD.csv BAD.csv -r ROBOT",
+    "init nowhere.urdf",
+)
+
+
+def seconds(words: list[str]) -> tuple[float, float]:
+    """Wall and CPU time of one process."""
+    before, started = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
+    subprocess.run([sys.executable, "-m", "armscope", *words], capture_output=True, check=False)
+    wall, after = time.perf_counter() - started, resource.getrusage(resource.RUSAGE_CHILDREN)
+    return wall, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def _placed(word: str, places: dict[str, Path]) -> str:
+    name, dot, ending = word.partition(".")
+    return f"{places[name]}{dot}{ending}" if name in places else word
+
+
+def main() -> None:
+    """Print the median of every command."""
+    with tempfile.TemporaryDirectory() as folder:
+        places = {"BAD": Path(folder) / "bad", "OUT": Path(folder) / "out"}
+        Path(f"{places['BAD']}.yaml").write_text("name: arm\n")
+        Path(f"{places['BAD']}.csv").write_text("a,b\n1,2\n")
+        places |= {"ROBOT": EXAMPLE / "robot.yaml", "RECORDINGS": EXAMPLE / "recordings.csv"}
+        print(f"{'armscope ...':45s} wall s  CPU s  (aim: {AIM_S} s)")
+        for line in LINES:
+            words = [_placed(word, places) for word in line.split()]
+            took = [seconds(words) for _ in range(ROUNDS)]
+            wall, cpu = (statistics.median(values) for values in zip(*took, strict=True))
+            print(f"{line:45s} {wall:6.2f} {cpu:6.2f}")
+
+
+if __name__ == "__main__":
+    main()

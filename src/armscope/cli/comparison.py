@@ -1,0 +1,73 @@
+"""The command that says what changed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from armscope.cli.commands import Commands
+
+app = Commands()
+
+RECORDINGS, ROBOT = "recordings.csv", "robot.yaml"
+
+
+@app.command()
+def compare(
+    recordings: Annotated[
+        list[Path], typer.Argument(help=f"two or more tables, or folders with {RECORDINGS}, in the order of time")
+    ],
+    robot: Annotated[
+        Path | None, typer.Option("--robot", "-r", help=f"the nominal arm; else {ROBOT} in the first folder")
+    ] = None,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="folder for comparison.json, history.csv and history.png")
+    ] = None,
+    arms: Annotated[
+        bool, typer.Option("--arms", help="of several arms of one type: which is unlike the others")
+    ] = False,
+    json: Annotated[bool, typer.Option("--json", help="print comparison.json in place of words")] = False,
+) -> None:
+    """Say what changed between two or more recordings of one arm: after a crash, a repair, a year.
+
+    Causes that came, went, grew or shrank, each with a 95 % interval of the difference, and one joint test that nothing
+    changed. Base and tool may differ.
+    """
+    from armscope.cli.robots import print_json, robot_of, table_of
+
+    arm = robot_of(robot or _inside(recordings[0], ROBOT))
+    files = [_inside(each, RECORDINGS) for each in recordings]
+    tables = {name: table_of(file, arm.n_motors) for name, file in zip(_names(recordings), files, strict=True)}
+
+    from armscope.comparison import compare as compare_recordings
+
+    found = compare_recordings(arm, tables, arms)
+    if output is not None:
+        from armscope.core.files import write_json, write_table
+        from armscope.report.figures.history import history_figure, history_table
+        from armscope.report.style import save_figure
+
+        write_json(output / "comparison.json", found.to_json())
+        write_table(output / "history.csv", history_table(found))
+        if found.changes:
+            save_figure(history_figure(found), output / "history.png", formats=("png", "svg"))
+    if json:
+        print_json(found.to_json())
+    else:
+        print(found.text())
+
+
+def _inside(path: Path, name: str) -> Path:
+    return path / name if path.is_dir() else path
+
+
+def _names(paths: list[Path]) -> list[str]:
+    """What the recordings are called: folders or files by their own name, numbered where that is not enough."""
+    names = [path.resolve().name if path.is_dir() else path.name.partition(".")[0] for path in paths]
+    if len(set(names)) < len(names):
+        names = [
+            path.resolve().parent.name if path.is_file() else name for path, name in zip(paths, names, strict=True)
+        ]
+    return names if len(set(names)) == len(names) else [f"{n}: {name}" for n, name in enumerate(names, 1)]

@@ -1,0 +1,60 @@
+"""Commands of a fleet: diagnose, page, simulate."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from armscope.cli.commands import Commands
+from armscope.core.inputs import InputError
+
+app = Commands("fleet", no_args_is_help=True)
+
+Fleet = Annotated[Path, typer.Argument(help="fleet.csv: arm, type, robot, recordings; date, run")]
+Output = Annotated[Path, typer.Option("--output", "-o", help="folder to write")]
+
+
+@app.command()
+def diagnose(
+    fleet: Fleet,
+    output: Output,
+    part: Annotated[str, typer.Option(help="which part of how many, as in 0/4")] = "0/1",
+) -> None:
+    """Diagnose every arm of a fleet, or every n-th of them."""
+    from armscope.diagnosis import Settings
+    from armscope.fleet.diagnosing import diagnose_members
+    from armscope.fleet.members import read_fleet
+
+    number, _, parts = part.partition("/")
+    if not (number.isdecimal() and parts.isdecimal() and int(number) < int(parts)):
+        raise InputError("--part", "", part, "a number from 0, a slash and how many parts there are: 0/4 ... 3/4")
+    members = read_fleet(fleet)[int(number) :: int(parts)]
+    diagnose_members(members, output, Settings(resamples=0, cross_validation=False))
+
+
+@app.command()
+def page(
+    fleet: Fleet,
+    verdicts: Annotated[list[Path], typer.Option(help="folder of verdicts; may be given several times")],
+    output: Output,
+) -> None:
+    """One page over all arms: causes by arm and date, who is the outlier, what repeats in arms of a type."""
+    from armscope.fleet.members import read_fleet
+    from armscope.report.pages.fleet import write_fleet_page
+
+    write_fleet_page(read_fleet(fleet), verdicts, output)
+
+
+@app.command()
+def simulate(
+    robots: Annotated[Path, typer.Argument(help="folder of the arms' descriptions")],
+    output: Output,
+    arms: Annotated[int, typer.Option(min=1, help="how many")] = 200,
+    seed: Annotated[int, typer.Option(min=0, help="of everything random")] = 2006,
+) -> None:
+    """Make recordings of simulated arms of three types, with weaknesses that repeat, and their fleet.csv."""
+    from armscope.fleet.simulation import simulate as simulated
+
+    simulated(arms, seed, robots, output)

@@ -1,0 +1,114 @@
+"""What a comparison says: plain data and its words."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any, Literal
+
+from armscope.core.numerals import rounded, shown_unit
+
+Kind = Literal["came", "went", "grew", "shrank", "changed"]
+
+
+@dataclass(frozen=True)
+class Valued:
+    """A number in every recording, in its file unit, with standard errors; the change with its 95 % interval.
+
+    Attributes:
+        name, unit: of the parameter.
+        values, stderrs: one per recording.
+        difference: with the change less without it.
+        interval_95: of the difference.
+    """
+
+    name: str
+    unit: str
+    values: tuple[float, ...]
+    stderrs: tuple[float, ...]
+    difference: float
+    interval_95: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Change:
+    """A cause that is not the same in all recordings.
+
+    Attributes:
+        effect, location, title: what and where.
+        where: the recordings that have it otherwise than the rest.
+        kind: what became of it.
+        rms_mm: what the change moves the tool by there, RMS of the 3D distance beyond what frames absorb.
+        p: by chance, as often as this or more extreme, for any of all causes that were tried.
+        parameters: in every recording.
+        alternatives: causes that explain the change as well (evidence within 20 to 1).
+    """
+
+    effect: str
+    location: str
+    title: str
+    where: tuple[str, ...]
+    kind: Kind
+    rms_mm: float
+    p: float
+    parameters: tuple[Valued, ...]
+    alternatives: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """What changed.
+
+    Attributes:
+        arm: its name.
+        names: of the recordings, in their order.
+        rows: of each.
+        noise_mm: per axis, of what the shared model and the changes leave.
+        p_nothing_changed: the joint test: how often chance alone gives a cause that differs as much as the most
+            different one, all that were tried counted (Bonferroni).
+        level: below which changes are named.
+        tried: how many causes times places to change were tried.
+        changes: the surest first.
+    """
+
+    arm: str
+    names: tuple[str, ...]
+    rows: tuple[int, ...]
+    noise_mm: float
+    p_nothing_changed: float
+    level: float
+    tried: int
+    changes: tuple[Change, ...]
+
+    def to_json(self) -> dict[str, Any]:
+        """As plain data."""
+        return {"format": "armscope comparison 1", **asdict(self)}
+
+    @property
+    def headline(self) -> str:
+        """The answer in one sentence."""
+        among = ", ".join(self.names)
+        if not self.changes:
+            return f"Nothing changed that these recordings show ({among}; p = {self.p_nothing_changed:.2g})."
+        told = "; ".join(f"{each.title} {each.kind} in {', '.join(each.where)}" for each in self.changes)
+        return f"{told[:1].upper()}{told[1:]} (p = {self.p_nothing_changed:.2g} that nothing changed)."
+
+    def text(self) -> str:
+        """In words, a line per cause and number."""
+        lines = [self.headline, f"noise {self.noise_mm:.3g} mm per axis, {self.tried} possible changes tried"]
+        for each in self.changes:
+            lines.append(f"{each.title}, {', '.join(each.where)}: {each.kind}, moves the tool by {each.rms_mm:.3g} mm")
+            lines += [f"  {_number_line(number)}" for number in each.parameters]
+            if each.alternatives:
+                lines.append(f"  not told apart from: {', '.join(each.alternatives)}")
+        return "\n".join(lines)
+
+
+def _number_line(number: Valued) -> str:
+    factor, unit = shown_unit(number.unit, max(map(abs, (*number.values, number.difference))))
+    values = " -> ".join(_signed(factor * value) for value in number.values)
+    low, high = (_signed(factor * end) for end in number.interval_95)
+    return f"{number.name}: {values} {unit}; change {_signed(factor * number.difference)} ({low} ... {high}) {unit}"
+
+
+def _signed(value: float) -> str:
+    return ("-" if value < 0 else "") + rounded(abs(value))

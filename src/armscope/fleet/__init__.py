@@ -1,0 +1,1 @@
+"""Many arms: one diagnosis each, and what only all of them together show."""

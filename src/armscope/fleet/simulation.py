@@ -1,0 +1,61 @@
+"""A simulated fleet: arms of three types, each with a weakness of its own, and one arm that is unlike the others."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from armscope.core.files import copy_file, new_folder, write_table
+from armscope.world.catalogue import NOISE_MM, Wish, WorldSpec
+from armscope.world.folder import build
+
+WEAKNESSES = {
+    "six-axis": ("joint_compliance", "joint 2"),
+    "seven-axis": ("gear_eccentricity", "joint 4"),
+    "parallelogram-120kg": ("backlash", "joint 1"),
+}
+"""What many arms of each type have."""
+USUAL, FEW = 0.7, ("joint_offset", "link_geometry")
+"""Share of the arms that have their type's weakness; what each may have besides."""
+ROWS = 120
+
+
+def simulate(count: int, seed: int, robots: Path, output: Path) -> None:
+    """Recordings of simulated arms and their fleet.csv; the last arm's errors are ten times the others'.
+
+    Args:
+        count: arms.
+        seed: of everything random.
+        robots: folder of the arms' descriptions.
+        output: new folder.
+    """
+    new_folder(output)
+    rows = []
+    with tempfile.TemporaryDirectory() as made:
+        for number in range(count):
+            spec = _spec(number, count, seed)
+            visible = build(spec, Path(made), robots) / "visible"
+            for file in ("robot.yaml", "recordings.csv"):
+                copy_file(visible / file, output / spec.id / file)
+            home = output / spec.id
+            rows.append(
+                (spec.id, spec.arm, f"2026-{1 + number % 12:02d}", home / "robot.yaml", home / "recordings.csv")
+            )
+    write_table(output / "fleet.csv", pd.DataFrame(rows, columns=["arm", "type", "date", "robot", "recordings"]))
+
+
+def _spec(number: int, count: int, seed: int) -> WorldSpec:
+    rng = np.random.default_rng([seed, number])
+    arm = list(WEAKNESSES)[number % len(WEAKNESSES)]
+    unlike = 10.0 if number == count - 1 else 1.0
+    wishes = [Wish(kind=str(rng.choice(FEW)), strength=unlike * float(rng.uniform(2, 5)))]
+    if rng.random() < USUAL:
+        kind, place = WEAKNESSES[arm]
+        wishes.append(Wish(kind=kind, location=place, strength=unlike * float(rng.uniform(3, 8))))
+    return WorldSpec(
+        id=f"arm-{number:03d}", category="multiple", arm=arm, seed=int(rng.integers(2**31)), fresh=True, rows=ROWS,
+        sigma_mm=float(np.mean(NOISE_MM[arm])), wishes=tuple(wishes),
+    )  # fmt: skip

@@ -1,0 +1,123 @@
+"""What a fleet shows: causes by arm and date, the outliers of each type, what repeats, and how likely that makes it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from armscope.fleet.diagnosing import FAILURE
+from armscope.fleet.members import Member
+from armscope.verdict.files import VERDICT, read_verdict
+from armscope.verdict.schema import Verdict
+
+OUTLIER = 4.0
+"""Robust standard deviations from the median of its type beyond which an arm is an outlier: one in 16,000 by chance."""
+FEWEST_ARMS = 5
+"""Of a type, from which an outlier can be told."""
+COMMON = 0.3
+"""Share of a type's arms from which a cause is said to repeat."""
+
+
+def verdicts(members: Sequence[Member], folders: Sequence[Path]) -> tuple[dict[str, Verdict], dict[str, str]]:
+    """Verdicts by member's name, and why others have none.
+
+    Args:
+        members: of the fleet.
+        folders: that `diagnose_members` wrote.
+
+    Returns:
+        Both by name.
+    """
+    found, failed = {}, {}
+    for member in members:
+        for folder in folders:
+            if (folder / member.name / VERDICT).is_file():
+                found[member.name] = read_verdict(folder / member.name / VERDICT)
+            elif (folder / member.name / FAILURE).is_file():
+                failed[member.name] = (folder / member.name / FAILURE).read_text(encoding="utf-8").strip()
+        if member.name not in found:
+            failed.setdefault(member.name, "not diagnosed")
+    return found, failed
+
+
+def causes_of_arms(members: Sequence[Member], found: Mapping[str, Verdict]) -> pd.DataFrame:
+    """One row per named effect: arm, type, date, run, cause, words, size at the tool (mm), share, parameters."""
+    rows: list[dict[str, Any]] = [
+        {
+            "arm": member.arm, "type": member.type, "date": member.date, "run": member.run,
+            "cause": f"{effect.effect} at {effect.location}", "title": effect.title,
+            "rms_at_tool_mm": effect.rms_at_tool_mm, "share": effect.share, "minor": effect.minor,
+        }
+        for member in members if member.name in found
+        for effect in found[member.name].effects
+    ]  # fmt: skip
+    columns = ["arm", "type", "date", "run", "cause", "title", "rms_at_tool_mm", "share", "minor"]
+    return pd.DataFrame(rows, columns=columns)
+
+
+def arms(members: Sequence[Member], found: Mapping[str, Verdict]) -> pd.DataFrame:
+    """One row per diagnosis: what is left before and after, mm, and how far each lies from its type (robust z)."""
+    rows = [
+        {
+            "arm": member.arm, "type": member.type, "date": member.date, "run": member.run,
+            "answer": verdict.answer, "before_mm": verdict.residual_before_mm,
+            "after_mm": verdict.residual_after_mm, "headline": verdict.headline,
+        }
+        for member in members if (verdict := found.get(member.name)) is not None
+    ]  # fmt: skip
+    columns = ["arm", "type", "date", "run", "answer", "before_mm", "after_mm", "headline"]
+    table = pd.DataFrame(rows, columns=columns)
+    for name in ("before", "after"):
+        table[f"{name}_apart"] = table.groupby("type")[f"{name}_mm"].transform(_apart) if len(table) else []
+    return table
+
+
+def _apart(values: pd.Series[float]) -> pd.Series[float]:
+    """How far each value's logarithm lies from the median, in robust standard deviations; NaN of too few."""
+    if len(values) < FEWEST_ARMS:
+        return values * np.nan
+    logs = np.log(np.maximum(values.to_numpy(dtype=float), 1e-6))
+    away = logs - np.median(logs)
+    return pd.Series(away / max(1.4826 * float(np.median(np.abs(away))), 0.05), index=values.index)
+
+
+def outliers(table: pd.DataFrame) -> pd.DataFrame:
+    """The diagnoses that lie far from others of their type, farthest first."""
+    far = table[["before_apart", "after_apart"]].abs().max(axis=1)
+    return table[far > OUTLIER].assign(apart=far[far > OUTLIER]).sort_values("apart", ascending=False)
+
+
+def repeated(table: pd.DataFrame, of_arms: pd.DataFrame) -> pd.DataFrame:
+    """By type and cause: in how many of the arms it was named, and how large; what is minor does not count.
+
+    Args:
+        table: of `causes_of_arms`.
+        of_arms: of `arms`.
+
+    Returns:
+        Most frequent first.
+    """
+    count = of_arms.groupby("type")["arm"].nunique()
+    groups = table[~table["minor"].astype(bool)].groupby(["type", "cause"])
+    size = "rms_at_tool_mm"
+    found = groups.agg(arms=("arm", "nunique"), median_mm=(size, "median"), most_mm=(size, "max")).reset_index()
+    found["of"] = found["type"].map(count)
+    # Laplace's rule: one arm more with it, one more without
+    found["expected_share"] = (found["arms"] + 1) / (found["of"] + 2)
+    return found.sort_values(["type", "arms"], ascending=[True, False], ignore_index=True)
+
+
+def priors(table: pd.DataFrame) -> dict[str, Any]:
+    """What the next arm of a type may be expected to have, as written to priors.yaml; from `repeated`."""
+    content: dict[str, Any] = {}
+    for row in table.to_dict("records"):
+        of_type = content.setdefault(str(row["type"]), {"arms": int(row["of"]), "causes": {}})
+        of_type["causes"][str(row["cause"])] = {
+            "share": round(float(row["expected_share"]), 4),
+            "rms_at_tool_mm": round(float(row["median_mm"]), 4),
+        }
+    return {"format": "armscope fleet priors 1", "types": content}

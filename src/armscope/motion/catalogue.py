@@ -1,0 +1,177 @@
+"""The library in words: what may make an arm's torques differ from those of its model."""
+
+from __future__ import annotations
+
+from armscope.motion.causes import Cause
+
+FRICTION, DRIVE, MASSES, SPRINGS, UNKNOWN = "friction", "drive", "masses", "springs", "unknown"
+
+COULOMB = Cause(
+    "coulomb_friction",
+    FRICTION,
+    "Dry friction is not as stated.",
+    "Drive the joint slowly to and fro: half the difference of the torques is its dry friction.",
+    "Correct `coulomb_nm` of the drive.",
+)
+VISCOUS = Cause(
+    "viscous_friction",
+    FRICTION,
+    "Viscous friction is not as stated.",
+    "Drive the joint at several constant speeds.",
+    "Correct `viscous_nm_s_rad` of the drive.",
+)
+ROTOR = Cause(
+    "rotor_inertia",
+    MASSES,
+    "The rotor's inertia, seen through the gear, is not as stated.",
+    "Accelerate the joint alone in two poses of the rest of the arm.",
+    "Correct `rotor_inertia_kg_m2` of the drive.",
+)
+OFFSET = Cause(
+    "torque_offset",
+    DRIVE,
+    "The recorded torque is off by a constant.",
+    "Turn the joint slowly either way: the mean of the two torques, less gravity's, is the offset.",
+    "Subtract the offset from the recorded torque.",
+)
+ASYMMETRY = Cause(
+    "asymmetric_friction",
+    FRICTION,
+    "Viscous friction differs by the direction of motion.",
+    "Drive the joint to and fro at several constant speeds and compare the torques of both directions.",
+    "Give the friction model one viscous coefficient for each direction.",
+)
+STRIBECK = Cause(
+    "stribeck_friction",
+    FRICTION,
+    "Friction falls from its value near rest as lubrication sets in.",
+    "Drive the joint at many constant slow speeds, either way.",
+    "Add a Stribeck term exp(-(speed/width)^2) to the friction model.",
+)
+LOAD_FRICTION = Cause(
+    "load_friction",
+    FRICTION,
+    "Dry friction grows with the torque that the gear carries.",
+    "Repeat one motion with and without a payload: friction must grow with the load.",
+    "Let dry friction in the model grow with the absolute torque of the joint.",
+)
+VISCOUS_CURVE = Cause(
+    "viscous_curve",
+    FRICTION,
+    "Viscous friction is not proportional to speed.",
+    "Drive the joint at constant speeds up to its fastest.",
+    "Use a curve of friction over speed instead of one coefficient.",
+)
+TEMPERATURE_FRICTION = Cause(
+    "thermal_friction",
+    FRICTION,
+    "Friction changes as the gear warms up.",
+    "Repeat one motion cold and warm.",
+    "Let friction follow the temperature, or warm the arm up first.",
+)
+COUPLED_FRICTION = Cause(
+    "coupled_friction",
+    FRICTION,
+    "Something between two joints rubs with the sum or difference of their speeds.",
+    "Move one of the joints alone and watch the other one's torque.",
+    "Let the friction of both joints follow the sum of their speeds, too.",
+)
+COUPLED_INERTIA = Cause(
+    "coupled_inertia",
+    MASSES,
+    "Something turns with the sum or difference of two joints' motions and has inertia of its own.",
+    "Accelerate one of the joints alone and watch the other one's torque.",
+    "State how the two joints' motors are coupled (`actuation`), with their rotor inertias.",
+)
+GAIN = Cause(
+    "motor_constant",
+    DRIVE,
+    "The motor gives another torque than its stated constant says: all of the joint's torque is off by one factor.",
+    "Hang a known mass on the arm: torque must change by its weight times its lever.",
+    "Correct the joint's torque constant.",
+)
+DELAY = Cause(
+    "torque_delay",
+    DRIVE,
+    "Torque was recorded later than the motion that it belongs to.",
+    "Shift the recorded torque against the motion and watch the difference.",
+    "Shift the torque back by the delay, or simulate the delay.",
+)
+BALANCER = Cause(
+    "gravity_balance",
+    SPRINGS,
+    "A spring or a counterweight pulls the joint toward one position.",
+    "Hold the joint still at several positions and compare its torque with gravity's.",
+    "Add the spring's or counterweight's torque to the model.",
+)
+RIPPLE = Cause(
+    "torque_ripple",
+    DRIVE,
+    "Gear or motor give torque that repeats several times per turn.",
+    "Turn the joint slowly at constant speed and look at the torque over its angle.",
+    "Add the waves to the model.",
+)
+CABLE = Cause(
+    "cable_torque",
+    SPRINGS,
+    "Cables or hoses pull with a torque that follows the joint's position.",
+    "Turn the joint slowly either way with the cables unplugged and plugged.",
+    "Add the curve to the model, or lay the cables otherwise.",
+)
+LINK_MASS = Cause(
+    "link_mass",
+    MASSES,
+    "A link is heavier or lighter than stated, with its centre of mass where it is stated.",
+    "Weigh the link, or hold the arm still with it level.",
+    "Correct the link's mass and inertia.",
+)
+LINK_CENTRE = Cause(
+    "link_first_moment",
+    MASSES,
+    "A link's centre of mass lies elsewhere than stated.",
+    "Hold the arm still in many poses.",
+    "Correct the link's centre of mass.",
+)
+LINK_INERTIA = Cause(
+    "link_inertia",
+    MASSES,
+    "A link's inertia differs from the stated one.",
+    "Repeat one motion at several accelerations.",
+    "Correct the link's inertia.",
+)
+PAYLOAD = Cause(
+    "payload_error",
+    MASSES,
+    "The arm carries more or less at its last link than stated, or carries it elsewhere.",
+    "Weigh what is mounted on the flange; run the same motion with nothing mounted.",
+    "State the mass and centre of mass of what is mounted.",
+)
+BODY = Cause(
+    "attached_body",
+    MASSES,
+    "A body of the model is not on the arm, or is there more than once.",
+    "Look whether it is mounted.",
+    "Take the body out of the model, or mount it.",
+)
+GRAVITY = Cause(
+    "gravity_direction",
+    MASSES,
+    "Gravity pulls in another direction than stated: the base is tilted.",
+    "Put a level on the base.",
+    "Correct `gravity_m_s2`.",
+)
+CURVE = Cause(
+    "unknown",
+    UNKNOWN,
+    "Torque follows something in a way that no cause of the library has.",
+    "Look at its curve, and repeat the motion with only that joint moving.",
+    "Use the curve in the prediction.",
+)
+BACKGROUND = (OFFSET, COULOMB, VISCOUS, ROTOR)
+"""What every joint has, one column each: free where robot.yaml does not state it; an offset is always a cause."""
+CAUSES = (
+    COULOMB, VISCOUS, ROTOR, OFFSET, ASYMMETRY, STRIBECK, LOAD_FRICTION, VISCOUS_CURVE, TEMPERATURE_FRICTION,
+    COUPLED_FRICTION, COUPLED_INERTIA, GAIN,
+    DELAY, BALANCER, RIPPLE, CABLE, LINK_MASS, LINK_CENTRE, LINK_INERTIA, PAYLOAD, BODY,
+    GRAVITY, CURVE,
+)  # fmt: skip

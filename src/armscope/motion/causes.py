@@ -1,0 +1,145 @@
+"""What a cause is: a kind with its words, placed at a joint or link with its columns.
+
+Columns are torque, N m (N of a sliding joint), per unit of the cause's parameters, as functions of the samples: the fit
+is linear in them. Signs: torque is the motor's, positive along the motion that it drives.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.core.types import Array
+from armscope.motion.constants import FILTER
+from armscope.motion.preparation import Signals
+from armscope.robot.dynamics import MovingArm
+
+
+@dataclass(frozen=True)
+class Cause:
+    """A kind of cause.
+
+    Attributes:
+        name, family: as the verdict has them.
+        physics, confirm, cure: one sentence each.
+        nonnegative: its one parameter can't be negative.
+    """
+
+    name: str
+    family: str
+    physics: str
+    confirm: str
+    cure: str
+    nonnegative: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Moment:
+    """What columns are functions of: samples, and what the model says of them so far.
+
+    Attributes:
+        signals: the samples.
+        rigid: (N, m) torque that the masses ask for.
+        predicted: (N, m) torque with friction and whatever else is in the model.
+        gravity: (N, m, 3) torque per m/s^2 of gravity along each base axis; None unless it was asked for.
+        rate: samples per second.
+    """
+
+    signals: Signals
+    rigid: Array
+    predicted: Array
+    gravity: Array | None
+    rate: float
+
+
+Columns = Callable[[Moment], Array]
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedCause:
+    """A cause at a place.
+
+    Attributes:
+        cause: of which kind.
+        location: "joint 2", "link 3", "payload", ...
+        driver: what it follows.
+        parameters: (name, unit) of each column.
+        joints: whose torque it is part of, from 0.
+        columns: (N, joints, c) at samples; None where it is made of other columns.
+        of_background: (joint, number in `BACKGROUND`): it is one of every joint's own columns.
+        inertial: (10 n, c) inertial parameters per unit of its own; None where it has columns.
+        runs: the only runs in which it is there; empty for all.
+        variant: which of several forms of the kind at this place.
+        multiplicity: how many values of a scanned number compete.
+        is_curve: a free curve.
+        scanned: (name, unit, value) of numbers that were scanned.
+    """
+
+    cause: Cause
+    location: str
+    driver: str
+    parameters: tuple[tuple[str, str], ...]
+    joints: tuple[int, ...]
+    columns: Columns | None = None
+    inertial: Array | None = None
+    of_background: tuple[int, int] | None = None
+    runs: tuple[str, ...] = ()
+    variant: str = ""
+    multiplicity: int = 1
+    is_curve: bool = False
+    scanned: tuple[tuple[str, str, float], ...] = ()
+
+    @property
+    def width(self) -> int:
+        """Number of its columns."""
+        return len(self.parameters)
+
+    def __str__(self) -> str:
+        return f"{self.cause.name.replace('_', ' ')} at {self.location}"
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """What the table lets a library know: ranges of what causes follow.
+
+    Attributes:
+        arm: the arm.
+        q, dq: (m, 2) least and largest position and velocity.
+        load: (m,) largest torque that the stated masses ask for, N m.
+        time: (2,) s, first and last, of the longest run.
+        temperature: (m, 2) deg C, or None.
+        runs: names in order.
+        moving: (m,) whether each joint moves.
+        regressor: (K, 10 n) torque per inertial parameter in some of the samples, joints below each other.
+    """
+
+    arm: MovingArm
+    q: Array
+    dq: Array
+    load: Array
+    time: Array
+    temperature: Array | None
+    runs: tuple[str, ...]
+    moving: NDArray[np.bool_]
+    regressor: Array
+
+    def unit(self, joint: int) -> str:
+        """Of a joint's position."""
+        return "m" if self.arm.sliding[joint] else "rad"
+
+    def torque(self, joint: int) -> str:
+        """Unit of a motor's torque."""
+        return "N" if self.arm.sliding[joint] else "N m"
+
+
+def side(arm: MovingArm, dq: Array) -> Array:
+    """(N, m) side of the motion, -1 ... 1: smooth where it turns back."""
+    return np.asarray(np.tanh(dq / coulomb_width(arm)))
+
+
+def coulomb_width(arm: MovingArm) -> Array:
+    """(m,) speed within which friction changes sides, rad/s or m/s."""
+    return np.where(arm.sliding, FILTER.coulomb_width_m_s, FILTER.coulomb_width_rad_s)

@@ -1,0 +1,86 @@
+"""What a table of a motion shows to be wrong or doubtful before anything is named."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from armscope.core.inputs import InputError
+from armscope.motion.constants import CHECK, LIBRARY
+from armscope.motion.rows import MotionRows
+from armscope.recordings.motions import Motions
+from armscope.robot.dynamics import MovingArm
+from armscope.verdict.schema import Notice
+
+
+def check_motions(arm: MovingArm, motions: Motions) -> list[Notice]:
+    """What can be seen in the samples themselves.
+
+    Raises:
+        InputError: they don't fit the arm, or can't be what their columns say.
+    """
+    wrong = np.flatnonzero(motions.sliding != arm.sliding)
+    if len(wrong):
+        j = int(wrong[0])
+        found = f"q{j + 1}_{'m' if motions.sliding[j] else 'rad'}"
+        rule = f"motor {j + 1} of the arm {'slides' if arm.sliding[j] else 'turns'}"
+        raise InputError(motions.source, "line 1", found, rule, "Is this the right robot for the table?")
+    if motions.kind == "current" and np.isnan(arm.gains).any():
+        j = int(np.flatnonzero(np.isnan(arm.gains))[0])
+        rule = "currents need the torque of each motor per ampere"
+        cure = (
+            "State `drives: [{gain_nm_per_a: ...}, ...]` in robot.yaml, with `gain_uncertainty` where it is not sure."
+        )
+        raise InputError(motions.source, f"column current{j + 1}_a", "no gain_nm_per_a in robot.yaml", rule, cure)
+    _refuse_dead(motions)
+    return [*_still_joints(motions), *_one_way(motions)]
+
+
+def _refuse_dead(motions: Motions) -> None:
+    span = np.ptp(motions.effort, axis=0)
+    names = "current{}_a" if motions.kind == "current" else "tau{}_nm"
+    if np.all(span == 0):
+        place = f"column {names.format(1)}"
+        rule = "torque changes while an arm moves"
+        raise InputError(motions.source, place, float(motions.effort[0, 0]), rule, "Is the channel recorded?")
+
+
+def _still_joints(motions: Motions) -> list[Notice]:
+    still = np.flatnonzero(np.ptp(motions.q, axis=0) <= LIBRARY.still_rad)
+    if len(still) == motions.n_motors:
+        rule = "a joint moves by more than servo noise"
+        raise InputError(motions.source, "columns q1 ...", "no joint that moves", rule, "Record a motion.")
+    return [
+        Notice("joint stands", f"Joint {j + 1} never moves: of its friction and rotor nothing can be known.")
+        for j in still
+    ]
+
+
+def _one_way(motions: Motions) -> list[Notice]:
+    notices = []
+    for j in range(motions.n_motors):
+        travel = np.diff(motions.q[:, j])
+        travel = travel[np.abs(travel) > 0]
+        if len(travel) and np.ptp(motions.q[:, j]) > LIBRARY.still_rad:
+            forward = float(travel[travel > 0].sum() / np.abs(travel).sum())
+            if min(forward, 1 - forward) < CHECK.one_way:
+                text = f"Joint {j + 1} moves one way only: its dry friction and a torque offset can't be told apart."
+                notices.append(Notice("one way only", text))
+    return notices
+
+
+def check_rows(rows: MotionRows, source: str) -> list[Notice]:
+    """What shows once samples have become rows.
+
+    Raises:
+        InputError: there are fewer rows than parameters of the background.
+    """
+    numbers = len(rows) * rows.torque.shape[1]
+    parameters = len(rows.layout.frames) + len(rows.layout.inertial)
+    if numbers < CHECK.rows_per_parameter * parameters:
+        rule = (
+            f"{parameters} values of friction and masses need at least {CHECK.rows_per_parameter * parameters} numbers"
+        )
+        raise InputError(
+            source, "", f"{len(rows)} independent rows of {rows.torque.shape[1]} joints", rule, "Record longer."
+        )
+    return []

@@ -1,0 +1,88 @@
+"""Whether different paths say the same of a cause: a size that holds on one path only is no physics."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from armscope.core.types import Array, Indices
+from armscope.inference.normal_equations import NormalEquations
+from armscope.motion.constants import CONSISTENCY
+from armscope.motion.selection import SelectedCauses, coefficients_of
+
+
+@dataclass(frozen=True, eq=False)
+class PathAgreement:
+    """What the blocks say of one cause.
+
+    Attributes:
+        size: of each block that tells it, as a share of the size from all.
+        stderr: of these.
+    """
+
+    size: Array
+    stderr: Array
+
+    @property
+    def tested(self) -> bool:
+        """Whether two blocks or more tell its size."""
+        return int(np.sum(self.stderr < CONSISTENCY.telling)) >= 2
+
+    @property
+    def consistent(self) -> bool | None:
+        """Whether the telling blocks agree in sign and, roughly, in size; None where they don't tell."""
+        if not self.tested:
+            return None
+        telling = self.stderr < CONSISTENCY.telling
+        size, spread = self.size[telling], np.maximum(self.stderr[telling], CONSISTENCY.tolerance)
+        return bool(np.all(np.abs(size - 1) < CONSISTENCY.widths * spread))
+
+    @property
+    def words(self) -> str:
+        """In a sentence."""
+        if not self.tested:
+            return ""
+        telling = self.stderr < CONSISTENCY.telling
+        shares = ", ".join(f"{100 * share:.0f}" for share in self.size[telling])
+        return f"by itself, each path gives {shares} % of the size from all"
+
+
+def agreement(selected: SelectedCauses, candidate: int) -> PathAgreement:
+    """A cause's size from each block by itself: the factor on its fitted columns, all else fitted anew there.
+
+    Args:
+        selected: the selection.
+        candidate: number of the cause's candidate.
+
+    Returns:
+        The factors with their standard errors.
+    """
+    best, problem = selected.best, selected.problem
+    columns = selected.space.candidates[candidate].columns
+    own = coefficients_of(problem, best)[columns] * problem.scale[columns]
+    others = np.setdiff1d(best.columns, columns)
+    precision = best.noise**2 / best.variance[best.at(others)]
+    mean = best.means(others)
+    sizes, errors = [], []
+    for block in selected.blocks:
+        size, error = _factor(block.scaled(problem.scale), columns, own, others, (precision, mean), best.noise)
+        sizes.append(size)
+        errors.append(error)
+    return PathAgreement(np.array(sizes), np.array(errors))
+
+
+def _factor(
+    block: NormalEquations, columns: Indices, own: Array, others: Indices, held: tuple[Array, Array], noise: float
+) -> tuple[float, float]:
+    """Of one block; what else is in the model is held near what all blocks together say of it, by its prior."""
+    precision, mean = held
+    G = block.G[np.ix_(others, others)] + np.diag(precision)
+    cross = block.G[np.ix_(others, columns)] @ own
+    right = block.b[others] + precision * mean
+    solved = np.linalg.solve(G + 1e-12 * np.diag(np.diag(G)), np.column_stack([cross, right]))
+    power = own @ block.G[np.ix_(columns, columns)] @ own - cross @ solved[:, 0]
+    pull = own @ block.b[columns] - cross @ solved[:, 1]
+    if power <= 1e-12 * max(float(own @ block.G[np.ix_(columns, columns)] @ own), 1e-300):
+        return 0.0, np.inf
+    return float(pull / power), float(noise / np.sqrt(power))

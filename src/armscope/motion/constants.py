@@ -1,0 +1,280 @@
+"""Numbers that decide in this room; see `armscope.core.constants`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from armscope.core.constants import Constants, constant
+
+
+@dataclass(frozen=True)
+class TimingRules(Constants):
+    """When time stamps are mended."""
+
+    uneven: float = constant(
+        0.05, "steps that differ from the usual one by this share are uneven", "judgement: jitter of a real clock"
+    )
+    rebuilt: float = constant(
+        0.5,
+        "share of what angle and velocity disagree by that must go for time to be rebuilt from them",
+        "judgement: whole steps always fit a little better; measured on the Panda 0.1, on the UR10e 1.0",
+    )
+    gap: float = constant(
+        5.0,
+        "a longer step than this parts a run in two",
+        "judgement: a line across more is a guess",
+        unit="usual steps",
+    )
+    gap_s: float = constant(
+        0.05, "a shorter step parts no run", "judgement: arms hardly bend their path in it", unit="s"
+    )
+    told_apart: float = constant(
+        0.1,
+        "error of a step, from angle and velocity, with which it is whole",
+        "judgement: rounding is then sure",
+        unit="periods",
+    )
+    resolved: float = constant(
+        3.0,
+        "that a moving arm travels between two samples; one that stays is a repetition",
+        "judgement: more than rounding",
+        unit="digits of the table",
+    )
+    slowest_hz: float = constant(
+        5.0,
+        "a motion is sampled at least this often",
+        "judgement: joints turn through a cycle in seconds; slower stamps are milliseconds called seconds",
+        unit="Hz",
+    )
+
+
+@dataclass(frozen=True)
+class FilterRules(Constants):
+    """How samples become rows."""
+
+    order: int = constant(4, "of the Butterworth low-pass, run forward and back", "convention")
+    position_band: float = constant(
+        5.0,
+        "cut-off of the positions, before they are derived",
+        "convention: of the motions' protocol",
+        unit="cut-offs",
+    )
+    nyquist: float = constant(0.8, "largest cut-off", "convention: of the protocol", unit="half sampling rates")
+    edge_s: float = constant(0.5, "left out at both ends of every stretch", "convention: of the protocol", unit="s")
+    rows_per_cutoff: float = constant(
+        3.0,
+        "rows kept, per cycle of the cut-off frequency",
+        "derived: a fourth-order filter's noise is independent from about here; the rest is measured",
+    )
+    coulomb_width_rad_s: float = constant(
+        0.01, "speed within which friction changes sides", "convention: of the protocol", unit="rad/s"
+    )
+    coulomb_width_m_s: float = constant(
+        0.001, "the same of a joint that slides", "convention: of the protocol", unit="m/s"
+    )
+    steeper: float = constant(
+        5.0, "that friction may change sides more sharply than within the width", "judgement: no filter shows more"
+    )
+    still: float = constant(
+        2.0,
+        "a joint slower than this stands: its friction may be anything",
+        "judgement: in the band where it changes sides",
+        unit="widths",
+    )
+    still_s: float = constant(
+        0.25, "how long, to stand and not to turn back", "judgement: a reversal is shorter", unit="s"
+    )
+    chunk: int = constant(30_000, "worked on at a time", "judgement: memory", unit="samples")
+
+
+@dataclass(frozen=True)
+class CutoffRules(Constants):
+    """How the cut-off is chosen."""
+
+    widest: float = constant(
+        0.2, "largest cut-off, as a share of the sampling rate", "judgement: derivatives are noise above"
+    )
+    widest_hz: float = constant(50.0, "largest cut-off", "judgement: arms' drives do not follow faster", unit="Hz")
+    least_hz: float = constant(2.0, "smallest cut-off", "judgement: motions of arms", unit="Hz")
+    window: int = constant(256, "of the spectra", "judgement: some tenths of a hertz", unit="rows")
+    drowned: float = constant(2.0, "of what is left, below which the model drowns", "judgement: neither is exact")
+    bins: int = constant(4, "in a row that must be drowned", "judgement: gaps in a spectrum are no end", unit="bins")
+    fallback: float = constant(
+        0.05, "of the sampling rate, where no spectrum can be taken", "judgement: as in the sets"
+    )
+
+
+@dataclass(frozen=True)
+class CheckRules(Constants):
+    """When a table is doubtful."""
+
+    one_way: float = constant(
+        0.02, "share of the way back below which a joint moves one way only", "judgement: servo noise"
+    )
+    rows_per_parameter: int = constant(
+        2, "numbers for each value of friction and masses", "judgement: fewer fit anything"
+    )
+
+
+@dataclass(frozen=True)
+class LibraryRules(Constants):
+    """Where the library stops."""
+
+    least_shown: float = constant(
+        1e-3,
+        "of the arm's own torque that a change by one unit must show for its column to compete",
+        "judgement: what shows less can't be told",
+    )
+    redundant_columns: float = constant(
+        0.02, "of a column, beyond the others of its cause, that must be its own", "judgement: less can't be told apart"
+    )
+    least_body: float = constant(
+        0.1, "of the moving link's mass, of a body that may be missing", "judgement: lighter ones show too little"
+    )
+    redundant: float = constant(
+        1e-5,
+        "singular value, to the largest, below which a combination of masses is not told",
+        "convention: of the motions' protocol",
+    )
+
+    slow: float = constant(
+        5.0,
+        "a joint that never moves faster either way shows no friction",
+        "judgement: beyond the change of sides",
+        unit="widths",
+    )
+    stribeck_widths: int = constant(
+        5, "speeds that are scanned", "judgement: they follow in steps of two", unit="speeds"
+    )
+    ripple_counts: tuple[int, ...] = constant(
+        (2, 3, 4, 5, 6, 8, 10, 12),
+        "waves per turn that are scanned",
+        "judgement: motors' and gears' low harmonics",
+        unit="waves",
+    )
+    least_waves: float = constant(
+        1.5,
+        "that a joint's range must hold for ripple to be told from a bend",
+        "judgement: less is no wave",
+        unit="waves",
+    )
+    knots_of_position: int = constant(10, "of a free curve of the position", "judgement: a few bends", unit="columns")
+    knots_of_others: int = constant(7, "of other free curves", "judgement: a few bends", unit="columns")
+    knots_of_time: int = constant(
+        4, "of a drift", "judgement: a cubic; what changes faster is no drift", unit="columns"
+    )
+    least_warming_k: float = constant(
+        2.0, "by which a temperature must change to show anything", "judgement: sensors' own error", unit="K"
+    )
+    still_rad: float = constant(
+        0.02, "a joint that spans less stands", "judgement: servo noise and sag", unit="rad or m"
+    )
+
+
+@dataclass(frozen=True)
+class PriorRules(Constants):
+    """What is believed of masses and drives before the rows speak."""
+
+    inertial_shares: tuple[float, ...] = constant(
+        (0.0, 0.003, 0.01, 0.03, 0.1, 0.3),
+        "of a link's mass, mass x length, mass x length^2, by which its inertial parameters may be off unnamed",
+        "judgement: from a drawing's accuracy to rough guesses; the evidence chooses",
+    )
+    lightest_share: float = constant(
+        0.1, "of the mean mass, that a link counts as at least", "judgement: links of a few grams in a file are stubs"
+    )
+    reversal: float = constant(
+        0.05,
+        "of a joint's torque: how far the shape of friction's change of sides is free",
+        "judgement: a part of dry friction",
+    )
+    timing: float = constant(
+        0.25,
+        "by which torque and motion may be apart unnamed",
+        "derived: half a sample is what sampling leaves open",
+        unit="samples",
+    )
+    gain: float = constant(
+        0.1,
+        "by which a drive gain is off where no uncertainty is stated",
+        "measured: two published sets of the UR10e's gains differ by 13 to 49 %",
+    )
+    unit: float = constant(
+        0.01,
+        "that one standard deviation of a row's noise is scaled to",
+        "derived: free columns then have a wide prior beside what torque they make",
+        unit="1",
+    )
+
+
+@dataclass(frozen=True)
+class RowNoiseRules(Constants):
+    """How much rows count."""
+
+    least_share: float = constant(
+        1e-4, "of a torque's spread that its noise is at least", "derived: tables hold some six digits of a torque"
+    )
+    longest_lag: int = constant(1000, "over which autocorrelation is summed", "judgement: time", unit="rows")
+    window: float = constant(
+        5.0, "autocorrelation times after which the sum ends", "convention: Sokal 1997", unit="times"
+    )
+    rows_at_once: int = constant(20_000, "summed at a time, in double precision", "judgement: memory", unit="rows")
+    names_for_a_curve: int = constant(
+        3, "in place of one free curve, at most", "judgement: more are a curve", unit="causes"
+    )
+    nearly_all: float = constant(
+        0.7, "of a curve's evidence that names must have to take its place", "judgement: most of what it explains"
+    )
+    rounds: int = constant(
+        3, "of noise and selection, at most", "judgement: names rest after two as a rule", unit="rounds"
+    )
+    blocks_of_time: int = constant(5, "of a single run", "convention: as many as folds", unit="blocks")
+    ridge: float = constant(
+        1e-6,
+        "relative, of the fit of everything at once that starts the noise",
+        "derived: keeps what is redundant finite",
+    )
+
+
+@dataclass(frozen=True)
+class ConsistencyRules(Constants):
+    """When different paths agree on a cause."""
+
+    telling: float = constant(
+        0.5,
+        "standard error of a path's own size up to which it tells something",
+        "judgement: half the size from all",
+        unit="1",
+    )
+    tolerance: float = constant(
+        0.25, "by which sizes may differ in any case", "judgement: models are a little wrong", unit="1"
+    )
+    widths: float = constant(3.0, "standard errors by which sizes may differ", "convention: one chance in 400")
+
+
+@dataclass(frozen=True)
+class MotionTelling(Constants):
+    """How much is told."""
+
+    minor_share: float = constant(
+        0.01,
+        "of what friction and masses leave, below which a cause is apart from the story",
+        "judgement: nobody would repair it first",
+    )
+    looked_at: int = constant(40, "rivals of a cause", "judgement: time", unit="causes")
+    listed_nats: float = constant(
+        20.0, "by which a rival that is listed may fall short", "judgement: told, not hidden", unit="nats"
+    )
+    listed: int = constant(4, "rivals of a cause", "judgement: nobody reads more", unit="causes")
+    in_headline: int = constant(3, "causes", "judgement: a sentence holds no more", unit="causes")
+
+
+TIMING = TimingRules()
+FILTER = FilterRules()
+LIBRARY = LibraryRules()
+PRIOR = PriorRules()
+NOISE = RowNoiseRules()
+CONSISTENCY = ConsistencyRules()
+TELLING = MotionTelling()
+CUTOFF = CutoffRules()
+CHECK = CheckRules()

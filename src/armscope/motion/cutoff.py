@@ -1,0 +1,63 @@
+"""The cut-off of the low-pass, from spectra: where the model stops explaining more of the torque than it leaves."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.signal import welch
+
+from armscope.core.types import Array
+from armscope.motion.constants import CUTOFF
+from armscope.motion.preparation import Preparation, preparation
+from armscope.motion.rows import MotionRows, SoFar, TorqueLayout, build_rows
+from armscope.motion.timing import Stretch
+from armscope.motion.weights import fitted_together
+from armscope.robot.dynamics import MovingArm
+
+
+def chosen_cutoff(arm: MovingArm, stretches: Sequence[Stretch], asked: float | None) -> Preparation:
+    """How samples become rows, with the cut-off that was asked for or the one that the spectra give.
+
+    Friction, rotors and masses are fitted at a generous cut-off; of its torque and of what it leaves, the spectra are
+    taken. Above the frequency where what is left is as large, samples hold noise.
+
+    Args:
+        arm: the arm.
+        stretches: even samples, ``effort`` in N m.
+        asked: Hz; None where it is to be chosen.
+
+    Returns:
+        The filters and the decimation.
+    """
+    rate = stretches[0].rate
+    if asked is not None:
+        return preparation(rate, asked, "as asked")
+    generous = preparation(rate, min(CUTOFF.widest * rate, CUTOFF.widest_hz), "generous")
+    longest = max(stretches, key=len)
+    rows = build_rows(
+        TorqueLayout(arm, (), False), [longest], generous, SoFar(arm.inertial, np.zeros((arm.n_motors, 4)))
+    )
+    if len(rows) < CUTOFF.window:
+        return preparation(rate, CUTOFF.fallback * rate, "a share of the sampling rate: the motion is short")
+    crossing = _crossing(rows, rate / generous.every)
+    cutoff = float(np.clip(crossing, CUTOFF.least_hz, generous.cutoff))
+    return preparation(rate, float(f"{cutoff:.2g}"), "where the model explains as much as it leaves")
+
+
+def _crossing(rows: MotionRows, rate: float) -> float:
+    """Hz up to which the model's torque has more power than what it leaves, all joints in units of their noise."""
+    modelled = rows.nominal + rows.modelled(fitted_together(rows))
+    left = rows.torque - modelled
+    unit = np.maximum(left.std(axis=0), 1e-12)
+    frequency, explained = _spectrum(modelled / unit, rate)
+    _, remains = _spectrum(left / unit, rate)
+    drowned = explained < CUTOFF.drowned * remains
+    peak = int(np.argmax(explained))
+    several = np.convolve(drowned[peak:], np.ones(CUTOFF.bins), mode="valid") == CUTOFF.bins
+    return float(frequency[peak + int(np.argmax(several))]) if several.any() else float(frequency[-1])
+
+
+def _spectrum(values: Array, rate: float) -> tuple[Array, Array]:
+    frequency, power = welch(values, rate, nperseg=CUTOFF.window, axis=0)
+    return frequency, power.sum(axis=1)

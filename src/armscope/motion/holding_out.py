@@ -1,0 +1,131 @@
+"""Motion that takes no part: the whole selection on the rest, and the error on what was held out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from armscope.core.types import Array, Indices
+from armscope.inference.evidence import Hypothesis, evaluate
+from armscope.inference.model_space import BackgroundSizes
+from armscope.inference.normal_equations import total
+from armscope.inference.problem import Problem, SelectedEffect
+from armscope.inference.search import Search
+from armscope.motion.constants import NOISE
+from armscope.motion.rows import MotionRows
+from armscope.motion.selection import SelectedCauses, coefficients_of
+from armscope.motion.verdict import HeldOutMotion, Step, relative
+
+
+@dataclass(frozen=True, eq=False)
+class Fold:
+    """A part of the motion that is held out, and what was selected on the rest.
+
+    Attributes:
+        rows: the rows that took no part.
+        which: (K,) which of the rows they are.
+        problem, found: on the rest.
+    """
+
+    rows: MotionRows
+    which: Indices
+    problem: Problem
+    found: Hypothesis
+
+
+def folds(selected: SelectedCauses) -> list[Fold]:
+    """Runs in turn; of a single run, the last two fifths once."""
+    count = len(selected.blocks)
+    single = len(set(selected.rows.run.tolist())) == 1
+    parts = [tuple(range(3, NOISE.blocks_of_time))] if single else [(k,) for k in range(count)]
+    made = []
+    for held in parts:
+        rest = [block for number, block in enumerate(selected.blocks) if number not in held]
+        problem = selected.problem.with_equations(total(rest))
+        search = Search.on(problem)
+        also = search.evaluated(selected.best.chosen, selected.best)
+        found = search.best((selected.best.background,), also=also, local=False)
+        which = np.flatnonzero(np.isin(selected.block, held))
+        made.append(Fold(selected.rows, which, problem, found))
+    return made
+
+
+def own_fold(selected: SelectedCauses, rows: MotionRows) -> Fold:
+    """Runs that were kept out of the selection altogether."""
+    return Fold(rows, np.arange(len(rows)), selected.problem, selected.best)
+
+
+def measure(parts: Sequence[Fold], what: str) -> HeldOutMotion:
+    """Errors on all that was held out, together.
+
+    Args:
+        parts: what was held out.
+        what: in words.
+
+    Returns:
+        Errors relative to the torque.
+    """
+    errors: dict[str, list[Array]] = {"stated": [], "background": [], "model": []}
+    torque = []
+    for fold in parts:
+        search = Search.on(fold.problem)
+        friction = search.perfect()
+        of = fold.rows.torque[fold.which] - fold.rows.nominal[fold.which]
+        torque.append(fold.rows.torque[fold.which])
+        errors["stated"].append(of)
+        errors["background"].append(of - _modelled(fold, friction))
+        errors["model"].append(of - _modelled(fold, fold.found))
+    whole = np.concatenate(torque)
+    together = {name: np.concatenate(each) for name, each in errors.items()}
+    return HeldOutMotion(
+        **{name: relative(each, whole) for name, each in together.items()},
+        by_joint=tuple(float(v) for v in np.sqrt(np.mean(together["model"] ** 2, axis=0))),
+        what=what,
+    )
+
+
+def _modelled(fold: Fold, hypothesis: Hypothesis) -> Array:
+    return fold.rows.modelled(coefficients_of(fold.problem, hypothesis))[fold.which]
+
+
+def waterfall(
+    selected: SelectedCauses, parts: Sequence[Fold], order: Sequence[int], labels: Sequence[str]
+) -> tuple[Step, ...]:
+    """Errors with one cause after the other, each fitted again.
+
+    Args:
+        selected: the selection.
+        parts: what is held out.
+        order: candidates in the order in which they come in.
+        labels: their names.
+
+    Returns:
+        Nothing but friction; masses held near the stated ones; then each cause.
+    """
+    best = selected.best
+    by_candidate = {effect.candidate: effect for effect in best.chosen}
+    states: list[tuple[str, tuple[int, ...], bool]] = [
+        ("friction and rotors", (), False),
+        ("masses near the stated", (), True),
+    ]
+    states += [(label, tuple(order[: n + 1]), True) for n, label in enumerate(labels)]
+    steps = []
+    for label, members, masses in states:
+        background = best.background if masses else selected.space.no_background
+        chosen = tuple(by_candidate[c] for c in members)
+
+        whole = Fold(selected.rows, np.arange(len(selected.rows)), selected.problem, best)
+        fitted = relative(*_errors(whole, chosen, background))
+        held = [_errors(fold, chosen, background) for fold in parts]
+        steps.append(
+            Step(label, fitted, relative(np.concatenate([e for e, _ in held]), np.concatenate([t for _, t in held])))
+        )
+    return tuple(steps)
+
+
+def _errors(fold: Fold, chosen: tuple[SelectedEffect, ...], background: BackgroundSizes) -> tuple[Array, Array]:
+    """(residuals, torque) of the fold's rows with causes fitted on its sums."""
+    fitted = evaluate(fold.problem, chosen, background, fold.found.noise)
+    return (fold.rows.torque - fold.rows.nominal)[fold.which] - _modelled(fold, fitted), fold.rows.torque[fold.which]

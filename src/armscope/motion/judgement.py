@@ -1,0 +1,192 @@
+"""The verdict: what the selected causes mean, in words and numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.inference.model_space import Candidate
+from armscope.inference.normal_equations import total
+from armscope.inference.search import Search
+from armscope.inference.shapley import shares
+from armscope.motion.causes import PlacedCause
+from armscope.motion.consistency import PathAgreement, agreement
+from armscope.motion.constants import TELLING
+from armscope.motion.rows import OWN
+from armscope.motion.selection import SelectedCauses
+from armscope.motion.verdict import FoundCause, JointBackground, UnexplainedTorque
+from armscope.verdict.schema import Alternative, Answer, Parameter
+
+
+def found_causes(selected: SelectedCauses) -> list[tuple[int, FoundCause]]:
+    """Every chosen cause with what is known about it, largest first, beside its candidate's number."""
+    best, search = selected.best, Search.on(selected.problem)
+    explained = _shares(selected)
+    found = []
+    for number, effect in enumerate(best.chosen):
+        placed = selected.rows.layout.placed[effect.candidate]
+        agreed = agreement(selected, effect.candidate)
+        found.append(
+            (effect.candidate, _found(selected, search, effect.candidate, placed, (explained[number], agreed)))
+        )
+    return sorted(found, key=lambda pair: -pair[1].share)
+
+
+def _found(
+    selected: SelectedCauses, search: Search, number: int, placed: PlacedCause, known: tuple[float, PathAgreement]
+) -> FoundCause:
+    share, agreed = known
+    layout = selected.rows.layout
+    columns = layout.columns[number]
+    coefficients = np.zeros(layout.width)
+    coefficients[columns] = selected.coefficients[columns]
+    rms = np.sqrt(np.mean(selected.rows.modelled(coefficients) ** 2, axis=0))
+    relative = rms / selected.weights.sigma
+    joint = int(np.argmax(relative))
+    return FoundCause(
+        effect=placed.cause.name,
+        location=placed.location,
+        family=placed.cause.family,
+        driver=placed.driver,
+        title=title(placed),
+        minor=share < TELLING.minor_share,
+        parameters=cause_parameters(selected, number),
+        rms=float(rms[joint]),
+        unit="N" if layout.arm.sliding[joint] else "N m",
+        joint=f"joint {joint + 1}",
+        share=share,
+        evidence_nats=float(search.log_odds(selected.best, number)),
+        alternatives=_alternatives(selected, search, number),
+        carries_over=agreed.words,
+        consistent=agreed.consistent,
+        physics=placed.cause.physics,
+        confirm=placed.cause.confirm,
+        cure=placed.cause.cure,
+    )
+
+
+def title(placed: PlacedCause) -> str:
+    """The name in words."""
+    where = f" in run {placed.runs[0]}" if placed.runs else ""
+    if placed.cause.name == "unknown":
+        return f"an unknown torque at {placed.location} that follows the {placed.driver}"
+    name = placed.cause.name.replace("_", " ")
+    place = "" if placed.location == "payload" else f" at {placed.location}"
+    return f"{name}{place}{where}"
+
+
+def cause_parameters(selected: SelectedCauses, number: int) -> tuple[Parameter, ...]:
+    """A cause's numbers with standard errors: fitted ones, then scanned ones."""
+    placed, columns = selected.rows.layout.placed[number], selected.rows.layout.columns[number]
+    values = selected.coefficients[columns]
+    stderr = np.sqrt(np.diag(selected.best.covariance(columns))) / selected.problem.scale[columns]
+    told = [
+        Parameter(name, unit, float(value), float(error))
+        for (name, unit), value, error in zip(placed.parameters, values, stderr, strict=True)
+    ]
+    return (*told, *(Parameter(name, unit, value, float("nan")) for name, unit, value in placed.scanned))
+
+
+def _shares(selected: SelectedCauses) -> list[float]:
+    """Share of what friction and masses leave, of each chosen cause."""
+    best, problem = selected.best, selected.problem
+    ridge = np.full(len(problem.scale), 1e12)
+    ridge[best.columns] = best.noise**2 / best.variance
+    base = np.concatenate([problem.space.frames, *_background_columns(selected)])
+    members = [selected.space.candidates[effect.candidate].columns for effect in best.chosen]
+    base = np.setdiff1d(base, np.concatenate(members)) if members else base
+    return [float(share) for share in shares(problem.equations, ridge, base, members)]
+
+
+def _background_columns(selected: SelectedCauses) -> list[Array]:
+    families = zip(selected.space.families, selected.best.background, strict=True)
+    inside = set(selected.best.columns.tolist())
+    return [np.array([c for c in family.columns if c in inside], dtype=np.intp) for family, size in families if size]
+
+
+def _alternatives(selected: SelectedCauses, search: Search, number: int) -> tuple[Alternative, ...]:
+    """What could stand in a cause's place, nearest first, each name once."""
+    best = selected.best
+    candidate = selected.space.candidates[number]
+    rest = search.without(best, [number])
+    taken = {selected.space.candidates[c].key for c in best.candidates}
+    nearest: dict[tuple[str, str], tuple[float, Candidate]] = {}
+    for other in search.additions(rest, TELLING.looked_at, [number]):
+        rival = selected.space.candidates[other.chosen[-1].candidate]
+        gap = best.log_posterior - other.log_posterior
+        if rival.key in taken or rival.key == candidate.key or gap > TELLING.listed_nats:
+            continue
+        if rival.key not in nearest or gap < nearest[rival.key][0]:
+            nearest[rival.key] = (float(gap), rival)
+    ordered = sorted(nearest.values(), key=lambda pair: pair[0])[: TELLING.listed]
+    return tuple(Alternative(c.kind, c.location, c.family, gap, c.driver, gap) for gap, c in ordered)
+
+
+def joint_backgrounds(selected: SelectedCauses, names: Sequence[str]) -> tuple[JointBackground, ...]:
+    """Friction and rotor inertia of every joint."""
+    layout, best, problem = selected.rows.layout, selected.best, selected.problem
+    told = []
+    stated = np.nan_to_num(layout.arm.stated_background)
+    for j, name in enumerate(names):
+        slides = layout.arm.sliding[j]
+        torque, unit = ("N", "m") if slides else ("N m", "rad")
+        units = ("", torque, f"{torque} s/{unit}", "kg" if slides else "kg m^2")
+        moving = ~selected.rows.still[:, j]
+        made = []
+        for k, what in enumerate(("offset", "coulomb", "viscous", "inertia")):
+            column = OWN * j + k
+            if k and column in best.columns and moving.any():
+                error = np.sqrt(best.variances(np.array([column]))[0]) / problem.scale[column]
+                made.append(
+                    Parameter(what, units[k], float(selected.coefficients[column] + stated[j, k]), float(error))
+                )
+        rows = float(moving.sum() / selected.weights.correlated[j])
+        left = selected.residuals[moving, j]
+        noise = float(np.sqrt(np.mean(left**2))) if len(left) else float("nan")
+        told.append(JointBackground(name, tuple(made), noise, torque, int(rows)))
+    return tuple(told)
+
+
+def unexplained(found: Sequence[FoundCause]) -> UnexplainedTorque:
+    """The largest free curve, if one is not minor."""
+    curves = [cause for cause in found if cause.effect == "unknown" and not cause.minor]
+    if not curves:
+        return UnexplainedTorque(False)
+    return UnexplainedTorque(True, curves[0].location, curves[0].driver, curves[0].title)
+
+
+def answer_of(found: Sequence[FoundCause], left: UnexplainedTorque) -> tuple[Answer, bool]:
+    """The answer in two words, and whether there is a mismatch."""
+    if not found:
+        return "nothing missing", False
+    named = [cause for cause in found if cause.effect != "unknown" and not cause.minor]
+    if left.present:
+        return ("partly explained" if named else "cannot tell"), True
+    return "explained", True
+
+
+def headline(found: Sequence[FoundCause], held_out: tuple[float, float]) -> str:
+    """The answer in one sentence."""
+    before, after = (f"{100 * error:.2g} %" for error in held_out)
+    better = f"on held-out motion the torque is met to {after} instead of {before}"
+    main = [cause for cause in found if not cause.minor]
+    if not found:
+        return f"Nothing is missing beyond friction and rotors of the joints: {better}."
+    told = "; ".join(f"{cause.title} ({_first(cause)})" for cause in (main or found)[: TELLING.in_headline])
+    more = len(main) - TELLING.in_headline
+    rest = f"; and {more} more" if more > 0 else ""
+    return f"{told[:1].upper()}{told[1:]}{rest}; {better}."
+
+
+def _first(cause: FoundCause) -> str:
+    if cause.effect == "unknown" or cause.effect == "cable_torque":
+        return f"{cause.rms:.2g} {cause.unit} RMS"
+    parameter = cause.parameters[0]
+    return f"{parameter.name.replace('_', ' ')} {parameter.value:+.3g} {parameter.unit}".strip()
+
+
+def noise_sums(selected: SelectedCauses) -> float:
+    """Number of independent rows of all joints together."""
+    return float(total(selected.blocks).n)

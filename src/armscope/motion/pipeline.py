@@ -1,0 +1,182 @@
+"""From a motion to a verdict: time, rows, rounds of selection, motion that took no part, judgement."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
+
+import numpy as np
+
+from armscope.core.inputs import InputError, nearest
+from armscope.core.types import Progress
+from armscope.motion.check import check_motions, check_rows
+from armscope.motion.constants import FILTER, LIBRARY
+from armscope.motion.cutoff import chosen_cutoff
+from armscope.motion.holding_out import folds, measure, own_fold, waterfall
+from armscope.motion.judgement import answer_of, found_causes, headline, joint_backgrounds, unexplained
+from armscope.motion.library import place_causes
+from armscope.motion.preparation import Preparation
+from armscope.motion.rows import MotionRows, TorqueLayout, build_rows, torque_of
+from armscope.motion.seen import seen_in
+from armscope.motion.selection import SelectedCauses, model_so_far, select_causes
+from armscope.motion.timing import Stretch, mended, stretches
+from armscope.motion.verdict import MotionVerdict
+from armscope.recordings.motions import Motions
+from armscope.robot.dynamics import MovingArm
+from armscope.verdict.schema import Notice
+
+
+@dataclass(frozen=True)
+class MotionSettings:
+    """What a user may ask for.
+
+    Attributes:
+        cutoff: of the low-pass, Hz; None chooses it.
+        held_out: runs that take no part in the fit; none holds out each run in turn, or the last two fifths of one.
+    """
+
+    cutoff: float | None = None
+    held_out: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class MotionDiagnosis:
+    """A verdict with what only lives in memory.
+
+    Attributes:
+        arm: the nominal arm.
+        verdict: what verdict.json holds.
+        selected: the finished selection.
+        test: rows of the runs that were kept out; None where there were none.
+        how: filters and decimation.
+    """
+
+    arm: MovingArm
+    verdict: MotionVerdict
+    selected: SelectedCauses
+    test: MotionRows | None
+    how: Preparation
+
+
+def diagnose_motion(
+    arm: MovingArm,
+    motions: Motions,
+    settings: MotionSettings | None = None,
+    progress: Progress = lambda text, share: None,
+) -> MotionDiagnosis:
+    """Find which causes make recorded torques differ from those of the arm's model.
+
+    Args:
+        arm: the nominal arm.
+        motions: samples.
+        settings: see `MotionSettings`.
+        progress: called with a sentence and the share done, 0 ... 1.
+
+    Returns:
+        The verdict, with what it was made from.
+
+    Raises:
+        InputError: the samples don't fit the arm or hold nothing to go by.
+    """
+    settings, started = settings or MotionSettings(), time.perf_counter()
+    for run in settings.held_out:
+        if run not in motions.runs:
+            raise InputError("--held-out", "", run, f"{motions.source} has no such run", nearest(run, motions.runs))
+    progress("laying samples on an even grid", 0.0)
+    notices = [Notice("table", note) for note in motions.notes] + check_motions(arm, motions)
+    motions, told = mended(motions)
+    train, test = _parted(arm, motions, settings.held_out)
+    how = chosen_cutoff(arm, train, settings.cutoff)
+    seen = seen_in(arm, train, LIBRARY.still_rad)
+    layout = TorqueLayout(arm, tuple(place_causes(seen)), motions.kind == "current")
+    runs = tuple(dict.fromkeys(stretch.run for stretch in train))
+    selected = select_causes(layout, train, how, runs, lambda text, share: progress(text, 0.1 + 0.6 * share))
+    notices += [*told, *check_rows(selected.rows, motions.source)]
+    progress("measuring on motion that took no part", 0.75)
+    apart = None
+    if test:
+        apart = build_rows(layout, test, how, model_so_far(layout, selected.coefficients))
+    verdict = _judged(selected, apart, settings, arm)
+    verdict = replace(
+        verdict,
+        preparation=how.words,
+        notices=tuple(notices),
+        samples=len(motions),
+        runs=runs,
+        seconds=time.perf_counter() - started,
+        settings=asdict(settings),
+    )
+    progress("done", 1.0)
+    return MotionDiagnosis(arm, verdict, selected, apart, how)
+
+
+def _parted(arm: MovingArm, motions: Motions, held_out: Sequence[str]) -> tuple[list[Stretch], list[Stretch]]:
+    """Stretches to fit, and stretches that take no part; effort as torque."""
+    train: list[Stretch] = []
+    test: list[Stretch] = []
+    for stretch in stretches(motions):
+        if len(stretch) > 4 * FILTER.edge_s * stretch.rate:
+            as_torque = replace(stretch, effort=torque_of(arm, stretch.effort, motions.kind))
+            (test if stretch.run in held_out else train).append(as_torque)
+    if not train:
+        rule = f"a motion without gaps lasts at least {4 * FILTER.edge_s:g} s"
+        raise InputError(motions.source, "column time_s", "no such motion", rule, "Record a longer motion.")
+    return train, test
+
+
+def _judged(
+    selected: SelectedCauses, test: MotionRows | None, settings: MotionSettings, arm: MovingArm
+) -> MotionVerdict:
+    if test is None:
+        parts = folds(selected)
+        single = len(parts) == 1
+        what = "the last two fifths of the motion" if single else "each run in turn"
+    else:
+        parts, what = [own_fold(selected, test)], "runs " + ", ".join(settings.held_out)
+    held_out = measure(parts, what)
+    numbered = found_causes(selected)
+    found = [cause for _, cause in numbered]
+    steps = waterfall(selected, parts, [number for number, _ in numbered], [cause.title for cause in found])
+    left = unexplained(found)
+    answer, mismatch = answer_of(found, left)
+    names = [f"joint {j + 1}" for j in range(arm.n_motors)]
+    sizes = {family.name: share for family, share in zip(selected.space.families, _sizes(selected), strict=True)}
+    return MotionVerdict(
+        answer=answer,
+        headline=headline(found, (held_out.background, held_out.model)),
+        mismatch=mismatch,
+        effects=tuple(found),
+        unexplained=left,
+        background=joint_backgrounds(selected, names),
+        masses_share=sizes["masses"],
+        held_out=held_out,
+        fitted=steps[-1],
+        waterfall=steps,
+        identifiable=_identifiable(selected),
+        preparation="",
+        notices=(),
+        rows=len(selected.rows),
+        samples=0,
+        runs=(),
+    )
+
+
+def _sizes(selected: SelectedCauses) -> list[float]:
+    families = zip(selected.space.families, selected.best.background, strict=True)
+    return [float(family.label(size)) for family, size in families]
+
+
+def _identifiable(selected: SelectedCauses) -> dict[str, float]:
+    """How many combinations of inertial parameters the motion tells, and their condition number."""
+    G = selected.problem.equations.G
+    inertial = selected.rows.layout.inertial
+    own = G[np.ix_(inertial, inertial)]
+    scale = np.sqrt(np.maximum(np.diag(own), 1e-300))
+    values = np.sqrt(np.maximum(np.linalg.eigvalsh(own / np.outer(scale, scale)), 0.0))
+    telling = values[values > LIBRARY.redundant * values.max()]
+    return {
+        "parameters": float(len(inertial)),
+        "combinations": float(len(telling)),
+        "condition": float(telling.max() / telling.min()),
+    }

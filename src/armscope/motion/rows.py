@@ -1,0 +1,305 @@
+"""Rows of torque and model: every column formed at full rate, filtered as the torque is, and kept every n-th time."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.core.types import Array, Indices, Progress
+from armscope.motion.causes import Moment, PlacedCause, side
+from armscope.motion.constants import FILTER, PRIOR
+from armscope.motion.preparation import Preparation, Signals, parts
+from armscope.motion.timing import Stretch
+from armscope.robot.dynamics import MovingArm
+
+OWN = len(("offset", "dry friction", "viscous friction", "rotor inertia", "reversal"))
+"""Columns that every joint has: offset, dry and viscous friction, rotor inertia, how steeply friction changes sides.
+
+The last is no cause: within a hundredth of a radian per second friction turns over in a way that filters and rounding
+blur. It is free, so that no cause is named for it.
+"""
+
+
+@dataclass(frozen=True, eq=False)
+class TorqueLayout:
+    """Which column stands where: background of each joint, inertial parameters, gains, causes.
+
+    Attributes:
+        arm: the arm.
+        placed: the causes that compete.
+        with_gains: whether torques come from currents, whose gains are known to some percent.
+    """
+
+    arm: MovingArm
+    placed: tuple[PlacedCause, ...]
+    with_gains: bool
+
+    @property
+    def own(self) -> Indices:
+        """(5 m,) of `OWN`, joint by joint."""
+        return np.arange(OWN * self.arm.n_motors)
+
+    @property
+    def frames(self) -> Indices:
+        """Those of `own` that are always free: friction and rotors that robot.yaml does not state."""
+        free = np.ones((self.arm.n_motors, OWN), dtype=np.bool_)
+        free[:, :-1] = np.isnan(self.arm.stated_background)
+        free[:, [0, -1]] = False
+        return np.flatnonzero(free.ravel())
+
+    @property
+    def reversals(self) -> Indices:
+        """(m,) the last of `OWN` of each joint."""
+        return np.arange(self.arm.n_motors) * OWN + OWN - 1
+
+    @property
+    def inertial(self) -> Indices:
+        """(10 n,) inertial parameters, in shares of `inertial_scale`."""
+        return len(self.own) + np.arange(len(self.arm.inertial))
+
+    @property
+    def gains(self) -> Indices:
+        """(m,) or none: shares of each joint's torque."""
+        return len(self.own) + len(self.inertial) + np.arange(self.arm.n_motors if self.with_gains else 0)
+
+    @functools.cached_property
+    def columns(self) -> list[Indices]:
+        """Of each cause."""
+        start, columns = len(self.own) + len(self.inertial) + len(self.gains), []
+        for cause in self.placed:
+            if cause.of_background is not None:
+                columns.append(np.array([OWN * cause.of_background[0] + cause.of_background[1]]))
+            else:
+                columns.append(np.arange(start, start + cause.width))
+                start += cause.width
+        return columns
+
+    @functools.cached_property
+    def width(self) -> int:
+        """Number of columns."""
+        last = max((int(columns[-1]) for columns in self.columns), default=0)
+        return max(last + 1, len(self.own) + len(self.inertial) + len(self.gains))
+
+    @property
+    def inertial_scale(self) -> Array:
+        """(10 n,) kg, kg m, kg m^2 of each link: its mass, mass x length, mass x length^2."""
+        mass = self.arm.inertial[::10]
+        mass = np.maximum(mass, PRIOR.lightest_share * mass.mean())
+        reach = sum(
+            np.linalg.norm(self.arm.model.jointPlacements[j].translation) for j in range(2, self.arm.model.njoints)
+        )
+        length = max(float(reach) / max(self.arm.n_links - 1, 1), 0.05)
+        return np.asarray(np.concatenate([m * np.array([1.0, *[length] * 3, *[length**2] * 6]) for m in mass]))
+
+
+@dataclass(frozen=True, eq=False)
+class MotionRows:
+    """K rows of m joints.
+
+    Attributes:
+        layout: of the columns.
+        time, run, stretch: (K,) of each row.
+        q, dq: (K, m) positions and velocities.
+        torque: (K, m) measured, as motors' torque, low-passed.
+        nominal: (K, m) that the stated masses ask for.
+        still: (K, m) where a joint stands, and its friction may be anything.
+        columns: of each joint (K, p_j).
+        at: of each joint (p_j,) where these columns stand.
+    """
+
+    layout: TorqueLayout
+    time: Array
+    run: NDArray[np.str_]
+    stretch: Indices
+    q: Array
+    dq: Array
+    torque: Array
+    nominal: Array
+    still: NDArray[np.bool_]
+    columns: tuple[NDArray[np.float32], ...]
+    at: tuple[Indices, ...]
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def modelled(self, coefficients: Array) -> Array:
+        """(K, m) torque that coefficients (p,) add to the nominal one."""
+        parts = [
+            columns @ coefficients[at].astype(np.float32) for columns, at in zip(self.columns, self.at, strict=True)
+        ]
+        return np.column_stack(parts).astype(np.float64)
+
+
+@dataclass(frozen=True, eq=False)
+class SoFar:
+    """The model so far, of which further columns are functions.
+
+    Attributes:
+        inertial: (10 n,) inertial parameters.
+        background: (m, 4) offset, dry and viscous friction, rotor inertia, with what is stated.
+    """
+
+    inertial: Array
+    background: Array
+
+
+def torque_of(arm: MovingArm, stretch_effort: Array, kind: str) -> Array:
+    """Motor torque from what was recorded.
+
+    Args:
+        arm: its gains.
+        stretch_effort: (N, m) N m (N) or A.
+        kind: "torque" or "current".
+
+    Returns:
+        (N, m) N m (N).
+    """
+    return stretch_effort * np.where(np.isnan(arm.gains), 1.0, arm.gains) if kind == "current" else stretch_effort
+
+
+def build_rows(
+    layout: TorqueLayout,
+    stretches: Sequence[Stretch],
+    how: Preparation,
+    model: SoFar,
+    progress: Progress = lambda t, s: None,
+) -> MotionRows:
+    """All rows of a table.
+
+    Args:
+        layout: of the columns.
+        stretches: even samples, ``effort`` in N m.
+        how: filters and decimation.
+        model: of which load, delay and gain are functions.
+        progress: hears how far it is.
+
+    Returns:
+        The rows, in the order of the stretches.
+    """
+    pieces, done, total = [], 0, sum(len(stretch) for stretch in stretches)
+    for signals in parts(stretches, how):
+        pieces.append(_piece(layout, signals, how, model))
+        done += len(signals.kept) * how.every
+        progress("forming the model's columns", min(done / total, 1.0))
+    time, run, stretch, q, dq, torque, nominal, still = (
+        np.concatenate([piece[k] for piece in pieces]) for k in range(8)
+    )
+    motors = range(layout.arm.n_motors)
+    return MotionRows(
+        layout=layout,
+        time=time,
+        run=run,
+        stretch=stretch,
+        q=q,
+        dq=dq,
+        torque=torque,
+        nominal=nominal,
+        still=still.astype(np.bool_),
+        columns=tuple(np.concatenate([piece[8][j] for piece in pieces]) for j in motors),
+        at=pieces[0][9],
+    )
+
+
+def _piece(layout: TorqueLayout, signals: Signals, how: Preparation, model: SoFar) -> tuple:  # type: ignore[type-arg]
+    arm, kept = layout.arm, signals.kept
+    regressor = arm.regressor(signals.q, signals.dq, signals.ddq)
+    background = own_columns(arm, signals)
+    rigid = regressor @ model.inertial
+    if signals.payload is not None:
+        rigid = rigid + signals.payload[:, None] * (regressor @ arm.point_load())
+    predicted = rigid + np.einsum("nmk,mk->nm", background[:, :, :-1], model.background)
+    gravity = None
+    if any(cause.cause.name == "gravity_direction" for cause in layout.placed):
+        gravity = np.stack([arm.gravity_torques(signals.q, axis) for axis in np.eye(3)], axis=2)
+    moment = Moment(signals, rigid, predicted, gravity, how.rate)
+    low = how.low_passed
+    regressor = low(regressor)[kept]
+    stated = np.nan_to_num(arm.stated_background)
+    nominal = regressor @ arm.inertial
+    if np.any(stated):
+        nominal += low(np.einsum("nmk,mk->nm", background[:, :, :-1], stated))[kept]
+    if signals.payload is not None:
+        nominal += signals.payload[kept, None] * (regressor @ arm.point_load())
+    columns, at = [], []
+    own = _own_columns(layout, moment)
+    inertial = _made_of_masses(layout, regressor, signals.run)
+    for j in range(arm.n_motors):
+        of_joint, where = own[j]
+        filtered = low(np.column_stack([background[:, j], *of_joint]))[kept]
+        if layout.with_gains:
+            filtered = np.column_stack([filtered, low(predicted[:, j : j + 1])[kept]])
+        whole = np.column_stack(
+            [filtered, regressor[:, j] * layout.inertial_scale, *(made[:, j] for made, _ in inertial)]
+        )
+        columns.append(whole.astype(np.float32))
+        at.append(
+            np.concatenate(
+                [
+                    OWN * j + np.arange(OWN),
+                    *where,
+                    *([layout.gains[j : j + 1]] if layout.with_gains else []),
+                    layout.inertial,
+                    *(index for _, index in inertial),
+                ]
+            )
+        )
+    run = np.full(len(kept), signals.run)
+    return (
+        signals.time[kept],
+        run,
+        np.full(len(kept), signals.stretch),
+        signals.q[kept],
+        signals.dq[kept],
+        low(signals.effort)[kept],
+        nominal,
+        _still(arm, signals, how)[kept],
+        columns,
+        at,
+    )
+
+
+def own_columns(arm: MovingArm, signals: Signals) -> Array:
+    """(N, m, 5) of `OWN`, per unit of each."""
+    turned = side(arm, signals.dq)
+    steeper = side(arm, FILTER.steeper * signals.dq) - turned
+    return np.stack([np.ones_like(signals.q), turned, signals.dq, signals.ddq, steeper], axis=2)
+
+
+def _own_columns(layout: TorqueLayout, moment: Moment) -> list[tuple[list[Array], list[Indices]]]:
+    """By joint: columns (N, c) at full rate of its causes, and where they stand."""
+    own: list[tuple[list[Array], list[Indices]]] = [([], []) for _ in range(layout.arm.n_motors)]
+    for cause, index in zip(layout.placed, layout.columns, strict=True):
+        if cause.columns is not None:
+            values = cause.columns(moment)
+            for number, joint in enumerate(cause.joints):
+                own[joint][0].append(values[:, number])
+                own[joint][1].append(index)
+    return own
+
+
+def _made_of_masses(layout: TorqueLayout, regressor: Array, run: str) -> list[tuple[Array, Indices]]:
+    """Columns (K, m, c) of causes that are combinations of inertial parameters, and where they stand."""
+    made = []
+    for cause, index in zip(layout.placed, layout.columns, strict=True):
+        if cause.inertial is not None:
+            there = 0.0 if cause.runs and run not in cause.runs else 1.0
+            made.append((there * (regressor @ cause.inertial), index))
+    return made
+
+
+def _still(arm: MovingArm, signals: Signals, how: Preparation) -> NDArray[np.bool_]:
+    """Where a joint is slow for longer than it takes to turn back."""
+    width = FILTER.still * np.where(arm.sliding, FILTER.coulomb_width_m_s, FILTER.coulomb_width_rad_s)
+    slow = np.abs(signals.dq) < width
+    length = max(int(FILTER.still_s * how.rate), 1)
+    total = np.cumsum(np.vstack([np.zeros(arm.n_motors), slow]), axis=0)
+    stood = np.zeros_like(slow)
+    if len(slow) > length:
+        whole = (total[length:] - total[:-length]) == length  # windows that are slow all through
+        for shift in (0, length // 2, length - 1):
+            stood[shift : shift + len(whole)] |= whole
+    return np.asarray(stood & slow)

@@ -1,0 +1,54 @@
+"""What a table lets the library know before any fit: ranges, and which inertial parameters its motion shows."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.motion.causes import Seen
+from armscope.motion.timing import Stretch
+from armscope.robot.dynamics import MovingArm
+
+
+def seen_in(arm: MovingArm, stretches: Sequence[Stretch], still: float) -> Seen:
+    """Ranges of what causes follow, from some of the samples.
+
+    Args:
+        arm: the arm.
+        stretches: even samples.
+        still: a joint that spans less stands, rad or m.
+
+    Returns:
+        What the library needs to know of the table.
+    """
+    q = np.concatenate([stretch.q for stretch in stretches])
+    dq = np.concatenate([np.gradient(stretch.q, stretch.time, axis=0) for stretch in stretches if len(stretch) > 1])
+    few = q[:: max(len(q) // 500, 1)]
+    tenth = [_some(stretch) for stretch in stretches]
+    regressor = arm.regressor(*(np.concatenate(each) for each in zip(*tenth, strict=True)))
+    warm = [stretch.temperature for stretch in stretches if stretch.temperature is not None]
+    load = np.abs(arm.gravity_torques(few, arm.model.gravity.linear)).max(axis=0)
+    runs = tuple(dict.fromkeys(stretch.run for stretch in stretches))
+    return Seen(
+        arm=arm,
+        q=np.percentile(q, [0.1, 99.9], axis=0).T,
+        dq=np.percentile(dq, [1, 99], axis=0).T,
+        load=np.maximum(load, 1e-9),
+        time=np.array([min(s.time[0] for s in stretches), max(s.time[-1] for s in stretches)]),
+        temperature=np.percentile(np.concatenate(warm), [0.1, 99.9], axis=0).T if warm else None,
+        runs=runs,
+        moving=np.asarray(np.ptp(q, axis=0) > still),
+        regressor=regressor.reshape(-1, len(arm.inertial)),
+    )
+
+
+def _some(stretch: Stretch) -> tuple[Array, Array, Array]:
+    """Positions and derivatives of some samples, differenced over a tenth of a second: to see what shows at all."""
+    step = max(int(stretch.rate / 10), 1)
+    q = stretch.q[::step][:: max(len(stretch.q) // step // 300, 1)]
+    dq = np.gradient(stretch.q[::step], step / stretch.rate, axis=0)
+    ddq = np.gradient(dq, step / stretch.rate, axis=0)
+    every = max(len(stretch.q) // step // 300, 1)
+    return q, dq[::every], ddq[::every]

@@ -1,0 +1,170 @@
+"""Rounds of rows, noise and selection, until the names rest."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from armscope.core.types import Array, Indices, Progress
+from armscope.inference.evidence import Hypothesis
+from armscope.inference.model_space import ModelSpace
+from armscope.inference.normal_equations import NormalEquations, total
+from armscope.inference.problem import Problem, build_problem
+from armscope.inference.search import Search
+from armscope.motion.constants import NOISE, PRIOR
+from armscope.motion.preparation import Preparation
+from armscope.motion.rows import OWN, MotionRows, SoFar, TorqueLayout, build_rows
+from armscope.motion.space import build_space
+from armscope.motion.timing import Stretch
+from armscope.motion.weights import TorqueWeights, estimate_weights, fitted_together, sums_by_block
+
+
+@dataclass(frozen=True, eq=False)
+class SelectedCauses:
+    """A finished selection.
+
+    Attributes:
+        rows, weights: the rows, and how much they count.
+        block: (K,) number of each row's block; blocks: their sums.
+        space, problem, best: what competed, on which sums, and what won.
+    """
+
+    rows: MotionRows
+    weights: TorqueWeights
+    block: Indices
+    blocks: list[NormalEquations]
+    space: ModelSpace
+    problem: Problem
+    best: Hypothesis
+
+    @property
+    def coefficients(self) -> Array:
+        """(p,) of all columns, SI."""
+        return coefficients_of(self.problem, self.best)
+
+    @property
+    def residuals(self) -> Array:
+        """(K, m) N m that the model leaves."""
+        return np.asarray(self.rows.torque - self.rows.nominal - self.rows.modelled(self.coefficients))
+
+
+def coefficients_of(problem: Problem, hypothesis: Hypothesis) -> Array:
+    """(p,) posterior means, SI."""
+    return np.asarray(hypothesis.coefficients(len(problem.scale)) / problem.scale)
+
+
+def model_so_far(layout: TorqueLayout, coefficients: Array) -> SoFar:
+    """What load, delay and gain follow: inertial parameters with all that was added to them, and the background."""
+    inertial = layout.arm.inertial + layout.inertial_scale * coefficients[layout.inertial]
+    for cause, columns in zip(layout.placed, layout.columns, strict=True):
+        if cause.inertial is not None and not cause.runs:
+            inertial = inertial + cause.inertial @ coefficients[columns]
+    return SoFar(
+        inertial, np.nan_to_num(layout.arm.stated_background) + coefficients[layout.own].reshape(-1, OWN)[:, :-1]
+    )
+
+
+def select_causes(
+    layout: TorqueLayout, stretches: Sequence[Stretch], how: Preparation, block_of: Sequence[str], progress: Progress
+) -> SelectedCauses:
+    """The causes that the evidence asks for.
+
+    Args:
+        layout: of the columns.
+        stretches: even samples, ``effort`` in N m.
+        how: filters and decimation.
+        block_of: what rows are blocked by: names of the runs; one name or none for blocks of time.
+        progress: hears what is being done.
+
+    Returns:
+        The selection.
+    """
+    model = SoFar(layout.arm.inertial, np.nan_to_num(layout.arm.stated_background))
+    selected: SelectedCauses | None = None
+    names: set[tuple[str, str]] | None = None
+    for number in range(NOISE.rounds):
+        share = number / NOISE.rounds
+        rows = build_rows(layout, stretches, how, model, functools.partial(_within, progress, share))
+        block = blocks_of(rows, block_of)
+        weights = _start(rows) if selected is None else estimate_weights(rows, selected.residuals)
+        progress("weighing causes", share + 0.15)
+        space = build_space(layout, np.sqrt(np.mean(rows.torque**2, axis=0)), how.rate)
+        selected = chosen(rows, weights, block, space)
+        weights = estimate_weights(rows, selected.residuals)
+        selected = chosen(rows, weights, block, space)
+        found = {space.candidates[c].key for c in selected.best.candidates}
+        if found == names:
+            break
+        names = found
+        model = model_so_far(layout, selected.coefficients)
+    assert selected is not None
+    return selected
+
+
+def _within(progress: Progress, start: float, text: str, done: float) -> None:
+    progress(text, start + 0.1 * done)
+
+
+def chosen(rows: MotionRows, weights: TorqueWeights, block: Indices, space: ModelSpace) -> SelectedCauses:
+    """The selection at given weights.
+
+    Args:
+        rows: K rows.
+        weights: how much they count.
+        block: (K,) number of each row's block.
+        space: what competes.
+
+    Returns:
+        What won.
+    """
+    blocks = sums_by_block(rows, weights, block)
+    problem = build_problem(space, total(blocks), least_noise=0.5 * PRIOR.unit)
+    search = Search.on(problem)
+    best = _settled(search, named_first(search, search.best()))
+    return SelectedCauses(rows, weights, block, blocks, space, problem, best)
+
+
+def _start(rows: MotionRows) -> TorqueWeights:
+    """Weights from what everything at once leaves: noise is then at its least, and correlation, too."""
+    return estimate_weights(rows, rows.torque - rows.nominal - rows.modelled(fitted_together(rows)))
+
+
+def blocks_of(rows: MotionRows, runs: Sequence[str]) -> Indices:
+    """(K,) number of each row's block: its run, or its part of the time where there is one run only."""
+    if len(runs) > 1:
+        return np.asarray([list(runs).index(str(run)) for run in rows.run], dtype=np.intp)
+    return np.minimum(np.arange(len(rows)) * NOISE.blocks_of_time // len(rows), NOISE.blocks_of_time - 1)
+
+
+def _settled(search: Search, best: Hypothesis) -> Hypothesis:
+    """Without what is not worth its price beside the others."""
+    while (weak := search.weakest(best)) is not None:
+        best = search.without(best, [weak.candidate])
+    return best
+
+
+def named_first(search: Search, best: Hypothesis) -> Hypothesis:
+    """Names in place of a free curve wherever they explain nearly all that it does; its rest may stay beside them.
+
+    A curve fits every little thing about a real joint; that is no reason not to say what most of it is.
+    """
+    for effect in best.chosen:
+        candidate = search.candidate(effect.candidate)
+        if not candidate.is_curve or not candidate.special_cases or effect not in best.chosen:
+            continue
+        base = search.without(best, [effect.candidate])
+        named = base
+        for _ in range(NOISE.names_for_a_curve):
+            others = set(range(len(search.space.candidates))) - candidate.special_cases
+            better = search.additions(named, 1, others)
+            if not better or better[0].log_posterior <= named.log_posterior:
+                break
+            named = better[0]
+        worth = best.log_posterior - base.log_posterior
+        if named.log_posterior - base.log_posterior > NOISE.nearly_all * worth:
+            both = search.evaluated((*named.chosen, effect), named)
+            best = max(named, both, key=lambda hypothesis: hypothesis.log_posterior)
+    return best

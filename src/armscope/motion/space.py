@@ -1,0 +1,108 @@
+"""The library as the inference sees it: causes as sets of columns, and masses and gains as joint_backgrounds."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.inference.model_space import BackgroundFamily, Candidate, ModelSpace, ToleranceFamily
+from armscope.motion import catalogue
+from armscope.motion.causes import PlacedCause
+from armscope.motion.constants import PRIOR
+from armscope.motion.rows import TorqueLayout
+
+
+def build_space(layout: TorqueLayout, torque: Array, rate: float) -> ModelSpace:
+    """What may take part in the diagnosis of a motion.
+
+    Offset, friction and rotor inertia of every joint are always free; inertial parameters are held near the stated ones
+    by a share that competes, gains by their stated uncertainty.
+
+    Args:
+        layout: of the columns.
+        torque: (m,) RMS torque of each joint.
+        rate: samples per second.
+
+    Returns:
+        Columns, priors, and what excludes what.
+    """
+    shares = PRIOR.inertial_shares
+    reversals = ToleranceFamily("reversals", layout.reversals, PRIOR.reversal * torque, (0.0, 1.0))
+    delays = [at for cause, at in zip(layout.placed, layout.columns, strict=True) if cause.cause is catalogue.DELAY]
+    timing = np.concatenate([*delays, np.empty(0, dtype=np.intp)])
+    families: list[BackgroundFamily] = [
+        ToleranceFamily("masses", layout.inertial, np.ones(len(layout.inertial)), shares),
+        reversals,
+        ToleranceFamily("timing", timing, np.full(len(timing), PRIOR.timing / rate), (0.0, 1.0)),
+    ]
+    starts: list[tuple[int, ...]] = [(0, 1, 1), (2, 1, 1), (4, 1, 1)]
+    if layout.with_gains:
+        stated = layout.arm.gain_uncertainty
+        sigma = float(np.nanmedian(stated)) if np.isfinite(stated).any() else PRIOR.gain
+        families.append(ToleranceFamily("gains", layout.gains, np.full(len(layout.gains), sigma), (0.0, 1.0)))
+        starts = [(*start, 1) for start in starts]
+    return ModelSpace(
+        frames=layout.frames, families=tuple(families), candidates=_candidates(layout), starts=tuple(starts)
+    )
+
+
+def _candidates(layout: TorqueLayout) -> tuple[Candidate, ...]:
+    placed = layout.placed
+    candidates = []
+    for number, (cause, columns) in enumerate(zip(placed, layout.columns, strict=True)):
+        excludes = frozenset(n for n, other in enumerate(placed) if n != number and _clash(cause, other))
+        candidates.append(
+            Candidate(
+                kind=cause.cause.name,
+                location=cause.location,
+                columns=columns,
+                prior_scale=np.ones(cause.width),
+                variant=cause.variant,
+                driver=cause.driver,
+                label=str(cause),
+                family=cause.cause.family,
+                region=region_of(cause),
+                multiplicity=cause.multiplicity,
+                nonnegative=cause.cause.nonnegative and cause.width == 1,
+                is_curve=cause.is_curve,
+                excludes=excludes,
+                special_cases=frozenset(n for n in excludes if cause.is_curve and not placed[n].is_curve),
+                side_by_side=2,
+            )
+        )
+    return tuple(candidates)
+
+
+def region_of(cause: PlacedCause) -> str:
+    """Coarser than the place: the joint's number, or the place itself."""
+    words = cause.location.split()
+    return words[1] if words[0] in ("joint", "link") else cause.location
+
+
+CONTAINED = {
+    "speed": (
+        catalogue.ASYMMETRY,
+        catalogue.STRIBECK,
+        catalogue.VISCOUS_CURVE,
+        catalogue.VISCOUS,
+        catalogue.COULOMB,
+        catalogue.OFFSET,
+    ),
+    "joint angle": (catalogue.BALANCER, catalogue.RIPPLE, catalogue.OFFSET),
+    "load": (catalogue.GAIN, catalogue.OFFSET),
+    "time": (catalogue.OFFSET,),
+    "temperature": (catalogue.OFFSET,),
+}
+"""What a free curve at the same joint contains, by what it follows."""
+
+
+def _clash(one: PlacedCause, other: PlacedCause) -> bool:
+    """Whether two causes can't stand side by side: two forms of one, or a free curve and what it contains."""
+    if one.location != other.location:
+        return False
+    if one.is_curve and other.is_curve:
+        return one.driver == other.driver
+    if one.is_curve or other.is_curve:
+        curve, special = (one, other) if one.is_curve else (other, one)
+        return special.cause in CONTAINED[curve.driver]
+    return one.cause is other.cause and not (one.runs or other.runs)

@@ -1,0 +1,224 @@
+"""motions.csv: one row per sample of an arm in motion, units in the column names, checked once when it is read."""
+
+from __future__ import annotations
+
+import csv
+import re
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from armscope.core.inputs import InputError, nearest
+from armscope.core.types import Array
+from armscope.recordings.column_reader import ColumnReader
+from armscope.recordings.opening import open_text
+from armscope.recordings.textfile import read_text_table
+
+DRIVE_COLUMN = r"tau[1-9]\d*_nm|f[1-9]\d*_n|current[1-9]\d*_a"
+MOTION_COLUMN = (
+    DRIVE_COLUMN + r"|q[1-9]\d*_(rad|deg|m)|dq[1-9]\d*_(rad|deg|m)_s|ddq[1-9]\d*_(rad|deg|m)_s2"
+    r"|q[1-9]\d*_cmd_(rad|deg|m)|temperature[1-9]\d*_c"
+)
+PLAIN = ("run", "time_s", "payload_kg", "temperature_c")
+SCALE = {"rad": 1.0, "deg": np.pi / 180, "m": 1.0}
+LARGEST_TURN_RAD = 100 * np.pi
+"""Beyond fifty turns either way no arm's joint stands, so a larger number is not in radians."""
+LONGEST_SLIDE_M = 200.0
+"""The longest tracks and gantries that carry robots are 150 m long (makers' catalogues)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Motions:
+    """N samples of an arm with m motors; SI units; NaN where a value was not recorded.
+
+    Attributes:
+        time: (N,) s, from any start in each run.
+        q: (N, m) motor positions, rad or m.
+        effort: (N, m) motor torque, N m (N for a sliding joint), or current, A: see ``kind``.
+        kind: whether effort is torque or current.
+        sliding: (m,) whether a position is a length.
+        run: (N,) text; "" where the table has no such column.
+        dq, ddq, command: (N, m) recorded velocity, acceleration, commanded position; each or None.
+        payload: (N,) kg; temperature: (N, m) deg C; each or None.
+        notes: what a user should know about how the table was read.
+        source: the file's name, for messages.
+    """
+
+    time: Array
+    q: Array
+    effort: Array
+    kind: Literal["torque", "current"]
+    sliding: NDArray[np.bool_]
+    run: NDArray[np.str_]
+    dq: Array | None = None
+    ddq: Array | None = None
+    command: Array | None = None
+    payload: Array | None = None
+    temperature: Array | None = None
+    notes: tuple[str, ...] = ()
+    source: str = ""
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    @property
+    def n_motors(self) -> int:
+        """Number of motors."""
+        return int(self.q.shape[1])
+
+    @property
+    def runs(self) -> tuple[str, ...]:
+        """Names of the runs in the order of their first row."""
+        names, first = np.unique(self.run, return_index=True)
+        return tuple(str(names[k]) for k in np.argsort(first))
+
+    def rows(self, which: NDArray[np.bool_] | NDArray[np.intp] | slice) -> Motions:
+        """The samples of some rows, in that order."""
+        per_row: dict[str, Any] = {
+            name: value[which]
+            for name, value in vars(self).items()
+            if isinstance(value, np.ndarray) and name != "sliding"
+        }
+        return replace(self, **per_row)
+
+
+def is_motion_table(path: Path | str) -> bool:
+    """Whether a table is of an arm in motion: its columns are torques or currents, and no measured points."""
+    try:
+        with open_text(Path(path), "utf-8") as stream:
+            names = next(csv.reader(stream), [])
+    except (OSError, EOFError, UnicodeDecodeError, csv.Error):
+        return False  # whoever reads the table says what is wrong with it
+    drives = any(re.fullmatch(DRIVE_COLUMN, name) for name in names)
+    return drives and not {"x_mm", "x_m"} & set(names)
+
+
+def read_motions(path: Path | str, n_motors: int | None = None) -> Motions:
+    """Read motions.csv (``.gz`` allowed).
+
+    Args:
+        path: the file.
+        n_motors: how many motors the arm has; None accepts as many as there are.
+
+    Returns:
+        The samples in their order, SI units, with notes on what was passed over.
+
+    Raises:
+        InputError: names file, row (line of the file), column, the value found, the rule and the cure.
+    """
+    path = Path(path)
+    return as_motions(read_text_table(path), path, n_motors)
+
+
+def as_motions(table: pd.DataFrame, source: Path | str = "table", n_motors: int | None = None) -> Motions:
+    """A table with the columns of motions.csv as `Motions`; see `read_motions`.
+
+    Args:
+        table: every column as text or numbers.
+        source: where it was read, for errors.
+        n_motors: how many motors the arm has; None accepts as many as there are.
+
+    Returns:
+        The samples in their order.
+
+    Raises:
+        InputError: as `read_motions`.
+    """
+    reader = _Reader(table, source)
+    if "time_s" not in table:
+        rule = "the time of every sample stands in time_s"
+        raise InputError(source, "line 1", "no column time_s", rule, nearest("time_s", table.columns))
+    q, units = reader.drive_positions(n_motors)
+    count = len(units)
+    sliding = np.array([unit == "m" for unit in units])
+    kind, effort = reader.effort(sliding)
+    unknown = [name for name in table.columns if name not in PLAIN and not re.fullmatch(MOTION_COLUMN, name)]
+    notes = (f"columns not used: {', '.join(unknown)}",) if unknown else ()
+    temperature = reader.optional(["temperature_c"], 1.0, squeeze=True)
+    own = reader.optional([f"temperature{j}_c" for j in range(1, count + 1)], 1.0)
+    if own is None and temperature is not None:
+        own = np.repeat(temperature[:, None], count, axis=1)
+    return Motions(
+        time=reader.required("time_s"),
+        q=q,
+        effort=effort,
+        kind=kind,
+        sliding=sliding,
+        run=reader.text("run"),
+        dq=reader.per_motor(units, "dq{}_{}_s"),
+        ddq=reader.per_motor(units, "ddq{}_{}_s2"),
+        command=reader.per_motor(units, "q{}_cmd_{}"),
+        payload=reader.optional(["payload_kg"], 1.0, squeeze=True),
+        temperature=own,
+        notes=notes,
+        source=str(source),
+    )
+
+
+class _Reader(ColumnReader):
+    """Takes the columns of motions.csv out of a table, each checked as it is taken."""
+
+    def required(self, column: str) -> Array:
+        """(N,) a column that holds a number in every row."""
+        return self._numbers(column, required=True)
+
+    def drive_positions(self, n_motors: int | None) -> tuple[Array, list[str]]:
+        """(N, m) positions in rad or m, and each column's unit."""
+        matches = (re.fullmatch(r"q([1-9]\d*)_(rad|deg|m)", name) for name in self.table.columns)
+        found: dict[int, str] = {}
+        for m in matches:
+            if m is not None:
+                if int(m[1]) in found:
+                    raise InputError(self.source, "line 1", m[0], f"motor {m[1]} has a position already", "Keep one.")
+                found[int(m[1])] = m[2]
+        count = n_motors if n_motors is not None else max(found, default=1)
+        for motor in range(1, count + 1):
+            if motor not in found:
+                rule = f"the arm has motors q1 ... q{count}, each with its position (_rad, _deg; sliding: _m)"
+                cure = nearest(f"q{motor}_rad", self.table.columns)
+                raise InputError(self.source, "line 1", f"no column q{motor}_rad", rule, cure)
+        if max(found) > count:
+            extra = f"q{max(found)}_{found[max(found)]}"
+            cure = "Is this the right robot for the table?"
+            raise InputError(self.source, "line 1", extra, f"the arm has {count} motors", cure)
+        units = [found[motor] for motor in range(1, count + 1)]
+        return np.column_stack([self._position(j, unit) for j, unit in enumerate(units, start=1)]), units
+
+    def _position(self, motor: int, unit: str) -> Array:
+        column = f"q{motor}_{unit}"
+        values = self.required(column) * SCALE[unit]
+        largest = LONGEST_SLIDE_M if unit == "m" else LARGEST_TURN_RAD
+        beyond = np.flatnonzero(np.abs(values) > largest)
+        if len(beyond):
+            cure = f"Are these degrees? Then call the column q{motor}_deg." if unit == "rad" else ""
+            row = int(beyond[0])
+            rule = f"a position lies within {largest:.4g} {'m' if unit == 'm' else 'rad'}"
+            raise self._error(row, column, self.table[column].iloc[row], rule, cure)
+        return values
+
+    def effort(self, sliding: NDArray[np.bool_]) -> tuple[Literal["torque", "current"], Array]:
+        """What the motors did: torque or current, all motors in one."""
+        torque = [f"f{j}_n" if slides else f"tau{j}_nm" for j, slides in enumerate(sliding, start=1)]
+        current = [f"current{j}_a" for j in range(1, len(sliding) + 1)]
+        kinds: tuple[tuple[Literal["torque", "current"], list[str]], ...] = (("torque", torque), ("current", current))
+        for kind, columns in kinds:
+            if any(name in self.table for name in columns):
+                missing = [name for name in columns if name not in self.table]
+                if missing:
+                    rule = f"{', '.join(columns)} come together"
+                    cure = nearest(missing[0], self.table.columns)
+                    raise InputError(self.source, "line 1", f"no column {missing[0]}", rule, cure)
+                return kind, np.column_stack([self.required(name) for name in columns])
+        rule = f"what the motors did stands in {torque[0]} ... or {current[0]} ..."
+        cure = nearest(torque[0], self.table.columns)
+        raise InputError(self.source, "line 1", f"no column {torque[0]}", rule, cure)
+
+    def per_motor(self, units: list[str], name: str) -> Array | None:
+        """(N, m) an optional quantity of every motor, in the unit of its position."""
+        columns = [name.format(j, unit) for j, unit in enumerate(units, start=1)]
+        values = self.optional(columns, 1.0)
+        return None if values is None else values * np.array([SCALE[unit] for unit in units])

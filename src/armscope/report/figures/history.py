@@ -1,0 +1,47 @@
+"""How the causes that changed stood in every recording."""
+
+from __future__ import annotations
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from armscope.comparison import Comparison
+from armscope.core.numerals import shown_unit
+
+MOST_PANELS = 8
+
+
+def history_table(found: Comparison) -> pd.DataFrame:
+    """One row per recording and number of every cause that changed."""
+    rows = [
+        (name, each.effect, each.location, number.name, number.unit, value, error)
+        for each in found.changes
+        for number in each.parameters
+        for name, value, error in zip(found.names, number.values, number.stderrs, strict=True)
+    ]
+    return pd.DataFrame(rows, columns=["recording", "effect", "location", "parameter", "unit", "value", "stderr"])
+
+
+def history_figure(found: Comparison) -> Figure:
+    """A panel per number: its value in every recording with a 95 % interval, those that differ filled."""
+    numbers = [(each, number) for each in found.changes for number in each.parameters][:MOST_PANELS]
+    figure, panels = plt.subplots(
+        len(numbers), 1, figsize=(6.4, 1.6 + 1.4 * len(numbers)), sharex=True, squeeze=False, layout="constrained"
+    )
+    at = np.arange(len(found.names))
+    for (each, number), axes in zip(numbers, panels[:, 0], strict=True):
+        factor, unit = shown_unit(number.unit, float(np.max(np.abs(number.values))))
+        values, errors = factor * np.array(number.values), factor * 1.96 * np.array(number.stderrs)
+        differs = np.isin(found.names, each.where)
+        axes.errorbar(at, values, errors, fmt="none", ecolor="0.5", capsize=3)
+        axes.plot(at, values, color="0.8", zorder=0)
+        axes.plot(at[~differs], values[~differs], "o", markerfacecolor="white", color="#0072B2")
+        axes.plot(at[differs], values[differs], "o", color="#D55E00")
+        axes.set_ylabel(f"{number.name}\n({unit})")
+        axes.set_title(f"{each.title}: {each.kind} in {', '.join(each.where)}", loc="left", fontsize="medium")
+        axes.margins(x=0.1, y=0.2)
+    panels[-1, 0].set_xticks(at, found.names)
+    figure.supxlabel("recording (bars: 95 %; filled: where it differs)", fontsize="small")
+    return figure

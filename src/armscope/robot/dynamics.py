@@ -1,0 +1,206 @@
+"""The arm in motion: torques that its masses ask for, and how they depend on every inertial parameter."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pinocchio as pin
+from numpy.typing import NDArray
+
+from armscope.core.inputs import InputError
+from armscope.core.types import Array
+from armscope.robot.description import RobotDescription
+from armscope.robot.description_file import load_description
+from armscope.robot.model import TIP, pinocchio_model
+
+PARAMETERS = ("m", "mx", "my", "mz", "Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz")
+"""Inertial parameters of a link about its joint's frame, in the order of pinocchio's regressor."""
+UNITS = ("kg", *("kg m",) * 3, *("kg m^2",) * 6)
+
+
+@dataclass(frozen=True, eq=False)
+class MovingArm:
+    """An arm of n chain joints moved by m motors, as inverse dynamics needs it; SI units, N m (N where a joint slides).
+
+    Attributes:
+        description: what robot.yaml says.
+        model: the pinocchio model of the chain.
+        inertial: (10 n,) stated inertial parameters, `PARAMETERS` of each link.
+        actuation: (n, m) chain positions by motor positions.
+        sliding: (m,) whether a motor's position is a length.
+        gains: (m,) N m per A; NaN where not stated.
+        gain_uncertainty: (m,) 1-sigma as a share; NaN where not stated.
+        stated_background: (m, 4) torque offset (always NaN), dry friction, viscous friction and rotor inertia of the
+            drives, SI; NaN where not stated.
+        attached: bodies that are fixed to a moving link: name and (10 n,) inertial parameters of each.
+    """
+
+    description: RobotDescription
+    model: pin.Model
+    inertial: Array
+    actuation: Array
+    sliding: NDArray[np.bool_]
+    gains: Array
+    gain_uncertainty: Array
+    stated_background: Array
+    attached: tuple[tuple[str, Array], ...] = ()
+
+    @property
+    def name(self) -> str:
+        """The arm's name."""
+        return self.description.name
+
+    @property
+    def n_links(self) -> int:
+        """Number of moving links."""
+        return len(self.inertial) // 10
+
+    @property
+    def n_motors(self) -> int:
+        """Number of motors."""
+        return int(self.actuation.shape[1])
+
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """The chain's joints from the base to the tool."""
+        return tuple(self.model.names)[1:]
+
+    def point_load(self) -> Array:
+        """(10 n,) inertial parameters of 1 kg at the tool point."""
+        tip = self.model.frames[self.model.getFrameId(TIP)]
+        at = tip.placement.act(np.array(self.description.tool_mm) * 1e-3)
+        parameters = np.zeros(len(self.inertial))
+        place = 10 * (tip.parentJoint - 1)
+        parameters[place : place + 10] = pin.Inertia(1.0, at, np.zeros((3, 3))).toDynamicParameters()
+        return parameters
+
+    def configurations(self, motors: Array) -> Array:
+        """(N, nq) pinocchio configurations of motor positions (N, m)."""
+        chain = motors @ self.actuation.T
+        columns: list[Array] = []
+        for joint in range(self.n_links):
+            turning = self.model.joints[joint + 1].nq == 2  # cosine and sine of a joint without limits
+            columns += [np.cos(chain[:, joint]), np.sin(chain[:, joint])] if turning else [chain[:, joint]]
+        return np.column_stack(columns)
+
+    def regressor(self, q: Array, dq: Array, ddq: Array) -> Array:
+        """Torque of each motor per unit of each inertial parameter (Atkeson, An & Hollerbach 1986).
+
+        Args:
+            q: (N, m) motor positions.
+            dq: (N, m) their velocities.
+            ddq: (N, m) their accelerations.
+
+        Returns:
+            (N, m, 10 n) N m per SI unit.
+        """
+        data, configurations = self.model.createData(), self.configurations(q)
+        v, a = dq @ self.actuation.T, ddq @ self.actuation.T
+        torque = np.empty((len(q), self.n_links, len(self.inertial)))
+        for row in range(len(q)):
+            torque[row] = pin.computeJointTorqueRegressor(self.model, data, configurations[row], v[row], a[row])
+        if np.array_equal(self.actuation, np.eye(self.n_links)):
+            return torque
+        return np.asarray(np.einsum("njp,jm->nmp", torque, self.actuation))
+
+    def gravity_torques(self, q: Array, gravity: Array) -> Array:
+        """(N, m) N m that hold the stated masses at motor positions q (N, m) in gravity (3,), m/s^2."""
+        model = self.model.copy()
+        model.gravity.linear = gravity
+        data, configurations = model.createData(), self.configurations(q)
+        held = np.array([pin.computeGeneralizedGravity(model, data, each).copy() for each in configurations])
+        return np.asarray(held @ self.actuation)
+
+
+def load_moving_arm(path: Path | str) -> MovingArm:
+    """The arm of a robot.yaml, for inverse dynamics.
+
+    Raises:
+        InputError: the file can't be read, says something impossible, or states no masses.
+    """
+    return build_moving_arm(load_description(path), path)
+
+
+def build_moving_arm(description: RobotDescription, source: Path | str = "robot.yaml") -> MovingArm:
+    """The arm of a description.
+
+    Args:
+        description: what robot.yaml says.
+        source: where it was read, for errors.
+
+    Returns:
+        The arm.
+
+    Raises:
+        InputError: it states no masses, or joints that are not possible.
+    """
+    model = pinocchio_model(description, sliding=True)
+    n_links = model.njoints - 1
+    masses = np.array([model.inertias[joint].mass for joint in range(1, model.njoints)])
+    if not np.any(masses > 0):
+        place = "links" if description.dh is not None else "urdf"
+        rule = "inverse dynamics needs masses, centres of mass and inertias of the links"
+        raise InputError(source, place, "no masses", rule, "State `links` (mass_kg, com_mm, inertia_kg_m2).")
+    try:
+        description.check_motors(n_links, "joints of the chain")
+    except ValueError as error:
+        raise InputError(source, "joints of the chain", ", ".join(list(model.names)[1:]), str(error)) from error
+    actuation = np.eye(n_links)
+    if description.actuation is not None:
+        actuation = np.zeros((n_links, description.n_motors(n_links)))
+        for joint, combination in enumerate(description.actuation):
+            for motor, coefficient in combination.items():
+                actuation[joint, int(motor[1:]) - 1] = coefficient
+    slides = np.array([model.joints[joint].shortname().startswith("JointModelP") for joint in range(1, model.njoints)])
+    drives = description.drives or ()
+    none = np.full(actuation.shape[1], np.nan)
+    return MovingArm(
+        description=description,
+        model=model,
+        inertial=np.concatenate([model.inertias[j].toDynamicParameters() for j in range(1, model.njoints)]),
+        actuation=actuation,
+        sliding=np.asarray((np.abs(actuation[slides]) > 0).any(axis=0)),
+        gains=np.array([_known(drive.gain_nm_per_a) for drive in drives]) if drives else none,
+        gain_uncertainty=np.array([_known(drive.gain_uncertainty) for drive in drives]) if drives else none,
+        stated_background=np.array(
+            [[np.nan, *map(_known, (d.coulomb_nm, d.viscous_nm_s_rad, d.rotor_inertia_kg_m2))] for d in drives]
+        )
+        if drives
+        else np.full((actuation.shape[1], 4), np.nan),
+        attached=_attached(model),
+    )
+
+
+def _attached(model: pin.Model) -> tuple[tuple[str, Array], ...]:
+    """Bodies that fixed or locked joints hold to a moving link, each with what it carries."""
+    found: dict[bytes, tuple[str, Array]] = {}
+    for number, frame in enumerate(model.frames):
+        if frame.type not in (pin.FrameType.FIXED_JOINT, pin.FrameType.JOINT) or frame.parentJoint == 0:
+            continue
+        if frame.name in list(model.names):
+            continue
+        carried = _carried(model, number)
+        if carried.mass > 0:
+            parameters = np.zeros(10 * (model.njoints - 1))
+            place = 10 * (frame.parentJoint - 1)
+            parameters[place : place + 10] = carried.toDynamicParameters()
+            bodies = [f.name for f in model.frames if f.parentFrame == number and f.type == pin.FrameType.BODY]
+            name = bodies[0] if bodies else frame.name
+            found[np.round(parameters, 9).tobytes()] = (name, parameters)  # the innermost of frames that carry the same
+    return tuple(found.values())
+
+
+def _carried(model: pin.Model, number: int) -> pin.Inertia:
+    """Inertia, in the joint's frame, of a frame and of all frames behind it."""
+    frame = model.frames[number]
+    whole = frame.placement.act(frame.inertia)
+    for other, behind in enumerate(model.frames):
+        if other != number and behind.parentFrame == number and behind.parentJoint == frame.parentJoint:
+            whole = whole + _carried(model, other)
+    return whole
+
+
+def _known(value: float | None) -> float:
+    return float("nan") if value is None else value

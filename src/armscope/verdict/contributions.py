@@ -1,0 +1,150 @@
+"""What each cause does to the tool, row by row, and so what curing it alone would leave.
+
+With everything in place the model stands where the recordings were taken. One cause's contribution is how far the tool
+moves when its effects alone are taken out of the exact model, less what base and tool frames, which are always fitted
+again, take up of it. What was measured minus the nominal arm is then the sum of all contributions, of the small errors
+that have no name, and of what is left.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from armscope.core.sampling import spread_evenly
+from armscope.core.types import Array, Indices
+from armscope.physics.effect import AXES, Direction
+from armscope.physics.scene import Part, Posture
+from armscope.verdict.schema import Diagnosis, FoundEffect
+from armscope.verdict.wording import main_and_minor
+
+MOST_ROWS = 1500
+"""Rows that contributions are calculated on, spread evenly."""
+TRUSTED = 0.5
+"""Rows that kept less of their weight look like bad shots, and take no part."""
+MOST_CAUSES = 6
+"""More major effects than this are taken together with the minor ones."""
+
+
+@dataclass(frozen=True, eq=False)
+class Repair:
+    """Effects that are cured together, with their contribution (n, 3), mm in base axes; NaN-free."""
+
+    name: str
+    effects: tuple[FoundEffect, ...]
+    parts: tuple[Part, ...]
+    moved: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Contributions:
+    """Of n of the rows: their numbers, what is left (n, 3) mm, and what each cause adds to it.
+
+    Attributes:
+        rows: (n,) numbers of the rows, from 0.
+        left: (n, 3) with everything cured.
+        causes: the major ones, most important first.
+        smaller: minor effects, and major ones beyond `MOST_CAUSES`, together; None where there are none.
+        everywhere: (n, 3) the small errors without a name.
+    """
+
+    rows: Indices
+    left: Array
+    causes: tuple[Repair, ...]
+    smaller: Repair | None
+    everywhere: Array
+
+    @property
+    def switches(self) -> list[tuple[str, Array]]:
+        """All that can be cured by itself, in words, with its contribution."""
+        named = [(cause.name, cause.moved) for cause in self.causes]
+        if self.smaller is not None:
+            named.append((self.smaller.name, self.smaller.moved))
+        if rms(self.everywhere) > 0.01 * rms(self.before):
+            named.append(("small errors in all joints and links", self.everywhere))
+        return named
+
+    @property
+    def before(self) -> Array:
+        """(n, 3) nothing cured."""
+        everything = [cause.moved for cause in (*self.causes, *([self.smaller] if self.smaller else []))]
+        return np.asarray(self.left + self.everywhere + sum(everything))
+
+    def cured(self, causes: Sequence[int]) -> float:
+        """RMS per axis, mm, once these of the causes are cured and nothing else."""
+        return rms(self.before - sum((self.causes[n].moved for n in causes), np.zeros_like(self.left)))
+
+
+def contributions(verdict: Diagnosis) -> Contributions:
+    """What each cause of a verdict moves, on at most `MOST_ROWS` rows that are no bad shots."""
+    trusted = np.flatnonzero(verdict.residuals.weight > TRUSTED)
+    rows = trusted[spread_evenly(len(trusted), MOST_ROWS)]
+    model, table = verdict.model, verdict.recordings.rows(rows)
+    scene = model.scene(table)
+    posture = model.posture(scene)
+    taken_up = _frames(verdict, posture)
+
+    def free(moved: Array) -> Array:
+        flat = moved.reshape(-1)
+        return np.asarray((flat - taken_up @ (taken_up.T @ flat)).reshape(-1, 3))
+
+    def moved_by(parts: Sequence[Part]) -> Array:
+        out = {id(part) for part in parts}
+        others = replace(model, parts=tuple(part for part in model.parts if id(part) not in out))
+        return free(1e3 * (posture.tool - others.posture(scene).tool)) if parts else np.zeros((len(rows), 3))
+
+    main, minor = main_and_minor(verdict.effects)
+    parts = _parts_of(verdict)
+    causes = tuple(
+        Repair(effect.title, (effect,), parts[id(effect)], moved_by(parts[id(effect)])) for effect in main[:MOST_CAUSES]
+    )
+    rest = [effect for effect in (*main[MOST_CAUSES:], *minor) if parts[id(effect)]]
+    together = tuple(part for effect in rest for part in parts[id(effect)])
+    name = f"{len(rest)} smaller causes together" if len(rest) > 1 else "one smaller cause"
+    smaller = Repair(name, tuple(rest), together, moved_by(together)) if rest else None
+    left, before = free(verdict.residuals.after[rows]), free(verdict.residuals.before[rows])
+    explained = sum((cause.moved for cause in (*causes, *([smaller] if smaller else []))), np.zeros_like(left))
+    if not verdict.background.present:  # tiny, and without a line of its own
+        left = before - explained
+    return Contributions(rows, left, causes, smaller, before - left - explained)
+
+
+def rms(errors: Array) -> float:
+    """RMS per axis of (n, 3) errors."""
+    return float(np.sqrt(np.mean(errors**2))) if errors.size else 0.0
+
+
+def _frames(verdict: Diagnosis, posture: Posture) -> Array:
+    """(3 n, f) orthonormal: what base (per run) and tool frames take up."""
+    run = posture.scene.recordings.run
+    columns = [
+        moved * (run == name)[:, None]
+        for name in np.unique(run)
+        for axis in AXES
+        if (moved := posture.displacement(Direction("base", axis))) is not None
+    ]
+    columns += [posture.column(term) for part in verdict.model.tools for term in part.placed.terms]
+    X = np.stack([column.reshape(-1) for column in columns], axis=1)
+    scale = np.linalg.norm(X, axis=0)
+    left, size, _ = np.linalg.svd(X[:, scale > 0] / scale[scale > 0], full_matrices=False)
+    return np.asarray(left[:, size > 1e-9 * size[0]])
+
+
+def _parts_of(verdict: Diagnosis) -> dict[int, tuple[Part, ...]]:
+    """The part of the fitted model of every effect, by the effect's `id`; none for scatter, which is no model."""
+    waiting = list(verdict.model.parts)
+    parts: dict[int, tuple[Part, ...]] = {}
+    for effect in verdict.effects:
+        alike = [p for p in waiting if p.placed.key == (effect.effect, effect.location)]
+        same = [p for p in alike if p.placed.driver == effect.driver and _same_scanned(p, effect)]
+        parts[id(effect)] = tuple((same or alike)[:1])
+        waiting = [p for p in waiting if not any(p is taken for taken in parts[id(effect)])]
+    return parts
+
+
+def _same_scanned(part: Part, effect: FoundEffect) -> bool:
+    """Whether the numbers that were found by trying values are the effect's."""
+    told = {parameter.name: parameter.value for parameter in effect.parameters}
+    return all(name not in told or np.isclose(told[name], value) for name, _, value in part.placed.scanned)

@@ -1,0 +1,234 @@
+"""What a service engineer does about a verdict: per cause the place, the direction, the change and its worth."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from armscope.core.location import Location
+from armscope.core.types import Array
+from armscope.physics.scene import Part
+from armscope.verdict.contributions import Contributions, Repair, rms
+from armscope.verdict.schema import INTERVAL, Cause, Diagnosis, FoundEffect
+from armscope.verdict.sentences import cure_of_family, phrase
+from armscope.verdict.wording import capitalised, implausible, read_parameter
+
+CHANGES = {
+    "joint_offset": ("mastering", "Set the zero of {location} anew: {zero}."),
+    "gear_ratio": ("gear ratio", "Multiply the stated ratio (motor turns per joint turn) of {location} by {ratio}."),
+    "gear_eccentricity": (
+        "encoder or gear",
+        "Re-centre the encoder disc or gear of {location}, or command the wave away: {opposite}.",
+    ),
+    "gear_mesh": ("gear stage", "Find the gear stage of {location} that has so many waves per turn, and replace it."),
+    "axis_wobble": ("bearing", "Re-seat or replace the bearing of {location}."),
+    "backlash": ("gear play", "Adjust or preload the gear of {location}."),
+    "servo_lag": ("controller", "Add velocity feed-forward at {location}, or mend the instrument's time stamps."),
+    "joint_coupling": ("coupling table", "Put minus the coefficient into the coupling table for {location}."),
+    "joint_compliance": (
+        "elastic model",
+        "Add to the command what gravity takes: {opposite} ({size}); or let the controller's elastic model do so.",
+    ),
+    "bearing_compliance": ("bearing", "Preload or replace the bearing of {location}."),
+    "base_compliance": ("mounting", "Tighten and stiffen the mounting of the base."),
+    "link_bending": ("elastic model", "Put the bending of {location} into the model, or stiffen it."),
+    "link_geometry": ("D-H row", "Enter the corrected row of {location} in the controller's model: {row}."),
+    "thermal_expansion": ("temperature", "Warm the arm up before work, or scale {location} with its temperature."),
+    "parallelogram_geometry": ("linkage", "Adjust the rod of the parallelogram by minus its error."),
+    "base_drift": ("set-up", "Fix base and instrument, and measure again."),
+    "base_shift": ("set-up", "Fasten base and instrument, and measure again from the jump on."),
+    "tool_shift": ("tool", "Fasten the tool, and measure its tool point again from the jump on."),
+    "payload_error": ("payload data", "Weigh the load and correct mass and centre of mass in the controller."),
+    "instrument_scale": ("instrument", "Have the instrument's scale calibrated, and measure again."),
+    "unknown": ("correction table", "Find what it follows; until then store its curve as a correction table."),
+}
+"""By effect: what is changed, in two words, and how. The rest of the cure stands in the effect's own words."""
+NUMBERS = ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg")
+"""Of a D-H row, as robot.yaml calls them."""
+WORTH_ALL = 0.1
+"""Share of the squared error from which the small errors in all joints and links are a task of their own."""
+STEADY = 0.02
+"""A motion whose range is below this share of its size is told as one number."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """One line of a work order, in words.
+
+    Attributes:
+        number: from 1, the most important first.
+        what: who does what, by how much.
+        place, change: where, and what is changed there, in two words.
+        motion: how far and which way it goes in these recordings: mm, mrad and degrees, with signs.
+        instruction, cure: what to do; and the rule by which it is commanded away.
+        alone_mm, then_mm: RMS per axis expected once this alone, or this and all before it, is cured.
+        confirm: how to confirm it first.
+    """
+
+    number: int
+    what: str
+    place: str
+    change: str
+    motion: str
+    instruction: str
+    cure: str
+    alone_mm: float
+    then_mm: float
+    confirm: str
+
+
+def tasks(verdict: Diagnosis, worth: Contributions) -> list[Task]:
+    """The work order of a verdict: one task per major effect, and one for small errors that make up a cause."""
+    single = [
+        _task(verdict, worth, number, cause, effect)
+        for number, cause in enumerate(worth.causes, start=1)
+        for effect in cause.effects[:1]
+    ]
+    everywhere = [cause for cause in verdict.causes if cause.everywhere and verdict.background.share > WORTH_ALL]
+    return [*single, *(_calibration(worth, len(single) + 1, cause) for cause in everywhere[:1])]
+
+
+def _calibration(worth: Contributions, number: int, cause: Cause) -> Task:
+    """What takes out the small errors of all joints and links at once."""
+    named = sum((each.moved for each in worth.causes), np.zeros_like(worth.left))
+    return Task(
+        number=number,
+        what="Small errors in all joints and links, as any arm has",
+        place="whole arm",
+        change="calibration",
+        motion="",
+        instruction=cure_of_family(cause.family, (), True),
+        cure="",
+        alone_mm=rms(worth.before - worth.everywhere),
+        then_mm=rms(worth.before - worth.everywhere - named),
+        confirm="Diagnose again after the repairs above: what is left of it is for a calibration.",
+    )
+
+
+def _task(verdict: Diagnosis, worth: Contributions, number: int, cause: Repair, effect: FoundEffect) -> Task:
+    change, how = CHANGES.get(effect.effect, ("", ""))
+    words = {"location": effect.location, "zero": "–", "ratio": "–", "row": "–", "size": "size not known"}
+    words["opposite"] = motion(verdict, cause.parts, -1) or "its opposite"
+    told = {p.name: p for p in effect.parameters if not implausible(p, effect)}
+    if "offset" in told:
+        words["zero"] = f"where the controller shows 0°, the joint stands at {angle(told['offset'].value)}"
+    if "compliance" in told:
+        size = read_parameter(told["compliance"], effect.effect)
+        words["size"] = f"{size.value} × load"
+    if "ratio" in told:
+        words["ratio"] = f"{1 / (1 + told['ratio'].value):.6f}"
+    if effect.effect == "link_geometry":
+        words["row"] = "; ".join(_row(effect)) or "its errors can't be told apart in these poses"
+    return Task(
+        number=number,
+        what=capitalised(phrase(effect)),
+        place=effect.location,
+        change=change,
+        motion=motion(verdict, cause.parts),
+        instruction=how.format(**words),
+        cure=effect.cure,
+        alone_mm=worth.cured([number - 1]),
+        then_mm=worth.cured(range(number)),
+        confirm=effect.confirm,
+    )
+
+
+def angle(radians: float) -> str:
+    """An angle with its sign, in degrees and mrad."""
+    return f"{_signed(math.degrees(radians), 4)}° ({_signed(1e3 * radians, 3)} mrad)"
+
+
+def _row(effect: FoundEffect) -> Iterator[str]:
+    for p in effect.parameters:
+        if implausible(p, effect):
+            continue
+        size = f"{_signed(p.value, 3)} mm" if p.unit == "mm" else angle(p.value)
+        yield f"{p.name} = stated {p.name} {size}"
+
+
+def motion(verdict: Diagnosis, parts: tuple[Part, ...], sign: int = 1) -> str:
+    """The largest turn and the largest shift of parts over the recorded rows.
+
+    Args:
+        verdict: whose parts they are.
+        parts: of the fitted model.
+        sign: -1 for what undoes them.
+
+    Returns:
+        In words, with signs; "" for none.
+    """
+    amounts: dict[str, list[tuple[str, Array]]] = {"turns": [], "moves": []}
+    posture = verdict.model.posture(verdict.model.scene(verdict.recordings))
+    for direction, amount in posture.scene.amounts(parts).items():
+        place = Location.of(direction.location)
+        if place.kind in ("instrument", "payload"):
+            continue
+        turning = direction.axis == "turn" or direction.axis.startswith("r")
+        about = "" if direction.axis == "turn" else f" {'about' if turning else 'along'} {direction.axis[1:]}"
+        name = f"joint {place.number}" if place.kind == "motor" else direction.location
+        amounts["turns" if turning else "moves"].append((f"{name}{about}", sign * np.asarray(amount)))
+    told = []
+    for verb, found in amounts.items():
+        if found:
+            name, amount = max(found, key=lambda pair: float(np.abs(pair[1]).max()))
+            if np.abs(amount).max() > 0:
+                told.append(f"{name} {verb} by {_range(amount, verb == 'turns')}")
+    return "; ".join(told)
+
+
+def _range(amount: Array, turning: bool) -> str:
+    low, high = float(amount.min()), float(amount.max())
+    if high - low < STEADY * max(abs(low), abs(high)):
+        low = high = float(amount.mean())
+    ends = [low] if low == high else [low, high]
+
+    def all_in(factor: float, unit: str) -> str:
+        return " … ".join(_signed(factor * end, 3) for end in ends) + unit
+
+    if not turning:
+        return all_in(1e3, " mm")
+    degrees = " … ".join(_signed(math.degrees(end), 4) for end in ends)
+    return f"{all_in(1e3, ' mrad')} ({degrees}°)"
+
+
+def _signed(value: float, decimals: int) -> str:
+    text = f"{value:+.{decimals}f}"
+    return (text if float(text) else text[1:]).replace("-", "−")
+
+
+def zero_offsets(verdict: Diagnosis) -> pd.DataFrame:
+    """The zeros of all motors as found: actual angle minus commanded angle, with 95 % intervals (half width).
+
+    Those that were not named stand as 0 with what the small errors in all joints say of them.
+    """
+    rows = []
+    for j in range(1, verdict.model.arm.n_motors + 1):
+        found = [p for e in verdict.effects if (e.effect, e.location) == ("joint_offset", f"joint {j}")
+                 for p in e.parameters if p.name == "offset" and not implausible(p, e)]  # fmt: skip
+        value, half = (found[0].value, INTERVAL * found[0].stderr) if found else (0.0, float("nan"))
+        rows.append((f"joint {j}", math.degrees(value), 1e3 * value, 1e3 * half, "named" if found else "not named"))
+    columns = ["joint", "actual_minus_commanded_deg", "actual_minus_commanded_mrad", "half_interval_95_mrad", "cause"]
+    return pd.DataFrame(rows, columns=columns)
+
+
+def corrected_rows(verdict: Diagnosis) -> pd.DataFrame | None:
+    """The D-H rows as stated and as found, mm and degrees, without the zeros; None for an arm that has no D-H rows."""
+    dh = verdict.model.arm.description.dh
+    if dh is None:
+        return None
+    rows = []
+    for j, stated in enumerate(dh.joints, start=1):
+        found = {p.name: p for e in verdict.effects if (e.effect, e.location) == ("link_geometry", f"link {j}")
+                 for p in e.parameters if not implausible(p, e)}  # fmt: skip
+        row: dict[str, object] = {"row": j, "convention": dh.convention}
+        numbers = (stated.a_mm, stated.alpha_deg, stated.d_mm, stated.theta_offset_deg)
+        for name, key, value in zip(NUMBERS, ("a", "alpha", "d", "theta"), numbers, strict=True):
+            step = found[key].value if key in found else 0.0
+            step = math.degrees(step) if name.endswith("deg") else step
+            row |= {f"stated_{name}": value, f"correction_{name}": step, f"corrected_{name}": value + step}
+        rows.append(row)
+    return pd.DataFrame(rows)

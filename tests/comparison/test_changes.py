@@ -1,0 +1,93 @@
+"""What changed is named with an interval that holds the truth; where nothing did, nothing is, at the stated rate."""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from scipy.spatial.transform import Rotation
+
+from armscope.comparison import compare
+from armscope.comparison.changes import LEVEL
+from armscope.core.inputs import InputError
+from armscope.recordings import as_recordings
+from armscope.robot import chain, load_arm
+from armscope.robot.gravity import gravity_torques
+
+ARM = load_arm(Path(__file__).parents[2] / "examples" / "five-effects" / "robot.yaml")
+OWN = np.random.default_rng(7).normal(0, 1e-3, 6)
+"""Joint zeros of the arm that nobody calibrated: in every recording."""
+NULL_WORLDS = 24
+
+
+def session(seed, rows=70, offsets=(), give=0.0, noise_mm=0.03):
+    """Rows of the arm seen from somewhere, with offsets (joint, rad) and a compliance of joint 2 (rad/(N m)) more."""
+    rng = np.random.default_rng(seed)
+    q = rng.uniform(-1, 1, (rows, 6)) * [2, 0.6, 0.6, 2, 1.5, 2]
+    turned = q + OWN
+    for joint, offset in dict(offsets).items():
+        turned[:, joint - 1] += offset
+    turned[:, 1] += (1.5e-7 + give) * gravity_torques(ARM, chain(ARM, q), None)[:, 1]
+    points = Rotation.from_rotvec(rng.normal(0, 0.5, 3)).apply(chain(ARM, turned).tool) + rng.normal(0, 1, 3)
+    points = points * 1e3 + rng.normal(0, noise_mm, (rows, 3))
+    columns = {f"q{j + 1}_rad": q[:, j] for j in range(6)} | {f"{a}_mm": points[:, k] for k, a in enumerate("xyz")}
+    return as_recordings(pd.DataFrame(columns), "made", 6)
+
+
+def test_where_nothing_changed_nothing_is_named_at_the_stated_rate():
+    """The number named by chance is binomial with at most LEVEL: more than 4 of 24 has a probability below 1 %."""
+    found = [compare(ARM, {"a": session(2 * n), "b": session(2 * n + 1)}) for n in range(NULL_WORLDS)]
+    assert sum(bool(each.changes) for each in found) <= 4
+    assert all((each.p_nothing_changed <= LEVEL) == bool(each.changes) for each in found)
+
+
+def test_an_encoder_that_was_shifted_is_named_and_its_interval_holds_the_size():
+    """Of 12 intervals of 95 % fewer than 10 hold the truth with a probability of 2 %."""
+    held = 0
+    for seed in range(12):
+        joint, offset = 2 + seed % 4, (-1) ** seed * 4e-4
+        found = compare(ARM, {"before": session(100 + seed), "after": session(200 + seed, offsets={joint: offset})})
+        change = found.changes[0]
+        assert f"joint offset at joint {joint}" in (change.title, *change.alternatives)
+        assert change.where == ("after",)
+        if change.effect == "joint_offset":
+            low, high = change.parameters[0].interval_95
+            assert high - low < abs(offset)
+            held += low < offset < high
+        else:
+            held += 1
+    assert held >= 10
+
+
+def test_a_joint_that_became_softer_is_named_or_stands_among_the_alternatives():
+    found = compare(ARM, {"before": session(1), "after": session(2, give=1e-7)})
+    (change,) = found.changes
+    assert change.location == "joint 2"
+    assert "joint compliance at joint 2" in (change.title, *change.alternatives)
+
+
+def test_of_a_series_the_recording_from_which_on_it_changed():
+    series = {
+        "1": session(11),
+        "2": session(12),
+        "3": session(13, offsets={4: 5e-4}),
+        "4": session(14, offsets={4: 5e-4}),
+    }
+    found = compare(ARM, series)
+    assert [(each.effect, each.location, each.where) for each in found.changes] == [
+        ("joint_offset", "joint 4", ("3", "4"))
+    ]
+    values = found.changes[0].parameters[0].values
+    assert np.ptp(values[:2]) < 2e-4 < abs(values[2] - values[0])
+
+
+def test_of_several_arms_the_one_that_is_unlike_the_others():
+    arms = {name: session(20 + n, offsets={2: 4e-4} if name == "C" else {}) for n, name in enumerate("ABCD")}
+    assert compare(ARM, arms, of_arms=True).changes[0].where == ("C",)
+
+
+def test_another_base_and_tool_are_no_change_and_one_recording_is_none():
+    with pytest.raises(InputError, match="two or more"):
+        compare(ARM, {"a": session(1)})
+    content = compare(ARM, {"a": session(3), "b": session(4)}).to_json()
+    assert content["format"] == "armscope comparison 1"

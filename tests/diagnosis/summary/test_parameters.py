@@ -1,0 +1,47 @@
+"""Values that rows leave open are not told; values that no arm shows are questioned."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from armscope.diagnosis import Settings, diagnose
+from armscope.diagnosis.summary.parameters import beyond_plausible, undetermined
+from armscope.physics.constants import PLAUSIBLE
+from armscope.physics.geometric import LINK_GEOMETRY
+from armscope.physics.scene import Part
+from tests.diagnosis.planted import planted
+from tests.physics.scenes import arm_named, full_table
+
+QUICK = Settings(resamples=0, cross_validation=False)
+
+
+def test_a_value_whose_error_is_as_large_as_any_arms_is_left_open() -> None:
+    arm = arm_named("six-axis")
+    placed = next(p for p in LINK_GEOMETRY.place(arm, full_table(arm, 30, 1)) if p.location == "link 3")
+    errors = {"a": 0.1, "d": 0.9, "alpha": 0.1}
+    stderr = np.array([errors[t.name] * t.plausible for t in placed.terms])
+    assert undetermined(placed, np.diag(stderr**2)) == ("d",)
+
+
+def test_lengths_along_parallel_axes_that_only_their_sum_shows_are_not_told_singly() -> None:
+    """d of link 2 and of link 3 shift the arm alike: axes 2 and 3 are parallel."""
+    arm, table = planted("six-axis", {("link_geometry", "link 2"): [0.0, 0.0, 1.5e-3]}, 120, 0.02, seed=4)
+    verdict = diagnose(arm, table, QUICK)
+    for effect in verdict.effects:
+        assert not {p.name for p in effect.parameters} & set(effect.undetermined)
+        for p in effect.parameters:
+            if p.unit == "mm":
+                assert p.stderr < 1e3 * PLAUSIBLE.length_m
+
+
+def test_what_no_arm_shows_is_questioned() -> None:
+    arm = arm_named("six-axis")
+    placed = next(p for p in LINK_GEOMETRY.place(arm, full_table(arm, 30, 1)) if p.location == "link 3")
+    values = np.array([24e-3 if term.name == "a" else 0.0 for term in placed.terms])
+    said = beyond_plausible([Part(placed, values)])
+    assert said is not None
+    assert "a of link_geometry at link 3 by 24 mm" in said.text
+    assert beyond_plausible([Part(placed, 0.1 * values)]) is None
+    assert replace(said, text="").kind == "implausible"

@@ -1,0 +1,176 @@
+"""The steps from samples to a verdict, each by itself."""
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+
+from armscope.core.inputs import InputError
+from armscope.inference.model_space import Candidate
+from armscope.motion import catalogue
+from armscope.motion.causes import Seen, side
+from armscope.motion.check import check_motions
+from armscope.motion.consistency import PathAgreement
+from armscope.motion.constants import FILTER, LIBRARY
+from armscope.motion.cutoff import chosen_cutoff
+from armscope.motion.holding_out import folds
+from armscope.motion.judgement import answer_of
+from armscope.motion.library import place_causes
+from armscope.motion.masses import place_masses
+from armscope.motion.preparation import parts, preparation
+from armscope.motion.rows import SoFar, TorqueLayout, build_rows
+from armscope.motion.seen import seen_in
+from armscope.motion.selection import select_causes
+from armscope.motion.space import build_space
+from armscope.motion.timing import Stretch, mended, stretches
+from armscope.motion.verdict import UnexplainedTorque, relative
+from armscope.motion.weights import estimate_weights, fitted_together
+from armscope.recordings.motions import Motions
+from tests.motion.moving import moved, robot
+
+
+def seen(motions: Motions) -> Seen:
+    return seen_in(robot(), list(stretches(motions)), LIBRARY.still_rad)
+
+
+def test_repeated_and_uneven_stamps_are_rebuilt_from_angle_and_velocity() -> None:
+    rng = np.random.default_rng(0)
+    true = np.cumsum(np.r_[0, rng.choice([1, 1, 1, 2], 4000)]) * 1e-3
+    q, dq = np.column_stack([np.sin(true), np.cos(2 * true)]), np.column_stack([np.cos(true), -2 * np.sin(2 * true)])
+    twice = np.sort(np.r_[np.arange(len(true)), rng.choice(len(true), 200, replace=False)])
+    stamps = np.sort(true[twice] + rng.uniform(0, 9e-4, len(twice)))
+    table = Motions(
+        stamps, q[twice], np.zeros((len(twice), 2)), "torque", np.zeros(2, bool), np.full(len(twice), ""), dq=dq[twice]
+    )
+    better, notices = mended(table)
+    assert [notice.kind for notice in notices] == ["time rebuilt"]
+    assert len(better) == len(true)
+    moving = np.abs(np.diff(better.time) - np.diff(true)) < 1e-6
+    assert moving.mean() > 0.99
+
+
+def test_time_that_goes_back_or_stands_in_milliseconds_is_refused() -> None:
+    motions = moved(robot(), 1, runs=1)
+    back = motions.time.copy()
+    back[100] = 0.0
+    with pytest.raises(InputError, match=r"row 102, column time_s.*does not go back"):
+        mended(dataclasses.replace(motions, time=back))
+    with pytest.raises(InputError, match="milliseconds"):
+        mended(dataclasses.replace(motions, time=motions.time * 1e3))
+
+
+def test_a_gap_parts_a_run_and_runs_of_other_rates_are_laid_on_one_grid() -> None:
+    motions = moved(robot(), 1, runs=2)
+    kept = np.r_[0:1000, 1100:3000, 3000:6000:2]  # a hole in path 1, half the rate in path 2
+    found = list(stretches(motions.rows(kept)))
+    assert [stretch.run for stretch in found] == ["path 1", "path 1", "path 2"]
+    assert len({stretch.rate for stretch in found}) == 1
+
+
+def test_the_filter_has_no_lag_and_derivatives_are_those_of_the_path() -> None:
+    time = np.arange(4000) / 400
+    q = np.sin(2 * np.pi * 0.7 * time)[:, None]
+    how = preparation(400.0, 8.0, "test")
+    only = next(parts([Stretch("", 400.0, time, q, q, None, None)], how))
+    rows = only.kept
+    assert np.diff(rows).min() == how.every > 1
+    assert only.dq[rows, 0] == pytest.approx(2 * np.pi * 0.7 * np.cos(2 * np.pi * 0.7 * only.time[rows]), abs=0.02)
+    assert how.low_passed(q)[rows, 0] == pytest.approx(q[rows, 0], abs=2e-3)
+
+
+def test_long_stretches_in_parts_give_the_rows_of_the_whole(monkeypatch: pytest.MonkeyPatch) -> None:
+    arm, motions = robot(), moved(robot(), 2, runs=1, seconds=12.0)
+    how = preparation(200.0, 10.0, "test")
+    layout, model = TorqueLayout(arm, (), False), SoFar(arm.inertial, np.zeros((3, 4)))
+    whole = build_rows(layout, list(stretches(motions)), how, model)
+    monkeypatch.setattr("armscope.motion.preparation.FILTER", dataclasses.replace(FILTER, chunk=500))
+    pieces = build_rows(layout, list(stretches(motions)), how, model)
+    assert np.array_equal(pieces.time, whole.time)
+    assert pieces.torque == pytest.approx(whole.torque, abs=2e-3 * np.abs(whole.torque).max())
+    assert pieces.columns[1] == pytest.approx(whole.columns[1], abs=float(2e-2 * np.abs(whole.columns[1]).max()))
+
+
+def test_the_cutoff_follows_the_motion_and_not_the_noise() -> None:
+    how = chosen_cutoff(robot(), list(stretches(moved(robot(), 3, noise=0.05))), None)
+    assert 2.0 <= how.cutoff < 40.0
+    assert "explains as much" in how.words
+    assert chosen_cutoff(robot(), list(stretches(moved(robot(), 3, runs=1))), 6.0).cutoff == 6.0
+
+
+def test_correlated_residuals_count_as_fewer_rows() -> None:
+    arm, motions = robot(), moved(robot(), 4)
+    rows = build_rows(
+        TorqueLayout(arm, (), False), list(stretches(motions)), preparation(200.0, 10.0, "test"),
+        SoFar(arm.inertial, np.zeros((3, 4))),
+    )  # fmt: skip
+    rng = np.random.default_rng(0)
+    white = rng.normal(size=rows.torque.shape)
+    slow = np.array(white)
+    for row in range(1, len(slow)):
+        slow[row] = 0.9 * slow[row - 1] + np.sqrt(1 - 0.81) * white[row]
+    assert estimate_weights(rows, white).correlated.max() < 2
+    assert 8 < np.median(estimate_weights(rows, slow).correlated) < 35  # 19 by theory
+    left = rows.torque - rows.nominal - rows.modelled(fitted_together(rows))
+    assert relative(left, rows.torque) < 0.01
+
+
+def test_the_library_stands_where_the_table_can_show_it() -> None:
+    motions = moved(robot(), 5)
+    still = dataclasses.replace(motions, q=motions.q * [1, 1, 0])
+    placed = place_causes(seen(still))
+    assert not [cause for cause in placed if cause.location == "joint 3"]
+    assert {cause.cause for cause in placed} <= set(catalogue.CAUSES)
+    assert not [cause for cause in placed if cause.cause is catalogue.TEMPERATURE_FRICTION]
+    assert side(robot(), np.array([[-1.0, 0.0, 1.0]])).tolist() == [[-1.0, 0.0, 1.0]]
+    masses = list(place_masses(seen(motions)))
+    centres = {cause.location for cause in masses if cause.cause is catalogue.LINK_CENTRE}
+    assert centres == {"link 2", "link 3"}  # a standing axis does not feel where its centre lies
+
+
+def test_a_curve_contains_its_special_cases_and_excludes_them() -> None:
+    layout = TorqueLayout(robot(), tuple(place_causes(seen(moved(robot(), 5)))), False)
+    space = build_space(layout, np.ones(3), 200.0)
+
+    def numbers(kind: str, driver: str) -> list[tuple[int, Candidate]]:
+        found = enumerate(space.candidates)
+        return [(n, c) for n, c in found if (c.kind, c.location, c.driver) == (kind, "joint 2", driver)]
+
+    (_, curve), (asymmetry, _) = numbers("unknown", "speed")[0], numbers("asymmetric_friction", "direction")[0]
+    assert asymmetry in curve.special_cases
+    assert len(space.frames) == 9
+
+
+def test_one_run_in_turn_is_held_out() -> None:
+    arm, motions = robot(), moved(robot(), 6)
+    layout = TorqueLayout(arm, tuple(place_causes(seen(motions))), False)
+    how = preparation(200.0, 10.0, "test")
+    selected = select_causes(layout, list(stretches(motions)), how, ("path 1", "path 2"), lambda text, share: None)
+    held = folds(selected)
+    assert [set(fold.rows.run[fold.which]) for fold in held] == [{"path 1"}, {"path 2"}]
+    assert held[0].problem.n + held[1].problem.n == pytest.approx(selected.problem.n)
+
+
+def test_sizes_that_differ_from_path_to_path_are_no_physics() -> None:
+    assert PathAgreement(np.array([0.95, 1.1]), np.array([0.05, 0.05])).consistent
+    assert PathAgreement(np.array([2.0, -0.5]), np.array([0.05, 0.05])).consistent is False
+    assert PathAgreement(np.array([1.0, 3.0]), np.array([0.1, 2.0])).consistent is None
+
+
+def test_nothing_found_is_an_answer() -> None:
+    assert answer_of([], UnexplainedTorque(False)) == ("nothing missing", False)
+
+
+def test_tables_that_show_nothing_are_refused_and_doubts_are_told() -> None:
+    motions = moved(robot(), 7, runs=1)
+    with pytest.raises(InputError, match="no joint that moves"):
+        check_motions(robot(), dataclasses.replace(motions, q=np.zeros_like(motions.q)))
+    with pytest.raises(InputError, match="Is the channel recorded"):
+        check_motions(robot(), dataclasses.replace(motions, effort=np.ones_like(motions.effort)))
+    with pytest.raises(InputError, match="gain_nm_per_a"):
+        check_motions(robot(), dataclasses.replace(motions, kind="current"))
+    one_way = motions.q.copy()
+    one_way[:, 0] = np.linspace(0, 3, len(one_way))
+    kinds = {notice.kind for notice in check_motions(robot(), dataclasses.replace(motions, q=one_way))}
+    assert "one way only" in kinds
+    assert json.dumps(sorted(kinds))

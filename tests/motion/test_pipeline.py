@@ -1,0 +1,64 @@
+"""What is planted in a motion is found by name, place and size; what is not there is not named."""
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
+from tests.motion.moving import COULOMB, Plant, moved, robot
+
+
+def diagnosed(plant: Plant | None, seed: int = 1, **more: float) -> MotionDiagnosis:
+    arm = robot()
+    return diagnose_motion(arm, moved(arm, seed, plant, **more), MotionSettings(cutoff=10.0))
+
+
+def names(found: MotionDiagnosis) -> list[tuple[str, str]]:
+    return [(cause.effect, cause.location) for cause in found.verdict.effects]
+
+
+def test_an_arm_with_ordinary_friction_has_nothing_missing() -> None:
+    for seed in (1, 2):
+        found = diagnosed(None, seed)
+        assert found.verdict.answer == "nothing missing"
+        assert found.verdict.held_out.model < 0.02 < found.verdict.held_out.stated
+
+
+def test_friction_and_rotors_are_told_in_one_line_per_joint() -> None:
+    for told, coulomb in zip(diagnosed(None).verdict.background, COULOMB, strict=True):
+        dry = next(parameter for parameter in told.parameters if parameter.name == "coulomb")
+        low, high = dry.interval
+        assert low - 0.02 * coulomb < coulomb < high + 0.02 * coulomb
+        assert [parameter.name for parameter in told.parameters] == ["coulomb", "viscous", "inertia"]
+
+
+def test_friction_that_grows_with_load_is_found_at_its_joint() -> None:
+    def plant(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+        extra = np.zeros_like(q)
+        extra[:, 1] = 0.08 * np.abs(rigid[:, 1]) * np.sign(dq[:, 1])
+        return extra
+
+    found = diagnosed(plant)
+    assert names(found) == [("load_friction", "joint 2")]
+    cause = found.verdict.effects[0]
+    low, high = cause.parameters[0].interval
+    assert low - 0.004 < 0.08 < high + 0.004
+    assert cause.consistent
+    assert found.verdict.held_out.model < found.verdict.held_out.background
+
+
+def test_a_payload_that_nobody_stated_is_weighed() -> None:
+    arm = robot()
+    heavier = robot(tool_load={"mass_kg": 1.5, "com_mm": [0, 0, 0]})
+    found = diagnose_motion(arm, moved(heavier, 3), MotionSettings(cutoff=10.0))
+    assert names(found)[0] == ("payload_error", "payload")
+    low, high = found.verdict.effects[0].parameters[0].interval
+    assert low - 0.05 < 1.5 < high + 0.05
+
+
+def test_a_run_that_is_held_out_takes_no_part() -> None:
+    arm = robot()
+    motions = moved(arm, 4)
+    found = diagnose_motion(arm, motions, MotionSettings(cutoff=10.0, held_out=("path 2",)))
+    assert found.verdict.runs == ("path 1",)
+    assert found.verdict.held_out.what == "runs path 2"
+    assert found.test is not None

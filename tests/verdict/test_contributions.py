@@ -1,0 +1,74 @@
+"""What curing one cause alone leaves is what remains when it is cured, as worded, in the world that conceals it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.optimize import least_squares
+from scipy.spatial.transform import Rotation
+
+from armscope.diagnosis import Settings, diagnose
+from armscope.physics.scene import Scene
+from armscope.robot import chain as forward_frames
+from armscope.verdict.contributions import contributions, rms
+from tests.physics.test_cure import World, world_with
+from tests.world.scenes import drawn, scene_of
+
+QUICK = Settings(resamples=0, cross_validation=False)
+
+
+@pytest.fixture(scope="module")
+def world() -> World:
+    """An offset, a joint that gives way, and a link of another shape, each half a millimetre at the tool."""
+    scene, _ = scene_of("six-axis", count=60)
+    others = [drawn(scene, "joint_compliance", "joint 2"), drawn(scene, "link_geometry", "link 3")]
+    return world_with("joint_offset", "joint 3", *others)
+
+
+@pytest.fixture(scope="module")
+def verdict(world):
+    noisy = world.table()
+    noisy.positions[:] += np.random.default_rng(1).normal(0, 1e-5, noisy.positions.shape)
+    return diagnose(world.arm, noisy, QUICK)
+
+
+def missed(world: World, readings: np.ndarray) -> float:
+    """RMS per axis, mm, of readings against where the nominal arm would be, base and tool fitted by least squares."""
+    frames = forward_frames(world.arm, world.session.commanded)
+
+    def errors(free: np.ndarray) -> np.ndarray:
+        turn, shift, tool = Rotation.from_rotvec(free[:3]), free[3:6], free[6:]
+        return (readings - turn.apply(frames.tool + frames.tool_rotation @ tool) - shift).ravel()
+
+    return 1e3 * float(np.sqrt(np.mean(least_squares(errors, np.zeros(9), x_scale="jac").fun ** 2)))
+
+
+def test_the_parts_add_up_to_what_was_measured(verdict) -> None:
+    worth = contributions(verdict)
+    assert rms(worth.before) == pytest.approx(verdict.residual_before_mm, rel=1e-2)
+    assert rms(worth.left) == pytest.approx(verdict.residual_after_mm, rel=0.1)
+    for cause in worth.causes:
+        assert rms(cause.moved) == pytest.approx(cause.effects[0].rms_at_tool_mm, rel=0.02)
+    assert worth.cured(range(len(worth.causes))) < 0.1 * rms(worth.before)
+
+
+def test_curing_one_cause_alone_leaves_what_was_predicted(world: World, verdict) -> None:
+    worth, tried = contributions(verdict), []
+    table = world.table()
+    assert missed(world, table.positions) == pytest.approx(rms(worth.before), rel=2e-2)
+    for number, cause in enumerate(worth.causes):
+        (part,) = cause.parts
+        cure = part.placed.effect.cure
+        if cure.commanded is not None:
+            commanded = cure.commanded(Scene(world.arm, table), part)
+            left = missed(world, world.readings(commanded))
+            assert left == pytest.approx(worth.cured([number]), rel=0.05, abs=2e-3), cause.name
+            tried.append(cause.name)
+    assert len(tried) >= 2
+
+
+def test_bad_shots_take_no_part(verdict) -> None:
+    weight = verdict.residuals.weight.copy()
+    weight[[3, 7]] = 0.1
+    shot = replace(verdict, residuals=replace(verdict.residuals, weight=weight))
+    assert {3, 7}.isdisjoint(contributions(shot).rows.tolist())

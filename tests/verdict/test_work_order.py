@@ -1,0 +1,78 @@
+"""A work order done to the letter must leave what it says: its numbers are read from its words and put to work."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from armscope.fitting.registration import fit_frames
+from armscope.physics.registry import EFFECTS
+from armscope.report.pages.diagnosis import write_report
+from armscope.robot.arm import build_arm
+from armscope.verdict.contributions import contributions
+from armscope.verdict.schema import Parameter
+from armscope.verdict.work_order import CHANGES, angle, corrected_rows, tasks, zero_offsets
+from tests.physics.test_cure import World
+from tests.report import verdicts
+from tests.verdict.test_contributions import missed, verdict, world  # noqa: F401  (fixtures)
+
+
+def test_every_effect_has_a_change() -> None:
+    assert set(CHANGES) == {effect.name for effect in EFFECTS}
+
+
+def test_an_angle_has_its_sign_in_degrees_and_in_mrad() -> None:
+    assert angle(-1e-3) == "−0.0573° (−1.000 mrad)"
+    assert angle(0.0) == "0.0000° (0.000 mrad)"
+
+
+def degrees(words: str) -> list[float]:
+    return [float(number.replace("−", "-")) for number in re.findall(r"([+−][0-9.]+)°", words)]
+
+
+def test_a_zero_set_as_worded_takes_its_error_away(world: World, verdict) -> None:  # noqa: F811
+    worth = contributions(verdict)
+    (task,) = [task for task in tasks(verdict, worth) if task.change == "mastering"]
+    assert task.place == "joint 3"
+    (stands_at,) = degrees(task.instruction)
+    # a controller that shows 0 there will show what the joint stands at: the same command then turns it less
+    commanded = world.session.commanded.copy()
+    commanded[:, 2] -= np.radians(stands_at)
+    left = missed(world, world.readings(commanded))
+    assert left == pytest.approx(task.alone_mm, rel=0.05, abs=2e-3)
+    named = zero_offsets(verdict).set_index("joint")["actual_minus_commanded_deg"]
+    assert named["joint 3"] == pytest.approx(stands_at, abs=1e-4)
+
+
+def test_a_corrected_row_in_the_controllers_model_explains_what_is_predicted(world: World, verdict) -> None:  # noqa: F811
+    rows, worth = corrected_rows(verdict), contributions(verdict)
+    assert rows is not None
+    (task,) = [task for task in tasks(verdict, worth) if task.change == "D-H row"]
+    content = world.arm.description.model_dump()
+    for stated, row in zip(content["dh"]["joints"], rows.to_dict("records"), strict=True):
+        for name in ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg"):
+            assert row[f"stated_{name}"] == stated[name]
+            stated[name] = row[f"corrected_{name}"]
+    corrected = build_arm(type(world.arm.description).model_validate(content))
+    table = world.table()
+    fitted = fit_frames(corrected, table)
+    error = fitted.to_base(table.positions, table.run) - fitted.posture(fitted.scene(table)).tool
+    assert 1e3 * np.sqrt(np.mean(error**2)) == pytest.approx(task.alone_mm, rel=0.05, abs=2e-3)
+
+
+def test_expectations_fall_from_task_to_task_and_stand_on_the_page(verdict, tmp_path: Path) -> None:  # noqa: F811
+    done = tasks(verdict, contributions(verdict))
+    then = [task.then_mm for task in done]
+    assert then[0] == pytest.approx(done[0].alone_mm)
+    assert then[-1] < 0.1 * verdict.residual_before_mm
+    page = write_report(verdict, tmp_path).with_name("work-order.html").read_text()
+    assert all(task.confirm in page for task in done)
+    assert all(f"{task.alone_mm:.3g}" in page for task in done)
+
+
+def test_a_gear_that_turns_too_far_has_fewer_motor_turns_per_joint_turn() -> None:
+    ratio = verdicts.found("gear_ratio", "joint 2", Parameter("ratio", "rad/rad", 2e-3, 1e-5))
+    case = verdicts.case(effects=(ratio,))
+    (task,) = tasks(case.verdict, contributions(case.verdict))
+    assert "0.998004" in task.instruction
