@@ -20,6 +20,7 @@ include: "workflow/rules/sweep.smk"
 include: "workflow/rules/proof.smk"
 include: "workflow/rules/proof_real.smk"
 include: "workflow/rules/motion_proof.smk"
+include: "workflow/rules/bench.smk"
 include: "workflow/rules/compensation.smk"
 include: "workflow/rules/poses.smk"
 include: "workflow/rules/readme.smk"
@@ -29,6 +30,7 @@ include: "workflow/rules/fleet.smk"
 # what takes less time than its own submission to a cluster, or needs the network or the checkout itself
 localrules:
     all,
+    bench,
     fetch_raw,
     proof_real_seed,
     proof_seed,

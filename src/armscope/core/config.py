@@ -204,6 +204,8 @@ class Config(Strict):
     poses: PoseStudy
     proof: Proof = Proof()
     proof_real: ProofReal = ProofReal()
+    bench_dir: str = Field("../shared/bench", description="developers' cases; skipped where they are not there")
+    bench_parts: Count = Field(8, description="jobs that the bench's cases are diagnosed in")
     proof_seed: Annotated[int, Field(ge=0)] | None = Field(
         None, description="from which half of the proof's worlds are drawn; null: drawn when the proof runs"
     )
