@@ -74,9 +74,7 @@ def cluster(home: Path) -> Iterator[None]:
     where = {**ENVIRONMENT, "PATH": f"{ENVIRONMENT['PATH']}:/usr/sbin"}
     started = []
     if subprocess.run(["munge", "-n"], capture_output=True, check=False).returncode:
-        subprocess.run(
-            ["runuser", "-u", "munge", "--", "/usr/sbin/munged", f"--pid-file={home}/munged.pid", "--force"], check=True
-        )
+        subprocess.run(["runuser", "-u", "munge", "--", "/usr/sbin/munged"], check=True)
         started.append("munged")
     try:
         for daemon in ("slurmctld", "slurmd"):
@@ -87,7 +85,8 @@ def cluster(home: Path) -> Iterator[None]:
     finally:
         for daemon in reversed(started):
             with contextlib.suppress(OSError, ValueError):
-                os.kill(int((home / f"{daemon}.pid").read_text()), 15)
+                file = Path("/run/munge/munged.pid") if daemon == "munged" else home / f"{daemon}.pid"
+                os.kill(int(file.read_text()), 15)
         del ENVIRONMENT["SLURM_CONF"]
 
 

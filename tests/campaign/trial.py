@@ -75,7 +75,8 @@ def commands(home: Path) -> dict[str, Callable[[Path], list[str]]]:
 
 
 def run(command: list[str], **options: object) -> subprocess.CompletedProcess[str]:
-    """Run to the end; what it printed is kept."""
+    """Run to the end; what it printed is kept. What does not end in an hour raises."""
+    options.setdefault("timeout", 3600)
     return subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, check=False, **options)  # type: ignore[call-overload, no-any-return]
 
 

@@ -66,6 +66,8 @@ def test_decimal_commas_and_the_modified_convention():
         ("1 2 3 4\n1 2", "line 2"),
         ("a alpha d\n1 two 3", "line 2: found 'two'"),
         ("a alpha q\n1 2 3", "line 1"),
+        ("a alpha d", "header alone"),
+        ("1e9 0 0", r"dh\.joints\[0\]\.a_mm"),
         ("a alpha theta\n1 2 3", "a, alpha and d are needed"),
     ],
 )

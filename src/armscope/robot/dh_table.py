@@ -7,8 +7,8 @@ import re
 from collections.abc import Sequence
 from typing import Literal
 
-from armscope.core.inputs import InputError
-from armscope.robot.description import DH, DHRow, RobotDescription
+from armscope.core.inputs import InputError, validate
+from armscope.robot.description import RobotDescription
 
 COLUMNS = {
     "theta_offset_deg": r"(theta|θ|offset|th)",
@@ -55,14 +55,17 @@ def parse_dh_table(text: str, name: str, convention: Convention = "standard") ->
     if not any(_number(cell) is not None for cell in header[1:]):
         names, units = _named(header, lines[0][0])
         lines = lines[1:]
+    if not lines:
+        raise InputError("D-H table", "", "a header alone", "rows of a, alpha, d, theta are needed")
     rows = [_row(line, number, names) for number, line in lines]
     if names is USUAL:
         source["dh columns"] = f"guessed: in the order a, alpha, d, theta ({len(rows[0])} numbers in a row)"
     length = units.get("length") or _guess_length(rows, source)
     angle = units.get("angle") or _guess_angle(rows, source)
     source["dh convention"] = "stated" if convention == "modified" else "guessed: standard; --modified says Craig's"
-    joints = tuple(DHRow.model_validate(_in_file_units(row, length, angle)) for row in rows)
-    return RobotDescription(name=name, dh=DH(convention=convention, joints=joints), source=source)
+    joints = [_in_file_units(row, length, angle) for row in rows]
+    content = {"name": name, "dh": {"convention": convention, "joints": joints}, "source": source}
+    return validate(RobotDescription, content, "D-H table")
 
 
 def _cells(line: str) -> list[str]:

@@ -10,7 +10,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from armscope.core.location import Location
 from armscope.core.types import Array
@@ -181,6 +180,8 @@ def _twisted(rotation: Array, origin: Array, twist: Array | None) -> tuple[Array
         return rotation, origin
     twist = np.asarray(twist, dtype=float)
     shifted = origin + (rotation @ twist[..., :3, None])[..., 0]
+    from scipy.spatial.transform import Rotation  # takes as long as all else that a wrong input needs
+
     return rotation @ Rotation.from_rotvec(twist[..., 3:]).as_matrix(), shifted
 
 

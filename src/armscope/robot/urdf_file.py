@@ -149,7 +149,7 @@ def _check_joint(path: str, joint: ET.Element) -> None:
         if words is None:
             continue
         numbers = _three_numbers(path, f"{place}, {tag} {key}", words)
-        if key == "xyz" and np.abs(numbers).max() * 1e3 > LONGEST_MM:
+        if key == "xyz" and np.abs(numbers).max() > LONGEST_MM / 1e3:
             rule = f"no joint stands further than {LONGEST_MM / 1e3:g} m from the one before"
             raise InputError(path, f"{place}, {tag} xyz", words, rule, "URDFs are in metres.")
         if tag == "axis" and kind not in ("fixed", "floating") and not numbers.any():

@@ -16,7 +16,16 @@ from armscope.physics.transmission import MESH_COUNTS, mesh
 
 
 def mesh_lines(context: ScanContext, given: Sequence[Hypothesis], most: int = MESH_COUNTS[-1]) -> Iterator[Placed]:
-    """The most promising mesh counts of each joint up to ``most``, given each of some hypotheses."""
+    """The most promising mesh counts of each joint, given each of some hypotheses.
+
+    Args:
+        context: the rows where the problem was linearised.
+        given: hypotheses beside which a line would stand.
+        most: periods per turn up to which are looked at.
+
+    Returns:
+        Lines that promise enough to go on to compete.
+    """
     count = len(context.recordings)
     rows = np.unique(np.linspace(0, count - 1, min(count, SCANS.scanned_rows)).astype(np.intp))
     columns, weights = columns_of(given), context.weights.take(rows, len(rows) / count)
