@@ -275,8 +275,10 @@ def test_a_full_disk_is_one_line_with_an_exit_code_of_its_own():
 
 @pytest.fixture
 def small_disk(tmp_path):
-    """A disk of 1 MB."""
-    made = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "none", tmp_path], capture_output=True, check=False)
+    """A disk that holds a verdict, and no page beside it."""
+    made = subprocess.run(
+        ["mount", "-t", "tmpfs", "-o", "size=256k", "none", tmp_path], capture_output=True, check=False
+    )
     if made.returncode:
         pytest.skip("mounting a small disk needs rights that this user does not have")
     yield tmp_path

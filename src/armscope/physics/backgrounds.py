@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from armscope.physics import elastic, geometric, transmission
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.effect import Placed
@@ -25,8 +27,10 @@ MASSES = "mass"
 
 def backgrounds(arm: Arm, recordings: Recordings) -> dict[str, list[Placed]]:
     """By family: D-H constants of all links, give of all joints and bearings, the first waves per turn of all gears."""
-    give = [_sized(placed) for placed in elastic.JOINT_COMPLIANCE.place(arm, recordings) if placed.variant == ""]
-    give += [_sized(placed) for placed in elastic.BEARING_COMPLIANCE.place(arm, recordings)]
+    drives = [placed for placed in elastic.JOINT_COMPLIANCE.place(arm, recordings) if placed.variant == ""]
+    springs = [*drives, *elastic.BEARING_COMPLIANCE.place(arm, recordings)]
+    # what bears no load has no size, and shows nothing
+    give = [_sized(placed) for placed in springs if all(np.isfinite(term.plausible) for term in placed.terms)]
     constant = [replace(placed, prior_scale=(TOLERANCE,) * len(placed.terms)) for placed in geometric.background(arm)]
     return {GEOMETRIC: constant, "elastic": give, "transmission": gear_waves(recordings, PLAUSIBLE.waves)}
 

@@ -71,7 +71,7 @@ def draw(arm: Arm, rows: Recordings, rng: np.random.Generator) -> Drawn:
     positive = [
         (gaps, GAP),
         (elastic.LINK_BENDING.place(arm, rows), BEND),
-        (elastic.BASE_COMPLIANCE.place(arm, rows), BASE),
+        ([base for base in elastic.BASE_COMPLIANCE.place(arm, rows) if not base.variant], BASE),
     ]
     rest += [Part(placed, np.array([rng.uniform(0, size)])) for places, size in positive for placed in places]
     return Drawn(drives, bearings, tuple(rest))
