@@ -21,7 +21,7 @@ import numpy as np
 import pandas as pd
 from scipy.stats import binomtest
 
-from armscope.core.files import read_json, write_json, write_text
+from armscope.core.files import copy_file, read_json, write_json, write_text
 from armscope.core.inputs import InputError
 
 ROOT = Path(__file__).parents[1]
@@ -46,7 +46,7 @@ def run(bench: Path, folder: Path, cases: Iterable[str]) -> None:
 
     Args:
         bench: its folder.
-        folder: where a folder per case goes; a case that fails leaves none of its files and counts as not answered.
+        folder: where a folder per case goes; a case that fails leaves no verdict and counts as not answered.
         cases: their ids.
     """
     for case in cases:
@@ -54,14 +54,17 @@ def run(bench: Path, folder: Path, cases: Iterable[str]) -> None:
         made.mkdir(parents=True, exist_ok=True)
         poses = made / "poses.csv"
         pd.read_csv(seen / "test.csv", dtype=str).drop(columns=list(MEASURED)).to_csv(poses, index=False)
-        _armscope("diagnose", seen / "recordings.csv", "--robot", seen / "robot.yaml", "-o", made)
-        _armscope("predict", made / "model.yaml", poses, "-o", made / "predicted.csv")
+        answer = made / "diagnosis"  # it holds a predicted.csv of its own, of the recorded rows
+        if _armscope("diagnose", seen / "recordings.csv", "--robot", seen / "robot.yaml", "-o", answer):
+            copy_file(answer / "verdict.json", made / "verdict.json")
+            _armscope("predict", answer / "model.yaml", poses, "-o", made / "predicted.csv")
 
 
-def _armscope(*arguments: str | Path) -> None:
+def _armscope(*arguments: str | Path) -> bool:
     ended = subprocess.run([sys.executable, "-m", "armscope", *map(str, arguments)], check=False)
     if ended.returncode:
         print(f"failed: armscope {' '.join(map(str, arguments))}", file=sys.stderr)
+    return ended.returncode == 0
 
 
 def score(bench: Path, folders: Sequence[Path]) -> dict[str, Any]:

@@ -24,6 +24,27 @@ def told():
     return bench.figures({"cases": cases}, "abc1234")
 
 
+def test_a_case_is_diagnosed_and_predicted_without_what_was_measured(tmp_path, monkeypatch):
+    seen, asked = tmp_path / "bench" / "cases" / "d001", []
+    seen.mkdir(parents=True)
+    (seen / "test.csv").write_text("q1_rad,x_mm,y_mm,z_mm,run\n0.10,1,2,3,a\n")
+
+    def called(command, done, *arguments):
+        asked.append((command, *arguments))
+        if command == "diagnose" and done:
+            (tmp_path / "out" / "d001" / "diagnosis").mkdir()
+            (tmp_path / "out" / "d001" / "diagnosis" / "verdict.json").write_text("{}")
+        return done
+
+    for done, commands in ((False, ["diagnose"]), (True, ["diagnose", "predict"])):
+        asked.clear()
+        monkeypatch.setattr(bench, "_armscope", lambda command, *rest, done=done: called(command, done, *rest))
+        bench.run(tmp_path / "bench", tmp_path / "out", ["d001"])
+        assert [each[0] for each in asked] == commands
+        assert (tmp_path / "out" / "d001" / "verdict.json").is_file() == done
+    assert (tmp_path / "out" / "d001" / "poses.csv").read_text() == "q1_rad,run\n0.10,a\n"
+
+
 def test_figures_are_counted_by_family(told):
     assert told["families"]["realistic"] == {
         "cases": 2, "right": 1, "false_names": 4, "held_out_ratio": pytest.approx(1.3), "intervals": 4, "covered": 2,

@@ -11,6 +11,7 @@ rule bench_run:
     output:
         directory(f"{RESULTS}/bench/runs/{{bench_batch}}"),
     params:
+        bench=BENCH,
         cases=lambda wildcards: BENCH_BATCHES[wildcards.bench_batch],
         code=code("armscope.cli.diagnosis:diagnose", "armscope.cli.diagnosis:predict"),
     log:
@@ -18,7 +19,7 @@ rule bench_run:
     benchmark:
         f"{RESULTS}/logs/benchmarks/bench/{{bench_batch}}.tsv"
     shell:
-        "python -m tools.bench run {BENCH} -o {output} {params.cases} > {log} 2>&1"
+        "python -m tools.bench run {params.bench} -o {output} {params.cases} > {log} 2>&1"
 
 
 rule bench:
@@ -28,14 +29,15 @@ rule bench:
     output:
         [f"{RESULTS}/bench/figures.json", f"{RESULTS}/bench/table.md"] if BENCH_CASES else [],
     params:
-        folder=f"{RESULTS}/bench",
+        bench=BENCH,
+        folder=subpath(output[0], parent=True) if BENCH_CASES else "",
     log:
         f"{RESULTS}/logs/bench/score.log",
     benchmark:
         f"{RESULTS}/logs/benchmarks/bench/score.tsv"
     shell:
         (
-            "python -m tools.bench score {BENCH} -o {params.folder} {input} > {log} 2>&1"
+            "python -m tools.bench score {params.bench} -o {params.folder} {input} > {log} 2>&1"
             if BENCH_CASES
             else f"echo 'skipped: the bench, because {BENCH} is not there' | tee {{log}}"
         )

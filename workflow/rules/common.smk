@@ -140,3 +140,28 @@ def proof_real_batches(pattern):
 wildcard_constraints:
     study=r"paper|real/\w+/paper",
     set=r"\w+",
+
+
+FLEET = f"{RESULTS}/fleet/{Path(CONFIG.fleet).stem}"
+ARMS_PER_JOB = 10  # a job starts once
+
+
+def members():
+    """The arms, read when they are asked for: other targets start without."""
+    from armscope.fleet.members import read_fleet
+
+    try:
+        return read_fleet(Path(CONFIG.fleet))
+    except InputError as error:
+        raise WorkflowError(str(error)) from None
+
+
+def fleet_parts():
+    """In how many jobs they are diagnosed."""
+    return -(-len(members()) // ARMS_PER_JOB)
+
+
+def files_of_part(wildcards):
+    """What the diagnoses of one job read."""
+    some = members()[int(wildcards.part)::fleet_parts()]
+    return sorted({str(file) for member in some for file in (member.robot, member.recordings)})

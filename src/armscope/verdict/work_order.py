@@ -14,7 +14,7 @@ from armscope.core.types import Array
 from armscope.physics.scene import Part
 from armscope.verdict.contributions import Contributions, Repair, rms
 from armscope.verdict.schema import INTERVAL, Cause, Diagnosis, FoundEffect
-from armscope.verdict.sentences import cure_of_family, phrase
+from armscope.verdict.sentences import GEOMETRIC, cure_of_family, phrase
 from armscope.verdict.wording import capitalised, implausible, read_parameter
 
 CHANGES = {
@@ -31,7 +31,7 @@ CHANGES = {
     "joint_coupling": ("coupling table", "Put minus the coefficient into the coupling table for {location}."),
     "joint_compliance": (
         "elastic model",
-        "Add to the command what gravity takes: {opposite} ({size}); or let the controller's elastic model do so.",
+        "Add to the command what gravity takes: {opposite}{size}; or let the controller's elastic model do so.",
     ),
     "bearing_compliance": ("bearing", "Preload or replace the bearing of {location}."),
     "base_compliance": ("mounting", "Tighten and stiffen the mounting of the base."),
@@ -89,6 +89,7 @@ def tasks(verdict: Diagnosis, worth: Contributions) -> list[Task]:
         for effect in cause.effects[:1]
     ]
     everywhere = [cause for cause in verdict.causes if cause.everywhere and verdict.background.share > WORTH_ALL]
+    everywhere.sort(key=lambda cause: cause.family != GEOMETRIC)  # what a calibration takes out comes first
     return [*single, *(_calibration(worth, len(single) + 1, cause) for cause in everywhere[:1])]
 
 
@@ -101,7 +102,7 @@ def _calibration(worth: Contributions, number: int, cause: Cause) -> Task:
         place="whole arm",
         change="calibration",
         motion="",
-        instruction=cure_of_family(cause.family, (), True),
+        instruction=cure_of_family(cause.family, (), True).replace("`", ""),
         cure="",
         alone_mm=rms(worth.before - worth.everywhere),
         then_mm=rms(worth.before - worth.everywhere - named),
@@ -111,14 +112,14 @@ def _calibration(worth: Contributions, number: int, cause: Cause) -> Task:
 
 def _task(verdict: Diagnosis, worth: Contributions, number: int, cause: Repair, effect: FoundEffect) -> Task:
     change, how = CHANGES.get(effect.effect, ("", ""))
-    words = {"location": effect.location, "zero": "–", "ratio": "–", "row": "–", "size": "size not known"}
+    words = {"location": effect.location, "zero": "–", "ratio": "–", "row": "–", "size": ""}
     words["opposite"] = motion(verdict, cause.parts, -1) or "its opposite"
     told = {p.name: p for p in effect.parameters if not implausible(p, effect)}
     if "offset" in told:
         words["zero"] = f"where the controller shows 0°, the joint stands at {angle(told['offset'].value)}"
     if "compliance" in told:
         size = read_parameter(told["compliance"], effect.effect)
-        words["size"] = f"{size.value} × load"
+        words["size"] = f" ({size.value} × load)"
     if "ratio" in told:
         words["ratio"] = f"{1 / (1 + told['ratio'].value):.6f}"
     if effect.effect == "link_geometry":
@@ -130,7 +131,7 @@ def _task(verdict: Diagnosis, worth: Contributions, number: int, cause: Repair, 
         change=change,
         motion=motion(verdict, cause.parts),
         instruction=how.format(**words),
-        cure=effect.cure,
+        cure=effect.cure.replace("`", ""),
         alone_mm=worth.cured([number - 1]),
         then_mm=worth.cured(range(number)),
         confirm=effect.confirm,

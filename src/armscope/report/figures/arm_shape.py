@@ -13,7 +13,7 @@ from armscope.core.types import Array
 from armscope.robot import Arm, Chain, chain
 from armscope.robot.centre_line import centre_lines
 
-MOST_POSES = 60
+MOST_POSES = 30
 """So many recorded poses, spread evenly over the rows, are looked at when the pose to draw is chosen."""
 AZIMUTHS = np.radians(np.arange(0, 360, 15))
 ELEVATION = np.radians(18)
@@ -186,7 +186,8 @@ def _places_on_axis(origin: Array, axis: Array, lines: list[Array], size: float)
     for line in lines:
         for start, end in pairwise(line):
             length = np.linalg.norm(end - start)
-            if length < 0.02 * size or np.linalg.norm(np.cross(end - start, axis)) > 1e-6 * length:
+            across = end - start - (end - start) @ axis * axis
+            if length < 0.02 * size or np.linalg.norm(across) > 1e-6 * length:
                 continue
             if min(np.linalg.norm(start - origin), np.linalg.norm(end - origin)) < 1e-6 * size:
                 places.append((start + end) / 2)

@@ -8,6 +8,7 @@ from typing import Any
 from armscope.report.figures.effect_curve import effect_curves, worth_drawing
 from armscope.report.sections.effect_cards import Card, card
 from armscope.report.subject import Section, Subject
+from armscope.verdict.contributions import rms
 from armscope.verdict.schema import Diagnosis, FoundEffect, NextPoses
 from armscope.verdict.wording import main_and_minor, millimetres, percent
 
@@ -37,7 +38,7 @@ def findings(verdict: Diagnosis) -> dict[str, Any]:
 def _context(subject: Subject) -> dict[str, Any]:
     alone = {id(cause.effects[0]): subject.worth.cured([n]) for n, cause in enumerate(subject.worth.causes)}
     main, _ = main_and_minor(subject.verdict.effects)
-    before = millimetres(subject.verdict.residual_before_mm)
+    before = millimetres(rms(subject.worth.before))
     worth = [f"{before} → {millimetres(alone[id(effect)])}" if id(effect) in alone else "" for effect in main]
     return {**findings(subject.verdict), "worth": worth}
 
