@@ -168,10 +168,13 @@ class _Problem:
             return _Scored(0.0, 0, 1.0, 0.0)
         along = (vectors[:, seen].T @ (columns.T @ left)) / np.sqrt(values[seen])
         gain, q = float(along @ along), int(seen.sum())
+        total = variance * free
         # the variance without what the change explains: of the model in which it is free
-        without = max(variance * free - gain, 1e-12 * variance * free) / (free - q)
-        f = gain / q / without
-        return _Scored(f, q, float(fdtrc(q, free - q, f)), gain / (2 * without) - q * np.log(max(free, 2.0)) / 2)
+        without = max(total - gain, 1e-12 * total)
+        f = (gain / q) / (without / (free - q))
+        # the noise is as unknown as the change: profile likelihood, and what q numbers cost (Schwarz 1978)
+        nats = free / 2 * np.log(total / without) - q / 2 * np.log(max(free, 2.0))
+        return _Scored(f, q, float(fdtrc(q, free - q, f)), float(nats))
 
     def variance(self, taken: Sequence[_Possible]) -> float:
         """Of what is left, per axis, mm^2."""
