@@ -1,5 +1,6 @@
 """What changed is named with an interval that holds the truth; where nothing did, nothing is, at the stated rate."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -64,6 +65,18 @@ def test_a_joint_that_became_softer_is_named_or_stands_among_the_alternatives():
     (change,) = found.changes
     assert change.location == "joint 2"
     assert "joint compliance at joint 2" in (change.title, *change.alternatives)
+
+
+def test_a_wrist_that_was_held_hides_part_of_the_tool_and_no_more():
+    """Its tool and base can't be told apart, and a change elsewhere is still found."""
+    rng, tables = np.random.default_rng(3), {}
+    for name, shift in (("before", 0.0), ("after", 6e-4)):
+        table = session(40 if shift else 41)
+        table.motor_angles[:, 3:] = 0.2
+        points = chain(ARM, table.motor_angles + OWN + [0, shift, 0, 0, 0, 0]).tool
+        tables[name] = replace(table, positions=points + rng.normal(0, 3e-5, points.shape))
+    (change,) = compare(ARM, tables).changes
+    assert "joint offset at joint 2" in (change.title, *change.alternatives)
 
 
 def test_of_a_series_the_recording_from_which_on_it_changed():

@@ -36,10 +36,12 @@ LEVEL = 0.05
 PRIOR_MM = 3.0
 """Of a shared effect at the tool: an arm's own errors are of this size (ISO 9283 accuracies of uncalibrated arms)."""
 MOST_TERMS = 12
-"""Of an effect whose change is tested: free curves have more, and would stand for any other."""
+"""Of an effect whose change is tested; free curves are left out: they would stand for any other."""
 MOST_CHANGES = 8
-UNSEEN = 1e-6
+UNSEEN = 1e-3
 """Share of a column's square that must be left beside what is shared for its change to be seen at all."""
+HELD = 1e-9
+"""Penalty on frames and changes of unit length: too little for any that the rows tell."""
 AS_GOOD_NATS = 3.0
 """20 to 1: causes closer than this are not told apart."""
 
@@ -80,16 +82,17 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
     possible = problem.possible_changes(_masks(len(recordings), of_arms))
     taken: list[_Possible] = []
     found: list[tuple[_Possible, _Scored, tuple[str, ...]]] = []
-    joint = 1.0
+    joint, tried = 1.0, len(possible)
     while possible and len(taken) < MOST_CHANGES:
         scores = problem.scores(possible, taken)
-        best = min(range(len(possible)), key=lambda each: scores[each].p)
-        p = min(1.0, scores[best].p * len(possible))
+        p = min(1.0, min(score.p for score in scores) * tried)
         joint = p if not taken else joint
         if p > LEVEL:
             break
+        sure = [each for each, score in enumerate(scores) if score.p * tried <= LEVEL]
+        best = max(sure, key=lambda each: scores[each].nats)
         found.append((possible[best], scores[best], _as_good(possible, scores, best)))
-        taken.append(possible[best])
+        taken.append(possible.pop(best))
     names = tuple(recordings)
     return Comparison(
         arm=arm.name,
@@ -98,7 +101,7 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         noise_mm=float(np.sqrt(problem.variance(taken))),
         p_nothing_changed=joint,
         level=LEVEL,
-        tried=len(possible),
+        tried=tried,
         changes=tuple(problem.change(each, score.p, others, taken, names) for each, score, others in found),
     )
 
@@ -125,7 +128,7 @@ class _Problem:
         residual = point_residuals(model, table)
         weight = np.repeat(np.sqrt(robust.huber_weights(residual, np.ones(len(residual)), 0.0)), 3)
         placed = [each for each in library(arm, table) if belongs_to_the_arm(each)]
-        self.placed = [each for each in placed if len(each.terms) <= MOST_TERMS]
+        self.placed = [each for each in placed if len(each.terms) <= MOST_TERMS and each.family != "unknown"]
         frames = [term for each in free_frames(table, False) for term in each.terms]
         terms = [term for each in self.placed for term in each.terms]
         columns = weight[:, None] * _columns(model, table, [*frames, *terms])
@@ -165,10 +168,13 @@ class _Problem:
             return _Scored(0.0, 0, 1.0, 0.0)
         along = (vectors[:, seen].T @ (columns.T @ left)) / np.sqrt(values[seen])
         gain, q = float(along @ along), int(seen.sum())
+        total = variance * free
         # the variance without what the change explains: of the model in which it is free
-        without = max(variance * free - gain, 1e-12 * variance * free) / (free - q)
-        f = gain / q / without
-        return _Scored(f, q, float(fdtrc(q, free - q, f)), gain / (2 * without) - q * np.log(max(free, 2.0)) / 2)
+        without = max(total - gain, 1e-12 * total)
+        f = (gain / q) / (without / (free - q))
+        # the noise is as unknown as the change: profile likelihood, and what q numbers cost (Schwarz 1978)
+        nats = free / 2 * np.log(total / without) - q / 2 * np.log(max(free, 2.0))
+        return _Scored(f, q, float(fdtrc(q, free - q, f)), float(nats))
 
     def variance(self, taken: Sequence[_Possible]) -> float:
         """Of what is left, per axis, mm^2."""
@@ -233,9 +239,10 @@ class _Problem:
         if without is not None:
             kept = kept.copy()
             kept[self._start[without] : self._start[without + 1]] = False
-        free = np.hstack([self.frames, *(each.columns / np.maximum(_length(each.columns), 1e-30) for each in taken)])
+        free = np.hstack([self.frames, *(each.columns for each in taken)])
+        free = free / np.maximum(_length(free), 1e-30)
         shared = self.effects[:, kept] * self.scale[kept]
-        small = 1e-9 * np.sum(free**2, axis=0)
+        small = np.full(free.shape[1], HELD)  # a wrist that was held leaves part of its tool to the base
         return np.hstack([free, shared]), np.concatenate([small, np.full(shared.shape[1], self._noise)])
 
     def _left(self, base: Array, penalty: Array) -> tuple[float, float]:
