@@ -26,6 +26,7 @@ from armscope.fitting.transfer import belongs_to_the_arm
 from armscope.measurement import robust
 from armscope.physics.effect import Placed, Term
 from armscope.physics.frames import free_frames
+from armscope.physics.model import FittedModel
 from armscope.physics.registry import library
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -267,10 +268,10 @@ def _length(columns: Array) -> Array:
     return np.asarray(np.sqrt(np.sum(columns**2, axis=0)))
 
 
-def _columns(model: object, table: Recordings, terms: Sequence[Term]) -> Array:
+def _columns(model: FittedModel, table: Recordings, terms: Sequence[Term]) -> Array:
     """(3N, p) columns in the order of the rows."""
     found = np.empty((len(table), 3, len(terms)))
-    for rows, posture in linearised(table).chunks(model):  # type: ignore[arg-type]
+    for rows, posture in linearised(table).chunks(model):
         found[rows] = point_columns(posture, terms).reshape(-1, 3, len(terms))
     return found.reshape(-1, len(terms))
 

@@ -25,7 +25,7 @@ from armscope.inference.problem import Problem, build_problem
 from armscope.measurement import robust
 from armscope.measurement.noise import Noise
 from armscope.measurement.row_weights import RowWeights
-from armscope.physics.backgrounds import FAMILIES, backgrounds
+from armscope.physics.backgrounds import ELASTIC, FAMILIES, backgrounds
 from armscope.physics.frames import free_frames
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
@@ -129,7 +129,7 @@ class _Valley:
 
 def _gives_along(made: Problem, hypothesis: Hypothesis) -> float:
     """Nats for what gives way along its load, not against it: gravity turned round turns all of it round."""
-    columns = made.space.families[FAMILIES.index("elastic")].columns
+    columns = made.space.families[FAMILIES.index(ELASTIC)].columns
     away = hypothesis.means(columns) / np.sqrt(hypothesis.variances(columns))
     return float(np.sum(np.log(2) + log_ndtr(away)))
 

@@ -59,17 +59,20 @@ def _promoted(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
     fitted: as large as they come, not held small by the background.
     """
     unnamed = list(_unnamed(problem, hypothesis))
+    left = _left_by_free_backgrounds(problem, hypothesis)
     drives = [number for number in unnamed if problem.space.candidates[number].kind == DRIVE]
     added = [
         number
         for number in unnamed
         if number not in drives
-        and _stands_out(problem, hypothesis, number, NAMING.stands_out_nats, NAMING.stands_out)
+        and _size(problem, hypothesis, number)
+        > NAMING.stands_out * (problem.mismatch if _is_free(problem, number) else left)
+        and _lost(problem, hypothesis, number) > NAMING.stands_out_nats
         and _beyond_family(problem, hypothesis, number) > NAMING.beyond_family
     ]
     if drives:
         free = _with_names(problem, hypothesis, drives, [problem.mismatch] * len(drives))
-        added += [d for d in drives if _stands_out(problem, free, d, GIVES_NATS, GIVES)]
+        added += [d for d in drives if _size(problem, free, d) > GIVES * left and _lost(problem, free, d) > GIVES_NATS]
     while True:
         sizes = [_size(problem, hypothesis, number) for number in added]
         promoted = _with_names(problem, hypothesis, added, sizes)
@@ -91,21 +94,16 @@ def _size(problem: Problem, hypothesis: Hypothesis, number: int) -> float:
     return float(np.linalg.norm(hypothesis.means(problem.space.candidates[number].columns)))
 
 
-def _stands_out(problem: Problem, hypothesis: Hypothesis, number: int, least: float, share: float) -> bool:
-    large = _size(problem, hypothesis, number) > share * _left_by_the_others(problem, hypothesis, number)
-    return large and _lost(problem, hypothesis, number) > least
-
-
-def _left_by_the_others(problem: Problem, hypothesis: Hypothesis, number: int) -> float:
-    """RMS, mm, that a candidate's size is measured by: all of it, or what the free backgrounds leave for the others.
-
-    What every arm has anyway (its geometry) is large; a spring or a gear must stand out of what a calibration leaves.
-    """
+def _is_free(problem: Problem, number: int) -> bool:
+    """Whether a background that does not pay for being there holds a candidate: what every arm has anyway."""
     columns = set(problem.space.candidates[number].columns)
-    free = [not family.is_priced for family in problem.space.families]
-    if any(columns <= set(f.columns) for f, is_free in zip(problem.space.families, free, strict=True) if is_free):
-        return problem.mismatch
-    background = tuple(s if is_free else 0 for s, is_free in zip(hypothesis.background, free, strict=True))
+    return any(columns <= set(family.columns) for family in problem.space.families if not family.is_priced)
+
+
+def _left_by_free_backgrounds(problem: Problem, hypothesis: Hypothesis) -> float:
+    """RMS, mm, of what a calibration of the geometry would leave: springs and gears are measured by it."""
+    families = zip(hypothesis.background, problem.space.families, strict=True)
+    background = tuple(0 if family.is_priced else size for size, family in families)
     return evaluate(problem, (), background, problem.mismatch).noise
 
 
@@ -172,15 +170,13 @@ def _straightened(problem: Problem, space: EffectSpace, hypothesis: Hypothesis) 
 def _with_main_shapes(edits: Edits, hypothesis: Hypothesis) -> Hypothesis:
     """With curves of a joint's own angle that are one line or wave for the most part told as that and a rest."""
     problem = edits.problem
-    free = [set(family.columns) for family in edits.space.families if not family.is_priced]
-    # what every arm has anyway gets its name by standing out there
-    ordinary = {n for n, c in enumerate(edits.space.candidates) if any(set(c.columns) <= columns for columns in free)}
     for curve in hypothesis.chosen:
         candidate = edits.candidate(curve.candidate)
         if not candidate.is_curve or not candidate.variant.startswith("angle"):
             continue
-        asked = _within(problem, candidate) - hypothesis.candidates - ordinary
-        shapes = {n: _main_shape(edits, hypothesis, curve, n) for n in asked}
+        # what every arm has anyway gets its name by standing out there
+        asked = [n for n in _within(problem, candidate) - hypothesis.candidates if not _is_free(problem, n)]
+        shapes = _shares_of_shapes(edits, hypothesis, curve, sorted(asked))
         shape = max(shapes, key=lambda n: shapes[n][0], default=None)
         if shape is None or shapes[shape][0] < NAMING.main_share:
             continue
@@ -189,24 +185,39 @@ def _with_main_shapes(edits: Edits, hypothesis: Hypothesis) -> Hypothesis:
     return hypothesis
 
 
-def _main_shape(edits: Edits, hypothesis: Hypothesis, curve: SelectedEffect, shape: int) -> tuple[float, float]:
-    """Share of a curve, of what only it explains, that one shape is; and the shape's RMS, mm.
+def _shares_of_shapes(
+    edits: Edits, hypothesis: Hypothesis, curve: SelectedEffect, shapes: Sequence[int]
+) -> dict[int, tuple[float, float]]:
+    """Share of a curve, of what only it explains, that each shape is; and the shape's RMS, mm.
 
-    A background of such shapes is left out: what it could explain is what is asked for.
+    Backgrounds of such shapes are left out: what they could explain is what is asked for.
     """
-    own, within = edits.candidate(curve.candidate).columns, edits.candidate(shape).columns
-    columns = np.union1d(own, within)
-    families = zip(hypothesis.background, edits.space.families, strict=True)
-    background = tuple(0 if set(family.columns) & set(within) else size for size, family in families)
-    without = edits.evaluated(edits.kept(hypothesis, [curve.candidate]), hypothesis, background)
-    M = condition_on(edits.problem, columns, without).own(edits.problem, np.arange(len(columns))[None])[0]
-    mean = np.zeros(len(columns))
-    mean[np.searchsorted(columns, own)] = hypothesis.means(own)
-    response = as_response(M, mean, edits.problem.n)
-    left = response.least_rss(np.searchsorted(columns, within))
-    main = max(response.yy - left, 0.0)
-    share = main / response.yy if response.yy > 0 else 0.0
-    return share, float(np.sqrt(main / response.n))
+    own = edits.candidate(curve.candidate).columns
+    kept, found = edits.kept(hypothesis, [curve.candidate]), {}
+    for background, members in _by_background_without(edits, hypothesis, shapes).items():
+        columns = np.unique(np.concatenate([own, *(edits.candidate(n).columns for n in members)]))
+        without = edits.evaluated(kept, hypothesis, background)
+        M = condition_on(edits.problem, columns, without).own(edits.problem, np.arange(len(columns))[None])[0]
+        mean = np.zeros(len(columns))
+        mean[np.searchsorted(columns, own)] = hypothesis.means(own)
+        response = as_response(M, mean, edits.problem.n)
+        for n in members:
+            left = response.least_rss(np.searchsorted(columns, edits.candidate(n).columns))
+            main = max(response.yy - left, 0.0)
+            found[n] = (main / response.yy if response.yy > 0 else 0.0, float(np.sqrt(main / response.n)))
+    return found
+
+
+def _by_background_without(
+    edits: Edits, hypothesis: Hypothesis, shapes: Sequence[int]
+) -> dict[tuple[int, ...], list[int]]:
+    """Shapes by what remains of a hypothesis's background without the families that hold any of their columns."""
+    families = [(size, set(f.columns)) for size, f in zip(hypothesis.background, edits.space.families, strict=True)]
+    groups: dict[tuple[int, ...], list[int]] = {}
+    for n in shapes:
+        columns = set(edits.candidate(n).columns)
+        groups.setdefault(tuple(0 if held & columns else size for size, held in families), []).append(n)
+    return groups
 
 
 def _line(problem: Problem, space: EffectSpace, hypothesis: Hypothesis, curve: int) -> tuple[float, float]:

@@ -29,7 +29,7 @@ from armscope.inference.problem import Problem, background_sizes, build_problem
 from armscope.inference.search import Search
 from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.noise import Growth, Noise
-from armscope.physics.backgrounds import FAMILIES, backgrounds, gear_waves
+from armscope.physics.backgrounds import FAMILIES, TRANSMISSION, backgrounds, gear_waves
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.drift import BASE_DRIFT, base_shifts_of_runs
 from armscope.physics.effect import Effect, Placed
@@ -131,7 +131,7 @@ class SelectionLoop:
     def _refine(self, of_a_sample: bool) -> None:
         """Finer forms of the curves and gears that were chosen; what they can't follow may be scatter."""
         fine = [refined(self.model.arm, self.recordings, self.space.placed[c]) for c in self.best.candidates]
-        gears = FAMILIES.index("transmission")
+        gears = FAMILIES.index(TRANSMISSION)
         if not self.best.background[gears] and not any(fine):
             return
         self.candidates = [*self.candidates, *[placed for placed in fine if placed is not None]]

@@ -185,26 +185,22 @@ def build_rows(
         pieces.append(_piece(layout, signals, how, model))
         done += len(signals.kept) * how.every
         progress("forming the model's columns", min(done / total, 1.0))
-    time, run, stretch, q, dq, torque, nominal, still = (
-        np.concatenate([piece[k] for piece in pieces]) for k in range(8)
-    )
-    motors = range(layout.arm.n_motors)
     return MotionRows(
         layout=layout,
-        time=time,
-        run=run,
-        stretch=stretch,
-        q=q,
-        dq=dq,
-        torque=torque,
-        nominal=nominal,
-        still=still.astype(np.bool_),
-        columns=tuple(np.concatenate([piece[8][j] for piece in pieces]) for j in motors),
-        at=pieces[0][9],
+        time=np.concatenate([piece.time for piece in pieces]),
+        run=np.concatenate([piece.run for piece in pieces]),
+        stretch=np.concatenate([piece.stretch for piece in pieces]),
+        q=np.concatenate([piece.q for piece in pieces]),
+        dq=np.concatenate([piece.dq for piece in pieces]),
+        torque=np.concatenate([piece.torque for piece in pieces]),
+        nominal=np.concatenate([piece.nominal for piece in pieces]),
+        still=np.concatenate([piece.still for piece in pieces]),
+        columns=tuple(np.concatenate(of_joint) for of_joint in zip(*(piece.columns for piece in pieces), strict=True)),
+        at=pieces[0].at,
     )
 
 
-def _piece(layout: TorqueLayout, signals: Signals, how: Preparation, model: SoFar) -> tuple:  # type: ignore[type-arg]
+def _piece(layout: TorqueLayout, signals: Signals, how: Preparation, model: SoFar) -> MotionRows:
     arm, kept = layout.arm, signals.kept
     regressor = arm.regressor(signals.q, signals.dq, signals.ddq)
     background = own_columns(arm, signals)
@@ -247,18 +243,18 @@ def _piece(layout: TorqueLayout, signals: Signals, how: Preparation, model: SoFa
                 ]
             )
         )
-    run = np.full(len(kept), signals.run)
-    return (
-        signals.time[kept],
-        run,
-        np.full(len(kept), signals.stretch),
-        signals.q[kept],
-        signals.dq[kept],
-        low(signals.effort)[kept],
-        nominal,
-        _still(arm, signals, how)[kept],
-        columns,
-        at,
+    return MotionRows(
+        layout=layout,
+        time=signals.time[kept],
+        run=np.full(len(kept), signals.run),
+        stretch=np.full(len(kept), signals.stretch),
+        q=signals.q[kept],
+        dq=signals.dq[kept],
+        torque=low(signals.effort)[kept],
+        nominal=nominal,
+        still=_still(arm, signals, how)[kept],
+        columns=tuple(columns),
+        at=tuple(at),
     )
 
 

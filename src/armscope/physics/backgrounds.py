@@ -17,8 +17,8 @@ from armscope.physics.placing import moving_joints
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
-GEOMETRIC = "geometric"
-FAMILIES = (GEOMETRIC, "elastic", "transmission")
+GEOMETRIC, ELASTIC, TRANSMISSION = "geometric", "elastic", "transmission"
+FAMILIES = (GEOMETRIC, ELASTIC, TRANSMISSION)
 TOLERANCE = 1.0e-3
 """Geometric tolerance of an industrial arm: 1 mm and 1 mrad per D-H value."""
 MASSES = "mass"
@@ -32,7 +32,7 @@ def backgrounds(arm: Arm, recordings: Recordings) -> dict[str, list[Placed]]:
     # what bears no load has no size, and shows nothing
     give = [_sized(placed) for placed in springs if all(np.isfinite(term.plausible) for term in placed.terms)]
     constant = [replace(placed, prior_scale=(TOLERANCE,) * len(placed.terms)) for placed in geometric.background(arm)]
-    return {GEOMETRIC: constant, "elastic": give, "transmission": gear_waves(recordings, PLAUSIBLE.waves)}
+    return {GEOMETRIC: constant, ELASTIC: give, TRANSMISSION: gear_waves(recordings, PLAUSIBLE.waves)}
 
 
 def _sized(placed: Placed) -> Placed:

@@ -59,13 +59,14 @@ class PlausibleSizes(Constants):
     waves: int = constant(
         8,
         "per turn of a gear up to which every arm has a little",
-        "judgement: flexible splines and discs show the first harmonics of two per turn; time",
+        "judgement: seen with bench cases in view; flexible splines and discs show the first harmonics of two per "
+        "turn; time",
         unit="waves",
     )
     fine_waves: int = constant(
         30,
         "the same once the arm is known to have them",
-        "judgement: finer ones are lines of single stages, which are scanned; time",
+        "judgement: seen with bench cases in view; finer ones are lines of single stages, which are scanned; time",
         unit="waves",
     )
     mesh_rad: float = constant(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
+from armscope.physics.backgrounds import GEOMETRIC
 from armscope.physics.clause import Number, Told, say
 from armscope.physics.registry import effect_named
 from armscope.verdict.schema import Cause, Diagnosis, FoundEffect, Verdict
@@ -41,8 +42,6 @@ _CURES = {
 }
 """What mends a family where it has several members or small errors everywhere."""
 
-GEOMETRIC = "geometric"
-"""The family whose small errors are a cause by themselves: a calibration takes them out."""
 CALIBRATED = 0.1
 """Share of the squared error from which they are told as one."""
 

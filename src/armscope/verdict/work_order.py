@@ -11,10 +11,11 @@ import pandas as pd
 
 from armscope.core.location import Location
 from armscope.core.types import Array
+from armscope.physics.backgrounds import GEOMETRIC
 from armscope.physics.scene import Part
 from armscope.verdict.contributions import Contributions, Repair, rms
 from armscope.verdict.schema import INTERVAL, Cause, Diagnosis, FoundEffect
-from armscope.verdict.sentences import GEOMETRIC, cure_of_family, phrase
+from armscope.verdict.sentences import cure_of_family, phrase
 from armscope.verdict.wording import capitalised, implausible, read_parameter
 
 CHANGES = {

@@ -22,7 +22,7 @@ from armscope.fitting.refit import Refit
 from armscope.inference.normal_equations import NormalEquations, projected_rms
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
-from armscope.physics.backgrounds import FAMILIES, GEOMETRIC
+from armscope.physics.backgrounds import FAMILIES, GEOMETRIC, TRANSMISSION
 from armscope.physics.effect import Placed
 from armscope.physics.scene import Part, Scene
 from armscope.verdict.schema import INDISTINGUISHABLE_NATS, Background, FoundEffect, Parameter
@@ -128,7 +128,7 @@ def _own_size(fit: Refit, curve: Part) -> float:
     }
     own = {fit.pool.index[term] for term in curve.placed.terms}
     moved = {product.direction for term in curve.placed.terms for product in term.products}
-    waves = fit.pool.background[FAMILIES.index("transmission")]
+    waves = fit.pool.background[FAMILIES.index(TRANSMISSION)]
     own |= {int(n) for n in waves if fit.pool.terms[n].products[0].direction in moved}
     at = np.array(sorted(own))
     told = np.array([values.get(fit.pool.terms[n], 0.0) for n in at])
