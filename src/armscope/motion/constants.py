@@ -72,7 +72,14 @@ class FilterRules(Constants):
     coulomb_width_m_s: float = constant(
         0.001, "the same of a joint that slides", "convention: of the protocol", unit="m/s"
     )
-    steeper: float = constant(
+    reach: float = constant(
+        6.0,
+        "of the low-pass's weights either way",
+        "derived: a fourth-order Butterworth filter has forgotten all but a millionth",
+        unit="periods of the cut-off",
+    )
+    rows_at_once: int = constant(16, "filtered at a time", "measured: the fastest of 8, 16, 32", unit="rows")
+    sharper: float = constant(
         5.0, "that friction may change sides more sharply than within the width", "judgement: no filter shows more"
     )
     still: float = constant(
@@ -97,6 +104,16 @@ class CutoffRules(Constants):
     widest_hz: float = constant(50.0, "largest cut-off", "judgement: arms' drives do not follow faster", unit="Hz")
     least_hz: float = constant(2.0, "smallest cut-off", "judgement: motions of arms", unit="Hz")
     window: int = constant(256, "of the spectra", "judgement: some tenths of a hertz", unit="rows")
+    above_noise: float = constant(
+        10.0,
+        "of the positions' noise, from which their spectrum shows motion",
+        "derived: a chi-squared of some ten degrees of freedom hardly ever reaches it",
+    )
+    beyond_motion: float = constant(
+        2.0,
+        "times the highest frequency of motion at which positions are low-passed",
+        "derived: the filter then takes 0.4 % of that frequency",
+    )
     drowned: float = constant(2.0, "of what is left, below which the model drowns", "judgement: neither is exact")
     bins: int = constant(4, "in a row that must be drowned", "judgement: gaps in a spectrum are no end", unit="bins")
     fallback: float = constant(
@@ -188,11 +205,26 @@ class PriorRules(Constants):
         "of a joint's torque: how far the shape of friction's change of sides is free",
         "judgement: a part of dry friction",
     )
+    turning_s: float = constant(
+        0.002,
+        "by which a joint's torque may change sides sooner or later than its speed, unnamed",
+        "judgement: a milliradian of presliding, or a filter of a drive",
+        unit="s",
+    )
+    reversal_sizes: tuple[float, ...] = constant(
+        (0.0, 1.0, 5.0), "of both, that compete", "judgement: dry friction may be all of a joint's torque"
+    )
     timing: float = constant(
         0.25,
         "by which torque and motion may be apart unnamed",
         "derived: half a sample is what sampling leaves open",
         unit="samples",
+    )
+    response: float = constant(
+        0.16,
+        "second derivative of a torque by which drives round it off unnamed",
+        "derived: (1 / (2 pi 0.4))^2, of a filter at two fifths of the sampling rate, where half of it must be gone",
+        unit="samples^2",
     )
     gain: float = constant(
         0.1,

@@ -10,18 +10,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices, Progress
-from armscope.motion.causes import Moment, PlacedCause, side
+from armscope.motion.causes import Moment, PlacedCause, coulomb_width, sharp_width, side
 from armscope.motion.constants import FILTER, PRIOR
 from armscope.motion.preparation import Preparation, Signals, parts
 from armscope.motion.timing import Stretch
 from armscope.robot.dynamics import MovingArm
 
-OWN = len(("offset", "dry friction", "viscous friction", "rotor inertia", "reversal"))
-"""Columns that every joint has: offset, dry and viscous friction, rotor inertia, how steeply friction changes sides.
+OWN = len(("offset", "dry friction", "viscous friction", "rotor inertia", "blunter", "later"))
+"""Columns that every joint has: offset, dry and viscous friction, rotor inertia, how friction changes sides, and when.
 
-The last is no cause: within a hundredth of a radian per second friction turns over in a way that filters and rounding
-blur. It is free, so that no cause is named for it.
+The last two are no causes: within a hundredth of a radian per second and some milliseconds friction turns over in a
+way that presliding, filters and rounding blur. They are free within limits, so that no cause is named for them, and
+so that no other number of the joint takes them up: a delay of all torque in their place takes viscous friction, times
+its seconds, from the rotor's inertia.
 """
+CAUSES_OF_OWN = 4
+"""The first of `OWN`, which may be causes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,21 +44,26 @@ class TorqueLayout:
 
     @property
     def own(self) -> Indices:
-        """(5 m,) of `OWN`, joint by joint."""
+        """(6 m,) of `OWN`, joint by joint."""
         return np.arange(OWN * self.arm.n_motors)
 
     @property
     def frames(self) -> Indices:
         """Those of `own` that are always free: friction and rotors that robot.yaml does not state."""
         free = np.ones((self.arm.n_motors, OWN), dtype=np.bool_)
-        free[:, :-1] = np.isnan(self.arm.stated_background)
-        free[:, [0, -1]] = False
+        free[:, :CAUSES_OF_OWN] = np.isnan(self.arm.stated_background)
+        free[:, [0, *range(CAUSES_OF_OWN, OWN)]] = False
         return np.flatnonzero(free.ravel())
 
     @property
+    def response(self) -> Indices:
+        """(1,) how drives round off all torque, in seconds squared; after `gains`."""
+        return len(self.own) + len(self.inertial) + len(self.gains) + np.arange(1)
+
+    @property
     def reversals(self) -> Indices:
-        """(m,) the last of `OWN` of each joint."""
-        return np.arange(self.arm.n_motors) * OWN + OWN - 1
+        """(m, 2) the last two of `OWN` of each joint."""
+        return np.arange(self.arm.n_motors)[:, None] * OWN + np.arange(CAUSES_OF_OWN, OWN)
 
     @property
     def inertial(self) -> Indices:
@@ -69,7 +78,7 @@ class TorqueLayout:
     @functools.cached_property
     def columns(self) -> list[Indices]:
         """Of each cause."""
-        start, columns = len(self.own) + len(self.inertial) + len(self.gains), []
+        start, columns = int(self.response[0]) + 1, []
         for cause in self.placed:
             if cause.of_background is not None:
                 columns.append(np.array([OWN * cause.of_background[0] + cause.of_background[1]]))
@@ -82,7 +91,7 @@ class TorqueLayout:
     def width(self) -> int:
         """Number of columns."""
         last = max((int(columns[-1]) for columns in self.columns), default=0)
-        return max(last + 1, len(self.own) + len(self.inertial) + len(self.gains))
+        return max(last, int(self.response[0])) + 1
 
     @property
     def inertial_scale(self) -> Array:
@@ -207,27 +216,27 @@ def _piece(layout: TorqueLayout, signals: Signals, how: Preparation, model: SoFa
     rigid = regressor @ model.inertial
     if signals.payload is not None:
         rigid = rigid + signals.payload[:, None] * (regressor @ arm.point_load())
-    predicted = rigid + np.einsum("nmk,mk->nm", background[:, :, :-1], model.background)
+    predicted = rigid + np.einsum("nmk,mk->nm", background[:, :, :CAUSES_OF_OWN], model.background)
     gravity = None
     if any(cause.cause.name == "gravity_direction" for cause in layout.placed):
         gravity = np.stack([arm.gravity_torques(signals.q, axis) for axis in np.eye(3)], axis=2)
     moment = Moment(signals, rigid, predicted, gravity, how.rate)
-    low = how.low_passed
-    regressor = low(regressor)[kept]
+    low = functools.partial(how.low_passed, kept=kept)
+    regressor = low(regressor)
     stated = np.nan_to_num(arm.stated_background)
     nominal = regressor @ arm.inertial
     if np.any(stated):
-        nominal += low(np.einsum("nmk,mk->nm", background[:, :, :-1], stated))[kept]
+        nominal += low(np.einsum("nmk,mk->nm", background[:, :, :CAUSES_OF_OWN], stated))
     if signals.payload is not None:
         nominal += signals.payload[kept, None] * (regressor @ arm.point_load())
     columns, at = [], []
     own = _own_columns(layout, moment)
     inertial = _made_of_masses(layout, regressor, signals.run)
+    rounded = np.gradient(np.gradient(predicted, 1 / how.rate, axis=0), 1 / how.rate, axis=0)
     for j in range(arm.n_motors):
         of_joint, where = own[j]
-        filtered = low(np.column_stack([background[:, j], *of_joint]))[kept]
-        if layout.with_gains:
-            filtered = np.column_stack([filtered, low(predicted[:, j : j + 1])[kept]])
+        gain = [predicted[:, j]] if layout.with_gains else []
+        filtered = low(np.column_stack([background[:, j], *of_joint, *gain, rounded[:, j]]))
         whole = np.column_stack(
             [filtered, regressor[:, j] * layout.inertial_scale, *(made[:, j] for made, _ in inertial)]
         )
@@ -238,6 +247,7 @@ def _piece(layout: TorqueLayout, signals: Signals, how: Preparation, model: SoFa
                     OWN * j + np.arange(OWN),
                     *where,
                     *([layout.gains[j : j + 1]] if layout.with_gains else []),
+                    layout.response,
                     layout.inertial,
                     *(index for _, index in inertial),
                 ]
@@ -250,7 +260,7 @@ def _piece(layout: TorqueLayout, signals: Signals, how: Preparation, model: SoFa
         stretch=np.full(len(kept), signals.stretch),
         q=signals.q[kept],
         dq=signals.dq[kept],
-        torque=low(signals.effort)[kept],
+        torque=low(signals.effort),
         nominal=nominal,
         still=_still(arm, signals, how)[kept],
         columns=tuple(columns),
@@ -259,10 +269,12 @@ def _piece(layout: TorqueLayout, signals: Signals, how: Preparation, model: SoFa
 
 
 def own_columns(arm: MovingArm, signals: Signals) -> Array:
-    """(N, m, 5) of `OWN`, per unit of each."""
-    turned = side(arm, signals.dq)
-    steeper = side(arm, FILTER.steeper * signals.dq) - turned
-    return np.stack([np.ones_like(signals.q), turned, signals.dq, signals.ddq, steeper], axis=2)
+    """(N, m, 6) of `OWN`, per unit of each."""
+    width = sharp_width(arm)
+    turned = side(signals, width)
+    blunter = side(signals, coulomb_width(arm)) - turned
+    later = -np.gradient(turned, signals.period, axis=0)
+    return np.stack([np.ones_like(signals.q), turned, signals.dq, signals.ddq, blunter, later], axis=2)
 
 
 def _own_columns(layout: TorqueLayout, moment: Moment) -> list[tuple[list[Array], list[Indices]]]:

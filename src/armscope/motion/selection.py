@@ -16,7 +16,7 @@ from armscope.inference.problem import Problem, build_problem
 from armscope.inference.search import Search
 from armscope.motion.constants import NOISE, PRIOR
 from armscope.motion.preparation import Preparation
-from armscope.motion.rows import OWN, MotionRows, SoFar, TorqueLayout, build_rows
+from armscope.motion.rows import CAUSES_OF_OWN, OWN, MotionRows, SoFar, TorqueLayout, build_rows
 from armscope.motion.space import build_space
 from armscope.motion.timing import Stretch
 from armscope.motion.weights import TorqueWeights, estimate_weights, fitted_together, sums_by_block
@@ -63,7 +63,8 @@ def model_so_far(layout: TorqueLayout, coefficients: Array) -> SoFar:
         if cause.inertial is not None and not cause.runs:
             inertial = inertial + cause.inertial @ coefficients[columns]
     return SoFar(
-        inertial, np.nan_to_num(layout.arm.stated_background) + coefficients[layout.own].reshape(-1, OWN)[:, :-1]
+        inertial,
+        np.nan_to_num(layout.arm.stated_background) + coefficients[layout.own].reshape(-1, OWN)[:, :CAUSES_OF_OWN],
     )
 
 
