@@ -13,14 +13,16 @@ from armscope.motion import catalogue
 from armscope.motion.causes import Seen
 from armscope.motion.check import check_motions
 from armscope.motion.consistency import PathAgreement
-from armscope.motion.constants import FILTER, LIBRARY
+from armscope.motion.constants import LIBRARY
 from armscope.motion.cutoff import chosen_cutoff
 from armscope.motion.holding_out import folds
 from armscope.motion.judgement import answer_of
+from armscope.motion.layout import TorqueLayout
 from armscope.motion.library import place_causes
 from armscope.motion.masses import place_masses
 from armscope.motion.preparation import parts, preparation
-from armscope.motion.rows import SoFar, TorqueLayout, build_rows
+from armscope.motion.rows import SoFar, build_rows
+from armscope.motion.sampling_constants import FILTER
 from armscope.motion.seen import seen_in
 from armscope.motion.selection import select_causes
 from armscope.motion.space import build_space

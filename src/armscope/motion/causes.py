@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
-from armscope.motion.constants import FILTER
 from armscope.motion.preparation import Signals
+from armscope.motion.sampling_constants import FILTER
 from armscope.robot.dynamics import MovingArm
 
 
@@ -142,13 +142,9 @@ def side(signals: Signals, width: Array) -> Array:
     the width within less than a sample, and where it did so is what the torque holds.
     """
     low, high = signals.dq - signals.ddq * signals.period / 2, signals.dq + signals.ddq * signals.period / 2
-    across = np.abs(high - low) > LITTLE * width
+    across = np.abs(high - low) > FILTER.alike * width
     mean = (_log_cosh(high / width) - _log_cosh(low / width)) * width / np.where(across, high - low, 1.0)
     return np.asarray(np.where(across, mean, np.tanh(signals.dq / width)))
-
-
-LITTLE = 1e-3
-"""Of the width, below which the mean over a sample is the value in its middle."""
 
 
 def _log_cosh(x: Array) -> Array:

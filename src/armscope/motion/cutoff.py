@@ -8,9 +8,10 @@ import numpy as np
 from scipy.signal import welch
 
 from armscope.core.types import Array
-from armscope.motion.constants import CUTOFF
+from armscope.motion.layout import TorqueLayout
 from armscope.motion.preparation import Preparation, preparation
-from armscope.motion.rows import MotionRows, SoFar, TorqueLayout, build_rows
+from armscope.motion.rows import MotionRows, SoFar, build_rows
+from armscope.motion.sampling_constants import CUTOFF
 from armscope.motion.timing import Stretch
 from armscope.motion.weights import fitted_together
 from armscope.robot.dynamics import MovingArm

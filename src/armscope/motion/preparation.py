@@ -17,7 +17,7 @@ from scipy.interpolate import make_interp_spline
 from scipy.signal import butter, sosfiltfilt
 
 from armscope.core.types import Array, Indices
-from armscope.motion.constants import FILTER
+from armscope.motion.sampling_constants import FILTER
 from armscope.motion.timing import Stretch
 
 
@@ -77,7 +77,8 @@ class Preparation:
         return (
             f"{self.rate:g} samples a second; positions low-passed at {self.position_cutoff:.3g} Hz and derived by "
             f"a spline of the fifth degree; torque and model low-passed alike at {self.cutoff:.3g} Hz "
-            f"({self.cutoff_source}) by a zero-phase Butterworth filter of order {FILTER.order}; {FILTER.edge_s:g} s left out at the ends; {kept}"
+            f"({self.cutoff_source}) by a zero-phase Butterworth filter of order {FILTER.order}; "
+            f"{FILTER.edge_s:g} s left out at the ends; {kept}"
         )
 
 
@@ -158,18 +159,21 @@ class Signals:
         return float(self.time[-1] - self.time[0]) / (len(self.time) - 1)
 
 
-def parts(stretches: Sequence[Stretch], how: Preparation) -> Iterator[Signals]:
+def parts(stretches: Sequence[Stretch], how: Preparation, every_sample: bool = False) -> Iterator[Signals]:
     """The stretches in parts of limited length, which overlap by what the filter needs.
 
     Args:
         stretches: even samples.
         how: the filters.
+        every_sample: keep them all, those at the ends, too.
 
     Yields:
         Samples at full rate, with the rows that are kept of them; too short a stretch has none.
     """
     for number, stretch in enumerate(stretches):
         kept = np.arange(how.edge, len(stretch) - how.edge, how.every)
+        if every_sample:
+            kept = np.arange(len(stretch))
         for rows in np.array_split(kept, max(-(-len(stretch) // FILTER.chunk), 1)):
             if len(rows):
                 yield _part(stretch, number, rows, how)

@@ -15,8 +15,9 @@ from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, build_problem
 from armscope.inference.search import Search
 from armscope.motion.constants import NOISE, PRIOR
+from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.preparation import Preparation
-from armscope.motion.rows import CAUSES_OF_OWN, OWN, MotionRows, SoFar, TorqueLayout, build_rows
+from armscope.motion.rows import MotionRows, SoFar, build_rows
 from armscope.motion.space import build_space
 from armscope.motion.timing import Stretch
 from armscope.motion.weights import TorqueWeights, estimate_weights, fitted_together, sums_by_block
