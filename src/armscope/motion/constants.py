@@ -269,6 +269,16 @@ class MotionTelling(Constants):
     in_headline: int = constant(3, "causes", "judgement: a sentence holds no more", unit="causes")
 
 
+@dataclass(frozen=True)
+class ModelFileRules(Constants):
+    """What a model file may hold."""
+
+    largest: float = constant(
+        1e9, "of any number", "judgement: no arm comes near it; squares of larger ones overflow", unit="SI"
+    )
+    least_knots: int = constant(4, "of a free curve", "derived: a cubic spline has no fewer", unit="columns")
+
+
 TIMING = TimingRules()
 FILTER = FilterRules()
 LIBRARY = LibraryRules()
@@ -278,3 +288,4 @@ CONSISTENCY = ConsistencyRules()
 TELLING = MotionTelling()
 CUTOFF = CutoffRules()
 CHECK = CheckRules()
+MODEL_FILE = ModelFileRules()

@@ -112,18 +112,21 @@ class Signals:
     kept: Indices
 
 
-def parts(stretches: Sequence[Stretch], how: Preparation) -> Iterator[Signals]:
+def parts(stretches: Sequence[Stretch], how: Preparation, every_sample: bool = False) -> Iterator[Signals]:
     """The stretches in parts of limited length, which overlap by what the filter needs.
 
     Args:
         stretches: even samples.
         how: the filters.
+        every_sample: keep them all, those at the ends, too.
 
     Yields:
         Samples at full rate, with the rows that are kept of them; too short a stretch has none.
     """
     for number, stretch in enumerate(stretches):
         kept = np.arange(how.edge, len(stretch) - how.edge, how.every)
+        if every_sample:
+            kept = np.arange(len(stretch))
         for rows in np.array_split(kept, max(-(-len(stretch) // FILTER.chunk), 1)):
             if len(rows):
                 yield _part(stretch, number, rows, how)

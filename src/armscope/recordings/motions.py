@@ -83,13 +83,18 @@ class Motions:
         }
         return replace(self, **per_row)
 
+    def at_times(self, time: Array) -> Motions:
+        """The same samples at other times (N,), s."""
+        return replace(self, time=time)
 
-def read_motions(path: Path | str, n_motors: int | None = None) -> Motions:
+
+def read_motions(path: Path | str, n_motors: int | None = None, measured: bool = True) -> Motions:
     """Read motions.csv (``.gz`` allowed).
 
     Args:
         path: the file.
         n_motors: how many motors the arm has; None accepts as many as there are.
+        measured: whether torques or currents must be present; False reads a motion whose torques are to be predicted.
 
     Returns:
         The samples in their order, SI units, with notes on what was passed over.
@@ -98,16 +103,19 @@ def read_motions(path: Path | str, n_motors: int | None = None) -> Motions:
         InputError: names file, row (line of the file), column, the value found, the rule and the cure.
     """
     path = Path(path)
-    return as_motions(read_text_table(path), path, n_motors)
+    return as_motions(read_text_table(path), path, n_motors, measured)
 
 
-def as_motions(table: pd.DataFrame, source: Path | str = "table", n_motors: int | None = None) -> Motions:
+def as_motions(
+    table: pd.DataFrame, source: Path | str = "table", n_motors: int | None = None, measured: bool = True
+) -> Motions:
     """A table with the columns of motions.csv as `Motions`; see `read_motions`.
 
     Args:
         table: every column as text or numbers.
         source: where it was read, for errors.
         n_motors: how many motors the arm has; None accepts as many as there are.
+        measured: whether torques or currents must be present; where not, they are not looked at and NaN.
 
     Returns:
         The samples in their order.
@@ -122,7 +130,7 @@ def as_motions(table: pd.DataFrame, source: Path | str = "table", n_motors: int 
     q, units = reader.drive_positions(n_motors)
     count = len(units)
     sliding = np.array([unit == "m" for unit in units])
-    kind, effort = reader.effort(sliding)
+    kind, effort = reader.effort(sliding, measured)
     unknown = [name for name in table.columns if name not in PLAIN and not re.fullmatch(MOTION_COLUMN, name)]
     notes = (f"columns not used: {', '.join(unknown)}",) if unknown else ()
     temperature = reader.optional(["temperature_c"], 1.0, squeeze=True)
@@ -144,6 +152,11 @@ def as_motions(table: pd.DataFrame, source: Path | str = "table", n_motors: int 
         notes=notes,
         source=str(source),
     )
+
+
+def torque_columns(sliding: NDArray[np.bool_]) -> list[str]:
+    """Names of the motors' torques: tau1_nm ..., f1_n of a sliding joint."""
+    return [f"f{j}_n" if slides else f"tau{j}_nm" for j, slides in enumerate(sliding, start=1)]
 
 
 class _Reader(ColumnReader):
@@ -187,9 +200,11 @@ class _Reader(ColumnReader):
             raise self._error(row, column, self.table[column].iloc[row], rule, cure)
         return values
 
-    def effort(self, sliding: NDArray[np.bool_]) -> tuple[Literal["torque", "current"], Array]:
-        """What the motors did: torque or current, all motors in one."""
-        torque = [f"f{j}_n" if slides else f"tau{j}_nm" for j, slides in enumerate(sliding, start=1)]
+    def effort(self, sliding: NDArray[np.bool_], measured: bool) -> tuple[Literal["torque", "current"], Array]:
+        """What the motors did: torque or current, all motors in one; NaN where that is not asked for."""
+        if not measured:
+            return "torque", np.full((len(self.table), len(sliding)), np.nan)
+        torque = torque_columns(sliding)
         current = [f"current{j}_a" for j in range(1, len(sliding) + 1)]
         kinds: tuple[tuple[Literal["torque", "current"], list[str]], ...] = (("torque", torque), ("current", current))
         for kind, columns in kinds:
