@@ -14,7 +14,7 @@ from armscope.inference.shapley import shares
 from armscope.motion.causes import PlacedCause
 from armscope.motion.consistency import PathAgreement, agreement
 from armscope.motion.constants import TELLING
-from armscope.motion.rows import OWN
+from armscope.motion.layout import OWN
 from armscope.motion.selection import SelectedCauses
 from armscope.motion.verdict import FoundCause, JointBackground, UnexplainedTorque
 from armscope.verdict.schema import Alternative, Answer, Parameter

@@ -10,8 +10,9 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.motion.causes import Moment, PlacedCause
+from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.preparation import Preparation, Signals, parts
-from armscope.motion.rows import OWN, SoFar, TorqueLayout, own_columns
+from armscope.motion.rows import SoFar, bend, own_columns
 from armscope.motion.timing import Stretch
 from armscope.robot.dynamics import MovingArm
 
@@ -38,10 +39,11 @@ class MotionModel:
         arm: the arm as stated.
         how: filters and decimation of the rows that it was fitted to.
         kind: whether they held torques or currents; what it predicts is torque by the stated gains in either case.
-        joints: (m, 5) of every joint, `rows.OWN`: stated and fitted together.
+        joints: (m, 6) of every joint, `layout.OWN`: stated and fitted together.
         inertial: (10 n,) inertial parameters: stated ones, and by how much the fit moved them unnamed.
         gains: (m,) shares by which recorded torque exceeds the true one.
         causes: the named ones.
+        response: by how much of its second derivative drives round a torque off, s^2.
     """
 
     arm: MovingArm
@@ -51,10 +53,11 @@ class MotionModel:
     inertial: Array
     gains: Array
     causes: tuple[FittedCause, ...]
+    response: float = 0.0
 
     def followed(self) -> SoFar:
         """What load, delay and gain follow: masses with all that is added to them, friction and rotors."""
-        return SoFar(self.inertial + self._added(None), self.joints[:, :-1])
+        return SoFar(self.inertial + self._added(None), self.joints[:, :CAUSES_OF_OWN])
 
     def _added(self, run: str | None) -> Array:
         """(10 n,) inertial parameters that causes add: those of every run, or those in one run."""
@@ -78,10 +81,11 @@ class MotionModel:
             carried = signals.payload[:, None] * (regressor @ self.arm.point_load())
         followed, own = self.followed(), own_columns(self.arm, signals)
         rigid = regressor @ followed.inertial + carried
-        predicted = rigid + np.einsum("nmk,mk->nm", own[:, :, : OWN - 1], followed.background)
+        predicted = rigid + np.einsum("nmk,mk->nm", own[:, :, :CAUSES_OF_OWN], followed.background)
         moment = Moment(signals, rigid, predicted, self._gravity(signals.q), rate)
         total = regressor @ (self.inertial + self._added(signals.run)) + carried
         total += np.einsum("nmk,mk->nm", own, self.joints) + self.gains * predicted
+        total += self.response * bend(predicted, rate)
         for cause in self.causes:
             if cause.placed.columns is not None:
                 total[:, list(cause.placed.joints)] += cause.placed.columns(moment) @ cause.values
@@ -108,7 +112,7 @@ def fitted_model(
         The model.
     """
     arm = layout.arm
-    stated = np.column_stack([np.nan_to_num(arm.stated_background), np.zeros(arm.n_motors)])
+    stated = np.column_stack([np.nan_to_num(arm.stated_background), np.zeros((arm.n_motors, OWN - CAUSES_OF_OWN))])
     gains = coefficients[layout.gains] if layout.with_gains else np.zeros(arm.n_motors)
     return MotionModel(
         arm=arm,
@@ -121,6 +125,7 @@ def fitted_model(
             FittedCause(layout.placed[number], coefficients[layout.columns[number]], covariance)
             for number, covariance in chosen
         ),
+        response=float(coefficients[layout.response][0]),
     )
 
 

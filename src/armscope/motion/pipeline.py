@@ -12,7 +12,7 @@ import numpy as np
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Progress
 from armscope.motion.check import check_motions, check_rows
-from armscope.motion.constants import FILTER, LIBRARY
+from armscope.motion.constants import LIBRARY
 from armscope.motion.cutoff import chosen_cutoff
 from armscope.motion.holding_out import HeldOutTorque, folds, held_out_torques, measure, own_fold, waterfall
 from armscope.motion.judgement import (
@@ -23,10 +23,12 @@ from armscope.motion.judgement import (
     joint_backgrounds,
     unexplained,
 )
+from armscope.motion.layout import TorqueLayout
 from armscope.motion.library import place_causes
 from armscope.motion.model import MotionModel, fitted_model
 from armscope.motion.preparation import Preparation
-from armscope.motion.rows import MotionRows, TorqueLayout, build_rows, torque_of
+from armscope.motion.rows import MotionRows, build_rows, torque_of
+from armscope.motion.sampling_constants import FILTER
 from armscope.motion.seen import seen_in
 from armscope.motion.selection import SelectedCauses, model_so_far, select_causes
 from armscope.motion.timing import Stretch, mended, stretches
