@@ -48,6 +48,10 @@ def diagnose(
         float | None, typer.Option(min=0.01, help="motions: of the low-pass, Hz; chosen if left out")
     ] = None,
     held_out: Annotated[list[str] | None, typer.Option(help="motions: a run that takes no part in the fit")] = None,
+    priors: Annotated[
+        Path | None, typer.Option(help="priors.yaml of a fleet: how large errors of such arms are")
+    ] = None,
+    arm_type: Annotated[str | None, typer.Option(help="which type in --priors, where it has several")] = None,
     json: Annotated[bool, typer.Option("--json", help="print verdict.json in place of words")] = False,
     threads: Threads = 1,
 ) -> None:
@@ -60,16 +64,21 @@ def diagnose(
     from armscope.cli.cost import DIAGNOSE, announce
     from armscope.cli.motion import diagnose_motions
     from armscope.cli.robots import print_json, robot_of, table_of
+    from armscope.core.inputs import InputError
     from armscope.recordings.motions import is_motion_table
 
     started = waiting_since()
     if is_motion_table(recordings):
+        if priors is not None:
+            raise InputError(
+                "--priors", "", priors, f"{recordings} is a table of motions, for which no sizes are learned"
+            )
         with _progress("diagnosing") as tell:
             mismatch = diagnose_motions(recordings, robot, output, (cutoff, held_out or [], run or []), json, tell)
         if exit_code and mismatch is not False:
             raise typer.Exit(MISMATCH if mismatch else UNUSABLE)
         return
-    arm = robot_of(robot)
+    arm = robot_of(robot, priors, arm_type)
     announce(recordings, DIAGNOSE, threads)
     table = table_of(recordings, arm.n_motors)
 
