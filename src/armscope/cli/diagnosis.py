@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import sys
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -106,7 +107,7 @@ def diagnose(
             from armscope.report.pages.diagnosis import write_report
 
             tell("drawing the report", 0.95)
-            write_report(verdict, output, started)
+            write_report(verdict, output)
     obstacle = verdict.notices[-1:] if verdict.mismatch is None else ()
     for notice in (*(each for each in verdict.notices if each.kind == "check"), *obstacle):
         print(f"note: {notice.text}", file=sys.stderr)
@@ -115,6 +116,8 @@ def diagnose(
     else:
         print(verdict.headline)
         print(f"{output}/{'report.html' if report else 'verdict.json'}")
+    if sys.stderr.isatty():  # no result: what the clock says differs from run to run
+        print(f"{time.time() - started:.1f} s", file=sys.stderr)
     if exit_code and verdict.mismatch is not False:
         raise typer.Exit(MISMATCH if verdict.mismatch else UNUSABLE)
 

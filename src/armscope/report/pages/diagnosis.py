@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib.metadata
 import math
-import time
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -46,13 +45,12 @@ class Written:
     html: Markup
 
 
-def write_report(verdict: Diagnosis, folder: Path | str, started: float | None = None) -> Path:
+def write_report(verdict: Diagnosis, folder: Path | str) -> Path:
     """Write ``report.html``, ``work-order.html``, its tables as CSV, and ``figures/*.svg``.
 
     Args:
         verdict: the diagnosis.
         folder: where the page goes.
-        started: when its reader began to wait (`time.time`), for the footer; None leaves it out.
 
     Returns:
         The page's path.
@@ -67,8 +65,7 @@ def write_report(verdict: Diagnosis, folder: Path | str, started: float | None =
     }
     written = list(_written(sections, subject, figures))
     write_work_order(subject, folder)
-    seconds = "" if started is None else f"{time.time() - started:.1f}"
-    page = render_page("diagnosis.html.j2", **_head(verdict), sections=written, seconds=seconds)
+    page = render_page("diagnosis.html.j2", **_head(verdict), sections=written)
     write_text(folder / REPORT, page)
     return folder / REPORT
 
