@@ -94,6 +94,8 @@ def bomb(name):
         "many columns": b",".join(b"q%d_rad" % i for i in range(90_000)) + b"\n" + b",".join([b"0"] * 90_000),
         "quotation mark": b'q1_rad,x_mm,y_mm,z_mm\n"' + b"1,2\n" * 200_000,
         "long rows": b"q1_rad,x_mm,y_mm,z_mm\n" + b"1,2,3,4\n" * 100_000,
+        "long name": b"q1_rad," + b"_" * 900_000 + b"\n1,2\n3,4\n",
+        "short lines": b"1 2 3 4\n" * 110_000,
         "nulls": bytes(900_000),
         "many joints": f'<robot name="a">{joints}<link name="l3000"/></robot>'.encode(),
         "deep elements": b"<robot>" + b"<a>" * 200_000,
@@ -106,6 +108,7 @@ def bomb(name):
 BOMBS = [
     *("aliases", "deep lists", "deep mappings", "long number", "many numbers", "many keys", "sixties", "long word"),
     *("commas", "many columns", "quotation mark", "long rows", "nulls", "many joints", "deep elements", "entities"),
+    *("long name", "short lines"),
 ]
 
 

@@ -66,7 +66,7 @@ def diagnose(
     from armscope.cli.motion import diagnose_motions
     from armscope.cli.robots import print_json, robot_of, table_of
     from armscope.core.inputs import InputError
-    from armscope.recordings.motions import is_motion_table
+    from armscope.recordings.first_lines import is_motion_table
 
     started = waiting_since()
     if is_motion_table(recordings):
@@ -167,17 +167,24 @@ def predict(
         ),
     ],
     poses: Annotated[Path, typer.Argument(help="a table of motor angles and whatever context the model follows")],
-    output: Annotated[Path, typer.Option("--output", "-o", help="table to write: id, run, x_mm, y_mm, z_mm")],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="table to write: id, run, x_mm, y_mm, z_mm; of a motion tau1_nm ...")
+    ],
     pose: Annotated[bool, typer.Option(help="orientations qw, qx, qy, qz, too")] = False,
     threads: Threads = 1,
 ) -> None:
-    """Predict where the tool point will be, in the measurement frame (by a robot.yaml: in the base frame)."""
+    """Predict where the tool point will be, in the measurement frame (by a robot.yaml: in the base frame).
+
+    By the model of a motion: the torques of every sample of a table of motions.
+    """
     from armscope.cli.cost import PREDICT, announce
+    from armscope.cli.motion import predicted_motions
     from armscope.compensation.predicting import predict_file
     from armscope.core.files import write_table
 
     announce(poses, PREDICT, threads)
-    table, notes = predict_file(model, poses, pose)
+    of_motion = predicted_motions(model, poses)
+    table, notes = of_motion if of_motion is not None else predict_file(model, poses, pose)
     for note in notes:
         print(f"note: {note}", file=sys.stderr)
     write_table(output, table)

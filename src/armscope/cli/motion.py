@@ -5,6 +5,10 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 Tell = Callable[[str, float], None]
 
@@ -37,6 +41,7 @@ def diagnose_motions(
 
     from armscope.cli.robots import print_json
     from armscope.core.inputs import InputError, nearest
+    from armscope.motion.model_file import save_motion_model
     from armscope.motion.pipeline import MotionSettings, diagnose_motion
     from armscope.motion.verdict import write_motion_verdict
     from armscope.recordings.motions import read_motions
@@ -52,6 +57,7 @@ def diagnose_motions(
         motions = motions.rows(np.isin(motions.run, [*runs, *held_out]))
     found = diagnose_motion(arm, motions, MotionSettings(cutoff, tuple(held_out)), tell)
     write_motion_verdict(found.verdict, output)
+    save_motion_model(output / "model.yaml", found.model)
     for notice in found.verdict.notices:
         print(f"note: {notice.text}", file=sys.stderr)
     if as_json:
@@ -60,3 +66,20 @@ def diagnose_motions(
         print(found.verdict.headline)
         print(f"{output}/verdict.json")
     return found.verdict.mismatch
+
+
+def predicted_motions(model: Path, motions: Path) -> tuple[pd.DataFrame, list[str]] | None:
+    """Torques of a table of motions, and notes; None where the model is of another kind.
+
+    Raises:
+        InputError: the model is of a motion, and it or the table can't be used.
+    """
+    from armscope.core.inputs import read_yaml
+    from armscope.robot.urdf_file import is_xml
+
+    if model.suffix == ".json" or is_xml(model):
+        return None
+    from armscope.motion.model_file import is_motion_model
+    from armscope.motion.predicting import predict_motions
+
+    return predict_motions(model, motions) if is_motion_model(read_yaml(model)) else None

@@ -18,12 +18,7 @@ def check_motions(arm: MovingArm, motions: Motions) -> list[Notice]:
     Raises:
         InputError: they don't fit the arm, or can't be what their columns say.
     """
-    wrong = np.flatnonzero(motions.sliding != arm.sliding)
-    if len(wrong):
-        j = int(wrong[0])
-        found = f"q{j + 1}_{'m' if motions.sliding[j] else 'rad'}"
-        rule = f"motor {j + 1} of the arm {'slides' if arm.sliding[j] else 'turns'}"
-        raise InputError(motions.source, "line 1", found, rule, "Is this the right robot for the table?")
+    refuse_other_joints(arm, motions)
     if motions.kind == "current" and np.isnan(arm.gains).any():
         j = int(np.flatnonzero(np.isnan(arm.gains))[0])
         rule = "currents need the torque of each motor per ampere"
@@ -33,6 +28,20 @@ def check_motions(arm: MovingArm, motions: Motions) -> list[Notice]:
         raise InputError(motions.source, f"column current{j + 1}_a", "no gain_nm_per_a in robot.yaml", rule, cure)
     _refuse_dead(motions)
     return [*_still_joints(motions), *_one_way(motions)]
+
+
+def refuse_other_joints(arm: MovingArm, motions: Motions) -> None:
+    """Make sure that what slides in the table slides in the arm.
+
+    Raises:
+        InputError: it turns.
+    """
+    wrong = np.flatnonzero(motions.sliding != arm.sliding)
+    if len(wrong):
+        j = int(wrong[0])
+        found = f"q{j + 1}_{'m' if motions.sliding[j] else 'rad'}"
+        rule = f"motor {j + 1} of the arm {'slides' if arm.sliding[j] else 'turns'}"
+        raise InputError(motions.source, "line 1", found, rule, "Is this the right robot for the table?")
 
 
 def _refuse_dead(motions: Motions) -> None:

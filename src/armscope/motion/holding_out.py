@@ -57,31 +57,56 @@ def own_fold(selected: SelectedCauses, rows: MotionRows) -> Fold:
     return Fold(rows, np.arange(len(rows)), selected.problem, selected.best)
 
 
-def measure(parts: Sequence[Fold], what: str) -> HeldOutMotion:
+@dataclass(frozen=True, eq=False)
+class HeldOutTorque:
+    """Torques of K rows that took no part; (K, m) N m or N.
+
+    Attributes:
+        rows: the table that they are of; `which`: (K,) their numbers in it.
+        measured: low-passed.
+        stated: by the arm as stated, nothing fitted.
+        background: with friction and rotor inertia of every joint fitted.
+        model: with masses held near the stated ones, and the causes.
+    """
+
+    rows: MotionRows
+    which: Indices
+    measured: Array
+    stated: Array
+    background: Array
+    model: Array
+
+
+def held_out_torques(parts: Sequence[Fold]) -> tuple[HeldOutTorque, ...]:
+    """What was measured where nothing was fitted, and what models fitted to the rest say of it."""
+    made = []
+    for fold in parts:
+        stated = fold.rows.nominal[fold.which]
+        friction = Search.on(fold.problem).perfect()
+        background, model = (stated + _modelled(fold, hypothesis) for hypothesis in (friction, fold.found))
+        made.append(HeldOutTorque(fold.rows, fold.which, fold.rows.torque[fold.which], stated, background, model))
+    return tuple(made)
+
+
+def measure(held: Sequence[HeldOutTorque], what: str) -> HeldOutMotion:
     """Errors on all that was held out, together.
 
     Args:
-        parts: what was held out.
-        what: in words.
+        held: torques of what was held out.
+        what: which motion that is, in words.
 
     Returns:
         Errors relative to the torque.
     """
-    errors: dict[str, list[Array]] = {"stated": [], "background": [], "model": []}
-    torque = []
-    for fold in parts:
-        search = Search.on(fold.problem)
-        friction = search.perfect()
-        of = fold.rows.torque[fold.which] - fold.rows.nominal[fold.which]
-        torque.append(fold.rows.torque[fold.which])
-        errors["stated"].append(of)
-        errors["background"].append(of - _modelled(fold, friction))
-        errors["model"].append(of - _modelled(fold, fold.found))
-    whole = np.concatenate(torque)
-    together = {name: np.concatenate(each) for name, each in errors.items()}
+    whole = np.concatenate([part.measured for part in held])
+    stated, background, model = (
+        whole - np.concatenate([getattr(part, name) for part in held]) for name in ("stated", "background", "model")
+    )
     return HeldOutMotion(
-        **{name: relative(each, whole) for name, each in together.items()},
-        by_joint=tuple(float(v) for v in np.sqrt(np.mean(together["model"] ** 2, axis=0))),
+        stated=relative(stated, whole),
+        background=relative(background, whole),
+        model=relative(model, whole),
+        by_joint=tuple(float(v) for v in np.sqrt(np.mean(model**2, axis=0))),
         what=what,
     )
 

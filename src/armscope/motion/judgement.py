@@ -14,7 +14,7 @@ from armscope.inference.shapley import shares
 from armscope.motion.causes import PlacedCause
 from armscope.motion.consistency import PathAgreement, agreement
 from armscope.motion.constants import TELLING
-from armscope.motion.rows import OWN
+from armscope.motion.layout import OWN
 from armscope.motion.selection import SelectedCauses
 from armscope.motion.verdict import FoundCause, JointBackground, UnexplainedTorque
 from armscope.verdict.schema import Alternative, Answer, Parameter
@@ -80,13 +80,18 @@ def title(placed: PlacedCause) -> str:
 def cause_parameters(selected: SelectedCauses, number: int) -> tuple[Parameter, ...]:
     """A cause's numbers with standard errors: fitted ones, then scanned ones."""
     placed, columns = selected.rows.layout.placed[number], selected.rows.layout.columns[number]
-    values = selected.coefficients[columns]
-    stderr = np.sqrt(np.diag(selected.best.covariance(columns))) / selected.problem.scale[columns]
+    values, stderr = selected.coefficients[columns], parameter_errors(selected, number)
     told = [
         Parameter(name, unit, float(value), float(error))
         for (name, unit), value, error in zip(placed.parameters, values, stderr, strict=True)
     ]
     return (*told, *(Parameter(name, unit, value, float("nan")) for name, unit, value in placed.scanned))
+
+
+def parameter_errors(selected: SelectedCauses, number: int) -> Array:
+    """(c,) standard errors of a chosen cause's fitted numbers, SI."""
+    columns = selected.rows.layout.columns[number]
+    return np.asarray(np.sqrt(np.diag(selected.best.covariance(columns))) / selected.problem.scale[columns])
 
 
 def _shares(selected: SelectedCauses) -> list[float]:

@@ -10,8 +10,9 @@ import scipy.linalg
 
 from armscope.core.types import Array
 from armscope.motion import catalogue
-from armscope.motion.causes import Cause, Moment, PlacedCause, Seen
+from armscope.motion.causes import Cause, PlacedCause, Seen
 from armscope.motion.constants import LIBRARY
+from armscope.motion.laws import Law
 
 
 def place_masses(seen: Seen) -> Iterator[PlacedCause]:
@@ -84,9 +85,5 @@ def _gravity(seen: Seen, every: tuple[int, ...]) -> Iterator[PlacedCause]:
         level = np.eye(3)[:2]
     names = tuple((axis, "rad") for axis in "xy")
     leans = -np.cross(level, down)  # gravity in axes that are turned about each
-
-    def columns(m: Moment) -> Array:
-        assert m.gravity is not None
-        return np.asarray(m.gravity @ leans.T)
-
-    yield PlacedCause(catalogue.GRAVITY, "base", "load", names, every, columns)
+    law = Law("leaning gravity", every, tuple(map(float, leans.ravel())))
+    yield PlacedCause(catalogue.GRAVITY, "base", "load", names, every, law)

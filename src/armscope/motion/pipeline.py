@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import time
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
@@ -11,13 +12,23 @@ import numpy as np
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Progress
 from armscope.motion.check import check_motions, check_rows
-from armscope.motion.constants import FILTER, LIBRARY
+from armscope.motion.constants import LIBRARY
 from armscope.motion.cutoff import chosen_cutoff
-from armscope.motion.holding_out import folds, measure, own_fold, waterfall
-from armscope.motion.judgement import answer_of, found_causes, headline, joint_backgrounds, unexplained
+from armscope.motion.holding_out import HeldOutTorque, folds, held_out_torques, measure, own_fold, waterfall
+from armscope.motion.judgement import (
+    answer_of,
+    found_causes,
+    headline,
+    joint_backgrounds,
+    parameter_errors,
+    unexplained,
+)
+from armscope.motion.layout import TorqueLayout
 from armscope.motion.library import place_causes
+from armscope.motion.model import MotionModel, fitted_model
 from armscope.motion.preparation import Preparation
-from armscope.motion.rows import MotionRows, TorqueLayout, build_rows, torque_of
+from armscope.motion.rows import MotionRows, build_rows, torque_of
+from armscope.motion.sampling_constants import FILTER
 from armscope.motion.seen import seen_in
 from armscope.motion.selection import SelectedCauses, model_so_far, select_causes
 from armscope.motion.timing import Stretch, mended, stretches
@@ -49,6 +60,7 @@ class MotionDiagnosis:
         verdict: what verdict.json holds.
         selected: the finished selection.
         test: rows of the runs that were kept out; None where there were none.
+        held: torques where nothing was fitted.
         how: filters and decimation.
     """
 
@@ -56,7 +68,20 @@ class MotionDiagnosis:
     verdict: MotionVerdict
     selected: SelectedCauses
     test: MotionRows | None
+    held: tuple[HeldOutTorque, ...]
     how: Preparation
+
+    @functools.cached_property
+    def model(self) -> MotionModel:
+        """What model.yaml holds."""
+        layout = self.selected.rows.layout
+        numbers = [effect.candidate for effect in self.selected.best.chosen]
+        return fitted_model(
+            layout,
+            self.selected.coefficients,
+            [(number, parameter_errors(self.selected, number)) for number in numbers],
+            self.how,
+        )
 
 
 def diagnose_motion(
@@ -97,7 +122,7 @@ def diagnose_motion(
     apart = None
     if test:
         apart = build_rows(layout, test, how, model_so_far(layout, selected.coefficients))
-    verdict = _judged(selected, apart, settings, arm)
+    verdict, held = _judged(selected, apart, settings, arm)
     verdict = replace(
         verdict,
         preparation=how.words,
@@ -108,7 +133,7 @@ def diagnose_motion(
         settings=asdict(settings),
     )
     progress("done", 1.0)
-    return MotionDiagnosis(arm, verdict, selected, apart, how)
+    return MotionDiagnosis(arm, verdict, selected, apart, held, how)
 
 
 def _parted(arm: MovingArm, motions: Motions, held_out: Sequence[str]) -> tuple[list[Stretch], list[Stretch]]:
@@ -127,14 +152,15 @@ def _parted(arm: MovingArm, motions: Motions, held_out: Sequence[str]) -> tuple[
 
 def _judged(
     selected: SelectedCauses, test: MotionRows | None, settings: MotionSettings, arm: MovingArm
-) -> MotionVerdict:
+) -> tuple[MotionVerdict, tuple[HeldOutTorque, ...]]:
     if test is None:
         parts = folds(selected)
         single = len(parts) == 1
         what = "the last two fifths of the motion" if single else "each run in turn"
     else:
         parts, what = [own_fold(selected, test)], "runs " + ", ".join(settings.held_out)
-    held_out = measure(parts, what)
+    held = held_out_torques(parts)
+    held_out = measure(held, what)
     numbered = found_causes(selected)
     found = [cause for _, cause in numbered]
     steps = waterfall(selected, parts, [number for number, _ in numbered], [cause.title for cause in found])
@@ -142,7 +168,7 @@ def _judged(
     answer, mismatch = answer_of(found, left)
     names = [f"joint {j + 1}" for j in range(arm.n_motors)]
     sizes = {family.name: share for family, share in zip(selected.space.families, _sizes(selected), strict=True)}
-    return MotionVerdict(
+    verdict = MotionVerdict(
         answer=answer,
         headline=headline(found, (held_out.background, held_out.model)),
         mismatch=mismatch,
@@ -160,6 +186,7 @@ def _judged(
         samples=0,
         runs=(),
     )
+    return verdict, held
 
 
 def _sizes(selected: SelectedCauses) -> list[float]:

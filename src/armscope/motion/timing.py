@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from armscope.core.inputs import InputError
-from armscope.core.types import Array
-from armscope.motion.constants import TIMING
+from armscope.core.types import Array, Indices
+from armscope.motion.sampling_constants import TIMING
 from armscope.recordings.motions import Motions
 from armscope.verdict.schema import Notice
 
@@ -36,15 +36,23 @@ def mended(motions: Motions) -> tuple[Motions, list[Notice]]:
     Raises:
         InputError: time goes back within a run, or its unit can't be seconds.
     """
+    rows, time, notices = mended_rows(motions)
+    return motions.rows(rows).at_times(time), notices
+
+
+def mended_rows(motions: Motions) -> tuple[Indices, Array, list[Notice]]:
+    """Rows that `mended` keeps, run by run, their time, s, and what was done.
+
+    Raises:
+        InputError: as `mended`.
+    """
     pieces, notices = [], []
     for run in motions.runs:
         rows = np.flatnonzero(motions.run == run)
         piece, told = _mended_run(motions, rows)
         pieces.append(piece)
         notices += told
-    order = [piece for piece, _ in pieces]
-    time = np.concatenate([time for _, time in pieces])
-    return replace(motions.rows(np.concatenate(order)), time=time), notices
+    return np.concatenate([rows for rows, _ in pieces]), np.concatenate([time for _, time in pieces]), notices
 
 
 def _mended_run(motions: Motions, rows: np.ndarray) -> tuple[tuple[np.ndarray, Array], list[Notice]]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -15,10 +14,9 @@ from numpy.typing import NDArray
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array
 from armscope.recordings.column_reader import ColumnReader
-from armscope.recordings.opening import open_text
+from armscope.recordings.first_lines import DRIVE_COLUMN
 from armscope.recordings.textfile import read_text_table
 
-DRIVE_COLUMN = r"tau[1-9]\d*_nm|f[1-9]\d*_n|current[1-9]\d*_a"
 MOTION_COLUMN = (
     DRIVE_COLUMN + r"|q[1-9]\d*_(rad|deg|m)|dq[1-9]\d*_(rad|deg|m)_s|ddq[1-9]\d*_(rad|deg|m)_s2"
     r"|q[1-9]\d*_cmd_(rad|deg|m)|temperature[1-9]\d*_c"
@@ -85,24 +83,18 @@ class Motions:
         }
         return replace(self, **per_row)
 
-
-def is_motion_table(path: Path | str) -> bool:
-    """Whether a table is of an arm in motion: its columns are torques or currents, and no measured points."""
-    try:
-        with open_text(Path(path), "utf-8") as stream:
-            names = next(csv.reader(stream), [])
-    except (OSError, EOFError, UnicodeDecodeError, csv.Error):
-        return False  # whoever reads the table says what is wrong with it
-    drives = any(re.fullmatch(DRIVE_COLUMN, name) for name in names)
-    return drives and not {"x_mm", "x_m"} & set(names)
+    def at_times(self, time: Array) -> Motions:
+        """The same samples at other times (N,), s."""
+        return replace(self, time=time)
 
 
-def read_motions(path: Path | str, n_motors: int | None = None) -> Motions:
+def read_motions(path: Path | str, n_motors: int | None = None, measured: bool = True) -> Motions:
     """Read motions.csv (``.gz`` allowed).
 
     Args:
         path: the file.
         n_motors: how many motors the arm has; None accepts as many as there are.
+        measured: whether torques or currents must be present; False reads a motion whose torques are to be predicted.
 
     Returns:
         The samples in their order, SI units, with notes on what was passed over.
@@ -111,16 +103,19 @@ def read_motions(path: Path | str, n_motors: int | None = None) -> Motions:
         InputError: names file, row (line of the file), column, the value found, the rule and the cure.
     """
     path = Path(path)
-    return as_motions(read_text_table(path), path, n_motors)
+    return as_motions(read_text_table(path), path, n_motors, measured)
 
 
-def as_motions(table: pd.DataFrame, source: Path | str = "table", n_motors: int | None = None) -> Motions:
+def as_motions(
+    table: pd.DataFrame, source: Path | str = "table", n_motors: int | None = None, measured: bool = True
+) -> Motions:
     """A table with the columns of motions.csv as `Motions`; see `read_motions`.
 
     Args:
         table: every column as text or numbers.
         source: where it was read, for errors.
         n_motors: how many motors the arm has; None accepts as many as there are.
+        measured: whether torques or currents must be present; where not, they are not looked at and NaN.
 
     Returns:
         The samples in their order.
@@ -135,7 +130,7 @@ def as_motions(table: pd.DataFrame, source: Path | str = "table", n_motors: int 
     q, units = reader.drive_positions(n_motors)
     count = len(units)
     sliding = np.array([unit == "m" for unit in units])
-    kind, effort = reader.effort(sliding)
+    kind, effort = reader.effort(sliding, measured)
     unknown = [name for name in table.columns if name not in PLAIN and not re.fullmatch(MOTION_COLUMN, name)]
     notes = (f"columns not used: {', '.join(unknown)}",) if unknown else ()
     temperature = reader.optional(["temperature_c"], 1.0, squeeze=True)
@@ -157,6 +152,11 @@ def as_motions(table: pd.DataFrame, source: Path | str = "table", n_motors: int 
         notes=notes,
         source=str(source),
     )
+
+
+def torque_columns(sliding: NDArray[np.bool_]) -> list[str]:
+    """Names of the motors' torques: tau1_nm ..., f1_n of a sliding joint."""
+    return [f"f{j}_n" if slides else f"tau{j}_nm" for j, slides in enumerate(sliding, start=1)]
 
 
 class _Reader(ColumnReader):
@@ -200,9 +200,11 @@ class _Reader(ColumnReader):
             raise self._error(row, column, self.table[column].iloc[row], rule, cure)
         return values
 
-    def effort(self, sliding: NDArray[np.bool_]) -> tuple[Literal["torque", "current"], Array]:
-        """What the motors did: torque or current, all motors in one."""
-        torque = [f"f{j}_n" if slides else f"tau{j}_nm" for j, slides in enumerate(sliding, start=1)]
+    def effort(self, sliding: NDArray[np.bool_], measured: bool) -> tuple[Literal["torque", "current"], Array]:
+        """What the motors did: torque or current, all motors in one; NaN where that is not asked for."""
+        if not measured:
+            return "torque", np.full((len(self.table), len(sliding)), np.nan)
+        torque = torque_columns(sliding)
         current = [f"current{j}_a" for j in range(1, len(sliding) + 1)]
         kinds: tuple[tuple[Literal["torque", "current"], list[str]], ...] = (("torque", torque), ("current", current))
         for kind, columns in kinds:

@@ -23,6 +23,10 @@ USUAL = ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg")
 METRES_UP_TO = 10.0
 """Lengths whose largest is below this are metres: an arm's longest link is above 10 mm and below 10 m."""
 RADIANS_UP_TO = 2 * math.pi + 1e-3
+LONGEST_CELL = 64
+"""Characters: what is longer is no number and no heading, and isn't worth looking through."""
+MOST_CELLS = 32
+MOST_ROWS = 100
 
 Convention = Literal["standard", "modified"]
 
@@ -48,8 +52,10 @@ def parse_dh_table(text: str, name: str, convention: Convention = "standard") ->
         raise InputError(
             "D-H table", "", "nothing", "rows of a, alpha, d, theta are needed", "Paste them, end with Ctrl-D."
         )
+    if len(lines) > MOST_ROWS:
+        raise InputError("D-H table", "", f"{len(lines)} lines", f"the rows of an arm, at most {MOST_ROWS}")
     source: dict[str, str] = {}
-    header = _cells(lines[0][1])
+    header = _cells(lines[0][1], lines[0][0])
     names: tuple[str, ...] = USUAL
     units: dict[str, str] = {}
     if not any(_number(cell) is not None for cell in header[1:]):
@@ -68,11 +74,17 @@ def parse_dh_table(text: str, name: str, convention: Convention = "standard") ->
     return validate(RobotDescription, content, "D-H table")
 
 
-def _cells(line: str) -> list[str]:
-    for separator in (r"\|", r"\t", ";", ","):
-        if re.search(separator, line):
-            return [cell.strip() for cell in re.split(separator, line)]
-    return line.split()
+def _cells(line: str, number: int) -> list[str]:
+    separator = next((separator for separator in "|\t;," if separator in line), None)
+    cells = line.split() if separator is None else [cell.strip() for cell in line.split(separator)]
+    if len(cells) > MOST_CELLS:
+        raise InputError("D-H table", f"line {number}", f"{len(cells)} cells", "the four values of a D-H row")
+    for cell in cells:
+        if len(cell) > LONGEST_CELL:
+            raise InputError(
+                "D-H table", f"line {number}", cell, f"a number or a heading of at most {LONGEST_CELL} characters"
+            )
+    return cells
 
 
 def _number(cell: str) -> float | None:
@@ -110,7 +122,7 @@ def _named(header: Sequence[str], number: int) -> tuple[tuple[str, ...], dict[st
 
 
 def _row(line: str, number: int, names: tuple[str, ...]) -> dict[str, float]:
-    cells = _cells(line)
+    cells = _cells(line, number)
     if names is USUAL and len(cells) in (4, 5) and not re.search(r"\d", cells[0]):
         cells = cells[1:]
     if not (len(cells) == len(names) or (names is USUAL and len(cells) == 3)):

@@ -18,6 +18,8 @@ from armscope.recordings.opening import open_text, start_of
 
 LOOKED_AT = 2000
 """Lines of the file that guesses rest on."""
+LONGEST_NAME = 200
+"""Characters of a column's name: nobody writes more, and guessing looks through it again and again."""
 FEWEST_MOTORS = 2
 RADIANS_UP_TO = 2 * np.pi + 0.01
 METRES_UP_TO = 30.0
@@ -112,6 +114,9 @@ def _look(path: Path) -> _Table:
     decimal = "," if cut != "," and _has_decimal_commas(rows) else "."
     header = not any(NUMBER.fullmatch(_plain(cell, decimal)) for cell in rows[0])
     names = rows[0] if header else [str(number) for number in range(1, width + 1)]
+    for name in names:
+        if len(name) > LONGEST_NAME:
+            raise InputError(path, f"line {first + 1}", name, f"column names of at most {LONGEST_NAME} characters")
     numbers = np.array([[_value(cell, decimal) for cell in row] for row in rows[1 if header else 0 :]], dtype=float)
     if not len(numbers):
         raise InputError(path, "", "a header alone", "rows are needed to guess units from")

@@ -1,0 +1,143 @@
+"""The fitted model of a moving arm: friction, masses, gains, causes with their numbers; the torque they predict."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.motion.causes import Moment, PlacedCause
+from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
+from armscope.motion.preparation import Preparation, Signals, parts
+from armscope.motion.rows import SoFar, bend, own_columns
+from armscope.motion.timing import Stretch
+from armscope.robot.dynamics import MovingArm
+
+
+@dataclass(frozen=True, eq=False)
+class FittedCause:
+    """A placed cause with the values of its parameters, SI, and their standard errors."""
+
+    placed: PlacedCause
+    values: Array
+    stderr: Array
+
+
+@dataclass(frozen=True, eq=False)
+class MotionModel:
+    """What a diagnosis of a motion fitted; SI units, N m (N of a sliding joint).
+
+    Attributes:
+        arm: the arm as stated.
+        how: filters and decimation of the rows that it was fitted to.
+        kind: whether they held torques or currents; what it predicts is torque by the stated gains in either case.
+        joints: (m, 6) of every joint, `layout.OWN`: stated and fitted together.
+        inertial: (10 n,) inertial parameters: stated ones, and by how much the fit moved them unnamed.
+        gains: (m,) shares by which recorded torque exceeds the true one.
+        causes: the named ones.
+        response: by how much of its second derivative drives round a torque off, s^2.
+    """
+
+    arm: MovingArm
+    how: Preparation
+    kind: Literal["torque", "current"]
+    joints: Array
+    inertial: Array
+    gains: Array
+    causes: tuple[FittedCause, ...]
+    response: float = 0.0
+
+    def followed(self) -> SoFar:
+        """What load, delay and gain follow: masses with all that is added to them, friction and rotors."""
+        return SoFar(self.inertial + self._added(None), self.joints[:, :CAUSES_OF_OWN])
+
+    def _added(self, run: str | None) -> Array:
+        """(10 n,) inertial parameters that causes add: those of every run, or those in one run."""
+        added = np.zeros(len(self.inertial))
+        for cause in self.causes:
+            there = not cause.placed.runs or (run is not None and run in cause.placed.runs)
+            if cause.placed.inertial is not None and there:
+                added = added + cause.placed.inertial @ cause.values
+        return added
+
+    def torque(self, signals: Signals, rate: float) -> Array:
+        """(N, m) torque at samples, as it would be recorded.
+
+        Args:
+            signals: filtered positions with their derivatives, payload and temperature.
+            rate: samples per second.
+        """
+        regressor = self.arm.regressor(signals.q, signals.dq, signals.ddq)
+        carried = np.zeros(regressor.shape[:2])
+        if signals.payload is not None:
+            carried = signals.payload[:, None] * (regressor @ self.arm.point_load())
+        followed, own = self.followed(), own_columns(self.arm, signals)
+        rigid = regressor @ followed.inertial + carried
+        predicted = rigid + np.einsum("nmk,mk->nm", own[:, :, :CAUSES_OF_OWN], followed.background)
+        moment = Moment(signals, rigid, predicted, self._gravity(signals.q), rate)
+        total = regressor @ (self.inertial + self._added(signals.run)) + carried
+        total += np.einsum("nmk,mk->nm", own, self.joints) + self.gains * predicted
+        total += self.response * bend(predicted, rate)
+        for cause in self.causes:
+            if cause.placed.columns is not None:
+                total[:, list(cause.placed.joints)] += cause.placed.columns(moment) @ cause.values
+        return np.asarray(total)
+
+    def _gravity(self, q: Array) -> Array | None:
+        if not any(each.placed.cause.name == "gravity_direction" for each in self.causes):
+            return None
+        return np.stack([self.arm.gravity_torques(q, axis) for axis in np.eye(3)], axis=2)
+
+
+def fitted_model(
+    layout: TorqueLayout, coefficients: Array, chosen: Sequence[tuple[int, Array]], how: Preparation
+) -> MotionModel:
+    """The model that coefficients of a selection make.
+
+    Args:
+        layout: of the columns.
+        coefficients: (p,) of all columns, SI.
+        chosen: number of each chosen cause, and the standard errors of its parameters.
+        how: filters and decimation.
+
+    Returns:
+        The model.
+    """
+    arm = layout.arm
+    stated = np.column_stack([np.nan_to_num(arm.stated_background), np.zeros((arm.n_motors, OWN - CAUSES_OF_OWN))])
+    gains = coefficients[layout.gains] if layout.with_gains else np.zeros(arm.n_motors)
+    return MotionModel(
+        arm=arm,
+        how=how,
+        kind="current" if layout.with_gains else "torque",
+        joints=stated + coefficients[layout.own].reshape(-1, OWN),
+        inertial=arm.inertial + layout.inertial_scale * coefficients[layout.inertial],
+        gains=gains,
+        causes=tuple(
+            FittedCause(layout.placed[number], coefficients[layout.columns[number]], stderr)
+            for number, stderr in chosen
+        ),
+        response=float(coefficients[layout.response][0]),
+    )
+
+
+def predicted_torque(model: MotionModel, stretches: Sequence[Stretch]) -> list[Array]:
+    """The torque at every sample of stretches, neither low-passed nor thinned.
+
+    Args:
+        model: the model.
+        stretches: even samples; ``effort`` is not looked at.
+
+    Returns:
+        (N, m) of each stretch.
+    """
+    found = [np.full(stretch.q.shape, np.nan) for stretch in stretches]
+    for number, stretch in enumerate(stretches):
+        how = replace(model.how, rate=stretch.rate)
+        for signals in parts([stretch], how, every_sample=True):
+            start = int(np.searchsorted(stretch.time, signals.time[0]))
+            found[number][start + signals.kept] = model.torque(signals, stretch.rate)[signals.kept]
+    return found

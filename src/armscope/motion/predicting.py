@@ -1,0 +1,85 @@
+"""Torques of a table of motions by a model file: every row at its own time."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from armscope.core.inputs import InputError
+from armscope.core.types import Array
+from armscope.motion.check import refuse_other_joints
+from armscope.motion.model import MotionModel, predicted_torque
+from armscope.motion.model_file import load_motion_model
+from armscope.motion.timing import mended_rows, stretches
+from armscope.recordings.motions import Motions, read_motions, torque_columns
+
+WARM = ("warm speed", "warm side", "curve over temperature")
+"""Laws that follow a temperature."""
+
+
+def predict_motions(model: Path, motions: Path) -> tuple[pd.DataFrame, list[str]]:
+    """The torques that a model says, at every row of a table of motions.
+
+    Args:
+        model: model.yaml of a diagnosis of a motion.
+        motions: a table like motions.csv, with torques or without.
+
+    Returns:
+        Columns run, time_s (as recorded), tau1_nm ... (sliding: f1_n) and, where the model is of currents, current1_a
+        ...; and notes.
+
+    Raises:
+        InputError: a file that can't be used, or a temperature that the model follows and the table lacks.
+    """
+    fitted = load_motion_model(model)
+    rows = read_motions(motions, fitted.arm.n_motors, measured=False)
+    refuse_other_joints(fitted.arm, rows)
+    follows = {getattr(cause.placed.columns, "kind", "") for cause in fitted.causes}
+    if rows.temperature is None and follows & set(WARM):
+        rule = "a cause in the model follows it, so it must be known in every row"
+        raise InputError(motions, "line 1", "no column temperature_c", rule, "Add it to the table.")
+    torque, notes = torque_of_rows(fitted, rows)
+    table = (
+        pd.DataFrame({"run": rows.run, "time_s": rows.time}) if rows.run.any() else pd.DataFrame({"time_s": rows.time})
+    )
+    names = torque_columns(fitted.arm.sliding)
+    table[names] = torque
+    if fitted.kind == "current":
+        table[[f"current{j + 1}_a" for j in range(fitted.arm.n_motors)]] = torque / fitted.arm.gains
+    return table, notes
+
+
+def torque_of_rows(model: MotionModel, motions: Motions) -> tuple[Array, list[str]]:
+    """The torque at every row: laid on an even grid, predicted, and taken at the row's own (mended) time.
+
+    Args:
+        model: the model.
+        motions: rows in any order of runs; torques are not looked at.
+
+    Returns:
+        (N, m) N m (N), NaN where a motion is too short; and notes.
+
+    Raises:
+        InputError: time goes back, or is not in seconds.
+    """
+    kept, time, notices = mended_rows(motions)
+    laid = list(stretches(motions.rows(kept).at_times(time)))
+    torque = np.full(motions.q.shape, np.nan)
+    found = predicted_torque(model, laid)
+    of_kept = np.full((len(kept), motions.n_motors), np.nan)
+    run = motions.run[kept]
+    for stretch, values in zip(laid, found, strict=True):
+        slack = 0.5 / stretch.rate
+        inside = np.flatnonzero(
+            (run == stretch.run) & (time >= stretch.time[0] - slack) & (time <= stretch.time[-1] + 2 * slack)
+        )
+        of_kept[inside] = np.column_stack([np.interp(time[inside], stretch.time, column) for column in values.T])
+    # a repeated row has the torque of the row that it repeats
+    torque[kept] = of_kept
+    order = np.arange(len(motions))
+    last = np.maximum.accumulate(np.where(np.isin(order, kept), order, -1))
+    repeated = (last != order) & (last >= 0)
+    torque[repeated] = torque[last[repeated]]
+    return torque, [notice.text for notice in notices]

@@ -1,0 +1,42 @@
+"""Laws of torque: each is what its equation says."""
+
+import numpy as np
+
+from armscope.motion.causes import Moment
+from armscope.motion.laws import Law
+from armscope.motion.preparation import Signals
+
+RNG = np.random.default_rng(3)
+Q, DQ, DDQ, RIGID, PREDICTED = RNG.normal(size=(5, 50, 2))
+TIME = np.linspace(0, 1, 50)
+SIGNALS = Signals("", 0, TIME, Q, DQ, DDQ, RIGID, None, 20 + Q, np.arange(50))
+MOMENT = Moment(SIGNALS, RIGID, PREDICTED, None, 49.0)
+
+
+def test_friction_laws_are_their_equations() -> None:
+    # the speed changes within a sample, and friction's side is the mean over it
+    within = DQ[:, 1] + DDQ[:, 1] / 49 * ((np.arange(20_000) + 0.5) / 20_000 - 0.5)[:, None]
+    side = np.tanh(within / 0.01).mean(axis=0)
+    stribeck = Law("stribeck", (1,), (0.01, 0.5))(MOMENT)[:, 0, 0]
+    np.testing.assert_allclose(stribeck, side * np.exp(-((DQ[:, 1] / 0.5) ** 2)), atol=1e-6)
+    load = Law("load friction", (1,), (0.01,))(MOMENT)[:, 0, 0]
+    np.testing.assert_allclose(load, np.abs(RIGID[:, 1]) * side, atol=1e-5)
+    np.testing.assert_allclose(Law("warm speed", (0,), (25.0,))(MOMENT)[:, 0, 0], (Q[:, 0] - 5) * DQ[:, 0])
+
+
+def test_what_acts_between_two_joints_acts_on_both() -> None:
+    rubbing = Law("rubbing of two", (0, 1), (-1.0, 0.01))(MOMENT)
+    np.testing.assert_allclose(rubbing[:, 0], -rubbing[:, 1])
+    np.testing.assert_allclose(rubbing[:, 0, 1], DQ[:, 0] - DQ[:, 1])
+
+
+def test_a_curve_can_be_constant_and_ends_where_its_range_does() -> None:
+    for driver in ("joint angle", "speed", "load", "time", "temperature"):
+        columns = Law(f"curve over {driver}", (0,), (-0.5, 0.5, 6.0))(MOMENT)
+        assert columns.shape == (50, 1, 6)
+        np.testing.assert_allclose(columns.sum(axis=2), 1.0)
+
+
+def test_a_delayed_torque_falls_short_by_its_slope() -> None:
+    slope = Law("delayed torque", (0,))(MOMENT)[1:-1, 0, 0]
+    np.testing.assert_allclose(slope, -(PREDICTED[2:, 0] - PREDICTED[:-2, 0]) * 49.0 / 2)
