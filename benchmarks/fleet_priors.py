@@ -72,6 +72,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--arms", type=int, default=40, help="with errors, and as many without, per number of rows")
     parser.add_argument("--rows", type=int, nargs="+", default=[20, 40])
+    parser.add_argument("--weaker", type=float, default=1.0, help="errors of the next arms are so many times smaller")
     asked = parser.parse_args()
     seen = []
     with tempfile.TemporaryDirectory() as made:
@@ -82,6 +83,8 @@ def main() -> None:
                 spec = arm_spec(number, 10**9, SEED).model_copy(
                     update={"rows": rows, "id": f"next-{rows}-{number:03d}"}
                 )
+                smaller = [wish.model_copy(update={"strength": wish.strength / asked.weaker}) for wish in spec.wishes]
+                spec = spec.model_copy(update={"wishes": tuple(smaller)})
                 if number % 2:
                     spec = spec.model_copy(update={"category": "clean", "wishes": ()})
                 world = build(spec, home / "next", ROBOTS)

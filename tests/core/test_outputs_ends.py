@@ -200,7 +200,7 @@ def test_a_run_that_was_killed_while_it_put_its_files_in_place_is_finished_by_th
         "def dying(source, target):\n"
         "    count.append(1)\n    len(count) == 3 and os.kill(os.getpid(), signal.SIGKILL)\n    move(source, target)\n"
         "outputs._move = dying\n"
-        "from tests.core.test_outputs import toy\n"
+        "from tests.core.toy import toy\n"
         "toy(['folder', '-o', sys.argv[1], 'a', 'b', 'c', '--source', sys.argv[2]])\n"
     )
     (tmp_path / "words").write_text("of the second run")
