@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import sys
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -12,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from armscope.cli.commands import Commands, Threads
-from armscope.cli.endings import MISMATCH, UNUSABLE, waiting_since
+from armscope.cli.endings import MISMATCH, UNUSABLE
 
 if TYPE_CHECKING:
     import numpy as np
@@ -68,14 +67,13 @@ def diagnose(
     from armscope.core.inputs import InputError
     from armscope.recordings.first_lines import is_motion_table
 
-    started = waiting_since()
     if is_motion_table(recordings):
         if priors is not None:
             raise InputError(
                 "--priors", "", priors, f"{recordings} is a table of motions, for which no sizes are learned"
             )
         with _progress("diagnosing") as tell:
-            asked = Asked(cutoff, held_out or [], run or [], json, report, started)
+            asked = Asked(cutoff, held_out or [], run or [], json, report)
             mismatch = diagnose_motions(recordings, robot, output, asked, tell)
         if exit_code and mismatch is not False:
             raise typer.Exit(MISMATCH if mismatch else UNUSABLE)
@@ -117,8 +115,6 @@ def diagnose(
     else:
         print(verdict.headline)
         print(f"{output}/{'report.html' if report else 'verdict.json'}")
-    if sys.stderr.isatty():  # no result: what the clock says differs from run to run
-        print(f"{time.time() - started:.1f} s", file=sys.stderr)
     if exit_code and verdict.mismatch is not False:
         raise typer.Exit(MISMATCH if verdict.mismatch else UNUSABLE)
 
