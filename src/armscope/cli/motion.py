@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 Tell = Callable[[str, float], None]
-FILES = ("verdict.json", "model.yaml")
+FILES = ("verdict.json", "model.yaml", "corrected.urdf", "mujoco.xml", "parameters.csv")
 """All that is written beside the page."""
 
 
@@ -55,6 +55,7 @@ def diagnose_motions(table: Path, robot: Path, output: Path, asked: Asked, tell:
     from armscope.cli.robots import print_json
     from armscope.core.files import writable
     from armscope.core.inputs import InputError, nearest
+    from armscope.motion.export import export_motion
     from armscope.motion.model_file import save_motion_model
     from armscope.motion.pipeline import MotionSettings, diagnose_motion
     from armscope.motion.verdict import write_motion_verdict
@@ -72,6 +73,7 @@ def diagnose_motions(table: Path, robot: Path, output: Path, asked: Asked, tell:
     found = diagnose_motion(arm, motions, MotionSettings(asked.cutoff, tuple(asked.held_out)), tell)
     write_motion_verdict(found.verdict, output)
     save_motion_model(output / "model.yaml", found.model)
+    export_motion(found.model, found.selected, output)
     if asked.report:
         from armscope.report.pages.motion import write_motion_report
 
