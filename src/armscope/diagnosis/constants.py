@@ -19,12 +19,12 @@ class BackgroundPriors(Constants):
     )
     family_sizes: int = constant(
         4,
-        "of an elastic or transmission background: none, then the smallest of the effects' sizes",
+        "of every other background: none, then the smallest of the effects' sizes",
         "judgement: what is larger has a name",
         unit="sizes",
     )
     starts: tuple[tuple[int, ...], ...] = constant(
-        ((0, 0, 0), (2, 0, 0), (4, 0, 0), (3, 2, 2)),
+        ((0, 0, 0, 0), (2, 0, 0, 0), (4, 0, 0, 0), (3, 2, 2, 2)),
         "sizes of the backgrounds from which searches start",
         "judgement: a perfect arm, two with geometric tolerances, one with a little of everything",
         unit="indices",
@@ -160,7 +160,13 @@ class NamingRules(Constants):
         10.0, "alternatives that lose more are not listed", "judgement: 20000 to 1", unit="nats"
     )
     listed_nats_of_special_cases: float = constant(
-        40.0, "the same for a curve's special cases", "judgement: most of the curve may be one of them", unit="nats"
+        40.0,
+        "the same for a curve's special cases, and for effects of more freedom that fit alike",
+        "judgement: most of the curve may be one of them; what freedom costs is no measurement",
+        unit="nats",
+    )
+    alike_nats: float = constant(
+        1.0, "by which what fits alike may fit worse", "derived: a likelihood ratio of e is no evidence", unit="nats"
     )
     looked_at: int = constant(12, "weighed in an effect's place", "judgement: time", unit="additions")
     coarsely: float = constant(

@@ -151,8 +151,13 @@ def _with_weights(waterfall: Sequence[WaterfallStep], named: Sequence[FoundEffec
 
 
 def _held(model: FittedModel, recordings: Recordings) -> FittedModel:
-    """The model to predict with: its free curves go no farther than they were learned."""
-    return replace(model, parts=tuple(replace(p, placed=held(p.placed, recordings)) for p in model.parts))
+    """The model to predict with: its free curves go no farther than they were learned.
+
+    A wander in the order of these rows says nothing of other rows.
+    """
+    background = tuple(p for p in model.background if p.placed.terms[0].products[0].driver.kind != "slow wave of rows")
+    parts = tuple(replace(p, placed=held(p.placed, recordings)) for p in model.parts)
+    return replace(model, parts=parts, background=background)
 
 
 def _plain_gram(state: DiagnosisState) -> NormalEquations:

@@ -95,7 +95,7 @@ class SelectionLoop:
         self.frames, self.progress = frames, progress
         self.block_of_row = block_of_row
         self.candidates = [*library(start.arm, recordings), *base_shifts_of_runs(set_ups_of(frames))]
-        self.families = list(backgrounds(start.arm, recordings).values())
+        self.families = list(backgrounds(start.arm, recordings, set_ups_of(frames)).values())
         self.model = start
         self.noise = NoiseOfRows(start, self.table, noise, residuals(start, self.table))
         self.last: tuple[Hypothesis, EffectSpace] | None = None

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from armscope.core.numerals import rounded
+from armscope.core.types import Array
 from armscope.physics.clause import Told
 from armscope.physics.cure import Cure
 from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term, term
@@ -21,6 +22,8 @@ OF_RUNS = {"run ": " in ", "in run ": " ", "between runs ": " ", "from run ": " 
 """How it begins to be told in which runs something is otherwise, and what comes before."""
 LEAST_SPAN_S = 1.0
 FEWEST_ORDERED_ROWS = 20
+WANDER_WAVES, ROWS_PER_WAVE = 6, 12
+"""Half waves of a set-up's slow wander at most, and rows for each of them: what is faster is hardly a set-up's."""
 
 
 def six_terms(location: str, driver: Driver, per: str = "", axes: tuple[str, ...] = AXES) -> tuple[Term, ...]:
@@ -257,5 +260,54 @@ TOOL_SHIFT = Effect(
     clauses=(_jumped, "the {location} jumped"),
     several=True,
 )
+
+BASE_WANDER = Effect(
+    "base_wander",
+    "drift",
+    lambda arm, recordings: iter(()),
+    "The base or the instrument wanders a little in the course of the recording, as any set-up does.",
+    "Measure fixed reference points on the base now and then.",
+    Cure("Nothing to cure."),
+)
+"""Allowed for, never named: what stands out of it is a drift or a jump."""
+
+
+def wander(recordings: Recordings, set_ups: SetUps) -> list[Placed]:
+    """A base that wanders slowly in the order of time, and stands a little elsewhere in each run of a set-up.
+
+    A random walk in the waves that count, its cosines falling with their number (Karhunen-Loeve). In time where it is
+    recorded, else in the order of rows. Either part is 1 mm RMS together at a prior of 1 mm.
+
+    Args:
+        recordings: the table.
+        set_ups: runs that share a base.
+
+    Returns:
+        Waves, then runs, in place.
+    """
+    found = []
+    count = min(WANDER_WAVES, len(recordings) // ROWS_PER_WAVE)
+    along, kind = _clock(recordings)
+    if count and np.ptp(along) > 0:
+        size = 1 / np.arange(1, count + 1)
+        size /= np.sqrt(6 * np.sum(size**2))
+        for wave in range(1, count + 1):
+            terms = six_terms("base", Driver(kind, (wave, float(along.min()), float(along.max()))))
+            found.append(Placed(BASE_WANDER, "base", terms, (float(size[wave - 1]),) * 6, "time", variant=f"{wave}"))
+    for runs in set_ups:
+        for run in runs if len(runs) > 1 else ():
+            terms = six_terms("base", Driver("during run", (run,)))
+            size_of_run = float(1 / np.sqrt(6 * len(runs)))
+            found.append(Placed(BASE_WANDER, "base", terms, (size_of_run,) * 6, "run", variant=f"run {run}"))
+    return found
+
+
+def _clock(recordings: Recordings) -> tuple[Array, str]:
+    """(N,) what orders the rows, and the kind of driver that has waves along it."""
+    time = recordings.time
+    if time is not None and np.isfinite(time).all() and varies(time, LEAST_SPAN_S):
+        return time, "slow wave"
+    return np.array([row_number(recordings, row) for row in range(len(recordings))]), "slow wave of rows"
+
 
 EFFECTS = [BASE_DRIFT, BASE_SHIFT, TOOL_SHIFT]

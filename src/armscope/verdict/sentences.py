@@ -58,15 +58,20 @@ def background_in_words(verdict: Verdict) -> str:
     """ "small errors of shape and stiffness in all its joints and links, as any arm has"."""
     kinds = {"geometric": "shape", "elastic": "stiffness", "transmission": "drives"}
     families = [family.family for family in verdict.background_families if family.present] or ["geometric"]
-    *first, last = [kinds.get(family, family) for family in families]
+    wander = "a slow wander of the set-up" if "drift" in families else ""
+    of_arm = [kinds.get(family, family) for family in families if family != "drift"]
+    if not of_arm:
+        return wander
+    *first, last = of_arm
     listed = f"{', '.join(first)} and {last}" if first else last
-    return f"small errors of {listed} in all its joints and links, as any arm has"
+    small = f"small errors of {listed} in all its joints and links, as any arm has"
+    return f"{wander} and {small}" if wander else small
 
 
 def _no_cause(verdict: Diagnosis, rest: Sequence[FoundEffect]) -> str:
     if verdict.background.present:
         share = percent(verdict.background.share)
-        return f"No single part stands out: {background_in_words(verdict)}, are {share} of the squared error."
+        return f"No single part stands out: {background_in_words(verdict)}, account for {share} of the squared error."
     return f"Only minor causes were found ({spelled(len(rest))})."
 
 

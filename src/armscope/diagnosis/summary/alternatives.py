@@ -50,13 +50,13 @@ def alternatives(search: Search, best: Hypothesis, number: int) -> list[Rival]:
     paid = _price_of_curve(search, candidate) if rest else 0.0
     lines = {c.location: c for c in search.space.candidates if c.kind == DRIVE and not c.variant}
     # what a coarse prediction puts far behind is not weighed
-    listed_nats = NAMING.listed_nats_of_special_cases if candidate.is_curve else NAMING.listed_nats
     lost = best.log_posterior - base.log_posterior
-    least = lost - paid - listed_nats - NAMING.coarsely * max(lost, 0.0) - BUDGET.slack_nats
+    least = lost - paid - NAMING.listed_nats_of_special_cases - NAMING.coarsely * max(lost, 0.0) - BUDGET.slack_nats
     for other in search.additions(base, NAMING.looked_at, [number], least):
         rival, gap = search.candidate(other.chosen[-1].candidate), best.log_posterior - other.log_posterior - paid
         excluded = other.chosen[-1].candidate in candidate.excludes
-        far = NAMING.listed_nats_of_special_cases if candidate.is_curve and excluded else NAMING.listed_nats
+        as_likely = (candidate.is_curve and excluded) or _fits_alike(best, other, candidate, rival)
+        far = NAMING.listed_nats_of_special_cases if as_likely else NAMING.listed_nats
         if (rest and excluded) or rival.key in taken or gap > far:
             continue
         if rest and rival.variant == "load" and rival.is_curve:
@@ -64,6 +64,13 @@ def alternatives(search: Search, best: Hypothesis, number: int) -> list[Rival]:
         if rival.key not in nearest or gap < nearest[rival.key].gap:
             nearest[rival.key] = Rival(gap, rival, other)
     return sorted(nearest.values(), key=lambda rival: rival.gap)
+
+
+def _fits_alike(best: Hypothesis, other: Hypothesis, effect: Candidate, rival: Candidate) -> bool:
+    """Whether a named rival of more freedom, which does not contain the effect, leaves the rows no less likely."""
+    if rival.is_curve or set(effect.columns) <= set(rival.columns):
+        return False
+    return bool((other.rss - best.rss) / (2 * best.noise**2) < NAMING.alike_nats)
 
 
 def _price_of_curve(search: Search, line: Candidate) -> float:
