@@ -86,8 +86,11 @@ def test_tolerances_are_free_and_other_backgrounds_pay(space: EffectSpace) -> No
     assert [family.name for family in space.families] == list(FAMILIES)
     assert [family.is_priced for family in space.families] == [False, True, True]
     geometric, elastic, _ = space.families
-    scale, sizes = np.full(len(space.layout.terms), 1000.0), np.array([0.1, 0.2, 0.4])
+    scale = np.full(len(space.layout.terms), 1000.0)
     # the whole tolerance of a millimetre, of columns that move the tool by a metre per metre
-    np.testing.assert_allclose(geometric.prior_variance(geometric.sizes - 1, sizes, scale), 1.0)
-    assert elastic.label(0, sizes) == 0.0
-    assert elastic.label(2, sizes) == 0.2
+    np.testing.assert_allclose(geometric.prior_variance(geometric.sizes - 1, scale), 1.0)
+    # the others' by what is plausible in their own units
+    plausible = np.array([space.layout.terms[column].plausible for column in elastic.columns])
+    np.testing.assert_allclose(np.sqrt(elastic.prior_variance(elastic.sizes - 1, scale)), 1000 * plausible)
+    assert elastic.label(0) == 0.0
+    assert elastic.label(2) == 0.01

@@ -89,7 +89,8 @@ def test_a_real_set_up_that_changed_twice_is_found_with_its_rows_and_its_bad_sho
     arm = load_arm(MA1400 / "robot.yaml")
     table = read_recordings(MA1400 / "recordings.csv.gz", arm.n_motors)
     verdict = diagnose(arm, table.rows(table.run == "leica_random"), QUICK)
-    rows = {e.effect: {p.name: p for p in e.parameters}["row"] for e in verdict.effects if e.effect[-5:] == "shift"}
+    shifts = [e for e in verdict.effects if e.effect[-5:] == "shift"][::-1]  # the largest of each kind counts
+    rows = {e.effect: {p.name: p for p in e.parameters}["row"] for e in shifts}
     assert abs(rows["tool_shift"].value - 86) < 1
     assert 164 <= rows["base_shift"].value <= 172
     assert all(0 < row.stderr < 5 for row in rows.values())

@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from armscope.inference.additions import addition_scores
 from armscope.inference.evidence import Hypothesis, evaluate
-from armscope.inference.model_space import Candidate, Exchange, ModelSpace, SizedFamily, ToleranceFamily
+from armscope.inference.model_space import Candidate, Exchange, ModelSpace, ToleranceFamily
 from armscope.inference.neighbours import block_removals, neighbours
 from armscope.inference.normal_equations import NormalEquations
 from armscope.inference.problem import SelectedEffect, build_problem
@@ -28,8 +29,8 @@ def single(number: int, **more: object) -> Candidate:
 def space_of(candidates: list[Candidate], **more: object) -> ModelSpace:
     everything = np.arange(FRAMES, FRAMES + SINGLE)
     families = (
-        ToleranceFamily("tolerances", everything, 0.02, (0.0, 0.3, 1.0)),
-        SizedFamily("small", everything[:4], np.ones(4), 3),
+        ToleranceFamily("tolerances", everything, np.full(SINGLE, 0.02), (0.0, 0.3, 1.0)),
+        ToleranceFamily("small", everything[:4], np.ones(4), (0.0, 0.01, 0.03), is_priced=True),
     )
     return replace(ModelSpace(np.arange(FRAMES), families, tuple(candidates), ((0, 0), (2, 1))), **more)
 
@@ -52,6 +53,36 @@ def test_what_made_the_response_is_found_and_nothing_else(truth: dict[int, float
     assert best.noise == pytest.approx(NOISE, rel=0.1)
     for number, value in truth.items():
         assert best.means(np.array([FRAMES + number]))[0] == pytest.approx(value, rel=0.15)
+
+
+def test_what_is_plausible_bounds_what_rows_hardly_tell() -> None:
+    """A column that all but vanishes beyond the frames: without a limit its value is as large as its rows allow."""
+    rng = np.random.default_rng(3)
+    X = rng.normal(size=(ROWS, FRAMES + SINGLE))
+    X[:, FRAMES] = X[:, :FRAMES] @ rng.normal(size=FRAMES) + 1e-2 * rng.normal(size=ROWS)
+    y = 0.5 * X[:, FRAMES + 3] + rng.normal(0, NOISE, ROWS)
+    equations = NormalEquations(X.T @ X, X.T @ y, float(y @ y), float(ROWS))
+    for limit in (None, np.array([0.01])):
+        candidates = [single(n) for n in range(SINGLE)]
+        candidates[0] = replace(candidates[0], plausible=limit)
+        problem = build_problem(space_of(candidates), equations, 0.5 * NOISE)
+        largest = SelectedEffect(0, len(problem.sizes) - 1)
+        told = evaluate(problem, (largest,), problem.space.no_background, NOISE)
+        spread = float(np.sqrt(told.variances(np.array([FRAMES]))[0])) / problem.scale[FRAMES]
+        assert (spread > 0.05) if limit is None else (spread <= 0.01)
+
+
+def test_predicted_gains_keep_to_what_is_plausible() -> None:
+    """What an addition promises is what it brings, also where its own limit holds it smaller than its size."""
+    candidates = [single(n, plausible=np.array([0.02 * (1 + n)])) for n in range(SINGLE)]
+    search = search_on(space_of(candidates), {2: 0.1, 5: 0.02})
+    before = search.evaluated((SelectedEffect(2, 3),), search.perfect())
+    promised = addition_scores(search.problem, search.groups, before)
+    for candidate in set(range(SINGLE)) - {2}:
+        for size in range(len(search.problem.sizes)):
+            brought = search.evaluated((*before.chosen, SelectedEffect(candidate, size)), before)
+            gain = brought.log_posterior - before.log_posterior
+            assert promised[size, candidate] == pytest.approx(gain, abs=0.2 + 0.05 * abs(gain))
 
 
 def test_the_frames_take_up_what_is_theirs() -> None:

@@ -17,14 +17,13 @@ class BackgroundPriors(Constants):
         "judgement: from a perfect arm to an ordinary one; none is among them, since two dozen free "
         "values, however small, take up any single one that is barely seen",
     )
-    family_sizes: int = constant(
-        4,
-        "of every other background: none, then the smallest of the effects' sizes",
-        "judgement: what is larger has a name",
-        unit="sizes",
+    plausible_shares: tuple[float, ...] = constant(
+        (0.0, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0),
+        "shares of what is plausible that an elastic, transmission or drift background may have",
+        "judgement: from a stiff arm with ground gears to a soft one; what is larger has a name",
     )
     starts: tuple[tuple[int, ...], ...] = constant(
-        ((0, 0, 0, 0), (2, 0, 0, 0), (4, 0, 0, 0), (3, 2, 2, 2)),
+        ((0, 0, 0, 0), (2, 0, 0, 0), (4, 0, 0, 0), (3, 3, 2, 3)),
         "sizes of the backgrounds from which searches start",
         "judgement: a perfect arm, two with geometric tolerances, one with a little of everything",
         unit="indices",
@@ -138,6 +137,11 @@ class NamingRules(Constants):
         "of a curve of load that its line explains, from which it is told as the line and the rest",
         "judgement: the rest is then a tenth",
     )
+    main_share: float = constant(
+        0.75,
+        "of a curve of a joint's angle, of what only it explains, that one line or wave must be to be told as that",
+        "judgement: the rest is then half as large as it",
+    )
     stands_out_nats: float = constant(
         20.0,
         "that holding a background's member right must lose for it to be named",
@@ -146,6 +150,11 @@ class NamingRules(Constants):
     )
     stands_out: float = constant(
         0.25, "share of the RMS that it must be worth", "judgement: less is one of many small errors"
+    )
+    beyond_family: float = constant(
+        2.5,
+        "times the usual value of its family that a background's member must have to be named",
+        "convention: one in eighty of a family's values is farther out",
     )
     minor_share: float = constant(
         0.025,

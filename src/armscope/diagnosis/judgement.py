@@ -177,10 +177,15 @@ def _weighted_rms(fit: Refit) -> float:
 
 
 def _shares(fit: Refit, gram: NormalEquations) -> tuple[list[float], list[float]]:
-    """Share of the variance after the frames of every effect, and of every family's background."""
+    """Share of the variance after the frames of every effect, and of every family's background.
+
+    Free curves come last in every order: they count for what nothing else explains.
+    """
     members = [fit.pool.of(part.placed) for part in fit.model.parts]
     families = [columns for columns in fit.pool.background if len(columns)]
-    told = iter(shares(gram, fit.noise**2 * fit.precision, fit.pool.frames, [*members, *families]).tolist())
+    curves = {n for n, part in enumerate(fit.model.parts) if part.placed.parametrisation == "curve"}
+    ridge = fit.noise**2 * fit.precision
+    told = iter(shares(gram, ridge, fit.pool.frames, [*members, *families], last=curves).tolist())
     return [next(told) for _ in members], [next(told) if len(columns) else 0.0 for columns in fit.pool.background]
 
 

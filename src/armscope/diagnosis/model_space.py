@@ -17,10 +17,9 @@ from armscope.inference.model_space import (
     Candidate,
     Exchange,
     ModelSpace,
-    SizedFamily,
     ToleranceFamily,
 )
-from armscope.physics.backgrounds import FAMILIES, TOLERANCE
+from armscope.physics.backgrounds import FAMILIES, GEOMETRIC
 from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import Placed, clash, region
 from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
@@ -65,12 +64,13 @@ def build_model_space(
 
 
 def _families(layout: ParameterLayout) -> tuple[BackgroundFamily, ...]:
-    """Geometric values are measured against the makers' tolerance, the others by what they do at the tool."""
-    (first, *others), (columns, *of_others) = FAMILIES, layout.background
-    sized = zip(others, of_others, layout.background_scale[1:], strict=True)
-    return (
-        ToleranceFamily(first, columns, TOLERANCE, BACKGROUNDS.tolerance_shares),
-        *(SizedFamily(name, at, scale, BACKGROUNDS.family_sizes) for name, at, scale in sized),
+    """Every family is measured against its tolerances; geometric errors are free, since every arm has them."""
+    families = zip(FAMILIES, layout.background, layout.background_scale, strict=True)
+    return tuple(
+        ToleranceFamily(name, columns, tolerance, BACKGROUNDS.tolerance_shares)
+        if name == GEOMETRIC
+        else ToleranceFamily(name, columns, tolerance, BACKGROUNDS.plausible_shares, is_priced=True)
+        for name, columns, tolerance in families
     )
 
 
@@ -91,6 +91,7 @@ def _candidates(layout: ParameterLayout, placed: Sequence[Placed]) -> tuple[Cand
                 location=p.location,
                 columns=layout.columns[number],
                 prior_scale=np.array(p.prior_scale),
+                plausible=np.array([term.plausible for term in p.terms]),
                 variant=p.variant,
                 driver=p.driver,
                 label=str(p),

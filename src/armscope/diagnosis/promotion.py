@@ -13,10 +13,12 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.diagnosis.constants import NAMING
 from armscope.diagnosis.model_space import EffectSpace
+from armscope.inference.conditioning import condition_on
 from armscope.inference.constants import PRIORS
 from armscope.inference.edits import Edits
 from armscope.inference.evidence import Hypothesis, evaluate, savage_dickey
 from armscope.inference.linear_algebra import profiled_loss, schur_complement
+from armscope.inference.model_space import Candidate
 from armscope.inference.normal_equations import as_response
 from armscope.inference.problem import Problem, SelectedEffect
 from armscope.physics.elastic import JOINT_COMPLIANCE
@@ -42,7 +44,7 @@ def named(edits: Edits, space: EffectSpace, hypothesis: Hypothesis) -> Hypothesi
         The hypothesis with those names.
     """
     while True:
-        promoted = _promoted(edits.problem, _straightened(edits.problem, space, hypothesis))
+        promoted = _promoted(edits.problem, _with_main_shapes(edits, _straightened(edits.problem, space, hypothesis)))
         weakest = edits.weakest(promoted)
         if weakest is None:
             return promoted
@@ -58,11 +60,12 @@ def _promoted(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
     """
     unnamed = list(_unnamed(problem, hypothesis))
     drives = [number for number in unnamed if problem.space.candidates[number].kind == DRIVE]
-    others = [number for number in unnamed if number not in drives]
     added = [
         number
-        for number in others
-        if _stands_out(problem, hypothesis, number, NAMING.stands_out_nats, NAMING.stands_out)
+        for number in unnamed
+        if number not in drives
+        and _stands_out(problem, hypothesis, number, NAMING.stands_out_nats, NAMING.stands_out)
+        and _beyond_family(problem, hypothesis, number) > NAMING.beyond_family
     ]
     if drives:
         free = _with_names(problem, hypothesis, drives, [problem.mismatch] * len(drives))
@@ -91,6 +94,24 @@ def _size(problem: Problem, hypothesis: Hypothesis, number: int) -> float:
 def _stands_out(problem: Problem, hypothesis: Hypothesis, number: int, least: float, share: float) -> bool:
     large = _size(problem, hypothesis, number) > share * problem.mismatch
     return large and _lost(problem, hypothesis, number) > least
+
+
+def _beyond_family(problem: Problem, hypothesis: Hypothesis, number: int) -> float:
+    """How many times larger a candidate's largest value is than the usual one of the rest of its family.
+
+    Values are measured in their tolerances; what is uncertain of the others counts as theirs.
+    """
+    own = problem.space.candidates[number].columns
+    times = [0.0]
+    for family, size in zip(problem.space.families, hypothesis.background, strict=True):
+        others = np.setdiff1d(family.columns, own)
+        if not size or not len(others) or not set(own) <= set(family.columns):
+            continue
+        variance = np.zeros(len(problem.scale))
+        variance[family.columns] = family.prior_variance(size, problem.scale)
+        usual = np.mean((hypothesis.means(others) ** 2 + hypothesis.variances(others)) / variance[others])
+        times.append(float(np.max(np.abs(hypothesis.means(own)) / np.sqrt(usual * variance[own]))))
+    return max(times)
 
 
 def _unnamed(problem: Problem, hypothesis: Hypothesis) -> Iterator[int]:
@@ -133,6 +154,46 @@ def _straightened(problem: Problem, space: EffectSpace, hypothesis: Hypothesis) 
     return hypothesis
 
 
+def _with_main_shapes(edits: Edits, hypothesis: Hypothesis) -> Hypothesis:
+    """With curves of a joint's own angle that are one line or wave for the most part told as that and a rest."""
+    problem = edits.problem
+    free = [set(family.columns) for family in edits.space.families if not family.is_priced]
+    # what every arm has anyway gets its name by standing out there
+    ordinary = {n for n, c in enumerate(edits.space.candidates) if any(set(c.columns) <= columns for columns in free)}
+    for curve in hypothesis.chosen:
+        candidate = edits.candidate(curve.candidate)
+        if not candidate.is_curve or not candidate.variant.startswith("angle"):
+            continue
+        asked = _within(problem, candidate) - hypothesis.candidates - ordinary
+        shapes = {n: _main_shape(edits, hypothesis, curve, n) for n in asked}
+        shape = max(shapes, key=lambda n: shapes[n][0], default=None)
+        if shape is None or shapes[shape][0] < NAMING.main_share:
+            continue
+        name = SelectedEffect(shape, problem.nearest_size(shapes[shape][1]), nested=True)
+        hypothesis = evaluate(problem, (*hypothesis.chosen, name), hypothesis.background, hypothesis.noise)
+    return hypothesis
+
+
+def _main_shape(edits: Edits, hypothesis: Hypothesis, curve: SelectedEffect, shape: int) -> tuple[float, float]:
+    """Share of a curve, of what only it explains, that one shape is; and the shape's RMS, mm.
+
+    A background of such shapes is left out: what it could explain is what is asked for.
+    """
+    own, within = edits.candidate(curve.candidate).columns, edits.candidate(shape).columns
+    columns = np.union1d(own, within)
+    families = zip(hypothesis.background, edits.space.families, strict=True)
+    background = tuple(0 if set(family.columns) & set(within) else size for size, family in families)
+    without = edits.evaluated(edits.kept(hypothesis, [curve.candidate]), hypothesis, background)
+    M = condition_on(edits.problem, columns, without).own(edits.problem, np.arange(len(columns))[None])[0]
+    mean = np.zeros(len(columns))
+    mean[np.searchsorted(columns, own)] = hypothesis.means(own)
+    response = as_response(M, mean, edits.problem.n)
+    left = response.least_rss(np.searchsorted(columns, within))
+    main = max(response.yy - left, 0.0)
+    share = main / response.yy if response.yy > 0 else 0.0
+    return share, float(np.sqrt(main / response.n))
+
+
 def _line(problem: Problem, space: EffectSpace, hypothesis: Hypothesis, curve: int) -> tuple[float, float]:
     """RMS, mm, of a load curve's line beyond a constant (0 for a line against the load), and of what is left of it."""
     columns = space.candidates[curve].columns
@@ -156,7 +217,7 @@ def _along_load(M: Array, mean: Array, line: int, constant: Sequence[int]) -> bo
 
 
 def rest_of(problem: Problem, hypothesis: Hypothesis, line: int) -> list[int]:
-    """What is left, in a hypothesis, of the curve that a named line was taken from.
+    """What is left, in a hypothesis, of the curve that a named line or wave was taken from.
 
     Args:
         problem: the sums, priors and costs.
@@ -164,14 +225,22 @@ def rest_of(problem: Problem, hypothesis: Hypothesis, line: int) -> list[int]:
         line: the candidate's number.
 
     Returns:
-        Numbers of columns.
+        Numbers of candidates.
     """
     candidates = problem.space.candidates
-    if candidates[line].kind != DRIVE:
-        return []
-    location = candidates[line].location
-    others = ((c, candidates[c]) for c in hypothesis.candidates)
-    return [n for n, c in others if c.location == location and c.variant == REST_OF_LOAD]
+    named = candidates[line]
+    nested = any(c.nested for c in hypothesis.chosen if c.candidate == line)
+    others = [(c, candidates[c]) for c in hypothesis.candidates if candidates[c].location == named.location]
+    if named.kind == DRIVE:
+        return [n for n, c in others if c.variant == REST_OF_LOAD]
+    return [
+        n for n, c in others if nested and c.is_curve and c.variant.startswith("angle") and line in _within(problem, c)
+    ]
+
+
+def _within(problem: Problem, curve: Candidate) -> frozenset[int]:
+    """The special cases of a curve, or of the coarser one that it refines."""
+    return (curve if curve.refines is None else problem.space.candidates[curve.refines]).special_cases
 
 
 def nested_log_odds(problem: Problem, hypothesis: Hypothesis, name: SelectedEffect) -> float:

@@ -21,7 +21,7 @@ class ParameterLayout:
         terms: the columns, in order.
         frames: columns of the free frames.
         background: columns of each family's background.
-        background_scale: relative size that each of these columns is expected to have.
+        background_scale: SI, size that each of these columns is expected to have.
         columns: columns of each effect.
     """
 

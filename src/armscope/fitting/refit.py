@@ -23,7 +23,6 @@ from armscope.inference.normal_equations import NormalEquations, column_scales
 from armscope.measurement import robust
 from armscope.measurement.channel import ChannelResiduals, retracted
 from armscope.measurement.row_weights import RowNoise, RowWeights
-from armscope.physics.backgrounds import TOLERANCE
 from armscope.physics.effect import Placed, Term
 from armscope.physics.model import FittedModel
 from armscope.physics.scene import Part
@@ -154,8 +153,7 @@ def refit(
         model: where to start from; its effects are replaced.
         rows: a table, or recordings.
         frames: always free.
-        backgrounds: per family (effects, size): a share of the tolerance for the first, mm at the tool for the others;
-            families of size 0 are left out.
+        backgrounds: per family (effects, share of their tolerances); families of size 0 are left out.
         effects: (effect, size at the tool, mm).
         row_noise: relative uncertainty of the rows, and which are independent.
         least_noise: mm; the noise is never taken to be below.
@@ -164,6 +162,7 @@ def refit(
     Returns:
         The fitted model, its weights, noise and covariance.
     """
+    effects = [(_apart(placed, effects), size) for placed, size in effects]
     named = {term for placed, _ in effects for term in placed.terms}
     kept = [[b for placed in family if size and (b := _without(placed, named))] for family, size in backgrounds]
     background = [placed for family in kept for placed in family]
@@ -195,6 +194,15 @@ def _without(placed: Placed, named: set[Term]) -> Placed | None:
     )
 
 
+def _apart(placed: Placed, effects: Sequence[tuple[Placed, float]]) -> Placed:
+    """A free curve without the terms that a named effect has, which is then the rest of it; others as they are."""
+    if placed.parametrisation != "curve":
+        return placed
+    return (
+        _without(placed, {t for other, _ in effects if other.parametrisation != "curve" for t in other.terms}) or placed
+    )
+
+
 def _start(model: FittedModel, background: Sequence[Placed], effects: Sequence[tuple[Placed, float]]) -> FittedModel:
     """The model with the new set of effects, values taken over where a term was there before."""
     known = {
@@ -217,12 +225,14 @@ def _precision(
     """(p,) prior precisions in SI units."""
     scale = column_scales(gram, parts.frames)
     variance = np.full(len(parts.terms), np.inf)
-    for number, (columns, shape, size) in enumerate(zip(parts.background, parts.background_scale, sizes, strict=True)):
-        variance[columns] = (size * TOLERANCE) ** 2 if number == 0 else (size * shape / scale[columns]) ** 2
+    for columns, tolerance, size in zip(parts.background, parts.background_scale, sizes, strict=True):
+        variance[columns] = (size * tolerance) ** 2
     for (placed, size), at in zip(effects, parts.columns, strict=True):
         wide = 1.0 if placed.partly_unseen else STEPS.free
         variance[at] = (wide * size * np.array(placed.prior_scale) / scale[at]) ** 2
         # nor farther than frames go, however much of it they would absorb
         variance[at] = np.minimum(variance[at], PRIORS.frame_mm**2 * gram.n / np.maximum(np.diag(gram.G)[at], 1e-24))
+    inside = np.unique(np.concatenate([*parts.background, *parts.columns])) if parts.columns else np.empty(0, np.intp)
+    variance[inside] = np.minimum(variance[inside], np.array([parts.terms[n].plausible for n in inside]) ** 2)
     variance[parts.frames] = (PRIORS.frame_mm / scale[parts.frames]) ** 2
     return np.asarray(1 / variance)

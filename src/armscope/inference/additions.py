@@ -12,7 +12,7 @@ from armscope.core.types import Array, Indices
 from armscope.inference.conditioning import ConditionedColumns, LowRankUpdate, condition_on
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.linear_algebra import ColumnBlocks, profiled_gain, quadratic_and_logdet
-from armscope.inference.model_space import ModelSpace
+from armscope.inference.model_space import Candidate, ModelSpace, within
 from armscope.inference.problem import Problem, SelectedEffect
 
 
@@ -25,12 +25,14 @@ class CandidateGroups:
         members: (m,) candidates of each group.
         columns: (m, c) where their columns stand in ``competing``.
         prior_scales: (m, c) relative sizes.
+        plausible: (m, c) sizes in the columns' own units that no coefficient is expected to exceed.
     """
 
     competing: Indices
     members: tuple[Indices, ...]
     columns: tuple[Indices, ...]
     prior_scales: tuple[Array, ...]
+    plausible: tuple[Array, ...]
 
 
 def group_candidates(space: ModelSpace) -> CandidateGroups:
@@ -46,7 +48,12 @@ def group_candidates(space: ModelSpace) -> CandidateGroups:
         tuple(np.array(members) for members in by_size.values()),
         tuple(np.searchsorted(competing, [columns[m] for m in members]) for members in by_size.values()),
         tuple(np.array([space.candidates[m].prior_scale for m in members]) for members in by_size.values()),
+        tuple(np.array([_plausible(space.candidates[m]) for m in members]) for members in by_size.values()),
     )
+
+
+def _plausible(candidate: Candidate) -> Array:
+    return np.full(len(candidate.columns), np.inf) if candidate.plausible is None else candidate.plausible
 
 
 def best_additions(problem: Problem, groups: CandidateGroups, hypothesis: Hypothesis) -> tuple[Array, Indices]:
@@ -92,13 +99,16 @@ def addition_scores(
         rest = condition_on(problem, groups.competing, hypothesis)
     noise, chi2 = hypothesis.noise, hypothesis.rss / hypothesis.noise**2
     by_size = np.full((len(problem.sizes), len(problem.prior_costs)), -np.inf)
-    for members, columns, scales in zip(groups.members, groups.columns, groups.prior_scales, strict=True):
+    for members, columns, scales, plausible in zip(
+        groups.members, groups.columns, groups.prior_scales, groups.plausible, strict=True
+    ):
         inside = np.ones(len(members), dtype=np.bool_) if asked is None else asked[members]
         if not np.any(inside):
             continue
-        at, scale = columns[inside], scales[inside]
-        D = rest.own(problem, at) / noise**2 * scale[:, :, None] * scale[:, None, :]
-        quadratic, logdet = quadratic_and_logdet(D, rest.b[at] / noise**2 * scale, problem.sizes**2)
+        at = columns[inside]
+        largest = plausible[inside] * problem.scale[groups.competing[at]]
+        D, r = rest.own(problem, at) / noise**2, rest.b[at] / noise**2
+        quadratic, logdet = _by_size(D, r, problem.sizes, scales[inside], largest)
         if hypothesis.settled:
             likelier = profiled_gain(quadratic, chi2, problem.n, noise, problem.least_noise)
         else:
@@ -110,6 +120,25 @@ def addition_scores(
     pushed = rest.b[np.searchsorted(groups.competing, first)] > 0
     by_size[:, half_line] += np.where(pushed, np.log(2), -np.inf)
     return np.asarray(by_size - problem.prior_costs - np.log(len(problem.sizes)))
+
+
+def _by_size(D: Array, r: Array, sizes: Array, scale: Array, largest: Array) -> tuple[Array, Array]:
+    """As `quadratic_and_logdet`, with prior sizes (m, c) sizes x scale, but no larger than ``largest``, mm."""
+    held = (largest < sizes[-1] * scale).any(axis=1)
+    if not held.any():
+        return quadratic_and_logdet(D * scale[:, :, None] * scale[:, None, :], r * scale, sizes**2)
+    quadratic, logdet = np.empty((len(sizes), len(D))), np.empty((len(sizes), len(D)))
+    free = ~held
+    if free.any():
+        own = scale[free]
+        inner = D[free] * own[:, :, None] * own[:, None, :]
+        quadratic[:, free], logdet[:, free] = quadratic_and_logdet(inner, r[free] * own, sizes**2)
+    # each size has a shape of its own: as many blocks
+    own = within(sizes[:, None, None] * scale[held], largest[held], np.ones(1))
+    inner = (D[held] * own[..., :, None] * own[..., None, :]).reshape(-1, *D.shape[1:])
+    (told,), (spread,) = quadratic_and_logdet(inner, (r[held] * own).reshape(-1, D.shape[1]), np.ones(1))
+    quadratic[:, held], logdet[:, held] = told.reshape(len(sizes), -1), spread.reshape(len(sizes), -1)
+    return quadratic, logdet
 
 
 def joint_addition_scores(problem: Problem, rest: Hypothesis, sets: Sequence[tuple[SelectedEffect, ...]]) -> Array:

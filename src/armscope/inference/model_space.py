@@ -36,6 +36,8 @@ class Candidate:
         family: which background takes the place of several of its kind.
         region: coarser than the location: what is taken out together when others are tried in its place.
         multiplicity: how many values of a scanned number compete: the prior pays for them.
+        plausible: (c,) how large each coefficient is expected to be in the columns' own units; None where nothing is
+            known. The smaller of the two counts: what rows don't tell stays within what is plausible.
         nonnegative: it has one coefficient, which can't be negative.
         is_curve: a free curve, which contains special cases.
         competes: it enters a search by itself; otherwise only in another's place.
@@ -57,6 +59,7 @@ class Candidate:
     family: str = ""
     region: str = ""
     multiplicity: int = 1
+    plausible: Array | None = None
     nonnegative: bool = False
     is_curve: bool = False
     competes: bool = True
@@ -97,29 +100,36 @@ class BackgroundFamily(Protocol):
     def is_priced(self) -> bool:
         """Whether it pays, as one kind of error among the others; one that everything real has is free."""
 
-    def prior_variance(self, size: int, effect_sizes: Array, scale: Array) -> Array:
+    def prior_variance(self, size: int, scale: Array) -> Array:
         """(c,) prior variances, mm^2, of the columns once they are divided by ``scale`` (p,).
 
         Args:
             size: index of the background's size.
-            effect_sizes: the sizes of effects that compete, mm.
             scale: (p,) by which columns are divided.
 
         Returns:
             (c,) mm^2.
         """
 
-    def label(self, size: int, effect_sizes: Array) -> float:
-        """The size as a number: mm, or a share of what is stated."""
+    def label(self, size: int) -> float:
+        """The size as a number: a share of what is stated."""
 
 
 @dataclass(frozen=True, eq=False)
 class ToleranceFamily:
-    """Values that have a stated tolerance each, in units of their own; the sizes are shares of it."""
+    """Values that have a tolerance each, in units of their own; the sizes are shares of it.
+
+    Attributes:
+        name: of the family.
+        columns: (c,) its columns.
+        tolerance: (c,) in the columns' own units.
+        shares: of the tolerance, none first.
+        is_priced: whether it pays.
+    """
 
     name: str
     columns: Indices
-    tolerance: float
+    tolerance: Array
     shares: tuple[float, ...]
     is_priced: bool = False
 
@@ -128,12 +138,11 @@ class ToleranceFamily:
         """How many shares compete."""
         return len(self.shares)
 
-    def prior_variance(self, size: int, effect_sizes: Array, scale: Array) -> Array:
+    def prior_variance(self, size: int, scale: Array) -> Array:
         """As of `BackgroundFamily`.
 
         Args:
             size: index of the background's size.
-            effect_sizes: not looked at: a tolerance has sizes of its own.
             scale: (p,) by which columns are divided.
 
         Returns:
@@ -141,37 +150,23 @@ class ToleranceFamily:
         """
         return np.asarray((self.shares[size] * self.tolerance * scale[self.columns]) ** 2)
 
-    def label(self, size: int, effect_sizes: Array) -> float:
+    def label(self, size: int) -> float:
         """Share of the tolerance."""
         return self.shares[size]
 
 
-@dataclass(frozen=True, eq=False)
-class SizedFamily:
-    """Values that are measured by what they do; the sizes are none, then the smallest of the effects' sizes."""
+def within(expected: Array, plausible: Array | None, scale: Array) -> Array:
+    """(..., c) prior sizes, mm, of scaled coefficients: as expected, nor larger than is plausible in their own units.
 
-    name: str
-    columns: Indices
-    prior_scale: Array
-    sizes: int
-    is_priced: bool = True
+    Args:
+        expected: (..., c) mm.
+        plausible: (..., c) in the columns' own units; None: anything is.
+        scale: (..., c) mm per unit.
 
-    def prior_variance(self, size: int, effect_sizes: Array, scale: Array) -> Array:
-        """As of `BackgroundFamily`.
-
-        Args:
-            size: index of the background's size.
-            effect_sizes: the sizes of effects that compete, mm.
-            scale: not looked at: sizes are of scaled columns.
-
-        Returns:
-            (c,) mm^2.
-        """
-        return np.asarray((self.label(size, effect_sizes) * self.prior_scale) ** 2)
-
-    def label(self, size: int, effect_sizes: Array) -> float:
-        """Size, mm."""
-        return float(effect_sizes[size - 1]) if size else 0.0
+    Returns:
+        The smaller of the two.
+    """
+    return expected if plausible is None else np.minimum(expected, plausible * scale)
 
 
 @dataclass(frozen=True)

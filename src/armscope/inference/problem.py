@@ -13,7 +13,7 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.inference.constants import PRIORS
-from armscope.inference.model_space import BackgroundSizes, ModelSpace
+from armscope.inference.model_space import BackgroundSizes, ModelSpace, within
 from armscope.inference.normal_equations import NormalEquations, column_scales
 
 
@@ -68,7 +68,10 @@ class Problem:
 
     def prior_scale(self, effect: SelectedEffect) -> Array:
         """(c,) prior standard deviations of an effect's scaled coefficients, mm."""
-        return np.asarray(self.sizes[effect.size] * self.space.candidates[effect.candidate].prior_scale)
+        candidate = self.space.candidates[effect.candidate]
+        return within(
+            self.sizes[effect.size] * candidate.prior_scale, candidate.plausible, self.scale[candidate.columns]
+        )
 
     def nearest_size(self, rms: float) -> int:
         """Index of the size nearest to an RMS at the tool; the smallest for what is held at zero."""
@@ -133,7 +136,7 @@ def prior_variances(problem: Problem, chosen: Sequence[SelectedEffect], backgrou
     prior, space = np.zeros(len(problem.scale)), problem.space
     for family, size in zip(space.families, background, strict=True):
         if size:
-            prior[family.columns] += family.prior_variance(size, problem.sizes, problem.scale)
+            prior[family.columns] += family.prior_variance(size, problem.scale)
     prior[space.frames] = PRIORS.frame_mm**2
     for effect in chosen:
         prior[space.candidates[effect.candidate].columns] += problem.prior_scale(effect) ** 2
@@ -141,6 +144,5 @@ def prior_variances(problem: Problem, chosen: Sequence[SelectedEffect], backgrou
 
 
 def background_sizes(problem: Problem, background: BackgroundSizes) -> tuple[float, ...]:
-    """Size of each family's background as a number: share of what is stated, or mm at the tool."""
-    families = zip(problem.space.families, background, strict=True)
-    return tuple(family.label(size, problem.sizes) for family, size in families)
+    """Size of each family's background as a number: share of its tolerance."""
+    return tuple(family.label(size) for family, size in zip(problem.space.families, background, strict=True))

@@ -9,7 +9,7 @@ property: of two that nearly cancel, each would be worth many times the mismatch
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
 import numpy as np
 
@@ -19,7 +19,13 @@ from armscope.inference.linear_algebra import lower_cholesky, solve_lower
 from armscope.inference.normal_equations import NormalEquations
 
 
-def shares(equations: NormalEquations, ridge: Array, frames: Indices, members: Sequence[Indices]) -> Array:
+def shares(
+    equations: NormalEquations,
+    ridge: Array,
+    frames: Indices,
+    members: Sequence[Indices],
+    last: Collection[int] = (),
+) -> Array:
     """(members,) share of the variance after the frames that each member explains, 0 ... 1.
 
     Args:
@@ -27,6 +33,7 @@ def shares(equations: NormalEquations, ridge: Array, frames: Indices, members: S
         ridge: (p,) noise variance over prior variance of each column: what a value that is held near zero costs.
         frames: columns of the free frames; they come first in every order.
         members: columns of each effect or background.
+        last: members that come after all others: they count for what nothing else explains.
 
     Returns:
         (members,) 0 ... 1; with what is left they add up to one.
@@ -39,7 +46,8 @@ def shares(equations: NormalEquations, ridge: Array, frames: Indices, members: S
     if count == 0 or left <= 0:
         return np.zeros(count)
     totals, orders = np.zeros(count), 0
-    for order in _orders(count):
+    for drawn in _orders(count):
+        order = sorted(drawn, key=lambda member: member in last)
         columns = np.concatenate([frames, *(members[m] for m in order)])
         explained = _explained(G, b, held, columns)[len(frames) :]
         ends = np.cumsum([len(members[m]) for m in order])

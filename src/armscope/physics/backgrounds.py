@@ -1,30 +1,31 @@
-"""What every real arm has a little of: small errors everywhere, family by family, allowed for but not named."""
+"""What every real arm has a little of: small errors everywhere, family by family, allowed for but not named.
+
+The ``prior_scale`` of what stands here is in SI units: how large each value is on a real arm, of which the diagnosis
+finds the share that this arm has.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 from armscope.physics import elastic, geometric, transmission
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.drift import wander
 from armscope.physics.effect import Placed
+from armscope.physics.placing import moving_joints
 from armscope.physics.set_ups import SetUps
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
-FAMILIES = ("geometric", "elastic", "transmission", "drift")
-"""Geometric errors are measured against the makers' tolerance, the others by what they do at the tool."""
+GEOMETRIC = "geometric"
+FAMILIES = (GEOMETRIC, "elastic", "transmission", "drift")
 TOLERANCE = 1.0e-3
 """Geometric tolerance of an industrial arm: 1 mm and 1 mrad per D-H value."""
 
-BEARINGS = 1 / 2
-"""A joint's bearing gives less than its drive: the gear's teeth or flexible spline are the softest part of it.
-
-That it is less is physics; a half rather than a third was settled with the iiwa's run 2016-11-18 in view.
-"""
-
 
 def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[str, list[Placed]]:
-    """By family: D-H constants of all links, give of all joints and bearings, two waves per turn of all gears, wander.
+    """By family: D-H constants, give of joints and bearings, the first waves per turn of all gears, a base's wander.
 
     Args:
         arm: the nominal arm.
@@ -32,16 +33,22 @@ def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[
         set_ups: runs that share a base, which stands a little elsewhere in each of them.
 
     Returns:
-        What every real arm and set-up has a little of, by family, in the order of `FAMILIES`.
+        What every real arm and set-up has a little of, in the order of `FAMILIES`.
     """
-    give = [placed for placed in elastic.JOINT_COMPLIANCE.place(arm, recordings) if placed.variant == ""]
-    give += [
-        replace(placed, prior_scale=tuple(BEARINGS * size for size in placed.prior_scale))
-        for placed in elastic.BEARING_COMPLIANCE.place(arm, recordings)
-    ]
-    return {
-        "geometric": geometric.background(arm),
-        "elastic": give,
-        "transmission": list(transmission.GEAR_ECCENTRICITY.place(arm, recordings)),
-        "drift": wander(recordings, set_ups),
-    }
+    give = [_sized(placed) for placed in elastic.JOINT_COMPLIANCE.place(arm, recordings) if placed.variant == ""]
+    give += [_sized(placed) for placed in elastic.BEARING_COMPLIANCE.place(arm, recordings)]
+    constant = [replace(placed, prior_scale=(TOLERANCE,) * len(placed.terms)) for placed in geometric.background(arm)]
+    return {GEOMETRIC: constant, "elastic": give, "transmission": list(_waves(recordings)), "drift": wander(recordings, set_ups)}
+
+
+def _sized(placed: Placed) -> Placed:
+    """An effect whose values are as large as is plausible."""
+    return replace(placed, prior_scale=tuple(term.plausible for term in placed.terms))
+
+
+def _waves(recordings: Recordings) -> Iterator[Placed]:
+    """The first waves per turn of every gear, whose size falls with their number."""
+    for j in moving_joints(recordings):
+        for per_turn in range(1, PLAUSIBLE.waves + 1):
+            size = PLAUSIBLE.eccentricity_rad / per_turn
+            yield replace(transmission.cyclic(j, per_turn), prior_scale=(size, size))

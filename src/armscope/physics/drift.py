@@ -11,6 +11,7 @@ import numpy as np
 from armscope.core.numerals import rounded
 from armscope.core.types import Array
 from armscope.physics.clause import Told
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import Cure
 from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term, term
 from armscope.physics.placing import varies
@@ -276,7 +277,7 @@ def wander(recordings: Recordings, set_ups: SetUps) -> list[Placed]:
     """A base that wanders slowly in the order of time, and stands a little elsewhere in each run of a set-up.
 
     A random walk in the waves that count, its cosines falling with their number (Karhunen-Loeve). In time where it is
-    recorded, else in the order of rows. Either part is 1 mm RMS together at a prior of 1 mm.
+    recorded, else in the order of rows. All waves together, and every run, are as large as is plausible.
 
     Args:
         recordings: the table.
@@ -285,21 +286,22 @@ def wander(recordings: Recordings, set_ups: SetUps) -> list[Placed]:
     Returns:
         Waves, then runs, in place.
     """
-    found = []
     count = min(WANDER_WAVES, len(recordings) // ROWS_PER_WAVE)
     along, kind = _clock(recordings)
-    if count and np.ptp(along) > 0:
-        size = 1 / np.arange(1, count + 1)
-        size /= np.sqrt(6 * np.sum(size**2))
-        for wave in range(1, count + 1):
-            terms = six_terms("base", Driver(kind, (wave, float(along.min()), float(along.max()))))
-            found.append(Placed(BASE_WANDER, "base", terms, (float(size[wave - 1]),) * 6, "time", variant=f"{wave}"))
-    for runs in set_ups:
-        for run in runs if len(runs) > 1 else ():
-            terms = six_terms("base", Driver("during run", (run,)))
-            size_of_run = float(1 / np.sqrt(6 * len(runs)))
-            found.append(Placed(BASE_WANDER, "base", terms, (size_of_run,) * 6, "run", variant=f"run {run}"))
-    return found
+    if not np.ptp(along) > 0:
+        count = 0
+    falling = 1 / np.arange(1, count + 1)
+    falling /= np.sqrt(np.sum(falling**2))
+    ends = float(along.min()), float(along.max())
+    waves = [_wandering(Driver(kind, (k, *ends)), share, f"wave {k}") for k, share in enumerate(falling.tolist(), 1)]
+    together = [run for runs in set_ups if len(runs) > 1 for run in runs]
+    return [*waves, *(_wandering(Driver("during run", (run,)), 1.0, f"run {run}") for run in together)]
+
+
+def _wandering(driver: Driver, share: float, variant: str) -> Placed:
+    sizes = (PLAUSIBLE.wander_m,) * 3 + (PLAUSIBLE.wander_rad,) * 3
+    terms = six_terms("base", driver)
+    return Placed(BASE_WANDER, "base", terms, tuple(share * size for size in sizes), "time", variant=variant)
 
 
 def _clock(recordings: Recordings) -> tuple[Array, str]:

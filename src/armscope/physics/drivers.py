@@ -268,6 +268,17 @@ def _rocker(scene: Scene) -> Array:
     return np.cos(gamma) / (scene.linkage.rocker * _away_from_zero(np.sin(gamma)))
 
 
+def _rod_share(scene: Scene, crank_angle: float) -> Array:
+    """As `_rod`, per share of the rocker's length, for a rocker that stands at ``crank_angle`` on the forearm, rad."""
+    return -1.0 / _away_from_zero(np.sin(scene.elbow_angle + crank_angle))
+
+
+def _rocker_share(scene: Scene, crank_angle: float) -> Array:
+    """As `_rocker`, per share of the rocker's length."""
+    gamma = scene.elbow_angle + crank_angle
+    return np.cos(gamma) / _away_from_zero(np.sin(gamma))
+
+
 def _crank_to_upper_arm(scene: Scene) -> Array:
     return scene.elbow_angle + scene.linkage.crank_angle
 
@@ -345,6 +356,8 @@ KINDS: dict[str, DriverKind] = {
     "spline": DriverKind(_spline),
     "rod": DriverKind(_rod),
     "rocker": DriverKind(_rocker),
+    "rod share": DriverKind(_rod_share),
+    "rocker share": DriverKind(_rocker_share),
 }
 
 

@@ -7,6 +7,7 @@ diagnosis multiplies the same drivers with the frames' Jacobians (`armscope.phys
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from numbers import Real
@@ -79,15 +80,24 @@ class Term:
         unit: its unit in the files.
         si: SI units per file unit (1e-3 for mm).
         products: what one SI unit of the parameter does.
+        plausible: SI, the size that it has on real arms (one standard deviation; `armscope.physics.constants`). No part
+            of what the term is: two tables may give a load's term different ones.
     """
 
     name: str
     unit: str
     si: float
     products: tuple[Product, ...]
+    plausible: float = field(default=math.inf, compare=False)
 
 
-def term(name: str, unit: str, *products: Product | tuple[Direction, Driver], si: float = 1.0) -> Term:
+def term(
+    name: str,
+    unit: str,
+    *products: Product | tuple[Direction, Driver],
+    si: float = 1.0,
+    plausible: float = math.inf,
+) -> Term:
     """A term from products or (direction, driver) pairs.
 
     Args:
@@ -95,11 +105,13 @@ def term(name: str, unit: str, *products: Product | tuple[Direction, Driver], si
         unit: of the parameter in files.
         products: products of directions and drivers.
         si: SI units per file unit.
+        plausible: SI, the size that it has on real arms.
 
     Returns:
         The term.
     """
-    return Term(name, unit, si, tuple(p if isinstance(p, Product) else Product(*p) for p in products))
+    made = tuple(p if isinstance(p, Product) else Product(*p) for p in products)
+    return Term(name, unit, si, made, plausible)
 
 
 def motor(j: int) -> Direction:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import Cure, command
 from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.placing import varies
@@ -42,15 +43,45 @@ def _place_joints(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     if not has_load(arm) and recordings.torque is None:
         yield from _unknown_masses(arm, recordings)
         return
-    for j in loaded_joints(Scene(arm, recordings)):
-        compliance = term("compliance", "rad/(N m)", (motor(j), Driver("torque", (j,))))
+    scene = Scene(arm, recordings)
+    for j in loaded_joints(scene):
+        compliance = drive(scene, j, Driver("torque", (j,)))
         yield Placed(JOINT_COMPLIANCE, f"joint {j}", (compliance,), (1.0,), f"load of joint {j}")
         if recordings.torque is not None and arm.has_masses:
-            by_masses = term("compliance", "rad/(N m)", (motor(j), Driver("gravity torque", (j,))))
+            by_masses = drive(scene, j, Driver("gravity torque", (j,)))
             driver = f"load of joint {j} by the stated masses"
             yield Placed(JOINT_COMPLIANCE, f"joint {j}", (by_masses,), (1.0,), driver, variant="stated masses")
     if recordings.torque is None:
         yield from _unknown_masses(arm, recordings)
+
+
+def drive(scene: Scene, j: int, load: Driver) -> Term:
+    """The give of a drive under a load.
+
+    Args:
+        scene: the rows.
+        j: the motor, from 1.
+        load: what it gives way to, N m.
+
+    Returns:
+        The compliance, rad/(N m) where the load is a torque.
+    """
+    size = plausible_give(PLAUSIBLE.drive_rad, scene.driver(load))
+    return term("compliance", "rad/(N m)", (motor(j), load), plausible=size)
+
+
+def plausible_give(turn: float, load: Array) -> float:
+    """What gives way per unit of a load, where its largest value turns it by ``turn``.
+
+    Args:
+        turn: rad.
+        load: (N,) in any unit.
+
+    Returns:
+        rad per that unit; infinite where there is no load.
+    """
+    largest = float(np.abs(load).max(initial=0.0))
+    return turn / largest if largest > 0 else np.inf
 
 
 def _unknown_masses(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
@@ -62,7 +93,7 @@ def _unknown_masses(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
             continue
         shape = [1.0] * len(terms)
         if varies(recordings.payload, 1e-6):
-            terms.append(term("compliance", "rad/(N m)", (motor(j), Driver("payload torque", (j,)))))
+            terms.append(drive(scene, j, Driver("payload torque", (j,))))
             shape.append(1.0)
         yield Placed(
             JOINT_COMPLIANCE,
@@ -83,8 +114,9 @@ def _mass_moment_terms(scene: Scene, j: int) -> Iterator[Term]:
     if size[0] < 1e-6:
         return
     for number, direction in enumerate(directions[size > MASS_DIRECTIONS_SHARE * size[0]], start=1):
-        weights = tuple(float(w) for w in direction)
-        yield term(f"compliance_times_moment_{number}", "rad/(m/s^2)", (motor(j), Driver("regressor", (j, *weights))))
+        load = Driver("regressor", (j, *(float(w) for w in direction)))
+        give = plausible_give(PLAUSIBLE.drive_rad, scene.driver(load))
+        yield term(f"compliance_times_moment_{number}", "rad/(m/s^2)", (motor(j), load), plausible=give)
 
 
 def _regressor(scene: Scene) -> Array:
@@ -111,15 +143,18 @@ JOINT_COMPLIANCE = Effect(
 def _place_bearings(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     if not has_load(arm):
         return
+    scene = Scene(arm, recordings)
     for j in range(1, arm.n_joints + 1):
-        yield Placed(BEARING_COMPLIANCE, f"joint {j}", (_tilt(f"joint {j}"),), (1.0,), f"moment across joint {j}")
+        tilt = _tilt(scene, f"joint {j}")
+        yield Placed(BEARING_COMPLIANCE, f"joint {j}", (tilt,), (1.0,), f"moment across joint {j}")
 
 
-def _tilt(location: str) -> Term:
+def _tilt(scene: Scene, location: str) -> Term:
     return term(
         "compliance",
         "rad/(N m)",
         *(Product(Direction(location, axis), Driver("moment", (location, n))) for n, axis in enumerate(("rx", "ry"))),
+        plausible=plausible_give(PLAUSIBLE.bearing_rad, np.linalg.norm(scene.moment(location)[:, :2], axis=1)),
     )
 
 
@@ -144,7 +179,7 @@ BEARING_COMPLIANCE = Effect(
 
 def _place_base(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     if has_load(arm):
-        yield Placed(BASE_COMPLIANCE, "base", (_tilt("base"),), (1.0,), "moment on the base")
+        yield Placed(BASE_COMPLIANCE, "base", (_tilt(Scene(arm, recordings), "base"),), (1.0,), "moment on the base")
 
 
 BASE_COMPLIANCE = Effect(
@@ -166,6 +201,7 @@ BASE_COMPLIANCE = Effect(
 def _place_beams(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     if not has_load(arm):
         return
+    scene = Scene(arm, recordings)
     for j in range(1, arm.n_joints + 1):
         step = arm.before[j - 1] if arm.is_modified_dh else arm.behind[j - 1]
         if np.linalg.norm(step[:3, 3]) < SHORTEST_BEAM_M:
@@ -175,6 +211,7 @@ def _place_beams(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
             "flexibility",
             "1/(N m^2)",
             *(Product(Direction(site, axis), Driver("bend", (j, n))) for n, axis in enumerate(AXES)),
+            plausible=plausible_give(PLAUSIBLE.beam_rad, np.linalg.norm(scene.bending(j)[:, 3:], axis=1)),
         )
         yield Placed(LINK_BENDING, f"link {j}", (flexibility,), (1.0,), f"load at the end of link {j}")
 

@@ -10,10 +10,11 @@ import numpy as np
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics.clause import Told
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
-from armscope.physics.elastic import has_load, loaded_joints
+from armscope.physics.elastic import drive, has_load, loaded_joints
 from armscope.physics.geometric import JOINT_OFFSET
 from armscope.physics.placing import moving_joints, varies, varying_columns
 from armscope.physics.scene import Scene
@@ -119,7 +120,7 @@ def _load(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     for j in loaded_joints(scene):
         source = Driver("torque", (j,))
         bumps = spline_terms(source, scene.driver(source), motor(j), "rad")
-        linear = term("compliance", "rad/(N m)", (motor(j), source))
+        linear = drive(scene, j, source)
         terms = (*offsets.get(f"joint {j}", ()), *flanks.get(f"joint {j}", ()), linear, *bumps)
         trends = len(terms) - len(bumps)
         yield _curve(f"joint {j}", terms, [1.0] * len(bumps), f"load of joint {j}", "load", trends)
@@ -132,7 +133,7 @@ def _lost_motion(recordings: Recordings) -> Iterator[Placed]:
     moving = set(moving_joints(recordings))
     for j in varying_columns(recordings.approach, 0.5):
         if j in moving:
-            gap = term("gap", "rad", Product(motor(j), Driver("approach", (j,)), -0.5))
+            gap = term("gap", "rad", Product(motor(j), Driver("approach", (j,)), -0.5), plausible=PLAUSIBLE.play_rad)
             bumps = tuple(
                 term(f"at_{n}", "rad", (motor(j), Driver("lost motion", (j, centre, width))))
                 for n, (centre, width) in enumerate(_knots(recordings.motor_angles[:, j - 1], KNOTS))

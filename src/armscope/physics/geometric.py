@@ -10,6 +10,7 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.physics.clause import Told, swings, waves_column
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import Cure, command
 from armscope.physics.effect import AXES, ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.placing import moving_joints
@@ -44,7 +45,8 @@ def _constant(name: str, location: str, twist: Array) -> Term:
     """A length (a, d, tx, ty, tz) in mm, or an angle, that moves a frame by a twist per SI unit."""
     length = name in ("a", "d", "tx", "ty", "tz")
     products = (Product(Direction(location, AXES[n]), ONE, float(twist[n])) for n in np.flatnonzero(twist))
-    return term(name, "mm" if length else "rad", *products, si=MILLIMETRE if length else 1.0)
+    size = PLAUSIBLE.length_m if length else PLAUSIBLE.zero_rad if name in ("theta", "rz") else PLAUSIBLE.twist_rad
+    return term(name, "mm" if length else "rad", *products, si=MILLIMETRE if length else 1.0, plausible=size)
 
 
 def _place_offsets(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
@@ -118,7 +120,8 @@ def background(arm: Arm) -> list[Placed]:
 
 
 def _offset(effect: Effect, j: int) -> Placed:
-    return Placed(effect, f"joint {j}", (term("offset", "rad", (motor(j), ONE)),), (1.0,), "constant")
+    offset = term("offset", "rad", (motor(j), ONE), plausible=PLAUSIBLE.zero_rad)
+    return Placed(effect, f"joint {j}", (offset,), (1.0,), "constant")
 
 
 BACKGROUND = Effect(
@@ -139,6 +142,7 @@ def _place_wobbles(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
                     f"{wave}_{axis}",
                     "rad",
                     (Direction(f"joint {j}", axis), Driver(f"chain {wave}", (int(j), per_turn))),
+                    plausible=PLAUSIBLE.wobble_rad,
                 )
                 for axis in ("rx", "ry")
                 for wave in ("cosine", "sine")
@@ -172,21 +176,61 @@ AXIS_WOBBLE = Effect(
 )
 
 
+FOREARM = Direction(f"joint {LINKAGE_JOINT}", "rz")
+PHASES = 24
+"""Directions of the rocker on the forearm that are tried where robot.yaml does not state them: every 7.5 degrees."""
+LEAST_OPENING = 0.2
+"""Sine of the least angle between crank and upper arm at which a linkage still drives its forearm."""
+
+
 def _place_linkage(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    if arm.description.parallelogram is None:
-        return
-    forearm = Direction(f"joint {LINKAGE_JOINT}", "rz")
-    terms = tuple(term(bar, "mm", Product(forearm, Driver(bar)), si=MILLIMETRE) for bar in ("rod", "rocker"))
-    yield Placed(PARALLELOGRAM_GEOMETRY, "parallelogram", terms, (1.0, 1.0), f"angle of joint {LINKAGE_JOINT}")
+    if arm.description.parallelogram is not None:
+        errors = {"plausible": PLAUSIBLE.bar_m, "si": MILLIMETRE}
+        terms = tuple(term(bar, "mm", Product(FOREARM, Driver(bar)), **errors) for bar in ("rod", "rocker"))
+        yield Placed(PARALLELOGRAM_GEOMETRY, "parallelogram", terms, (1.0, 1.0), f"angle of joint {LINKAGE_JOINT}")
+    elif is_parallelogram(arm):
+        yield from _unstated_bars(Scene(arm, recordings))
+
+
+def is_parallelogram(arm: Arm) -> bool:
+    """Whether two motors turn the elbow against each other, as a parallelogram does, whatever its bars."""
+    turned = np.flatnonzero(arm.actuation[LINKAGE_JOINT - 1]) if arm.n_joints >= LINKAGE_JOINT else np.empty(0)
+    return bool(len(turned) == 2) and np.prod(arm.actuation[LINKAGE_JOINT - 1][turned]) < 0
+
+
+def _unstated_bars(scene: Scene) -> Iterator[Placed]:
+    """Bars of unknown lengths: errors as shares of the rocker's, at each direction that it may have on the forearm."""
+    moved = np.ptp(scene.elbow_angle) > 0
+    angles = np.arange(PHASES) * np.pi / PHASES
+    open_at = [a for a in angles if moved and np.abs(np.sin(scene.elbow_angle + a)).min() > LEAST_OPENING]
+    for angle in open_at:
+        terms = tuple(
+            term(bar, "m/m", Product(FOREARM, Driver(f"{bar} share", (float(angle),))), plausible=PLAUSIBLE.bar_share)
+            for bar in ("rod", "rocker")
+        )
+        yield Placed(
+            PARALLELOGRAM_GEOMETRY,
+            "parallelogram",
+            terms,
+            (1.0, 1.0),
+            f"angle of joint {LINKAGE_JOINT}",
+            scanned=(("crank_angle", "deg", float(np.degrees(angle))),),
+            multiplicity=len(open_at),
+            variant=f"{np.degrees(angle):.0f} degrees",
+        )
 
 
 def _closed_loop(scene: Scene, part: Part) -> Iterator[tuple[Direction, Array]]:
-    """The forearm's turn with the bars' lengths in error, the loop closed exactly, rad."""
+    """The forearm's turn with the bars' lengths in error, rad: the loop closed exactly where the bars are stated."""
+    if scene.arm.description.parallelogram is None:
+        amounts = zip(part.values, part.placed.terms, strict=True)
+        yield FOREARM, np.sum([value * scene.driver(term.products[0].driver) for value, term in amounts], axis=0)
+        return
     errors = {term.name: value for term, value in zip(part.placed.terms, part.values, strict=True)}
     nominal = scene.linkage
     actual = replace(nominal, rocker=nominal.rocker + errors["rocker"], rod=nominal.rod + errors["rod"])
     turn = forearm_deviation(actual, scene.elbow_angle) - forearm_deviation(nominal, scene.elbow_angle)
-    yield Direction(f"joint {LINKAGE_JOINT}", "rz"), turn
+    yield FOREARM, turn
 
 
 PARALLELOGRAM_GEOMETRY = Effect(
@@ -197,7 +241,8 @@ PARALLELOGRAM_GEOMETRY = Effect(
     "Turn motor 2 alone and watch the forearm's inclination: in a true parallelogram it does not change.",
     Cure(
         "Adjust the rod by minus its error, or put the true lengths into the controller's model (rod = stated rod + "
-        "rod, rocker = stated rocker + rocker), whose inverse kinematics then reaches the wanted point."
+        "rod, rocker = stated rocker + rocker; errors without a unit are shares of the rocker's length), whose inverse "
+        "kinematics then reaches the wanted point."
     ),
     clauses=("the parallelogram's bars differ: rod by {rod:+} and rocker by {rocker:+}",),
     atlas="constant",

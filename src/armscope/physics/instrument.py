@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from armscope.physics.clause import Told
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import Cure
 from armscope.physics.effect import ONE, Direction, Effect, Placed, term
 from armscope.recordings import Recordings
@@ -12,7 +13,7 @@ from armscope.robot import Arm
 
 
 def _place_scale(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    scale = term("scale", "m/m", (Direction("instrument", "scale"), ONE))
+    scale = term("scale", "m/m", (Direction("instrument", "scale"), ONE), plausible=PLAUSIBLE.scale)
     yield Placed(INSTRUMENT_SCALE, "instrument", (scale,), (1.0,), "distance")
 
 

@@ -14,7 +14,7 @@ from armscope.physics import drivers
 from armscope.physics.drift import BASE_WANDER
 from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term
 from armscope.physics.frames import BASE_FRAME, TOOL_FRAME
-from armscope.physics.geometric import BACKGROUND
+from armscope.physics.geometric import BACKGROUND, is_parallelogram
 from armscope.physics.registry import effects
 from armscope.physics.scene import Part
 from armscope.robot import Arm
@@ -84,16 +84,17 @@ class Reader:
 
     def _check_linkage(self, content: PartFile, place: str) -> None:
         lengths = self.arm.description.parallelogram
-        if lengths is None:
+        if lengths is None and not is_parallelogram(self.arm):
             raise InputError(self.source, place, content.effect, "this arm has no `parallelogram`")
         errors = {term.name: term.value for term in content.terms}
         if set(errors) != {"rod", "rocker"}:
             raise InputError(self.source, f"{place}.terms", sorted(errors), "its terms are rocker and rod")
-        shortest = 1e-3 * min(lengths.rod_mm, lengths.rocker_mm)
+        # of bars that are not stated errors are shares
+        shortest, unit = (1.0, "") if lengths is None else (1e-3 * min(lengths.rod_mm, lengths.rocker_mm), " m")
         for name, value in errors.items():
             if abs(value) > shortest / 2:
                 raise InputError(
-                    self.source, f"{place}.terms", f"{name} {value:g} m", "a bar's error is less than half"
+                    self.source, f"{place}.terms", f"{name} {value:g}{unit}", "a bar's error is less than half"
                 )
 
     def _product(self, content: Sequence[Any], place: str) -> Product:
@@ -129,6 +130,8 @@ class Reader:
             raise InputError(self.source, place, kind, "no driver of that kind", cure)
         if kind in ("rod", "rocker") and self.arm.description.parallelogram is None:
             raise InputError(self.source, place, kind, "this arm has no `parallelogram`")
+        if kind in ("rod share", "rocker share") and not is_parallelogram(self.arm):
+            raise InputError(self.source, place, kind, "no two motors of this arm turn its elbow against each other")
         names = self._names(kind, len(arguments), place)
         taken = (self._argument(kind, name, each, place, depth) for name, each in zip(names, arguments, strict=True))
         return Driver(kind, tuple(taken))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import Cure
 from armscope.physics.effect import Direction, Driver, Effect, Placed, Product, term
 from armscope.physics.placing import varies
@@ -21,7 +22,7 @@ def _place_links(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     for j in range(1, arm.n_joints + 1):
         products = tuple(Product(direction, warmth, length) for direction, length in _lengths(arm, j) if length)
         if sum(abs(product.factor) for product in products) > SHORTEST_M:
-            coefficient = term("coefficient", "1/K", *products)
+            coefficient = term("coefficient", "1/K", *products, plausible=PLAUSIBLE.expansion_per_k)
             yield Placed(THERMAL_EXPANSION, f"link {j}", (coefficient,), (1.0,), "temperature")
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from armscope.core.numerals import rounded
 from armscope.physics.clause import Told, swings, waves_column
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.effect import Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.placing import moving_joints, varying_columns
@@ -15,23 +16,26 @@ from armscope.physics.scene import Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
-MESH_COUNTS = range(3, 129)
-"""Periods per joint turn that are tried for a gear mesh error."""
+MESH_COUNTS = range(3, 401)
+"""Periods per joint turn that are tried for a gear mesh error: a strain wave gear makes two per turn of its motor."""
+ECCENTRIC_WAVES = 2
+"""Waves per turn that an eccentric gear or disc makes; more are a mesh's."""
 LEAST_OTHER_SIDE = 0.03
 """Share of the rows in which gravity must push to the other side."""
 
 
 def wave_terms(j: int, per_turn: float) -> tuple[Term, Term]:
     """Cosine and sine of motor angle j, ``per_turn`` periods per turn, rad."""
+    size = PLAUSIBLE.eccentricity_rad if per_turn <= ECCENTRIC_WAVES else PLAUSIBLE.mesh_rad
     return (
-        term(f"cosine_{per_turn:g}", "rad", (motor(j), Driver("cosine", (j, per_turn)))),
-        term(f"sine_{per_turn:g}", "rad", (motor(j), Driver("sine", (j, per_turn)))),
+        term(f"cosine_{per_turn:g}", "rad", (motor(j), Driver("cosine", (j, per_turn))), plausible=size),
+        term(f"sine_{per_turn:g}", "rad", (motor(j), Driver("sine", (j, per_turn))), plausible=size),
     )
 
 
 def _place_ratios(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     for j in moving_joints(recordings):
-        ratio = term("ratio", "rad/rad", (motor(j), Driver("angle", (j,))))
+        ratio = term("ratio", "rad/rad", (motor(j), Driver("angle", (j,))), plausible=PLAUSIBLE.ratio)
         yield Placed(GEAR_RATIO, f"joint {j}", (ratio,), (1.0,), f"angle of joint {j}")
 
 
@@ -93,6 +97,11 @@ GEAR_ECCENTRICITY = Effect(
 )
 
 
+def cyclic(j: int, per_turn: int) -> Placed:
+    """A wave of motor j, by the effect that makes so many per turn."""
+    return _cyclic(GEAR_ECCENTRICITY if per_turn <= ECCENTRIC_WAVES else GEAR_MESH, j, per_turn, multiplicity=1)
+
+
 def mesh(j: int, per_turn: int) -> Placed:
     """A gear mesh error of motor j with ``per_turn`` periods per joint turn."""
     return _cyclic(GEAR_MESH, j, per_turn, multiplicity=len(MESH_COUNTS))
@@ -118,7 +127,7 @@ def _place_backlash(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     moving = set(moving_joints(recordings))
     for j in varying_columns(recordings.approach, 0.5):
         if j in moving:
-            gap = term("gap", "rad", Product(motor(j), Driver("approach", (j,)), -0.5))
+            gap = term("gap", "rad", Product(motor(j), Driver("approach", (j,)), -0.5), plausible=PLAUSIBLE.play_rad)
             yield Placed(BACKLASH, f"joint {j}", (gap,), (1.0,), f"side of approach of joint {j}", variant="approach")
     if arm.has_masses or recordings.torque is not None:
         scene = Scene(arm, recordings)
@@ -126,7 +135,7 @@ def _place_backlash(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
             pulled = np.mean(scene.driver(Driver("load side", (j,))) > 0)
             if min(pulled, 1 - pulled) < LEAST_OTHER_SIDE:
                 continue  # gravity always pushes to one side: a constant
-            gap = term("gap", "rad", Product(motor(j), Driver("load side", (j,)), 0.5))
+            gap = term("gap", "rad", Product(motor(j), Driver("load side", (j,)), 0.5), plausible=PLAUSIBLE.play_rad)
             yield Placed(BACKLASH, f"joint {j}", (gap,), (1.0,), f"side that gravity loads joint {j}", variant="load")
 
 
@@ -150,7 +159,7 @@ BACKLASH = Effect(
 
 def _place_lags(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     for j in varying_columns(recordings.speed, 1e-4):
-        delay = term("delay", "s", Product(motor(j), Driver("speed", (j,)), -1.0))
+        delay = term("delay", "s", Product(motor(j), Driver("speed", (j,)), -1.0), plausible=PLAUSIBLE.delay_s)
         yield Placed(SERVO_LAG, f"joint {j}", (delay,), (1.0,), f"speed of joint {j}")
 
 
@@ -177,7 +186,7 @@ def _place_couplings(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
         for k in moving:
             # a joint's own angle is a gear ratio
             if j != k:
-                coupling = term("coupling", "rad/rad", (motor(j), Driver("angle", (k,))))
+                coupling = term("coupling", "rad/rad", (motor(j), Driver("angle", (k,))), plausible=PLAUSIBLE.ratio)
                 yield Placed(JOINT_COUPLING, f"joint {j} from joint {k}", (coupling,), (1.0,), f"angle of joint {k}")
 
 

@@ -19,16 +19,15 @@ def mesh_lines(context: ScanContext, given: Sequence[Hypothesis]) -> Iterator[Pl
     """The most promising mesh counts of each joint, given each of some hypotheses."""
     count = len(context.recordings)
     rows = np.unique(np.linspace(0, count - 1, min(count, SCANS.scanned_rows)).astype(np.intp))
-    joints = moving_joints(context.recordings)
-    if not joints:
-        return
-    placed = [mesh(j, count) for j in joints for count in MESH_COUNTS]
     columns, weights = columns_of(given), context.weights.take(rows, len(rows) / count)
-    terms, table = [p.terms for p in placed], context.recordings.rows(rows)
-    sums = column_blocks(terms, context.space.layout, columns, context.model, table, weights)
-    for hypothesis in given:
-        scores = scores_given(context.problem, hypothesis, sums, columns)
-        for number, row in enumerate(scores.reshape(len(joints), -1)):
-            for at in np.argsort(-row)[: SCANS.lines_kept]:
-                if row[at] > SCANS.worth_a_look:
-                    yield placed[number * len(MESH_COUNTS) + at]
+    table = context.recordings.rows(rows)
+    for j in moving_joints(context.recordings):
+        placed = [mesh(j, count) for count in MESH_COUNTS]
+        terms = [p.terms for p in placed]
+        # joint by joint: the waves' products with each other grow with the square of their number
+        sums = column_blocks(terms, context.space.layout, columns, context.model, table, weights)
+        for hypothesis in given:
+            scores = scores_given(context.problem, hypothesis, sums, columns)
+            for at in np.argsort(-scores)[: SCANS.lines_kept]:
+                if scores[at] > SCANS.worth_a_look:
+                    yield placed[at]

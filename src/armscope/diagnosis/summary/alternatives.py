@@ -47,7 +47,7 @@ def alternatives(search: Search, best: Hypothesis, number: int) -> list[Rival]:
     base = search.without(best, [number, *rest])
     taken = {search.candidate(c).key for c in best.candidates}
     nearest: dict[tuple[str, str], Rival] = {}
-    paid = _price_of_curve(search, candidate) if rest else 0.0
+    paid = _price_of_curve(search, candidate) if rest and candidate.kind == DRIVE else 0.0
     lines = {c.location: c for c in search.space.candidates if c.kind == DRIVE and not c.variant}
     # what a coarse prediction puts far behind is not weighed
     lost = best.log_posterior - base.log_posterior

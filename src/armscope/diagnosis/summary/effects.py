@@ -18,9 +18,11 @@ from armscope.diagnosis.summary.effect_curve import curve_of
 from armscope.diagnosis.summary.parameters import parameters
 from armscope.fitting.discrepancy import ModelError
 from armscope.fitting.joint_scatter import motor_jacobians
+from armscope.fitting.refit import Refit
 from armscope.inference.normal_equations import NormalEquations, projected_rms
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
+from armscope.physics.backgrounds import GEOMETRIC
 from armscope.physics.effect import Placed
 from armscope.physics.scene import Part, Scene
 from armscope.verdict.schema import INDISTINGUISHABLE_NATS, Background, FoundEffect, Parameter
@@ -71,6 +73,8 @@ def found_effect(weighed: Weighed, chosen: SelectedEffect, part: Part, share: fl
     coefficients[at] = _sized(state, chosen, part.values, fit.covariance_of(placed))
     covariance = weighed.wrong.covariance[np.ix_(at, at)]
     rms = projected_rms(weighed.equations, fit.pool.frames, coefficients)
+    if candidate.is_curve:
+        rms = min(rms, _own_size(fit, placed, part.values))
     apart = [certainty.discriminability(state.best, other, candidate, rival) for _, rival, other in rivals]
     close = [rival for nats, (_, rival, _) in zip(apart, rivals, strict=True) if nats < INDISTINGUISHABLE_NATS]
     named_as, title = certainty.name(candidate, close)
@@ -110,6 +114,17 @@ def _sized(state: DiagnosisState, chosen: SelectedEffect, values: Array, covaria
     return np.asarray(scale * (np.linalg.solve(np.eye(len(scale)) + scaled, values / scale)))
 
 
+def _own_size(fit: Refit, placed: Placed, values: Array) -> float:
+    """RMS per axis, mm, of what a curve does that neither frames nor other effects nor backgrounds could do for it.
+
+    Low waves of a free curve look like zeros, lengths and loads of the arm: without this, an arm's small errors would
+    make any curve in it large.
+    """
+    at = fit.pool.of(placed)
+    left = np.linalg.inv(fit.covariance_of(placed)) - np.diag(fit.precision[at])
+    return float(fit.noise * np.sqrt(max(float(values @ left @ values), 0.0) / max(fit.gram.n, 1.0)))
+
+
 def _with_moment(
     state: DiagnosisState, search: Search, chosen: SelectedEffect, placed: Placed, told: tuple[Parameter, ...]
 ) -> tuple[Parameter, ...]:
@@ -130,10 +145,14 @@ def _worth(state: DiagnosisState, search: Search, chosen: SelectedEffect) -> flo
 
 
 def with_weight(found: FoundEffect, background: Sequence[Background]) -> FoundEffect:
-    """Minor or not: in an arm with small errors everywhere, a small effect is one of them."""
+    """Minor or not: in an arm with small errors everywhere, a small effect is one of them.
+
+    What is not geometry is measured by what the geometry of every arm leaves: it is what a calibration would not mend.
+    """
     ordinary = any(family.present for family in background)
-    small = found.share < (NAMING.minor_share if ordinary else NAMING.minor_share_of_perfect_arm)
-    return replace(found, minor=small)
+    geometry = sum(family.share for family in background if family.family == GEOMETRIC and family.present)
+    of = found.share if found.family == GEOMETRIC else found.share / max(1 - geometry, 1e-6)
+    return replace(found, minor=of < (NAMING.minor_share if ordinary else NAMING.minor_share_of_perfect_arm))
 
 
 def scattered_effects(state: DiagnosisState, variance: float) -> Iterator[FoundEffect]:

@@ -21,7 +21,7 @@ import yaml
 
 from armscope.core.files import write_table, write_yaml
 from armscope.core.types import Array
-from armscope.robot.description import load_description
+from armscope.robot.description_file import load_description
 from armscope.world.motion.catalogue import KINDS, MotionSpec
 from armscope.world.motion.mechanism import stated_dynamics
 from armscope.world.motion.recording import Recorded, record, table

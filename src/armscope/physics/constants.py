@@ -1,0 +1,159 @@
+"""Numbers that decide in this room; see `armscope.core.constants`.
+
+How large each kind of error is on real arms: one standard deviation of what is believed before the rows speak. The
+data move any value beyond it where they know better; where they know nothing, a value stays this small and is said to
+be undetermined.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from armscope.core.constants import Constants, constant
+
+
+@dataclass(frozen=True)
+class PlausibleSizes(Constants):
+    """How large errors of an arm are that somebody built, mastered and uses."""
+
+    length_m: float = constant(
+        3e-3,
+        "error of a link's length",
+        "judgement: castings are machined to 0.1-1 mm; a stated row that is another model's is off by more",
+        unit="m",
+    )
+    twist_rad: float = constant(
+        10e-3,
+        "error of a link's twist",
+        "judgement: ten times a millimetre per metre, which makers keep",
+        unit="rad",
+    )
+    zero_rad: float = constant(
+        20e-3,
+        "error of an encoder's zero",
+        "judgement: a joint mastered by eye is off by a degree, by gauge by a tenth of it",
+        unit="rad",
+    )
+    bar_m: float = constant(
+        3e-3,
+        "error of a parallelogram's bar",
+        "judgement: as of a link's length",
+        unit="m",
+    )
+    bar_share: float = constant(
+        0.01,
+        "the same as a share of the rocker, where the bars are not stated",
+        "derived: 3 mm of the 0.3 m rocker of a middle-sized arm",
+    )
+    ratio: float = constant(
+        5e-3,
+        "error of a gear's ratio, and one joint's share in another's turn",
+        "judgement: ratios are counted in teeth; wrong parameters of a belt or wrist are some thousandths",
+    )
+    eccentricity_rad: float = constant(
+        3e-3,
+        "one or two waves per turn of a gear or encoder",
+        "judgement: a disc off centre by 0.1 mm at 33 mm",
+        unit="rad",
+    )
+    waves: int = constant(
+        8,
+        "per turn of a gear up to which every arm has a little",
+        "judgement: flexible splines and discs show the first harmonics of two per turn; time",
+        unit="waves",
+    )
+    mesh_rad: float = constant(
+        1e-3,
+        "more waves per turn",
+        "convention: makers of strain wave and cycloidal gears state one to three minutes of arc",
+        unit="rad",
+    )
+    play_rad: float = constant(
+        3e-3,
+        "backlash",
+        "convention: makers state one to three minutes of arc; worn gears have ten",
+        unit="rad",
+    )
+    wobble_rad: float = constant(
+        3e-3,
+        "tilt of an axis while it turns",
+        "judgement: 0.1 mm run-out at 33 mm",
+        unit="rad",
+    )
+    drive_rad: float = constant(
+        5e-3,
+        "a drive's turn under its largest load",
+        "judgement: strain wave gears wind up by a milliradian at their rated torque, soft belts by several",
+        unit="rad",
+    )
+    bearing_rad: float = constant(
+        2e-3,
+        "tilt of a bearing or of the base under its largest moment",
+        "judgement: half of what a drive gives",
+        unit="rad",
+    )
+    beam_rad: float = constant(
+        2e-3,
+        "turn of a link's end under its largest load",
+        "judgement: as a bearing",
+        unit="rad",
+    )
+    delay_s: float = constant(
+        0.05,
+        "between command and motion",
+        "judgement: some cycles of a controller",
+        unit="s",
+    )
+    expansion_per_k: float = constant(
+        30e-6,
+        "growth of a link",
+        "convention: steel 11-12, aluminium 23-24 millionths per kelvin",
+        unit="1/K",
+    )
+    scale: float = constant(
+        1e-3,
+        "error of the instrument's lengths",
+        "judgement: a wrong unit of temperature or prism makes 0.1 %",
+        unit="m/m",
+    )
+    shift_m: float = constant(
+        5e-3,
+        "jump of base or tool, beyond which a set-up was made anew",
+        "judgement: who moves a tripod moves it farther",
+        unit="m",
+    )
+    shift_rad: float = constant(
+        5e-3,
+        "turn of base or tool in a jump or drift",
+        "judgement: as its shift at 1 m",
+        unit="rad",
+    )
+    payload_share: float = constant(
+        0.5, "error of a payload's mass as a share of the largest stated", "judgement: a gripper that was forgotten"
+    )
+    payload_centre_m: float = constant(
+        0.1,
+        "error of a payload's centre of mass",
+        "judgement: a hand's width",
+        unit="m",
+    )
+    beyond: float = constant(
+        3.0,
+        "times a plausible size, beyond which a value is no answer: the columns stand for something else",
+        "convention: three standard deviations",
+    )
+    wander_m: float = constant(
+        3e-4,
+        "by which base and instrument wander in a session, and settle between its runs",
+        "derived: 3 m of steel or stone, 12 millionths per K, some 8 K between morning and noon",
+        unit="m",
+    )
+    wander_rad: float = constant(
+        1e-4,
+        "by which they lean meanwhile",
+        "derived: that over 3 m",
+        unit="rad",
+    )
+
+
+PLAUSIBLE = PlausibleSizes()

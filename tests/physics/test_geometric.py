@@ -1,0 +1,43 @@
+"""A parallelogram whose bars nobody stated: its columns against the loop closed exactly."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from armscope.physics.geometric import LEAST_OPENING, PARALLELOGRAM_GEOMETRY, is_parallelogram
+from armscope.physics.scene import Part, Scene
+from armscope.robot import Arm
+from armscope.robot.arm import build_arm
+from armscope.robot.parallelogram import Linkage, forearm_deviation
+from tests.physics.scenes import arm_named, full_table
+
+
+def unstated() -> Arm:
+    """The parallelogram arm, of which only the motors' actuation is told."""
+    arm = arm_named("parallelogram-120kg")
+    return build_arm(arm.description.model_copy(update={"parallelogram": None}))
+
+
+@pytest.mark.parametrize(("rod", "rocker"), [(0.6e-3, 0.0), (0.0, 0.4e-3), (0.5e-3, -0.3e-3)])
+def test_shares_of_the_rocker_turn_the_forearm_as_the_closed_loop_does(rod: float, rocker: float) -> None:
+    arm = unstated()
+    table = full_table(arm, 60, 3)
+    scene = Scene(arm, table)
+    for placed in PARALLELOGRAM_GEOMETRY.place(arm, table):
+        angle = np.radians(placed.scanned[0][2])
+        true = Linkage(crank=0.35, rocker=0.35, rod=1.1, upper_arm=1.1, crank_angle=float(angle))
+        wrong = replace(true, rod=true.rod + rod, rocker=true.rocker + rocker)
+        expected = forearm_deviation(wrong, scene.elbow_angle) - forearm_deviation(true, scene.elbow_angle)
+        part = Part(placed, np.array([rod, rocker]) / true.rocker)
+        (_, turn), *_ = PARALLELOGRAM_GEOMETRY.exact(scene, part)  # type: ignore[misc]
+        # the columns are its slope: what is left is of second order, most where the linkage is nearly flat
+        np.testing.assert_allclose(turn, expected, atol=0.01 * np.abs(expected).max() / LEAST_OPENING)
+
+
+def test_a_serial_arm_has_no_linkage() -> None:
+    assert is_parallelogram(unstated())
+    assert not is_parallelogram(arm_named("six-axis"))
+    assert not list(PARALLELOGRAM_GEOMETRY.place(arm_named("six-axis"), full_table(arm_named("six-axis"), 30, 1)))
