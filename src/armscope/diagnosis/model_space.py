@@ -19,7 +19,7 @@ from armscope.inference.model_space import (
     ModelSpace,
     ToleranceFamily,
 )
-from armscope.physics.backgrounds import FAMILIES, GEOMETRIC
+from armscope.physics.backgrounds import DRIFT, FAMILIES, GEOMETRIC
 from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import Placed, clash, region
 from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
@@ -69,7 +69,7 @@ def _families(layout: ParameterLayout) -> tuple[BackgroundFamily, ...]:
     return tuple(
         ToleranceFamily(name, columns, tolerance, BACKGROUNDS.tolerance_shares)
         if name == GEOMETRIC
-        else ToleranceFamily(name, columns, tolerance, BACKGROUNDS.plausible_shares, is_priced=True)
+        else ToleranceFamily(name, columns, tolerance, BACKGROUNDS.plausible_shares, True, takes_one=name == DRIFT)
         for name, columns, tolerance in families
     )
 
@@ -95,7 +95,7 @@ def _candidates(layout: ParameterLayout, placed: Sequence[Placed]) -> tuple[Cand
                 variant=p.variant,
                 driver=p.driver,
                 label=str(p),
-                family=p.family,
+                family=DRIFT if curve and p.location == "base" and p.variant == "time" else p.family,
                 region=region(p),
                 multiplicity=p.multiplicity,
                 nonnegative=p.effect.nonnegative and len(p.terms) == 1,

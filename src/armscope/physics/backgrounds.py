@@ -18,8 +18,8 @@ from armscope.physics.set_ups import SetUps
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
-GEOMETRIC = "geometric"
-FAMILIES = (GEOMETRIC, "elastic", "transmission", "drift")
+GEOMETRIC, DRIFT = "geometric", "drift"
+FAMILIES = (GEOMETRIC, "elastic", "transmission", DRIFT)
 TOLERANCE = 1.0e-3
 """Geometric tolerance of an industrial arm: 1 mm and 1 mrad per D-H value."""
 
@@ -38,7 +38,12 @@ def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[
     give = [_sized(placed) for placed in elastic.JOINT_COMPLIANCE.place(arm, recordings) if placed.variant == ""]
     give += [_sized(placed) for placed in elastic.BEARING_COMPLIANCE.place(arm, recordings)]
     constant = [replace(placed, prior_scale=(TOLERANCE,) * len(placed.terms)) for placed in geometric.background(arm)]
-    return {GEOMETRIC: constant, "elastic": give, "transmission": list(_waves(recordings)), "drift": wander(recordings, set_ups)}
+    return {
+        GEOMETRIC: constant,
+        "elastic": give,
+        "transmission": list(_waves(recordings)),
+        DRIFT: wander(recordings, set_ups),
+    }
 
 
 def _sized(placed: Placed) -> Placed:
