@@ -40,7 +40,9 @@ def test_an_arm_on_a_wedge_tells_where_down_is() -> None:
     assert interval < 3
     found = {e.location: e.parameters[0] for e in verdict.effects if e.effect == "joint_compliance"}
     for (_, location), (true,) in DRIVES.items():
-        assert found[location].value == pytest.approx(true, rel=0.05)
+        # a degree by which gravity is missed looks like masses that are off, which are known to a tenth
+        assert found[location].value == pytest.approx(true, rel=0.1)
+        assert found[location].interval[0] < true < found[location].interval[1]
     assert np.degrees(np.arccos(verdict.model.arm.gravity @ [0, 0, -1] / 9.81)) == pytest.approx(30, abs=2)
 
 

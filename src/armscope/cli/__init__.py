@@ -10,7 +10,19 @@ from typing import Annotated, Literal
 
 import typer
 
-from armscope.cli import calibration, compensation, diagnosis, outlook, paper, poses, proof, real, recordings, sweep
+from armscope.cli import (
+    calibration,
+    compensation,
+    diagnosis,
+    init,
+    outlook,
+    paper,
+    poses,
+    proof,
+    real,
+    recordings,
+    sweep,
+)
 from armscope.cli.endings import endings
 from armscope.cli.panels import EXPERIMENTS
 
@@ -26,6 +38,7 @@ app.add_typer(outlook.app)
 app.add_typer(poses.app)
 app.add_typer(calibration.app)
 app.add_typer(recordings.app)
+app.add_typer(init.app)
 app.add_typer(paper.app, name="paper", help="The 2006 paper, step by step.", rich_help_panel=EXPERIMENTS)
 app.add_typer(
     proof.app,

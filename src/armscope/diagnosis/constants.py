@@ -50,6 +50,12 @@ class LoopBudget(Constants):
         "judgement: free, but not so that several run against each other",
         unit="sizes",
     )
+    surely_negative: float = constant(
+        3.0,
+        "by which a compliance about one of two axes must be negative to be taken out",
+        "convention: three; less is a stiff axis and noise",
+        unit="standard errors",
+    )
     sample_rows: int = constant(3000, "longer tables are diagnosed on so many first", "judgement: time", unit="rows")
     rows_of_a_group: int = constant(
         20, "of every run and target that the sample holds at least", "judgement: a base takes six numbers", unit="rows"
@@ -197,6 +203,11 @@ class TellingRules(Constants):
     )
     background_seen_nats: float = constant(
         5.0, "evidence from which a background is said to be there", "judgement: 150 to 1", unit="nats"
+    )
+    determined: float = constant(
+        0.5,
+        "of a value's prior width that its standard error must be below to be told",
+        "judgement: half of it is data",
     )
     most_bad_shots: float = constant(
         0.1, "share of rows that fit nothing beyond which they are no bad shots", "judgement: a tenth is a pattern"

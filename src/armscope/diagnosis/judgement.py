@@ -18,6 +18,7 @@ from armscope.diagnosis.summary.homogeneity import subset_consistency
 from armscope.diagnosis.summary.next_poses import next_poses
 from armscope.diagnosis.summary.unexplained import (
     background_summaries,
+    masses_in_error,
     rows_apart,
     together,
     too_faint,
@@ -94,6 +95,8 @@ def judge(
     tell("drawing the atlas", 0.9)
     background = background_summaries(state, search, weighed.equations, of_families)
     named = [with_weight(found[c], background) for c in order]
+    masses, weights_told = masses_in_error(state, weighed.equations, of_families[-1])
+    background = (*background, *masses)
     waterfall = _with_weights(waterfall, named)
     scattered = [s for s in scattered_effects(state, variance) if not rest_of_a_curve(s, named)]
     over = subset_consistency(state)
@@ -125,7 +128,7 @@ def judge(
         residuals=_residuals(state),
         suspects=_suspects(state),
         next_poses=separating,
-        notices=(*state.notices, *_carefully(state), *(weighed.wrong.told() if found else ())),
+        notices=(*state.notices, *_carefully(state), *weights_told, *(weighed.wrong.told() if found else ())),
         model=_held(fit.model, state.recordings),
         orientations=_orientations(state),
     )
@@ -179,14 +182,20 @@ def _weighted_rms(fit: Refit) -> float:
 def _shares(fit: Refit, gram: NormalEquations) -> tuple[list[float], list[float]]:
     """Share of the variance after the frames of every effect, and of every family's background.
 
-    Free curves come last in every order: they count for what nothing else explains.
+    Free curves come last in every order: they count for what nothing else explains. Behind them stand stated masses,
+    whose errors do nothing but through what gives way.
     """
     members = [fit.pool.of(part.placed) for part in fit.model.parts]
-    families = [columns for columns in fit.pool.background if len(columns)]
+    *backgrounds, loads = fit.pool.background
+    families = [columns for columns in backgrounds if len(columns)]
     curves = {n for n, part in enumerate(fit.model.parts) if part.placed.parametrisation == "curve"}
-    ridge = fit.noise**2 * fit.precision
-    told = iter(shares(gram, ridge, fit.pool.frames, [*members, *families], last=curves).tolist())
-    return [next(told) for _ in members], [next(told) if len(columns) else 0.0 for columns in fit.pool.background]
+    ridge, frames = fit.noise**2 * fit.precision, fit.pool.frames
+    told = shares(gram, ridge, frames, [*members, *families], last=curves)
+    before = np.concatenate([frames, *members, *families])
+    of_loads = (1 - told.sum()) * shares(gram, ridge, before, [loads])[0] if len(loads) else 0.0
+    each = iter(told.tolist())
+    of_members = [next(each) for _ in members]
+    return of_members, [*(next(each) if len(columns) else 0.0 for columns in backgrounds), float(of_loads)]
 
 
 def _answer(

@@ -15,11 +15,12 @@ from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
 from armscope.inference.model_space import (
     BackgroundFamily,
     Candidate,
+    Companion,
     Exchange,
     ModelSpace,
     ToleranceFamily,
 )
-from armscope.physics.backgrounds import DRIFT, FAMILIES, GEOMETRIC
+from armscope.physics.backgrounds import DRIFT, FAMILIES, GEOMETRIC, MASSES
 from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import Placed, clash, region
 from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
@@ -39,7 +40,10 @@ class EffectSpace(ModelSpace):
 
 
 def build_model_space(
-    frames: Sequence[Placed], backgrounds: Sequence[Sequence[Placed]], placed: Sequence[Placed]
+    frames: Sequence[Placed],
+    backgrounds: Sequence[Sequence[Placed]],
+    placed: Sequence[Placed],
+    loads: Sequence[Placed] = (),
 ) -> EffectSpace:
     """What may take part in a diagnosis.
 
@@ -47,14 +51,16 @@ def build_model_space(
         frames: always free.
         backgrounds: of each family, in the order of `armscope.physics.backgrounds.FAMILIES`.
         placed: effects that compete.
+        loads: errors of stated masses, in wherever something gives way under them.
 
     Returns:
         The columns, priors and requirements, and which effect each candidate is.
     """
-    layout = parameter_layout(frames, backgrounds, placed)
+    layout = parameter_layout(frames, [*backgrounds, loads], placed)
     return EffectSpace(
         frames=layout.frames,
         families=_families(layout),
+        companions=(_masses(layout, backgrounds, placed, loads),),
         candidates=_candidates(layout, placed),
         starts=BACKGROUNDS.starts,
         exchanges=_trusting_stated_masses(placed),
@@ -65,12 +71,32 @@ def build_model_space(
 
 def _families(layout: ParameterLayout) -> tuple[BackgroundFamily, ...]:
     """Every family is measured against its tolerances; geometric errors are free, since every arm has them."""
-    families = zip(FAMILIES, layout.background, layout.background_scale, strict=True)
+    families = zip(FAMILIES, layout.background[:-1], layout.background_scale[:-1], strict=True)
     return tuple(
         ToleranceFamily(name, columns, tolerance, BACKGROUNDS.tolerance_shares)
         if name == GEOMETRIC
         else ToleranceFamily(name, columns, tolerance, BACKGROUNDS.plausible_shares, True, takes_one=name == DRIFT)
         for name, columns, tolerance in families
+    )
+
+
+def _masses(
+    layout: ParameterLayout,
+    backgrounds: Sequence[Sequence[Placed]],
+    placed: Sequence[Placed],
+    loads: Sequence[Placed],
+) -> Companion:
+    """Errors of stated masses come with what gives way, in the model around which they are linearised."""
+    within = [product for each in loads for term in each.terms for product in term.products]
+    gives = {(product.direction, product.driver.arguments[0]) for product in within}
+
+    def acted_on(p: Placed) -> bool:
+        return any((product.direction, product.driver) in gives for term in p.terms for product in term.products)
+
+    return Companion(
+        ToleranceFamily(MASSES, layout.background[-1], layout.background_scale[-1], (1.0,)),
+        frozenset(n for n, p in enumerate(placed) if acted_on(p)),
+        frozenset(n for n, family in enumerate(backgrounds) if any(acted_on(p) for p in family)),
     )
 
 

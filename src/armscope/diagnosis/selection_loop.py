@@ -29,9 +29,11 @@ from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.noise import Growth, Noise
 from armscope.physics.backgrounds import backgrounds
 from armscope.physics.drift import BASE_DRIFT, base_shifts_of_runs
-from armscope.physics.effect import Placed
+from armscope.physics.effect import Effect, Placed
+from armscope.physics.elastic import TWO_AXES, stiffest_of_two
 from armscope.physics.frames import set_ups_of
 from armscope.physics.freeform import refined
+from armscope.physics.loads import STATED_MASSES, mass_errors
 from armscope.physics.model import FittedModel
 from armscope.physics.payload import PAYLOAD_ERROR, payload_errors
 from armscope.physics.registry import library
@@ -98,6 +100,7 @@ class SelectionLoop:
         self.families = list(backgrounds(start.arm, recordings, set_ups_of(frames)).values())
         self.model = start
         self.noise = NoiseOfRows(start, self.table, noise, residuals(start, self.table))
+        self.loads: list[Placed] = []
         self.last: tuple[Hypothesis, EffectSpace] | None = None
 
     def run(self, of_a_sample: bool = False) -> Selected:
@@ -149,8 +152,8 @@ class SelectionLoop:
             starts: backgrounds from which the search starts; all of the space's where not given.
             scanning: whether scanned numbers are looked for.
         """
-        self.point, payload = _payload(self.model, self.recordings)
-        self.space = build_model_space(self.frames, self.families, [*self.candidates, *payload])
+        self.point, payload, self.loads = _on_loads(self.model, self.recordings)
+        self.space = build_model_space(self.frames, self.families, [*self.candidates, *payload], self.loads)
         weights = self.noise.weights
         self.blocks = normal_equations_by_block(self.space.layout, self.point, self.table, weights, self.block_of_row)
         self.problem = build_problem(self.space, total(self.blocks), self.noise.least_mm)
@@ -175,16 +178,24 @@ class SelectionLoop:
             for c in self.best.chosen
         ]
         small = list(zip(self.families, background_sizes(self.problem, self.best.background), strict=True))
+        (masses,) = self.space.companions
+        small.append((self.loads, float(masses.joins(self.best.candidates, self.best.background))))
         rows, white = self.noise.rows, self.noise.weights.whitening
         return refit(self.point, self.table, self.frames, small, effects, rows, self.noise.least_mm, white)
 
     def _against_their_load(self) -> list[int]:
-        """Names within a background whose fitted values turned out negative where they can't be."""
+        """Names whose fitted values turned out negative where they can't be: in a background, or about an axis."""
         return [
             c.candidate
             for c, part in zip(self.best.chosen, self.fit.model.parts, strict=True)
-            if c.nested and self.space.nonnegative[c.candidate] and part.values[0] < 0
+            if (c.nested and self.space.nonnegative[c.candidate] and part.values[0] < 0)
+            or (part.placed.variant == TWO_AXES and self._pushes(part))
         ]
+
+    def _pushes(self, part: Part) -> bool:
+        """Whether a compliance about two axes is surely negative about one of them."""
+        pushing, stderr = stiffest_of_two(part.values, self.fit.covariance_of(part.placed))
+        return pushing < -LOOP.surely_negative * stderr
 
     def selected(self) -> Selected:
         """Where the rounds stand."""
@@ -239,14 +250,26 @@ class SelectionLoop:
                 yield from pauses(context, search.without(self.best, replaced), drifts[0])
 
 
-def _payload(model: FittedModel, recordings: Recordings) -> tuple[FittedModel, list[Placed]]:
-    """The model with its payload errors written anew, and payload errors on top of what gives way in it."""
-    stiff = [part for part in model.parts if part.placed.effect is not PAYLOAD_ERROR]
-    placed = list(payload_errors(recordings, [part for part in stiff if part.placed.parametrisation == "plain"]))
-    by_variant = {p.variant: p for p in placed}
-    errors = [
-        Part(by_variant[part.placed.variant], part.values)
-        for part in model.parts
-        if part.placed.effect is PAYLOAD_ERROR and part.placed.variant in by_variant
-    ]
-    return replace(model, parts=(*stiff, *errors)), placed
+def _on_loads(model: FittedModel, recordings: Recordings) -> tuple[FittedModel, list[Placed], list[Placed]]:
+    """The model with its errors of loads written anew, and those errors on top of what gives way in it.
+
+    Args:
+        model: as fitted.
+        recordings: the rows.
+
+    Returns:
+        The model, payload errors, and the masses' errors.
+    """
+    parts = [part for part in model.parts if part.placed.effect is not PAYLOAD_ERROR]
+    background = [part for part in model.background if part.placed.effect is not STATED_MASSES]
+    payload = list(payload_errors(recordings, [part for part in parts if part.placed.parametrisation == "plain"]))
+    masses = mass_errors(model.arm, recordings, [*background, *parts])
+    by_place = {(p.key, p.variant): p for p in (*payload, *masses)}
+
+    def anew(some: Sequence[Part], effect: Effect) -> list[Part]:
+        known = [(part, by_place.get((part.placed.key, part.placed.variant))) for part in some]
+        return [Part(p, part.values) for part, p in known if p is not None and p.effect is effect]
+
+    parts += anew(model.parts, PAYLOAD_ERROR)
+    background += anew(model.background, STATED_MASSES)
+    return replace(model, parts=tuple(parts), background=tuple(background)), payload, masses

@@ -7,7 +7,7 @@ What a candidate is in the world outside (an effect of a robot arm, say) is know
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -189,12 +189,32 @@ class Exchange:
 
 
 @dataclass(frozen=True, eq=False)
+class Companion:
+    """A family that is in wherever something is that it acts through, at its last size, and pays nothing.
+
+    Attributes:
+        family: known up to a tolerance, never none.
+        through: candidates that it acts through.
+        backgrounds: numbers of the families that it acts through.
+    """
+
+    family: BackgroundFamily
+    through: frozenset[int]
+    backgrounds: frozenset[int]
+
+    def joins(self, candidates: Iterable[int], background: BackgroundSizes) -> bool:
+        """Whether it is in a hypothesis of some candidates with some background."""
+        return not self.through.isdisjoint(candidates) or any(background[n] for n in self.backgrounds)
+
+
+@dataclass(frozen=True, eq=False)
 class ModelSpace:
     """Everything that may take part.
 
     Attributes:
         frames: columns that are always free.
         families: the backgrounds.
+        companions: what comes with others by itself.
         candidates: what competes.
         starts: backgrounds from which a search starts.
         exchanges: moves of several candidates at once.
@@ -205,6 +225,7 @@ class ModelSpace:
     candidates: tuple[Candidate, ...]
     starts: tuple[BackgroundSizes, ...] = ()
     exchanges: tuple[Exchange, ...] = ()
+    companions: tuple[Companion, ...] = ()
 
     @functools.cached_property
     def kinds(self) -> int:

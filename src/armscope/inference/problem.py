@@ -137,6 +137,10 @@ def prior_variances(problem: Problem, chosen: Sequence[SelectedEffect], backgrou
     for family, size in zip(space.families, background, strict=True):
         if size:
             prior[family.columns] += family.prior_variance(size, problem.scale)
+    for companion in space.companions:
+        if companion.joins((effect.candidate for effect in chosen), background):
+            family = companion.family
+            prior[family.columns] += family.prior_variance(family.sizes - 1, problem.scale)
     prior[space.frames] = PRIORS.frame_mm**2
     for effect in chosen:
         prior[space.candidates[effect.candidate].columns] += problem.prior_scale(effect) ** 2

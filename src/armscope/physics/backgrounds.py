@@ -22,6 +22,8 @@ GEOMETRIC, DRIFT = "geometric", "drift"
 FAMILIES = (GEOMETRIC, "elastic", "transmission", DRIFT)
 TOLERANCE = 1.0e-3
 """Geometric tolerance of an industrial arm: 1 mm and 1 mrad per D-H value."""
+MASSES = "mass"
+"""The family that comes with all that gives way: how wrong stated masses are, in shares."""
 
 
 def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[str, list[Placed]]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,6 +25,8 @@ REFERENCE_TEMPERATURE_C = 20.0
 """Lengths hold at this temperature."""
 SECONDS_PER_HOUR = 3600.0
 ROWS_PER_UNIT = 1000.0
+SMALL_SHARE = 1e-3
+"""Of a link's mass, by which slopes are taken: what bends with the load hardly does so here."""
 
 
 def evaluate(scene: Scene, driver: Driver) -> Array:
@@ -133,16 +135,32 @@ def _unit_mass_torques(scene: Scene) -> Array:
 
 def _heavier(scene: Scene, load: Driver) -> Array:
     """Change of a load driver per kilogram more at the tool point."""
-    heavier = scene.remember("heavier", lambda: scene.with_payload(mass=1.0))
+    more = replace(scene.misstated, payload_kg=scene.misstated.payload_kg + 1.0)
+    heavier = scene.remember("heavier", lambda: scene.loaded_as(more))
     change: Array = heavier.driver(load) - scene.driver(load)
     return change
 
 
 def _off_centre(scene: Scene, load: Driver, axis: int) -> Array:
     """Change of a load driver per metre that the payload's centre lies off the tool point along a tool axis."""
-    shifted = scene.remember(("off centre", axis), lambda: scene.with_payload(offset=np.eye(3)[axis]))
+    off = replace(scene.misstated, payload_offset=np.eye(3)[axis])
+    shifted = scene.remember(("off centre", axis), lambda: scene.loaded_as(off))
     change: Array = shifted.driver(load) - scene.driver(load)
     return change
+
+
+def _heavier_by_share(scene: Scene, load: Driver) -> Array:
+    """Change of a load driver per share of the stated payload that it is heavier."""
+    more = replace(scene.misstated, payload_share=scene.misstated.payload_share + 1.0)
+    heavier = scene.remember("heavier by share", lambda: scene.loaded_as(more))
+    change: Array = heavier.driver(load) - scene.driver(load)
+    return change
+
+
+def _heavier_link(scene: Scene, load: Driver, link: int) -> Array:
+    """Slope of a load driver over the relative error of a link's mass; loads themselves are proportional to it."""
+    change: Array = scene.with_heavier_link(link, SMALL_SHARE).driver(load) - scene.driver(load)
+    return change / SMALL_SHARE
 
 
 def _regressor(scene: Scene, j: int, *weights: float) -> Array:
@@ -334,6 +352,8 @@ KINDS: dict[str, DriverKind] = {
     "gravity torque": DriverKind(_gravity_torque, follows=_WEIGHT),
     "payload torque": DriverKind(_payload_torque, needs="payload", follows=_LOAD),
     "heavier": DriverKind(_heavier, follows=_LOAD),
+    "heavier by share": DriverKind(_heavier_by_share, follows=_LOAD),
+    "heavier link": DriverKind(_heavier_link, follows=_LOAD),
     "off centre": DriverKind(_off_centre, follows=_LOAD),
     "regressor": DriverKind(_regressor, follows=frozenset({"load"})),
     "load side": DriverKind(_load_side, follows=_LOAD | {"torque"}),

@@ -18,6 +18,8 @@ from armscope.robot.gravity import mass_moment_regressor
 
 UNKNOWN_MASSES = "unknown masses"
 """The variant of a joint's compliance that trusts no stated mass."""
+TWO_AXES = "two axes"
+"""The variant of a base's compliance that is not the same about x and y: a pedestal or a machine's bed is not round."""
 TRACE_OF_LOAD = 5e-3
 """A smaller share of the largest load's variation is a trace: wrists are softer than shoulders, but not so much."""
 SHORTEST_BEAM_M = 0.05
@@ -154,8 +156,12 @@ def _tilt(scene: Scene, location: str) -> Term:
         "compliance",
         "rad/(N m)",
         *(Product(Direction(location, axis), Driver("moment", (location, n))) for n, axis in enumerate(("rx", "ry"))),
-        plausible=plausible_give(PLAUSIBLE.bearing_rad, np.linalg.norm(scene.moment(location)[:, :2], axis=1)),
+        plausible=_plausible_tilt(scene, location),
     )
+
+
+def _plausible_tilt(scene: Scene, location: str) -> float:
+    return plausible_give(PLAUSIBLE.bearing_rad, np.linalg.norm(scene.moment(location)[:, :2], axis=1))
 
 
 BEARING_COMPLIANCE = Effect(
@@ -179,7 +185,39 @@ BEARING_COMPLIANCE = Effect(
 
 def _place_base(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     if has_load(arm):
-        yield Placed(BASE_COMPLIANCE, "base", (_tilt(Scene(arm, recordings), "base"),), (1.0,), "moment on the base")
+        scene = Scene(arm, recordings)
+        yield Placed(BASE_COMPLIANCE, "base", (_tilt(scene, "base"),), (1.0,), "moment on the base")
+        terms = _two_axes(scene, "base")
+        yield Placed(BASE_COMPLIANCE, "base", terms, (1.0,) * 3, "moment on the base", variant=TWO_AXES)
+
+
+def _two_axes(scene: Scene, location: str) -> tuple[Term, ...]:
+    """A symmetric 2 x 2 compliance about x and y: soft axes that lie anyhow."""
+    about = [Direction(location, axis) for axis in ("rx", "ry")]
+    under = [Driver("moment", (location, n)) for n in (0, 1)]
+    size = _plausible_tilt(scene, location)
+    return (
+        term("compliance_x", "rad/(N m)", (about[0], under[0]), plausible=size),
+        term("compliance_y", "rad/(N m)", (about[1], under[1]), plausible=size),
+        term("compliance_xy", "rad/(N m)", (about[0], under[1]), (about[1], under[0]), plausible=size),
+    )
+
+
+def stiffest_of_two(values: Array, covariance: Array) -> tuple[float, float]:
+    """The smaller principal compliance, rad/(N m), of one about two axes; what is elastic has no negative one.
+
+    Args:
+        values: (3,) about x, about y, and across.
+        covariance: (3, 3) of them.
+
+    Returns:
+        Value and standard error.
+    """
+    x, y, across = values
+    size, axes = np.linalg.eigh(np.array([[x, across], [across, y]]))
+    u, v = axes[:, 0]
+    slope = np.array([u * u, v * v, 2 * u * v])
+    return float(size[0]), float(np.sqrt(slope @ covariance @ slope))
 
 
 BASE_COMPLIANCE = Effect(
@@ -192,7 +230,12 @@ BASE_COMPLIANCE = Effect(
         "Stiffen the mounting. No motor turns the base: otherwise command what the inverse kinematics of the corrected "
         "model asks for (base tilted by + compliance x moment; `armscope compensate`)."
     ),
-    clauses=("the base tilts by {compliance} under the arm's moment", "the base tilts under the arm's moment"),
+    clauses=(
+        "the base tilts by {compliance} under the arm's moment",
+        "the base tilts by {compliance_x} about its x and by {compliance_y} about its y under the arm's moment",
+        "the base tilts under the arm's moment",
+    ),
+    labels={"compliance_x": "about x", "compliance_y": "about y", "compliance_xy": "about x under a moment about y"},
     atlas="gravity load",
     nonnegative=True,
 )

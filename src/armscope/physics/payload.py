@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
+from armscope.core.numerals import rounded
 from armscope.physics.clause import Told
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import Cure
-from armscope.physics.drivers import follows
 from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term
 from armscope.physics.elastic import UNKNOWN_MASSES
-from armscope.physics.scene import Part, Scene
+from armscope.physics.loads import givings
+from armscope.physics.placing import varies
+from armscope.physics.scene import Misstated, Part, Scene
 from armscope.recordings import Recordings
 
+LEAST_PAYLOAD_KG = 1e-6
+"""A payload that varies by less is one payload: a wrong factor and a wrong mass are the same."""
 PAYLOAD_MASS = Direction("payload", "mass")
 """The load itself, kg: it moves nothing, but instruments that feel loads see it."""
 
@@ -26,31 +33,28 @@ def payload_errors(recordings: Recordings, elastic: Sequence[Part]) -> Iterator[
     """
     if recordings.payload is None:
         return
-    measured = recordings.torque is not None
     known = [part for part in elastic if part.placed.variant != UNKNOWN_MASSES]
-    givings = [g for part in known for g in _givings(part) if not (measured and g.driver.kind == "torque")]
     absolute = [g for part in elastic if part.placed.variant == UNKNOWN_MASSES for g in _absolute_giving(part)]
-    mass = _term("mass", "kg", 1.0, [*givings, *absolute], lambda load: Driver("heavier", (load,)))
-    if mass.products:
-        mass = Term(mass.name, mass.unit, mass.si, (*mass.products, Product(PAYLOAD_MASS, ONE)))
-        yield Placed(PAYLOAD_ERROR, "payload", (mass,), (1.0,), "payload", variant="mass")
+    loaded = [*givings(known, recordings.torque is not None), *absolute]
+    if not loaded:
+        return
+    heaviest = float(np.nan_to_num(recordings.payload).max(initial=0.0))
+    mass = _term("mass", "kg", 1.0, loaded, _by_mass, Product(PAYLOAD_MASS, ONE))
+    mass = replace(mass, plausible=PLAUSIBLE.payload_share * heaviest if heaviest else math.inf)
+    yield Placed(PAYLOAD_ERROR, "payload", (mass,), (1.0,), "payload", variant="mass")
+    if varies(recordings.payload, LEAST_PAYLOAD_KG):
+        itself = Product(PAYLOAD_MASS, Driver("payload"))
+        factor = _term("share", "of what is stated", 1.0, loaded, _by_share, itself)
+        factor = replace(factor, plausible=PLAUSIBLE.payload_share)
+        yield Placed(PAYLOAD_ERROR, "payload", (factor,), (1.0,), "payload", variant="factor")
     centre = tuple(
-        _term(
-            f"com_{name}", "mm", 1e-3, [*givings, *absolute], lambda load, axis=axis: Driver("off centre", (load, axis))
+        replace(
+            _term(f"com_{name}", "mm", 1e-3, loaded, lambda load, axis=axis: Driver("off centre", (load, axis))),
+            plausible=PLAUSIBLE.payload_centre_m,
         )
         for axis, name in enumerate("xyz")
     )
-    if not centre[0].products:
-        return
     yield Placed(PAYLOAD_ERROR, "payload", centre, (1.0,) * 3, "payload", variant="centre")
-
-
-def _givings(part: Part) -> Iterator[Product]:
-    """What gives way in a part, times how much; recorded torques hold the true payload already."""
-    for value, term in zip(part.values, part.placed.terms, strict=True):
-        for product in term.products:
-            if follows("weight", product.driver) and value != 0:
-                yield Product(product.direction, product.driver, product.factor * float(value))
 
 
 def _absolute_giving(part: Part) -> Iterator[Product]:
@@ -61,19 +65,31 @@ def _absolute_giving(part: Part) -> Iterator[Product]:
             yield Product(term.products[0].direction, Driver("gravity torque", driver.arguments), float(value))
 
 
-def _term(name: str, unit: str, si: float, givings: Sequence[Product], change: Any) -> Term:
-    """What one unit of the payload's error does through all that gives way."""
-    return Term(name, unit, si, tuple(Product(g.direction, change(g.driver), g.factor) for g in givings))
+def _by_mass(load: Driver) -> Driver:
+    return Driver("heavier", (load,))
+
+
+def _by_share(load: Driver) -> Driver:
+    return Driver("heavier by share", (load,))
+
+
+def _term(name: str, unit: str, si: float, loaded: Sequence[Product], change: Any, *itself: Product) -> Term:
+    """What one unit of the payload's error does through all that gives way, and by itself."""
+    through = tuple(Product(g.direction, change(g.driver), g.factor) for g in loaded)
+    return Term(name, unit, si, (*through, *itself))
 
 
 def _restated(scene: Scene, part: Part) -> Scene:
     """The scene with the payload as it is."""
     values = {term.name: float(value) for term, value in zip(part.placed.terms, part.values, strict=True)}
     offset = np.array([values.get(f"com_{axis}", 0.0) for axis in "xyz"])
-    return scene.with_payload(values.get("mass", 0.0), offset)
+    return scene.loaded_as(Misstated(values.get("mass", 0.0), values.get("share", 0.0), offset))
 
 
 def _not_as_stated(told: Told) -> str:
+    if "share" in told.numbers:
+        share = told.numbers["share"].value
+        return f"the payload is {rounded(100 * abs(share))} % {'heavier' if share > 0 else 'lighter'} than stated"
     errors = " and ".join(f"{name.replace('_', ' ')} by {number:+}" for name, number in told.numbers.items())
     return "the payload is not as stated" + (f": {errors}" if errors else "")
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from copy import copy
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -29,6 +29,26 @@ LINKAGE_JOINT = 3
 
 
 @dataclass(frozen=True, eq=False)
+class Misstated:
+    """By how much loads are other than stated.
+
+    Attributes:
+        payload_kg: added to the payload at the tool point, in all rows.
+        payload_share: of the stated payload, added to it.
+        payload_offset: (3,) m, the payload's centre off the tool point, in the last frame's axes.
+        masses: (n,) of each link's stated mass, added to it.
+    """
+
+    payload_kg: float = 0.0
+    payload_share: float = 0.0
+    payload_offset: Array | None = None
+    masses: Array | None = None
+
+
+AS_STATED = Misstated()
+
+
+@dataclass(frozen=True, eq=False)
 class Part:
     """A placed effect with the values of its terms, SI units."""
 
@@ -42,19 +62,15 @@ class Scene:
     Args:
         arm: the arm.
         recordings: the rows; only angles and context are used, not the measured positions.
-        payload_mass: kg added to the payload at the tool point, in all rows.
-        payload_offset: (3,) m, the payload's centre off the tool point, in the last frame's axes.
+        misstated: by how much loads are other than stated.
 
     Attributes:
         nominal: frames without any effect.
         loaded: frames at which loads are taken.
     """
 
-    def __init__(
-        self, arm: Arm, recordings: Recordings, payload_mass: float = 0.0, payload_offset: Array | None = None
-    ) -> None:
-        self.arm, self.recordings = arm, recordings
-        self.payload_mass, self.payload_offset = payload_mass, payload_offset
+    def __init__(self, arm: Arm, recordings: Recordings, misstated: Misstated = AS_STATED) -> None:
+        self.arm, self.recordings, self.misstated = arm, recordings, misstated
         self.nominal: Chain = chain(arm, recordings.motor_angles)
         self.loaded: Chain = self.nominal
         self.chain_angles: Array = recordings.motor_angles @ arm.actuation.T
@@ -78,9 +94,22 @@ class Scene:
         values: Array = self.remember(driver, lambda: drivers.evaluate(self, driver))
         return values
 
-    def with_payload(self, mass: float = 0.0, offset: Array | None = None) -> Scene:
-        """The same rows with the payload heavier by ``mass`` kg, or its centre off the tool point by ``offset`` m."""
-        return Scene(self.arm, self.recordings, self.payload_mass + mass, offset)._bent(self.loaded)
+    def loaded_as(self, misstated: Misstated) -> Scene:
+        """The same rows with loads other than stated, taken at the same frames."""
+        other = copy(self)
+        other.misstated, other._memory = misstated, {}
+        return other
+
+    def with_heavier_link(self, link: int, share: float) -> Scene:
+        """The same rows with the mass of link ``link`` (from 1) larger by a share of it."""
+        stated = np.zeros(self.arm.n_joints) if self.misstated.masses is None else self.misstated.masses
+        masses = stated + share * np.eye(self.arm.n_joints)[link - 1]
+        # loads ask link by link: only the last one's are kept
+        known: tuple[int, float, Scene] | None = self._memory.get("heavier link")
+        if known is None or known[:2] != (link, share):
+            known = (link, share, self.loaded_as(replace(self.misstated, masses=masses)))
+            self._memory["heavier link"] = known
+        return known[2]
 
     def _bent(self, frames: Chain) -> Scene:
         """The same rows with loads taken at other frames; what does not depend on them is kept here."""
@@ -91,18 +120,21 @@ class Scene:
     @property
     def payload(self) -> Array:
         """(N,) kg at the tool point: stated, plus the error under study."""
-        stated = self.recordings.payload
-        return self.payload_mass + (np.zeros(len(self)) if stated is None else np.nan_to_num(stated))
+        stated, wrong = self.recordings.payload, self.misstated
+        known = np.zeros(len(self)) if stated is None else np.nan_to_num(stated)
+        return wrong.payload_kg + (1 + wrong.payload_share) * known
 
     @property
     def wrenches(self) -> tuple[Array, Array]:
         """Force and moment (N, n, 3) of gravity at each joint, base axes."""
 
         def compute() -> tuple[Array, Array]:
-            force, moment = gravity_wrenches(self.arm, self.loaded, self.payload)
-            if self.payload_offset is None:
+            heavier, offset = self.misstated.masses, self.misstated.payload_offset
+            masses = None if heavier is None else (1 + heavier) * self.arm.masses
+            force, moment = gravity_wrenches(self.arm, self.loaded, self.payload, masses)
+            if offset is None:
                 return force, moment
-            off = self.loaded.tool_rotation @ self.payload_offset
+            off = self.loaded.tool_rotation @ offset
             return force, moment + np.cross(off, self.payload[:, None] * self.arm.gravity)[:, None, :]
 
         wrenches: tuple[Array, Array] = self.remember("wrenches", compute)

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Sequence
 from pathlib import Path
-from typing import cast
+from typing import Any, cast
+
+import yaml
 
 from armscope.core.inputs import InputError, load
 from armscope.robot.description import RobotDescription
+from armscope.robot.library import is_nominal
 from armscope.robot.urdf_file import guess_chain, is_xml, root_of
 
 SHORTEST_ARM_MM = 10.0
@@ -26,6 +30,9 @@ def load_description(path: Path | str) -> RobotDescription:
     """
     if is_xml(path):
         return describe_urdf(path)
+    if not Path(path).exists() and is_nominal(str(path)):
+        cure = f"`armscope init {path} -o robot.yaml` writes the library's arm of this name."
+        raise InputError(path, "", "no readable file", "a robot.yaml or a URDF is needed here", cure)
     description = load(RobotDescription, path)
     _refuse_other_units(description, path)
     if description.urdf is not None:
@@ -56,6 +63,17 @@ def describe_urdf(path: Path | str, tip: str | None = None) -> RobotDescription:
     return RobotDescription(
         name=name, urdf=str(Path(path).resolve()), tip=found.tip, hold_joints=found.held, source=found.guesses
     )
+
+
+def as_yaml(description: RobotDescription, folder: Path) -> str:
+    """A description as the text of a robot.yaml in a folder; a URDF is named from there."""
+    content = description.model_dump(mode="json", exclude_none=True, exclude_defaults=True)
+    if description.urdf is not None:
+        content["urdf"] = os.path.relpath(description.urdf, folder)
+    source = content.pop("source", {})
+    options: dict[str, Any] = {"sort_keys": False, "allow_unicode": True, "width": 1000}
+    said = yaml.safe_dump({"source": source}, default_flow_style=False, **options) if source else ""
+    return str(yaml.safe_dump(content, default_flow_style=None, **options)) + said
 
 
 def guesses(description: RobotDescription) -> list[str]:

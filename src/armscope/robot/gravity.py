@@ -13,19 +13,23 @@ from armscope.robot.arm import Arm
 from armscope.robot.kinematics import Chain
 
 
-def gravity_wrenches(arm: Arm, frames: Chain, payload: Array | None = None) -> tuple[Array, Array]:
+def gravity_wrenches(
+    arm: Arm, frames: Chain, payload: Array | None = None, masses: Array | None = None
+) -> tuple[Array, Array]:
     """Force (N, n, 3) N and moment (N, n, 3) N m of gravity at each joint's origin, in base axes.
 
     Args:
         arm: the arm; a tool load counts with the last link.
         frames: its frames at N poses.
         payload: (N,) kg, a point mass at the tool point; None or NaN counts as none.
+        masses: (n,) kg, of the links; the arm's own where not given.
 
     Returns:
         Force, N, and moment, N m, both (N, n, 3), in base axes at each joint's origin.
     """
     n_poses, n_joints = frames.joint_origin.shape[:2]
-    weights = np.broadcast_to(arm.masses[:, None] * arm.gravity, (n_poses, n_joints, 3))
+    masses = arm.masses if masses is None else masses
+    weights = np.broadcast_to(masses[:, None] * arm.gravity, (n_poses, n_joints, 3))
     moments_about_base = np.cross(_centres_of_mass(arm, frames), weights)
     if payload is not None:
         load = np.nan_to_num(payload)[:, None] * arm.gravity

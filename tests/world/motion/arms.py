@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from armscope.design.fourier import Limits, random_path
-from armscope.robot.description import load_description
+from armscope.robot.description_file import load_description
 from armscope.world.mechanism import Geometry
 from armscope.world.motion.mechanism import stated_dynamics
 

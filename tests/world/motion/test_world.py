@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 import yaml
 
-from armscope.robot.description import load_description
+from armscope.robot.description_file import load_description
 from armscope.world.motion.catalogue import KINDS, MotionSpec, Wish, catalogue
 from armscope.world.motion.folder import build, make
 from armscope.world.motion.recording import independent_share, record

@@ -10,11 +10,15 @@ from armscope.diagnosis.constants import TELLING
 from armscope.diagnosis.state import DiagnosisState
 from armscope.inference.detection import Detection
 from armscope.inference.edits import Edits
+from armscope.inference.evidence import savage_dickey
+from armscope.inference.linear_algebra import profiled_loss
 from armscope.inference.normal_equations import NormalEquations, projected_rms
 from armscope.inference.problem import background_sizes
 from armscope.measurement.constants import WEIGHTS
 from armscope.physics.backgrounds import FAMILIES
-from armscope.verdict.schema import Background, FoundEffect, Unexplained
+from armscope.physics.constants import PLAUSIBLE
+from armscope.physics.loads import STATED_MASSES
+from armscope.verdict.schema import Background, FoundEffect, Notice, Unexplained
 
 
 def background_summaries(
@@ -35,7 +39,7 @@ def background_summaries(
     sizes = background_sizes(state.problem, best.background)
     values = {t: v for part in fit.model.background for t, v in zip(part.placed.terms, part.values, strict=True)}
     told = []
-    for number, (family, columns) in enumerate(zip(FAMILIES, fit.pool.background, strict=True)):
+    for number, (family, columns) in enumerate(zip(FAMILIES, fit.pool.background[: len(FAMILIES)], strict=True)):
         coefficients = np.zeros(len(fit.pool.terms))
         coefficients[columns] = [values[fit.pool.terms[column]] for column in columns]
         rms = projected_rms(gram, fit.pool.frames, coefficients)
@@ -45,6 +49,42 @@ def background_summaries(
         )
         told.append(Background(family, present, sizes[number], rms, of_families[number]))
     return tuple(told)
+
+
+def masses_in_error(
+    state: DiagnosisState, gram: NormalEquations, share: float
+) -> tuple[list[Background], list[Notice]]:
+    """What stated masses are found to be off by, where the evidence asks for it; otherwise nothing.
+
+    Args:
+        state: the finished selection.
+        gram: sums over all rows.
+        share: of the mismatch that their errors explain.
+
+    Returns:
+        The background that they are and what to say of those that are told, or neither.
+    """
+    fit, (masses,) = state.fit, state.space.companions
+    family = masses.family
+    if not masses.joins(state.best.candidates, state.best.background):
+        return [], []
+    lost = profiled_loss(savage_dickey(state.best, family.columns), state.problem.n)
+    if lost < TELLING.background_seen_nats:
+        return [], []
+    parts = [part for part in fit.model.background if part.placed.effect is STATED_MASSES]
+    at = [int(fit.pool.of(part.placed)[0]) for part in parts]
+    off, stderr = np.array([part.values[0] for part in parts]), np.sqrt(np.diag(fit.covariance)[at])
+    coefficients = np.zeros(len(fit.pool.terms))
+    coefficients[at] = off
+    rms = projected_rms(gram, fit.pool.frames, coefficients)
+    found = Background(family.name, True, family.label(family.sizes - 1), rms, share)
+    known = [
+        f"{part.placed.location} {100 * value:+.0f} +- {196 * error:.0f} %"
+        for part, value, error in zip(parts, off, stderr, strict=True)
+        if error < TELLING.determined * PLAUSIBLE.mass_share and abs(value) > 1.96 * error
+    ]
+    text = "Stated masses are off, as all that gives way shows"
+    return [found], [Notice("stated masses", f"{text}: {', '.join(known)}." if known else f"{text}; which, is open.")]
 
 
 def together(families: Sequence[Background]) -> Background:

@@ -1,0 +1,62 @@
+"""Which arm of the library explains a table best: for recordings that the stated arm does not explain."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from armscope.calibration.fit import placed, rms_distance
+from armscope.calibration.model import set_up
+from armscope.check.suspicions import FITS, MOST_ROWS, MOST_STEPS
+from armscope.core.sampling import spread_evenly
+from armscope.recordings import Recordings
+from armscope.robot.arm import Arm, build_arm
+from armscope.robot.library import nominal_description, nominal_names
+
+
+@dataclass(frozen=True)
+class NominalFit:
+    """How well an arm of the library explains a table once base and tool are fitted.
+
+    Attributes:
+        name: by which `armscope init` writes the arm.
+        title: the arm's name in full.
+        rms_mm: RMS distance that is left, mm.
+        explains: whether that is a small share of the points' spread, as the check's own rule says.
+    """
+
+    name: str
+    title: str
+    rms_mm: float
+    explains: bool
+
+
+def nominal_fits(recordings: Recordings) -> tuple[NominalFit, ...]:
+    """The library's arms with the table's number of motors, the best first; joint zeros and signs as in the library.
+
+    Args:
+        recordings: the table; of a long one rows are taken evenly.
+
+    Returns:
+        A fit for each arm.
+    """
+    usable = np.flatnonzero(np.isfinite(recordings.positions).all(axis=1))
+    some = recordings.rows(usable[spread_evenly(len(usable), MOST_ROWS)] if len(usable) > MOST_ROWS else usable)
+    points = some.positions - np.array([some.positions[some.run == run].mean(axis=0) for run in some.run])
+    spread = float(np.sqrt(np.mean(np.sum(points**2, axis=1))))
+    arms = ((name, nominal_description(name)) for name in nominal_names())
+    fitting = ((name, build_arm(each)) for name, each in arms if each.n_motors(_joints(each)) == some.n_motors)
+    found = [_fit(name, arm, some, spread) for name, arm in fitting]
+    return tuple(sorted(found, key=lambda fit: fit.rms_mm))
+
+
+def _joints(description: object) -> int:
+    dh = getattr(description, "dh", None)
+    return 0 if dh is None else len(dh.joints)
+
+
+def _fit(name: str, arm: Arm, table: Recordings, spread: float) -> NominalFit:
+    rows = set_up(arm, table)
+    left = rms_distance(rows.residuals(placed(rows, MOST_STEPS)))
+    return NominalFit(name, arm.name, 1e3 * left, left <= FITS * spread)

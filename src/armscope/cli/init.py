@@ -1,0 +1,79 @@
+"""The command that writes the first files: robot.yaml of an arm, mapping.yaml of a foreign table."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from armscope.cli.commands import Commands
+from armscope.core.inputs import InputError
+
+app = Commands()
+
+WHAT = "a URDF, `-` for a D-H table on standard input, the name of an arm (--list shows them), or a foreign table"
+
+
+@app.command()
+def init(
+    what: Annotated[str, typer.Argument(help=WHAT, metavar="WHAT")] = "",
+    output: Annotated[Path, typer.Option("--output", "-o", help="robot.yaml or mapping.yaml to write")] = Path("-"),
+    tip: Annotated[str | None, typer.Option(help="of a URDF: the frame that carries the tool; else guessed")] = None,
+    name: Annotated[str, typer.Option(help="of a D-H table's arm")] = "my arm",
+    modified: Annotated[bool, typer.Option("--modified", help="the D-H table is Craig's (modified)")] = False,
+    list_: Annotated[bool, typer.Option("--list", help="show the nominal arms of the library")] = False,
+) -> None:
+    """Write robot.yaml from a URDF, a D-H table or an arm's name; or a draft mapping.yaml from a foreign table.
+
+    Every guess is labelled in what is written: read it before you use it.
+    """
+    from armscope.robot.library import nominal_names
+
+    if list_ or not what:
+        _show_library()
+        if not list_:
+            raise InputError("WHAT", "", "nothing", WHAT, "Arms: " + ", ".join(nominal_names()) + ".")
+        return
+    text, guesses = _first_file(what, output, tip, name, modified)
+    for guess in guesses:
+        print(f"guess: {guess}", file=sys.stderr)
+    from armscope.core.files import write_text
+
+    write_text(output, text)
+
+
+def _first_file(what: str, output: Path, tip: str | None, name: str, modified: bool) -> tuple[str, list[str]]:
+    """The file's text, and what was guessed for it."""
+    from armscope.robot.description_file import as_yaml, describe_urdf, guesses
+    from armscope.robot.library import is_nominal, nominal_file
+    from armscope.robot.urdf_file import is_xml
+
+    if what == "-":
+        from armscope.robot.dh_table import parse_dh_table
+
+        described = parse_dh_table(sys.stdin.read(), name, "modified" if modified else "standard")
+    elif is_xml(what):
+        described = describe_urdf(what, tip)
+    elif Path(what).exists() or not is_nominal(what):
+        if not Path(what).exists() and not Path(what).suffix:
+            nominal_file(what)
+        from armscope.recordings.importing.draft import draft_mapping
+
+        text = draft_mapping(what)
+        return text, [line.strip() for line in text.splitlines() if "# guessed" in line]
+    else:
+        file = nominal_file(what)
+        text = file.read_text(encoding="utf-8")
+        return text, [line.strip() for line in text.splitlines() if "unsure" in line or "from memory" in line]
+    return as_yaml(described, output.parent), guesses(described)
+
+
+def _show_library() -> None:
+    from armscope.robot.library import nominal_description, nominal_names
+
+    for each in nominal_names():
+        described = nominal_description(each)
+        basis = described.source["dh"]
+        print(f"{each:10s} {described.name}: {basis}")

@@ -1,0 +1,68 @@
+"""Loads are known, but not exactly: every link's stated mass may be off by some share, for all that gives way at once.
+
+A load times a compliance is bilinear; around the stated masses and a model's present compliances it is a column per
+link, the change of all loads per share of its mass times what gives way under them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from armscope.physics.constants import PLAUSIBLE
+from armscope.physics.cure import Cure
+from armscope.physics.drivers import follows
+from armscope.physics.effect import Driver, Effect, Placed, Product, Term
+from armscope.physics.scene import Part
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+
+STATED_MASSES = Effect(
+    "stated_masses",
+    "elastic",
+    lambda arm, recordings: iter(()),  # it needs a model that gives way
+    "The link's mass is other than stated, so everything that gives way under it is loaded differently.",
+    "Weigh the link, or record the motors' torques at rest and compare them with gravity by the stated masses.",
+    Cure("Correct the link's mass in robot.yaml: mass = stated mass x (1 + share)."),
+    atlas="gravity load",
+)
+
+
+def givings(parts: Sequence[Part], torques_recorded: bool) -> Iterator[Product]:
+    """What gives way in a model's parts, and how much; recorded torques hold the true load already.
+
+    Args:
+        parts: of the model.
+        torques_recorded: whether motors' loads were recorded.
+
+    Yields:
+        Directions with the load that they follow and the motion per unit of it, SI.
+    """
+    for part in parts:
+        for value, term in zip(part.values, part.placed.terms, strict=True):
+            for product in term.products if value else ():
+                measured = torques_recorded and follows("torque", product.driver)
+                if follows("weight", product.driver) and not measured:
+                    yield Product(product.direction, product.driver, product.factor * float(value))
+
+
+def mass_errors(arm: Arm, recordings: Recordings, parts: Sequence[Part]) -> list[Placed]:
+    """The relative error of each link's stated mass, first-order in the model's present values.
+
+    Args:
+        arm: whose masses are stated, or not.
+        recordings: the rows.
+        parts: of the model.
+
+    Returns:
+        One per link that weighs something; none where nothing gives way.
+    """
+    known = list(givings(parts, recordings.torque is not None))
+    if not known:
+        return []
+    return [_mass_error(link, known) for link in range(1, arm.n_joints + 1) if arm.masses[link - 1] > 0]
+
+
+def _mass_error(link: int, known: Sequence[Product]) -> Placed:
+    products = (Product(g.direction, Driver("heavier link", (g.driver, link)), g.factor) for g in known)
+    share = Term("share", "of its mass", 1.0, tuple(products), PLAUSIBLE.mass_share)
+    return Placed(STATED_MASSES, f"link {link}", (share,), (PLAUSIBLE.mass_share,), "loads")

@@ -1,0 +1,294 @@
+"""A draft of mapping.yaml from a foreign table: delimiter, decimal sign, columns and units, each guess labelled."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import yaml
+
+from armscope.core.inputs import InputError, validate
+from armscope.core.types import Array
+from armscope.recordings.importing.mapping import Mapping
+from armscope.recordings.opening import open_text, start_of
+
+LOOKED_AT = 2000
+"""Lines of the file that guesses rest on."""
+FEWEST_MOTORS = 2
+RADIANS_UP_TO = 2 * np.pi + 0.01
+METRES_UP_TO = 30.0
+"""Coordinates whose largest is below this are metres: no arm stays within 30 mm of the origin."""
+DELIMITERS = {";": ";", "\t": "tab", "|": "|", ",": ","}
+NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+
+_UNIT = r"[\s_.\-]*[\[(]?\s*(rad|deg|degrees|°|mm|m|millimeters|meters|rad/s|deg/s|nm|n\s?m|s|ms|kg|c|°c|degc)\s*[\])]?"
+JOINT = re.compile(r"(?P<word>.*?)[\s_.\[(\-]*(?P<number>\d{1,2})[\])]?(?P<unit>" + _UNIT + r")?", re.IGNORECASE)
+ANGLE_WORDS = (
+    "q",
+    "j",
+    "joint",
+    "theta",
+    "th",
+    "axis",
+    "a",
+    "angle",
+    "ang",
+    "pos",
+    "position",
+    "encoder",
+    "motor",
+    "rax",
+    "s",
+)
+BESIDE = {
+    "torque": ("tau", "torque", "trq", "moment", "effort"),
+    "speed": ("dq", "qd", "v", "vel", "velocity", "speed", "omega"),
+    "approach": ("approach", "dir", "direction"),
+}
+NOT_ANGLES = ("current", "i", "temp", "temperature", "volt", "m", "ddq", "qdd", "acc")
+COMMANDED = ("target", "cmd", "command", "commanded", "set", "desired", "nominal", "ref", "soll")
+MEASURED = ("measured", "meas", "actual", "act", "ist", "tracker", "laser", "leica", "faro", "mcs")
+
+
+@dataclass
+class _Table:
+    """The first lines of a foreign table: how they are cut, their names, their numbers (NaN where none is)."""
+
+    delimiter: str
+    decimal: str
+    skip: int
+    names: list[str]
+    header: bool
+    values: Array
+    encoding: str = "utf-8-sig"
+    notes: dict[str, str] = field(default_factory=dict)
+
+
+def draft_mapping(path: Path | str) -> str:
+    """The text of a mapping.yaml that reads this file, with a comment on every guess.
+
+    Args:
+        path: of a delimited text table.
+
+    Returns:
+        YAML.
+
+    Raises:
+        InputError: it is no text table, or no columns look like motor angles and points.
+    """
+    path = Path(path)
+    table = _look(path)
+    lines = list(_format_lines(table))
+    columns = _guess_columns(path, table)
+    lines += ["columns:", *columns]
+    head = f"# A draft for {path.name}: read every guess, mend it where it is wrong, then"
+    text = "\n".join([head, _NEXT, *lines, ""])
+    validate(Mapping, yaml.safe_load(text), path)
+    return text
+
+
+_NEXT = "# armscope import TABLE --mapping mapping.yaml -o recordings.csv"
+
+
+def _look(path: Path) -> _Table:
+    start_of(path, "a table of recordings")
+    encoding = "utf-8-sig"
+    try:
+        lines = _first_lines(path, encoding)
+    except UnicodeDecodeError:
+        encoding = "latin-1"
+        lines = _first_lines(path, encoding)
+    filled = [line for line in lines if line.strip()]
+    if len(filled) < 2:
+        raise InputError(path, "", f"{len(filled)} lines", "a table has a header or a row, and rows")
+    delimiter, cut = _delimiter(filled)
+    width = Counter(len(_split(line, cut)) for line in filled).most_common(1)[0][0]
+    first = next(number for number, line in enumerate(lines) if line.strip() and len(_split(line, cut)) == width)
+    rows = [cells for line in lines[first:] if len(cells := _split(line, cut)) == width]
+    decimal = "," if cut != "," and _has_decimal_commas(rows) else "."
+    header = not any(NUMBER.fullmatch(_plain(cell, decimal)) for cell in rows[0])
+    names = rows[0] if header else [str(number) for number in range(1, width + 1)]
+    numbers = np.array([[_value(cell, decimal) for cell in row] for row in rows[1 if header else 0 :]], dtype=float)
+    if not len(numbers):
+        raise InputError(path, "", "a header alone", "rows are needed to guess units from")
+    return _Table(delimiter, decimal, first, names, header, numbers, encoding)
+
+
+def _first_lines(path: Path, encoding: str) -> list[str]:
+    with open_text(path, encoding) as stream:
+        return [line.rstrip("\r\n") for line, _ in zip(stream, range(LOOKED_AT), strict=False)]
+
+
+def _delimiter(lines: Sequence[str]) -> tuple[str, str | None]:
+    """What the mapping calls the delimiter that cuts most lines alike, and the sign itself (None: white space)."""
+    best, most = ("whitespace", None), 0.0
+    for sign in (*DELIMITERS, None):
+        width, alike = Counter(len(_split(line, sign)) for line in lines).most_common(1)[0]
+        found = alike / len(lines) * (width > 3)
+        if found > most + 0.05:
+            best, most = ("whitespace" if sign is None else DELIMITERS[sign], sign), found  # type: ignore[assignment]
+    return best
+
+
+def _split(line: str, sign: str | None) -> list[str]:
+    return [cell.strip().strip('"') for cell in line.split(sign)]
+
+
+def _has_decimal_commas(rows: Sequence[Sequence[str]]) -> bool:
+    cells = [cell for row in rows for cell in row]
+    return sum(bool(re.fullmatch(r"[+-]?\d+,\d+([eE][+-]?\d+)?", cell)) for cell in cells) > 0.1 * len(cells)
+
+
+def _plain(cell: str, decimal: str) -> str:
+    return cell.replace(",", ".") if decimal == "," else cell
+
+
+def _value(cell: str, decimal: str) -> float:
+    plain = _plain(cell, decimal)
+    return float(plain) if NUMBER.fullmatch(plain) else np.nan
+
+
+def _format_lines(table: _Table) -> Iterator[str]:
+    stated = {"delimiter": table.delimiter, "decimal": table.decimal}
+    parts = [f'{key}: "{value}"' for key, value in stated.items()]
+    parts += ["header: false"] if not table.header else []
+    parts += [f"skip_lines: {table.skip}"] if table.skip else []
+    parts += [f"encoding: {table.encoding}"] if table.encoding != "utf-8-sig" else []
+    yield f"format: {{{', '.join(parts)}}}   # guessed: most lines are cut alike by it"
+
+
+def _guess_columns(path: Path, table: _Table) -> Iterator[str]:
+    angles = _motor_columns(table)
+    points = _triple(table, taken=angles)
+    for what, found in (("the motor angles", angles), ("measured x, y, z", points)):
+        if not found:
+            rule = f"no columns look like {what}"
+            cure = "Write the mapping by hand: docs/bring-your-recordings.md."
+            raise InputError(path, f"line {table.skip + 1}", ", ".join(table.names[:12]), rule, cure)
+    numbers = table.values[:, angles]
+    largest = _largest(numbers)
+    stated = _stated_unit(table.names[angles[0]], {"rad": "rad", "deg": "deg", "degrees": "deg", "°": "deg"})
+    unit = stated or ("rad" if largest <= RADIANS_UP_TO else "deg")
+    why = "stated by the name" if stated else f"guessed: none is beyond {largest:.4g}"
+    yield f"  angles: {{columns: {_listed(table, angles)}, unit: {unit}}}   # {why}; columns by likeness of names"
+    largest = _largest(table.values[:, points])
+    stated = _stated_unit(table.names[points[0]], {"mm": "mm", "millimeters": "mm", "m": "m", "meters": "m"})
+    unit = stated or ("m" if largest <= METRES_UP_TO else "mm")
+    why = "stated by the name" if stated else f"guessed: none is beyond {largest:.4g}"
+    yield f"  position: {{columns: {_listed(table, points)}, unit: {unit}}}   # {why}; columns by likeness of names"
+    yield from _further(table, len(angles), {*angles, *points})
+
+
+def _largest(values: Array) -> float:
+    known = values[np.isfinite(values)]
+    return float(np.abs(known).max()) if len(known) else 0.0
+
+
+def _listed(table: _Table, columns: Sequence[int]) -> str:
+    if not table.header:
+        return "[" + ", ".join(str(column + 1) for column in columns) + "]"
+    return "[" + ", ".join(_quoted(table.names[column]) for column in columns) + "]"
+
+
+def _quoted(name: str) -> str:
+    return "'" + name.replace("'", "''") + "'"
+
+
+def _stated_unit(name: str, units: dict[str, str]) -> str | None:
+    found = re.search(r"[\s_.\-\[(]+\[?\(?([A-Za-z°]+)[\])]?\s*$", name)
+    return units.get(found[1].lower()) if found else None
+
+
+def _numbered(table: _Table) -> dict[str, dict[int, int]]:
+    """Columns that are numbered, by what stands before the number: {word: {number: column}}."""
+    groups: dict[str, dict[int, int]] = {}
+    for column, name in enumerate(table.names):
+        found = JOINT.fullmatch(name.strip())
+        if table.header and found and np.isfinite(table.values[:, column]).any():
+            groups.setdefault(found["word"].lower(), {}).setdefault(int(found["number"]), column)
+    return groups
+
+
+def _in_a_row(group: dict[int, int]) -> list[int]:
+    """The columns numbered 1, 2, ... (or 0, 1, ...) without a gap; none where there are fewer than an arm has."""
+    start = 0 if 0 in group else 1
+    count = next(n for n in range(start, start + len(group) + 1) if n not in group) - start
+    return [group[start + n] for n in range(count)] if count >= FEWEST_MOTORS else []
+
+
+def _motor_columns(table: _Table) -> list[int]:
+    if not table.header:
+        return _leading(table)
+    ranked = []
+    for word, group in _numbered(table).items():
+        parts = [part for part in re.split(r"[^a-z]+", word) if part]
+        others = {each for names in BESIDE.values() for each in names} | set(NOT_ANGLES)
+        columns = _in_a_row(group)
+        if not columns or not set(parts) & set(ANGLE_WORDS) or set(parts) & (others - set(ANGLE_WORDS)):
+            continue
+        commanded = bool(set(parts) & set(COMMANDED)) - bool(set(parts) & set(MEASURED))
+        ranked.append((commanded, len(columns), -columns[0], columns))
+    return max(ranked)[-1] if ranked else []
+
+
+def _leading(table: _Table) -> list[int]:
+    """Without names: columns from the left that stay within a turn, the three behind them being the point."""
+    spans = [_largest(table.values[:, [column]]) for column in range(table.values.shape[1])]
+    count = len(spans) - 3
+    return list(range(count)) if count >= FEWEST_MOTORS and max(spans[:count]) <= 720 else []
+
+
+def _triple(table: _Table, taken: Sequence[int]) -> list[int]:
+    if not table.header:
+        return list(range(len(taken), len(taken) + 3)) if taken else []
+    found: dict[str, dict[str, int]] = {}
+    for column, name in enumerate(table.names):
+        if column in taken:
+            continue
+        for match in re.finditer(r"(?<![a-z])[p]?([xyz])(?![a-z])", name.lower().replace("_", " ")):
+            rest = (name[: match.start(1)] + "?" + name[match.end(1) :]).lower()
+            found.setdefault(rest, {})[match[1]] = column
+    whole = [(rest, [axes[a] for a in "xyz"]) for rest, axes in found.items() if set(axes) == set("xyz")]
+    whole = [(rest, columns) for rest, columns in whole if not re.search(r"r\?|rot|q\?|quat|force|f\?|sigma", rest)]
+    score = [(any(word in rest for word in MEASURED) - any(word in rest for word in COMMANDED), -columns[0], columns)
+             for rest, columns in whole]  # fmt: skip
+    return max(score)[-1] if score else []
+
+
+def _further(table: _Table, n_motors: int, taken: set[int]) -> Iterator[str]:
+    """Context by names alone."""
+    if not table.header:
+        return
+    for group, columns in _per_motor(table, n_motors, taken).items():
+        unit = ", unit: rad/s" if group == "speed" else ""
+        say = {"torque": "N m, positive along gravity's pull: check the sign", "speed": "unit guessed: rad/s"}
+        yield f"  {group}: {{columns: {_listed(table, columns)}{unit}}}   # guessed by name; {say.get(group, '-1, +1')}"
+    small = {name.strip().lower(): column for column, name in enumerate(table.names) if column not in taken}
+    if all(part in small for part in ("qw", "qx", "qy", "qz")):
+        listed = _listed(table, [small[part] for part in ("qw", "qx", "qy", "qz")])
+        yield f"  orientation: {{quaternion: {listed}, order: wxyz}}   # guessed by name"
+    singles = {
+        "temperature": (r"temp(erature)?([\s_.\[(]*(°?c|degc))?[\])]?", "temperature: {{column: {}}}"),
+        "payload": (r"(payload|load)([\s_.\[(]*kg)?[\])]?", "payload: {{column: {}}}"),
+        "time": (r"(time|t|timestamp)([\s_.\[(]*s)?[\])]?", "time: {{column: {}, unit: s}}"),
+        "target": (r"(target|reflector|smr|point)([\s_]?(id|name|no))?", "target: {{column: {}}}"),
+    }
+    for what, (pattern, line) in singles.items():
+        match = next((column for name, column in small.items() if re.fullmatch(pattern, name)), None)
+        if match is not None and (what == "target" or np.isfinite(table.values[:, match]).any()):
+            yield f"  {line.format(_quoted(table.names[match]))}   # guessed by name"
+
+
+def _per_motor(table: _Table, n_motors: int, taken: set[int]) -> dict[str, list[int]]:
+    found: dict[str, list[int]] = {}
+    for word, group in _numbered(table).items():
+        parts = {part for part in re.split(r"[^a-z]+", word) if part}
+        columns = _in_a_row(group)
+        for name, words in BESIDE.items():
+            if parts & set(words) and len(columns) == n_motors and not taken & set(columns):
+                found.setdefault(name, columns)
+    return found

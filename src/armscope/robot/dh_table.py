@@ -1,0 +1,145 @@
+"""A D-H table as people paste it: from a data sheet, a page, a program; what it doesn't state is guessed and said."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from typing import Literal
+
+from armscope.core.inputs import InputError
+from armscope.robot.description import DH, DHRow, RobotDescription
+
+COLUMNS = {
+    "theta_offset_deg": r"(theta|θ|offset|th)",
+    "alpha_deg": r"(alpha|α|twist|al)",
+    "a_mm": r"(a|r|length)",
+    "d_mm": r"(d|offset_d)",
+    "": r"(joint|link|row|j|i|no|nr|#|kinematics|axis|)",
+}
+"""What the columns are called; the last are no numbers of a row."""
+USUAL = ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg")
+"""The order where no header says one."""
+METRES_UP_TO = 10.0
+"""Lengths whose largest is below this are metres: an arm's longest link is above 10 mm and below 10 m."""
+RADIANS_UP_TO = 2 * math.pi + 1e-3
+
+Convention = Literal["standard", "modified"]
+
+
+def parse_dh_table(text: str, name: str, convention: Convention = "standard") -> RobotDescription:
+    """A table of D-H rows as a description whose `source` says what was guessed.
+
+    Args:
+        text: rows of numbers between blanks, tabs, commas, semicolons or bars; a header may name columns and units;
+            angles may be written with pi ("pi/2", "-π/2").
+        name: of the arm.
+        convention: of the rows: a table does not say it.
+
+    Returns:
+        The description.
+
+    Raises:
+        InputError: a line that is no row; its number is named.
+    """
+    lines = [(number, line.strip().strip("|")) for number, line in enumerate(text.splitlines(), 1)]
+    lines = [(number, line) for number, line in lines if re.search(r"[^\s|:+=-]", line) and not line.startswith("#")]
+    if not lines:
+        raise InputError(
+            "D-H table", "", "nothing", "rows of a, alpha, d, theta are needed", "Paste them, end with Ctrl-D."
+        )
+    source: dict[str, str] = {}
+    header = _cells(lines[0][1])
+    names: tuple[str, ...] = USUAL
+    units: dict[str, str] = {}
+    if not any(_number(cell) is not None for cell in header[1:]):
+        names, units = _named(header, lines[0][0])
+        lines = lines[1:]
+    rows = [_row(line, number, names) for number, line in lines]
+    if names is USUAL:
+        source["dh columns"] = f"guessed: in the order a, alpha, d, theta ({len(rows[0])} numbers in a row)"
+    length = units.get("length") or _guess_length(rows, source)
+    angle = units.get("angle") or _guess_angle(rows, source)
+    source["dh convention"] = "stated" if convention == "modified" else "guessed: standard; --modified says Craig's"
+    joints = tuple(DHRow.model_validate(_in_file_units(row, length, angle)) for row in rows)
+    return RobotDescription(name=name, dh=DH(convention=convention, joints=joints), source=source)
+
+
+def _cells(line: str) -> list[str]:
+    for separator in (r"\|", r"\t", ";", ","):
+        if re.search(separator, line):
+            return [cell.strip() for cell in re.split(separator, line)]
+    return line.split()
+
+
+def _number(cell: str) -> float | None:
+    """A number, also as a multiple of pi or with a decimal comma."""
+    plain = cell.replace("π", "pi").replace("−", "-").replace(" ", "").replace("*", "").replace("°", "").lower()
+    found = re.fullmatch(r"([+-]?\d*\.?\d*)pi(?:/(\d+\.?\d*))?", plain)
+    if found:
+        factor = {"": 1.0, "+": 1.0, "-": -1.0}.get(found[1])
+        below = float(found[2] or 1)
+        return (float(found[1]) if factor is None else factor) * math.pi / below if below else None
+    try:
+        value = float(plain.replace(",", "."))
+    except ValueError:
+        return None
+    return value if math.isfinite(value) else None
+
+
+def _named(header: Sequence[str], number: int) -> tuple[tuple[str, ...], dict[str, str]]:
+    """What the header's columns are, and the units that it states."""
+    names, units = [], {}
+    for cell in header:
+        word, unit = re.fullmatch(r"\s*(.*?)[\s_]*[\[(]?(mm|m|deg|rad|°)?[\])]?\s*", cell.lower()).groups()  # type: ignore[union-attr]
+        word = re.sub(r"[\s_]*(i|j|offset)?$", "", word) or word
+        found = next((key for key, pattern in COLUMNS.items() if re.fullmatch(pattern, word)), None)
+        if found is None:
+            raise InputError(
+                "D-H table", f"line {number}", cell, "columns are a, alpha, d, theta, with units in brackets"
+            )
+        if unit and found:
+            units["angle" if found.endswith("deg") else "length"] = "deg" if unit == "°" else unit
+        names.append(found)
+    if not {"a_mm", "alpha_deg", "d_mm"} <= set(names):
+        raise InputError("D-H table", f"line {number}", " ".join(header), "a, alpha and d are needed in every row")
+    return tuple(names), units
+
+
+def _row(line: str, number: int, names: tuple[str, ...]) -> dict[str, float]:
+    cells = _cells(line)
+    if names is USUAL and len(cells) in (4, 5) and not re.search(r"\d", cells[0]):
+        cells = cells[1:]
+    if not (len(cells) == len(names) or (names is USUAL and len(cells) == 3)):
+        cure = "A row is a, alpha, d and, where it is not zero, theta."
+        raise InputError("D-H table", f"line {number}", line, f"{len(names)} numbers in a row", cure)
+    row = {}
+    for name, cell in zip(names, cells, strict=False):
+        if not name:
+            continue
+        value = _number(cell)
+        if value is None and name == "theta_offset_deg":  # "q1", "theta1": the joint's own angle
+            value = 0.0
+        if value is None:
+            raise InputError("D-H table", f"line {number}", cell, "a number, or a multiple of pi")
+        row[name] = value
+    return row
+
+
+def _guess_length(rows: Sequence[dict[str, float]], source: dict[str, str]) -> str:
+    most = max(abs(row[name]) for row in rows for name in ("a_mm", "d_mm"))
+    unit = "m" if 0 < most < METRES_UP_TO else "mm"
+    source["dh lengths"] = f"guessed: {unit}, since the longest is {most:g}"
+    return unit
+
+
+def _guess_angle(rows: Sequence[dict[str, float]], source: dict[str, str]) -> str:
+    most = max(abs(row.get(name, 0.0)) for row in rows for name in ("alpha_deg", "theta_offset_deg"))
+    unit = "rad" if 0 < most < RADIANS_UP_TO else "deg"
+    source["dh angles"] = f"guessed: {unit}, since the largest is {most:g}"
+    return unit
+
+
+def _in_file_units(row: dict[str, float], length: str, angle: str) -> dict[str, float]:
+    factors = {"mm": 1e3 if length == "m" else 1.0, "deg": 180 / math.pi if angle == "rad" else 1.0}
+    return {name: round(value * factors[name.rpartition("_")[2]], 9) for name, value in row.items()}

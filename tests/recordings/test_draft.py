@@ -1,0 +1,92 @@
+"""A draft mapping reads the foreign table that it was made from, as the table's author meant it."""
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+
+from armscope.core.inputs import InputError
+from armscope.recordings import read_recordings
+from armscope.recordings.importing.draft import draft_mapping
+from armscope.recordings.importing.tables import import_recordings
+
+RNG = np.random.default_rng(0)
+ANGLES, POINTS = RNG.uniform(-2, 2, (30, 6)), RNG.uniform(-900, 900, (30, 3)) + np.array([3000, 0, 500])
+TORQUES = RNG.uniform(-50, 50, (30, 6))
+
+
+def written(folder, columns, delimiter=",", decimal=".", head=""):
+    table = pd.DataFrame(columns)
+    file = folder / "foreign.csv"
+    file.write_text(head + table.to_csv(sep=delimiter, decimal=decimal, index=False, lineterminator="\n"))
+    return file
+
+
+def names(pattern, values):
+    return {pattern.format(j): values[:, k] for k, j in enumerate(range(1, 1 + values.shape[1]))}
+
+
+def axes(pattern, values):
+    return {pattern.format(axis): values[:, k] for k, axis in enumerate("xyz")}
+
+
+CASES = {
+    "degrees, millimetres": (names("J{}", np.degrees(ANGLES)) | axes("{}", POINTS), ",", ".", ""),
+    "German": (names("Achse_A{}", np.degrees(ANGLES)) | axes("{} [mm]", POINTS), ";", ",", ""),
+    "radians, metres, tabs": (names("q_{}", ANGLES) | axes("meas_{}", POINTS / 1e3), "\t", ".", ""),
+    "head of three lines": (names("joint_{}_deg", np.degrees(ANGLES)) | axes("p{}", POINTS), ",", ".", "a\nb\nc\n"),
+    "commanded beside actual": (
+        names("actual_q_{}", ANGLES + 0.1)
+        | names("target_q_{}", ANGLES)
+        | axes("target_{}", POINTS + 9)
+        | axes("tracker_{}", POINTS),
+        ",",
+        ".",
+        "",
+    ),
+    "torques and speeds beside": (
+        names("theta{}", ANGLES) | names("torque{}", TORQUES) | names("vel{}", TORQUES / 100) | axes("X{}"[1:], POINTS),
+        ",",
+        ".",
+        "",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_the_table_is_read_as_it_was_meant(case, tmp_path):
+    columns, delimiter, decimal, head = CASES[case]
+    file = written(tmp_path, columns, delimiter, decimal, head)
+    draft = draft_mapping(file)
+    assert "# guessed" in draft
+    (tmp_path / "mapping.yaml").write_text(draft)
+    import_recordings([file], tmp_path / "mapping.yaml", tmp_path / "out.csv")
+    table = read_recordings(tmp_path / "out.csv")
+    np.testing.assert_allclose(table.motor_angles, ANGLES, atol=1e-8)
+    np.testing.assert_allclose(table.positions, POINTS / 1e3, atol=1e-8)
+    if "torque1" in columns:
+        np.testing.assert_allclose(table.torque, TORQUES, atol=1e-8)
+
+
+def test_a_table_without_names_is_read_by_its_place(tmp_path):
+    file = tmp_path / "bare.txt"
+    np.savetxt(file, np.column_stack([ANGLES, POINTS]), fmt="%.9f")
+    columns = yaml.safe_load(draft_mapping(file))["columns"]
+    assert columns["angles"] == {"columns": [1, 2, 3, 4, 5, 6], "unit": "rad"}
+    assert columns["position"] == {"columns": [7, 8, 9], "unit": "mm"}
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("a,b,c,d\n1,2,3,4\n", "motor angles"),
+        ("q1,q2,q3,q4\n1,2,3,4\n", "measured x, y, z"),
+        ("", "lines"),
+        ("q1,q2,x,y,z\n", "lines"),
+    ],
+)
+def test_what_looks_like_no_recordings_is_one_error(text, words, tmp_path):
+    file = tmp_path / "foreign.csv"
+    file.write_text(text)
+    with pytest.raises(InputError, match=words):
+        draft_mapping(file)

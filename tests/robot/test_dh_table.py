@@ -1,0 +1,81 @@
+"""D-H tables as people paste them: the same arm comes out, and every guess is said."""
+
+import contextlib
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from armscope.core.inputs import InputError
+from armscope.robot import forward_kinematics
+from armscope.robot.arm import build_arm
+from armscope.robot.dh_table import parse_dh_table
+from armscope.robot.library import nominal_description
+
+UR5E = nominal_description("ur5e").dh.joints
+PASTED = """
+Joint\ttheta [rad]\ta [m]\td [m]\talpha [rad]
+Joint 1\t0\t0\t0.1625\tπ/2
+Joint 2\t0\t-0.425\t0\t0
+Joint 3\t0\t-0.3922\t0\t0
+Joint 4\t0\t0\t0.1333\tπ/2
+Joint 5\t0\t0\t0.0997\t-π/2
+Joint 6\t0\t0\t0.0996\t0
+"""
+
+
+def same(described):
+    ours = build_arm(nominal_description("ur5e"))
+    q = np.random.default_rng(0).uniform(-2, 2, (10, 6))
+    np.testing.assert_allclose(forward_kinematics(build_arm(described), q), forward_kinematics(ours, q), atol=1e-9)
+
+
+def rows(units=("mm", "deg"), separator=" ", comma=False):
+    length, angle = 1e-3 if units[0] == "m" else 1.0, np.pi / 180 if units[1] == "rad" else 1.0
+    values = [(r.a_mm * length, r.alpha_deg * angle, r.d_mm * length, r.theta_offset_deg * angle) for r in UR5E]
+    text = "\n".join(separator.join(f"{value:.10g}" for value in row) for row in values)
+    return text.replace(".", ",") if comma else text
+
+
+def test_the_makers_own_table_is_read():
+    described = parse_dh_table(PASTED, "UR5e")
+    same(described)
+    assert not any("lengths" in place or "angles" in place for place in described.source)
+
+
+@pytest.mark.parametrize("units", [("mm", "deg"), ("m", "deg"), ("mm", "rad"), ("m", "rad")])
+@pytest.mark.parametrize("separator", [" ", ", ", ";", "\t", " | "])
+def test_units_and_signs_between_are_guessed_and_said(units, separator):
+    described = parse_dh_table(rows(units, separator), "UR5e")
+    same(described)
+    assert f"guessed: {units[0]}," in described.source["dh lengths"]
+    assert f"guessed: {units[1]}," in described.source["dh angles"]
+    assert "a, alpha, d, theta" in described.source["dh columns"]
+
+
+def test_decimal_commas_and_the_modified_convention():
+    same(parse_dh_table(rows(separator=";", comma=True), "UR5e"))
+    assert parse_dh_table(rows(), "arm", "modified").dh.convention == "modified"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "rows of a, alpha, d, theta"),
+        ("1 2 3 4\n1 2", "line 2"),
+        ("a alpha d\n1 two 3", "line 2: found 'two'"),
+        ("a alpha q\n1 2 3", "line 1"),
+        ("a alpha theta\n1 2 3", "a, alpha and d are needed"),
+    ],
+)
+def test_what_is_no_table_is_one_error(text, words):
+    with pytest.raises(InputError, match=words):
+        parse_dh_table(text, "arm")
+
+
+@settings(max_examples=150, deadline=None, derandomize=True, database=None)
+@given(st.text(alphabet="0123456789.,;|\t\n -+eapith/π[]()mdrg°NaX#", max_size=120))
+def test_any_text_is_an_arm_or_one_error(text):
+    with contextlib.suppress(InputError):
+        assert parse_dh_table(text, "arm").dh.joints

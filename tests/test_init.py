@@ -1,0 +1,62 @@
+"""`armscope init`: from nothing but a URDF, a pasted table, a name or a foreign file to what `check` accepts."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from typer.testing import CliRunner
+
+from armscope.cli import app
+from armscope.core.inputs import InputError
+from armscope.robot import chain, load_arm
+from tests.robot.test_dh_table import PASTED
+from tests.robot.test_urdf import TORSO_ARM
+
+
+def run(*words, given=None):
+    return CliRunner().invoke(app, [str(word) for word in words], input=given)
+
+
+def test_a_name_a_table_and_a_urdf_become_robot_yaml(tmp_path):
+    robot = tmp_path / "robot.yaml"
+    for what, given, motors in (("ur5e", None, 6), ("-", PASTED, 6), (TORSO_ARM, None, 6)):
+        done = run("init", what, "-o", robot, "--force", given=given)
+        assert done.exit_code == 0, done.output
+        assert load_arm(robot).n_motors == motors
+    assert "guess: tip" in done.stderr
+
+
+def test_standard_output_holds_the_file_alone(tmp_path):
+    done = run("init", "ur10", "-o", "-")
+    (tmp_path / "robot.yaml").write_text(done.stdout)
+    assert load_arm(tmp_path / "robot.yaml").name == "Universal Robots UR10 (CB series)"
+
+
+def test_a_foreign_table_becomes_a_mapping_that_import_takes(tmp_path):
+    arm = load_arm_of("ur5e", tmp_path)
+    q = np.random.default_rng(0).uniform(-2, 2, (40, 6))
+    points = chain(arm, q).tool * 1e3
+    columns = {f"Joint{j + 1}": np.degrees(q[:, j]) for j in range(6)} | {a: points[:, k] for k, a in enumerate("XYZ")}
+    foreign = tmp_path / "log.csv"
+    pd.DataFrame(columns).to_csv(foreign, sep=";", decimal=",", index=False)
+    assert run("init", foreign, "-o", tmp_path / "mapping.yaml").exit_code == 0
+    assert run("import", foreign, "-m", tmp_path / "mapping.yaml", "-o", tmp_path / "rec.csv").exit_code == 0
+    checked = run("check", tmp_path / "rec.csv", "-r", tmp_path / "robot.yaml")
+    assert checked.exit_code == 0, checked.output
+
+
+def load_arm_of(name, folder):
+    run("init", name, "-o", folder / "robot.yaml")
+    return load_arm(folder / "robot.yaml")
+
+
+@pytest.mark.parametrize(("what", "words"), [("ur55", "'ur5'"), ("", "nothing"), ("nowhere.urdf", "readable")])
+def test_what_is_none_of_these_is_one_error(what, words):
+    done = run("init", what)
+    assert isinstance(done.exception, InputError)
+    assert words in str(done.exception)
+
+
+def test_a_file_of_the_users_is_not_overwritten(tmp_path):
+    (tmp_path / "robot.yaml").write_text("mine")
+    assert run("init", "ur5", "-o", tmp_path / "robot.yaml").exit_code != 0
+    assert (tmp_path / "robot.yaml").read_text() == "mine"
