@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
+from armscope.physics.model import predict
+from armscope.physics.model_file import load_model, save_model
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.robot.description import RobotDescription
@@ -89,7 +92,7 @@ def test_drives_are_told_alone_and_their_intervals_hold_whatever_the_masses(mass
     assert said == bool(masses.any())
 
 
-def test_a_payload_wrong_by_a_factor_has_one_value_beside_the_drives() -> None:
+def test_a_payload_wrong_by_a_factor_has_one_value_beside_the_drives(tmp_path: Path) -> None:
     arm = arm_named("six-axis")
     verdict = diagnose(arm, measured(arm, np.zeros(6), drives, 200, seed=12, payload=1.36), QUICK)
     found = named(verdict)
@@ -97,6 +100,12 @@ def test_a_payload_wrong_by_a_factor_has_one_value_beside_the_drives() -> None:
     assert holds(found["payload_error", "payload"], "share", 0.36)
     assert all(holds(found["joint_compliance", place], "compliance", c) for place, c in DRIVES.items())
     assert "heavier than stated" in verdict.headline
+    # the model file takes it back as it is
+    save_model(tmp_path / "model.yaml", verdict.model)
+    again = load_model(tmp_path / "model.yaml")
+    np.testing.assert_allclose(
+        predict(again, verdict.recordings), predict(verdict.model, verdict.recordings), atol=1e-9
+    )
 
 
 @pytest.mark.parametrize(("about_x", "about_y"), [(6e-8, 1e-8), (3e-8, 3e-8)], ids=["two axes", "one value"])

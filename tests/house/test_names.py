@@ -33,6 +33,8 @@ def parallel(one: Path, other: Path) -> bool:
     """Whether two modules may use the same word."""
     rooms = {one.parts[0], other.parts[0]}
     alike = one.name == other.name and one.parts[:-2] == other.parts[:-2] == ("report",)
+    if ("motion" in one.parts) != ("motion" in other.parts):
+        return True  # what is done for an arm that stands, done for one that moves
     return bool(rooms & OF_THEIR_OWN) or any(rooms == pair for pair in PARALLEL) or len(one.parts) == 1 or alike
 
 

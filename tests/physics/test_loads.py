@@ -94,13 +94,15 @@ def test_one_payload_is_not_told_by_a_factor() -> None:
     assert {p.variant for p in payload_errors(table, giving(arm, table))} == {"mass", "centre"}
 
 
-def test_a_model_with_masses_in_error_is_read_back(tmp_path: Path) -> None:
+def test_a_model_with_loads_in_error_is_read_back(tmp_path: Path) -> None:
     arm = arm_named("seven-axis")
     table = full_table(arm, 25, seed=9)
     parts = [Part(part.placed, 100 * part.values) for part in giving(arm, table)]
+    payload = [Part(p, np.full(len(p.terms), 0.02)) for p in payload_errors(table, parts)]
+    assert {part.placed.variant for part in payload} == {"mass", "factor", "centre"}
     errors = tuple(Part(p, np.array([0.1])) for p in mass_errors(arm, table, parts))
     base = Base(np.eye(3), np.zeros(3))
-    model = FittedModel(arm, {"1": base, "2": base}, (), tuple(parts), errors)
+    model = FittedModel(arm, {"1": base, "2": base}, (), (*parts, *payload), errors)
     save_model(tmp_path / "model.yaml", model)
     read = load_model(tmp_path / "model.yaml")
     np.testing.assert_allclose(predict(read, table), predict(model, table), rtol=0, atol=1e-12)

@@ -80,7 +80,7 @@ def case(
         effects=effects,
         background=Background("all", bool(effects), float("nan"), 0.04, 0.02),
         background_families=(
-            Background("geometric", bool(effects), 0.8, 0.04, 0.015),
+            Background("geometric", bool(effects), 0.8, 0.04, 0.02),
             Background("elastic", False, 0.01, 0.0, 0.0),
         ),
         unexplained=Unexplained(False),

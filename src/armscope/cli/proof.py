@@ -7,10 +7,12 @@ from typing import Annotated, Any, Literal
 
 import typer
 
+from armscope.cli import motion_proof
 from armscope.cli.commands import Commands
 from armscope.core.inputs import InputError, folder_of, nearest
 
 app = Commands("proof", no_args_is_help=True)
+app.add_typer(motion_proof.app, name="motion", help="The same for arms in motion.")
 
 Output = Annotated[Path, typer.Option("--output", "-o", help="where to write")]
 
@@ -48,7 +50,7 @@ def worlds(
     if half not in ("fixed", "fresh"):
         raise InputError("--half", "", half, "fixed or fresh")
     drawn = _seed(seed_file)["proof_seed"] if seed_file else 0
-    chosen = batch(drawn, _size(size), half == "fresh", int(number), int(parts))
+    chosen = batch(drawn, size_of(size), half == "fresh", int(number), int(parts))
     make(chosen, robots, visible, sealed)
 
 
@@ -109,7 +111,7 @@ def report(
     """One page: what the diagnosis finds, what it misses, and what it gets wrong."""
     from armscope.report.pages.proof import write_proof_page
 
-    write_proof_page(output, _scored(tables), folder_of(drawn, "the proof's figures"), _seed(seed_file), _size(size))
+    write_proof_page(output, _scored(tables), folder_of(drawn, "the proof's figures"), _seed(seed_file), size_of(size))
 
 
 def _scored(tables: Path) -> Path:
@@ -128,7 +130,12 @@ def _seed(path: Path) -> dict[str, Any]:
     return content
 
 
-def _size(text: str) -> Literal["small", "full"]:
+def size_of(text: str) -> Literal["small", "full"]:
+    """Which proof.
+
+    Raises:
+        InputError: neither small nor full.
+    """
     if text == "small":
         return "small"
     if text == "full":

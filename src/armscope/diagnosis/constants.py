@@ -44,6 +44,12 @@ class LoopBudget(Constants):
         "share of the rows that may still come and go when the rounds end",
         "judgement: less than a row in most tables",
     )
+    sizes_of_gears: tuple[int, ...] = constant(
+        (2, 3),
+        "sizes of all gears' waves from which the search with finer ones starts",
+        "judgement: between ground and ordinary gears",
+        unit="indices",
+    )
     within: float = constant(
         0.3,
         "width of the prior of a name within a background",

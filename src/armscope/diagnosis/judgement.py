@@ -13,6 +13,7 @@ from armscope.diagnosis.held_out import Rows, cross_validate
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary import alternatives as certainty
 from armscope.diagnosis.summary.attribution_map import atlas
+from armscope.diagnosis.summary.causes import causes
 from armscope.diagnosis.summary.effects import Weighed, found_effect, rest_of_a_curve, scattered_effects, with_weight
 from armscope.diagnosis.summary.homogeneity import subset_consistency
 from armscope.diagnosis.summary.next_poses import next_poses
@@ -103,6 +104,7 @@ def judge(
     named = [replace(e, carries_over=over.get(c, "")) for c, e in zip(order, named, strict=True)]
     effects = tuple(sorted([*named, *scattered], key=lambda effect: -effect.share))
     unexplained = _unexplained(state, search, effects, background)
+    told = causes(state, search, dict(zip(order, named, strict=True)), scattered, background)
     answer, mismatch = _answer(effects, background, unexplained)
     separating = next_poses(state, weighed.rivals, rng)
     draft = Diagnosis(
@@ -118,6 +120,7 @@ def judge(
         noise_source=state.noise.source + ("; it grows with the distance" if state.growth else ""),
         residual_before_mm=float(np.sqrt(variance)),
         residual_after_mm=_weighted_rms(fit),
+        causes=told,
         effects=effects,
         background=together(background),
         background_families=background,

@@ -92,14 +92,28 @@ def _size(problem: Problem, hypothesis: Hypothesis, number: int) -> float:
 
 
 def _stands_out(problem: Problem, hypothesis: Hypothesis, number: int, least: float, share: float) -> bool:
-    large = _size(problem, hypothesis, number) > share * problem.mismatch
+    large = _size(problem, hypothesis, number) > share * _left_by_the_others(problem, hypothesis, number)
     return large and _lost(problem, hypothesis, number) > least
+
+
+def _left_by_the_others(problem: Problem, hypothesis: Hypothesis, number: int) -> float:
+    """RMS, mm, that a candidate's size is measured by: all of it, or what the free backgrounds leave for the others.
+
+    What every arm has anyway (its geometry) is large; a spring or a gear must stand out of what a calibration leaves.
+    """
+    columns = set(problem.space.candidates[number].columns)
+    free = [not family.is_priced for family in problem.space.families]
+    if any(columns <= set(f.columns) for f, is_free in zip(problem.space.families, free, strict=True) if is_free):
+        return problem.mismatch
+    background = tuple(s if is_free else 0 for s, is_free in zip(hypothesis.background, free, strict=True))
+    return evaluate(problem, (), background, problem.mismatch).noise
 
 
 def _beyond_family(problem: Problem, hypothesis: Hypothesis, number: int) -> float:
     """How many times larger a candidate's largest value is than the usual one of the rest of its family.
 
-    Values are measured in their tolerances; what is uncertain of the others counts as theirs.
+    Values are measured in their tolerances, and those that pay for being there also by what they do at the tool: how
+    a gear's waves fall with their number is a guess. What is uncertain of the others counts as theirs.
     """
     own = problem.space.candidates[number].columns
     times = [0.0]
@@ -109,8 +123,9 @@ def _beyond_family(problem: Problem, hypothesis: Hypothesis, number: int) -> flo
             continue
         variance = np.zeros(len(problem.scale))
         variance[family.columns] = family.prior_variance(size, problem.scale)
-        usual = np.mean((hypothesis.means(others) ** 2 + hypothesis.variances(others)) / variance[others])
-        times.append(float(np.max(np.abs(hypothesis.means(own)) / np.sqrt(usual * variance[own]))))
+        for unit in (variance, np.ones_like(variance)) if family.is_priced else (variance,):
+            usual = np.mean((hypothesis.means(others) ** 2 + hypothesis.variances(others)) / unit[others])
+            times.append(float(np.max(np.abs(hypothesis.means(own)) / np.sqrt(usual * unit[own]))))
     return max(times)
 
 
@@ -212,7 +227,8 @@ def _along_load(M: Array, mean: Array, line: int, constant: Sequence[int]) -> bo
     """Whether a curve with products M of its columns rises along one of them, beyond a constant."""
     along = M[line] @ mean
     for n in constant:
-        along = along - M[line, n] / M[n, n] * (M[n] @ mean)
+        if M[n, n] > 0:  # else the frames are the constant
+            along = along - M[line, n] / M[n, n] * (M[n] @ mean)
     return bool(along > 0)
 
 

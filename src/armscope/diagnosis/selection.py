@@ -52,7 +52,7 @@ def select(
     whole.follow(small, _promising(found))
     progress("weighing all rows", 0.45)
     whole.round((found.best.background,))
-    return whole.selected()
+    return whole.earned()
 
 
 def _sample(recordings: Recordings) -> Indices:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Indices, Progress
 from armscope.diagnosis.constants import LOOP
+from armscope.diagnosis.earning import earned
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.row_noise import NoiseOfRows
@@ -20,6 +21,7 @@ from armscope.diagnosis.scans.pauses import pauses
 from armscope.fitting.joint_scatter import Scattered
 from armscope.fitting.linearisation import LinearisedTable, Measured, linearised, normal_equations_by_block, residuals
 from armscope.fitting.refit import Refit, refit
+from armscope.inference.edits import replaced
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.normal_equations import NormalEquations, total
@@ -27,7 +29,8 @@ from armscope.inference.problem import Problem, background_sizes, build_problem
 from armscope.inference.search import Search
 from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.noise import Growth, Noise
-from armscope.physics.backgrounds import backgrounds
+from armscope.physics.backgrounds import FAMILIES, backgrounds, gear_waves
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.drift import BASE_DRIFT, base_shifts_of_runs
 from armscope.physics.effect import Effect, Placed
 from armscope.physics.elastic import TWO_AXES, stiffest_of_two
@@ -121,15 +124,19 @@ class SelectionLoop:
             previous = state
             self.candidates = [*self.candidates, *new]
         self._refine(of_a_sample)
-        return self.selected()
+        return self.selected() if of_a_sample else self.earned()
 
     def _refine(self, of_a_sample: bool) -> None:
-        """Finer forms of the curves that were chosen; what they can't follow may be scatter."""
+        """Finer forms of the curves and gears that were chosen; what they can't follow may be scatter."""
         fine = [refined(self.model.arm, self.recordings, self.space.placed[c]) for c in self.best.candidates]
-        if not any(fine):
+        gears, starts = FAMILIES.index("transmission"), self._where_it_ended()
+        if not self.best.background[gears] and not any(fine):
             return
+        # several curves of several joints may be what all gears have a little of
+        self.families[gears] = gear_waves(self.recordings, PLAUSIBLE.fine_waves)
+        starts = [replaced(start, gears, size) for start in starts or [] for size in LOOP.sizes_of_gears]
         self.candidates = [*self.candidates, *[placed for placed in fine if placed is not None]]
-        self.round(self._where_it_ended())
+        self.round([*(self._where_it_ended() or []), *starts])
         # what looked like scatter may have been what the coarse curves could not follow
         self.noise.look_for_scatter()
         if not of_a_sample:
@@ -191,6 +198,15 @@ class SelectionLoop:
             if (c.nested and self.space.nonnegative[c.candidate] and part.values[0] < 0)
             or (part.placed.variant == TWO_AXES and self._pushes(part))
         ]
+
+    def earned(self) -> Selected:
+        """Where the rounds stand, without the names that make held-out rows worse."""
+        left = earned(self.problem, self.blocks, self.best)
+        if len(left.chosen) < len(self.best.chosen):
+            self.best = left
+            self.fit = self._fitted()
+            self.model = self.fit.model
+        return self.selected()
 
     def _pushes(self, part: Part) -> bool:
         """Whether a compliance about two axes is surely negative about one of them."""

@@ -6,7 +6,6 @@ finds the share that this arm has.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 from armscope.physics import elastic, geometric, transmission
@@ -43,7 +42,7 @@ def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[
     return {
         GEOMETRIC: constant,
         "elastic": give,
-        "transmission": list(_waves(recordings)),
+        "transmission": gear_waves(recordings, PLAUSIBLE.waves),
         DRIFT: wander(recordings, set_ups),
     }
 
@@ -53,9 +52,11 @@ def _sized(placed: Placed) -> Placed:
     return replace(placed, prior_scale=tuple(term.plausible for term in placed.terms))
 
 
-def _waves(recordings: Recordings) -> Iterator[Placed]:
+def gear_waves(recordings: Recordings, count: int) -> list[Placed]:
     """The first waves per turn of every gear, whose size falls with their number."""
-    for j in moving_joints(recordings):
-        for per_turn in range(1, PLAUSIBLE.waves + 1):
-            size = PLAUSIBLE.eccentricity_rad / per_turn
-            yield replace(transmission.cyclic(j, per_turn), prior_scale=(size, size))
+    sizes = [(per_turn, PLAUSIBLE.eccentricity_rad / per_turn) for per_turn in range(1, count + 1)]
+    return [
+        replace(transmission.cyclic(j, per_turn), prior_scale=(size, size))
+        for j in moving_joints(recordings)
+        for per_turn, size in sizes
+    ]

@@ -62,6 +62,12 @@ class PlausibleSizes(Constants):
         "judgement: flexible splines and discs show the first harmonics of two per turn; time",
         unit="waves",
     )
+    fine_waves: int = constant(
+        30,
+        "the same once the arm is known to have them",
+        "judgement: finer ones are lines of single stages, which are scanned; time",
+        unit="waves",
+    )
     mesh_rad: float = constant(
         1e-3,
         "more waves per turn",

@@ -17,6 +17,7 @@ from armscope.verdict.schema import (
     Alternative,
     Answer,
     Background,
+    Cause,
     FoundEffect,
     HeldOut,
     Notice,
@@ -105,6 +106,7 @@ class VerdictFile(_Part):
     headline: str
     noise_mm: Number
     noise_source: str
+    causes: tuple[Cause, ...] = ()
     effects: tuple[EffectFile, ...]
     unexplained: Unexplained
     background: Background
@@ -121,7 +123,7 @@ class VerdictFile(_Part):
 
 
 _SAME = (
-    "mismatch", "answer", "headline", "noise_mm", "noise_source", "effects", "unexplained", "background",
+    "mismatch", "answer", "headline", "noise_mm", "noise_source", "causes", "effects", "unexplained", "background",
     "background_families", "waterfall", "suspects", "notices", "rows", "runs", "settings",
 )  # fmt: skip
 """Keys that a verdict's attributes are called by, too."""

@@ -20,6 +20,7 @@ from armscope.recordings import Recordings
 
 Specific = Literal["effect", "region", "family"]
 TOGETHER = "together"
+CauseLevel = Literal["effect", "place", "family"]
 Answer = Literal["nothing missing", "explained", "partly explained", "cannot tell"]
 Number = Annotated[
     float,
@@ -127,6 +128,35 @@ class FoundEffect:
     def __post_init__(self) -> None:
         if self.curve is not None and not self.description:
             object.__setattr__(self, "description", self.curve.description)
+
+
+@dataclass(frozen=True)
+class Cause:
+    """What is wrong, at the level at which one acts: effects of one family, and its small errors everywhere.
+
+    Attributes:
+        family: of its members.
+        level: how deep the evidence goes: a family in several places, a place, or one effect.
+        place: where; "arm" for several places.
+        members: "effect at location" of those that have a name, largest share first.
+        everywhere: whether small errors of the family in the whole arm belong to it.
+        minor: all members are.
+        share: of the residual variance after the free frames, members and small errors together.
+        held_out_gain_mm: by how much the RMS of held-out rows would grow without it; below zero it would shrink.
+        text: what is wrong, in a clause.
+        cure: what to do, in a sentence.
+    """
+
+    family: str
+    level: CauseLevel
+    place: str
+    members: tuple[str, ...]
+    everywhere: bool
+    minor: bool
+    share: Number
+    held_out_gain_mm: Number
+    text: str
+    cure: str
 
 
 @dataclass(frozen=True)
@@ -274,6 +304,7 @@ class Verdict:
         mismatch: None where the recordings cannot tell.
         noise_mm: per axis, 1 sigma; ``noise_source`` says where it comes from.
         residual_before_mm, residual_after_mm: RMS per axis on the fitted rows, frames only and with the model.
+        causes: what is wrong, in a few causes, largest share first.
         effects: in order of ``share``, the measure of importance; those with ``minor`` true are apart from the story.
         background, background_families: small errors everywhere, together and by family.
         notices: what the verdict must not hide.
@@ -299,6 +330,7 @@ class Verdict:
     rows: int
     runs: tuple[str, ...]
     orientations: Orientations | None = None
+    causes: tuple[Cause, ...] = ()
     settings: dict[str, Any] = field(default_factory=dict)
 
     def to_json(self) -> dict[str, Any]:

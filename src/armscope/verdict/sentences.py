@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 from armscope.physics.clause import Number, Told, say
 from armscope.physics.registry import effect_named
-from armscope.verdict.schema import Diagnosis, FoundEffect, Verdict
+from armscope.verdict.schema import Cause, Diagnosis, FoundEffect, Verdict
 from armscope.verdict.wording import (
     capitalised,
     main_and_minor,
@@ -18,7 +19,33 @@ from armscope.verdict.wording import (
 )
 
 MOST_TOLD = 3
-"""More effects than this are counted, not told."""
+"""More causes than this are counted, not told."""
+_KINDS = {"geometric": "shape", "elastic": "stiffness", "transmission": "drives"}
+_EVERYWHERE = {
+    "geometric": "the geometry is off a little everywhere, as on any arm",
+    "elastic": "everything gives way a little, as in any arm",
+    "transmission": "all drives err a little, as in any arm",
+    "drift": "base and instrument wander a little, as in any session",
+}
+_WANDER = "a slow wander of the set-up"
+_CURES = {
+    "geometric": "Calibrate the geometry: put the fitted zeros and D-H rows (`armscope calibrate`, or model.yaml) into "
+    "the controller, or command what their inverse kinematics asks for (`armscope compensate`).",
+    "elastic": "Give the controller the fitted compliances and the true loads, or command what gives way away "
+    "(`armscope compensate`).",
+    "transmission": "Store the fitted waves, ratios and play as corrections of the joints, or command them away "
+    "(`armscope compensate`); replace the gear that is worst.",
+    "drift": "Fasten the instrument, the base and the tool, let them settle, and measure again; what is fitted here "
+    "describes this recording, not the arm.",
+    "unknown": "Measure the joints named here alone and finely; until the cause is found, command the fitted curves "
+    "away (`armscope compensate`).",
+}
+"""What mends a family where it has several members or small errors everywhere."""
+
+GEOMETRIC = "geometric"
+"""The family whose small errors are a cause by themselves: a calibration takes them out."""
+CALIBRATED = 0.1
+"""Share of the squared error from which they are told as one."""
 
 FAINT = 0.7
 """Something unexplained that is smaller than this share of the residual is hidden in the noise."""
@@ -37,11 +64,55 @@ def headline(verdict: Diagnosis) -> str:
             f"Nothing is missing: once base and tool are placed, the model meets the recordings to "
             f"{millimetres(verdict.residual_after_mm)} per axis, which is noise."
         )
-    told, rest = main[:MOST_TOLD], [*main[MOST_TOLD:], *minor]
+    if not main and not verdict.causes:
+        return " ".join([_no_cause(verdict, minor), *_remainder(verdict)])
+    told, rest = _told_and_rest(verdict.causes or _one_by_one(verdict))
+    causes = "; ".join(f"{cause.text} – {percent(cause.share)}{_of_what(n)}" for n, cause in enumerate(told))
+    return " ".join([f"{capitalised(causes)}.", *_others(rest), *_remainder(verdict)])
+
+
+def _told_and_rest(causes: Sequence[Cause]) -> tuple[list[Cause], list[Cause]]:
+    """The causes that a headline tells, and those that it counts."""
+    worth_a_calibration = [c for c in causes if not c.members and c.family == GEOMETRIC and c.share > CALIBRATED]
+    first = [cause for cause in causes if not cause.minor and (cause.members or cause in worth_a_calibration)]
+    first = first[:MOST_TOLD] or list(causes[:1])
+    return first, [cause for cause in causes if cause not in first]
+
+
+def cause_in_words(family: str, members: Sequence[FoundEffect], everywhere: bool) -> str:
+    """What is wrong, in a clause: the largest member, how many more, and whether it is so everywhere.
+
+    Args:
+        family: of the cause.
+        members: its effects, largest share first; those that are minor are counted, not told.
+        everywhere: whether small errors of the family in the whole arm belong to it.
+
+    Returns:
+        The clause.
+    """
+    told = [effect for effect in members if not effect.minor][:1] or ([] if everywhere else list(members[:1]))
+    small = _EVERYWHERE.get(family, f"small {family} errors everywhere, as in any arm")
     if not told:
-        return " ".join([_no_cause(verdict, rest), *_remainder(verdict)])
-    causes = "; ".join(f"{phrase(effect)} – {percent(effect.share)}{_of_what(n)}" for n, effect in enumerate(told))
-    return " ".join([f"{capitalised(causes)}.", *_others(verdict, rest), *_remainder(verdict)])
+        return small
+    more = len(members) - len(told)
+    count = f" (and {spelled(more)} more of its kind)" if more else ""
+    return f"{phrase(told[0])}{count}" + (f", and {small}" if everywhere else "")
+
+
+def cure_of_family(family: str, members: Sequence[FoundEffect], everywhere: bool) -> str:
+    """What to do about a cause: its only effect's cure, or what mends the whole family.
+
+    Args:
+        family: of the cause.
+        members: its effects.
+        everywhere: whether small errors of the family in the whole arm belong to it.
+
+    Returns:
+        A sentence or two.
+    """
+    if len(members) == 1 and not everywhere:
+        return members[0].cure
+    return _CURES.get(family, members[0].cure if members else "")
 
 
 def unusable(verdict: Diagnosis) -> str:
@@ -56,10 +127,9 @@ def more_than_noise(verdict: Verdict) -> bool:
 
 def background_in_words(verdict: Verdict) -> str:
     """ "small errors of shape and stiffness in all its joints and links, as any arm has"."""
-    kinds = {"geometric": "shape", "elastic": "stiffness", "transmission": "drives"}
     families = [family.family for family in verdict.background_families if family.present] or ["geometric"]
-    wander = "a slow wander of the set-up" if "drift" in families else ""
-    of_arm = [kinds.get(family, family) for family in families if family != "drift"]
+    wander = _WANDER if "drift" in families else ""
+    of_arm = [_KINDS.get(family, family) for family in families if family != "drift"]
     if not of_arm:
         return wander
     *first, last = of_arm
@@ -71,19 +141,39 @@ def background_in_words(verdict: Verdict) -> str:
 def _no_cause(verdict: Diagnosis, rest: Sequence[FoundEffect]) -> str:
     if verdict.background.present:
         share = percent(verdict.background.share)
-        return f"No single part stands out: {background_in_words(verdict)}, account for {share} of the squared error."
+        told = background_in_words(verdict)
+        verb = "is" if told == _WANDER else "are"
+        return f"No single part stands out: {told}, {verb} {share} of the squared error."
     return f"Only minor causes were found ({spelled(len(rest))})."
 
 
-def _others(verdict: Diagnosis, rest: Sequence[FoundEffect]) -> Iterator[str]:
+def _one_by_one(verdict: Diagnosis) -> list[Cause]:
+    """A cause per effect, and one per background, where nobody has gathered them."""
+    alone = [
+        Cause(e.family, "effect", e.location, (e.title,), False, e.minor, e.share, math.nan, phrase(e), e.cure)
+        for e in sorted(verdict.effects, key=lambda effect: -effect.share)
+    ]
+    small = [
+        Cause(b.family, "family", "arm", (), True, False, b.share, math.nan, cause_in_words(b.family, (), True), "")
+        for b in verdict.background_families or (verdict.background,)
+        if b.present
+    ]
+    return [*alone, *small]
+
+
+def _others(rest: Sequence[Cause]) -> Iterator[str]:
     """What else the model took in, together."""
-    share = sum(effect.share for effect in rest)
-    parts = [f"{spelled(len(rest))} smaller cause{'s' if len(rest) > 1 else ''}"] if rest else []
-    if verdict.background.present:
-        parts.append(background_in_words(verdict))
-        share += verdict.background.share
+    count = sum(bool(cause.members) for cause in rest)
+    parts = [f"{spelled(count)} smaller cause{'s' if count > 1 else ''}"] if count else []
+    small = [_KINDS[cause.family] for cause in rest if not cause.members and cause.family in _KINDS]
+    if small:
+        *first, last = small
+        kinds = f"{', '.join(first)} and {last}" if first else last
+        parts.append(f"small errors of {kinds} in all its joints and links, as any arm has")
+    if any(cause.family == "drift" and not cause.members for cause in rest):
+        parts.append(_WANDER)
     if parts:
-        yield f"{capitalised(', and '.join(parts))}: {percent(share)}."
+        yield f"{capitalised(', and '.join(parts))}: {percent(sum(cause.share for cause in rest))}."
 
 
 def _remainder(verdict: Diagnosis) -> Iterator[str]:

@@ -108,6 +108,12 @@ def test_what_friction_takes_up_has_no_size():
         place(virtual, KINDS["viscous_friction"], 3.0, None, np.random.default_rng(0), virtual.torques([]))
 
 
+def test_another_arm_conceals_what_this_one_cannot():
+    """The stage of two axes has no wrist that could be coupled."""
+    world = make(spec(("coupled_friction", 3.0, None)), FOLDER)
+    assert world.spec.arm == "six-axis"
+
+
 def test_a_world_is_two_folders_and_the_same_every_time(tmp_path):
     made = spec(("asymmetric_friction", 5.0, "joint 2"), current=True)
     one, other = (build(made, tmp_path / name, FOLDER) for name in ("a", "b"))

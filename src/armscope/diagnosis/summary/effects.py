@@ -22,7 +22,7 @@ from armscope.fitting.refit import Refit
 from armscope.inference.normal_equations import NormalEquations, projected_rms
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
-from armscope.physics.backgrounds import GEOMETRIC
+from armscope.physics.backgrounds import FAMILIES, GEOMETRIC
 from armscope.physics.effect import Placed
 from armscope.physics.scene import Part, Scene
 from armscope.verdict.schema import INDISTINGUISHABLE_NATS, Background, FoundEffect, Parameter
@@ -74,7 +74,7 @@ def found_effect(weighed: Weighed, chosen: SelectedEffect, part: Part, share: fl
     covariance = weighed.wrong.covariance[np.ix_(at, at)]
     rms = projected_rms(weighed.equations, fit.pool.frames, coefficients)
     if candidate.is_curve:
-        rms = min(rms, _own_size(fit, placed, part.values))
+        rms = min(rms, _own_size(fit, part))
     apart = [certainty.discriminability(state.best, other, candidate, rival) for _, rival, other in rivals]
     close = [rival for nats, (_, rival, _) in zip(apart, rivals, strict=True) if nats < INDISTINGUISHABLE_NATS]
     named_as, title = certainty.name(candidate, close)
@@ -114,15 +114,23 @@ def _sized(state: DiagnosisState, chosen: SelectedEffect, values: Array, covaria
     return np.asarray(scale * (np.linalg.solve(np.eye(len(scale)) + scaled, values / scale)))
 
 
-def _own_size(fit: Refit, placed: Placed, values: Array) -> float:
+def _own_size(fit: Refit, curve: Part) -> float:
     """RMS per axis, mm, of what a curve does that neither frames nor other effects nor backgrounds could do for it.
 
     Low waves of a free curve look like zeros, lengths and loads of the arm: without this, an arm's small errors would
-    make any curve in it large.
+    make any curve in it large. Waves that all gears have a little of count with their joint's curve.
     """
-    at = fit.pool.of(placed)
-    left = np.linalg.inv(fit.covariance_of(placed)) - np.diag(fit.precision[at])
-    return float(fit.noise * np.sqrt(max(float(values @ left @ values), 0.0) / max(fit.gram.n, 1.0)))
+    values = {
+        t: float(v) for p in (*fit.model.background, curve) for t, v in zip(p.placed.terms, p.values, strict=True)
+    }
+    own = {fit.pool.index[term] for term in curve.placed.terms}
+    moved = {product.direction for term in curve.placed.terms for product in term.products}
+    waves = fit.pool.background[FAMILIES.index("transmission")]
+    own |= {int(n) for n in waves if fit.pool.terms[n].products[0].direction in moved}
+    at = np.array(sorted(own))
+    told = np.array([values.get(fit.pool.terms[n], 0.0) for n in at])
+    left = np.linalg.inv(fit.covariance[np.ix_(at, at)]) - np.diag(fit.precision[at])
+    return float(fit.noise * np.sqrt(max(float(told @ left @ told), 0.0) / max(fit.gram.n, 1.0)))
 
 
 def _with_moment(

@@ -1,7 +1,7 @@
 """A moving world as two folders: what the diagnosis may see, and the sealed truth.
 
     visible/  robot.yaml (what the user believes), motions.csv, test_motions.csv (another path, without torques)
-    sealed/   truth.yaml, test.csv (that path with torques)
+    sealed/   truth.yaml, test.csv (that path with torques, N m, also where the diagnosis gets currents)
 
 truth.yaml: `effects` (effect, location, parameters, `strength` = RMS torque over noise at the joint where it is
 largest, `rms_nm` there, `alternatives` that are as good on these paths, by evidence), `background` (the arm's own
@@ -22,12 +22,12 @@ import yaml
 from armscope.core.files import write_table, write_yaml
 from armscope.core.types import Array
 from armscope.robot.description_file import load_description
-from armscope.world.motion.catalogue import KINDS, MotionSpec
+from armscope.world.motion.catalogue import ARMS, KINDS, MotionSpec
 from armscope.world.motion.mechanism import stated_dynamics
 from armscope.world.motion.recording import Recorded, record, table
 from armscope.world.motion.rivals import Alternative, alternatives
 from armscope.world.motion.session import make_session
-from armscope.world.motion.virtual_arm import Sized, VirtualArm, ordinary, place
+from armscope.world.motion.virtual_arm import ImpossibleWish, Sized, VirtualArm, ordinary, place
 
 FRICTION = ("rotor_inertia_kg_m2", "coulomb_nm", "viscous_nm_s_rad")
 QUIETEST = 0.002
@@ -52,6 +52,8 @@ class World:
 def make(spec: MotionSpec, robots: Path) -> World:
     """Make a world; the same spec gives the same numbers.
 
+    Where the arm of the spec can't conceal what is wished without being absurd, the next arm of the catalogue does.
+
     Args:
         spec: what to make.
         robots: folder of the arms' descriptions.
@@ -60,8 +62,18 @@ def make(spec: MotionSpec, robots: Path) -> World:
         The world.
 
     Raises:
-        ImpossibleWish: what the spec wishes can't be on this arm.
+        ImpossibleWish: what the spec wishes can't be on any arm.
     """
+    wished: ImpossibleWish | None = None
+    for arm in dict.fromkeys([spec.arm, *ARMS]):
+        try:
+            return _make(spec.model_copy(update={"arm": arm}), robots)
+        except ImpossibleWish as error:
+            wished = wished or error
+    raise ImpossibleWish(str(wished)) from wished
+
+
+def _make(spec: MotionSpec, robots: Path) -> World:
     arms, paths, places, noise, drives = (np.random.default_rng([spec.seed, part]) for part in range(5))
     description = load_description(robots / f"{spec.arm}.yaml")
     dynamics = ordinary(stated_dynamics(description), arms)
@@ -102,8 +114,9 @@ def build(spec: MotionSpec, folder: Path, robots: Path) -> Path:
     torques = [str(name) for name in motions if str(name).startswith(("tau", "current"))]
     write_table(home / "visible" / "motions.csv", motions[~test])
     write_table(home / "visible" / "test_motions.csv", motions[test].drop(columns=torques))
-    write_table(home / "sealed" / "test.csv", motions[test])
-    write_yaml(home / "visible" / "robot.yaml", _visible_robot(robots / f"{spec.arm}.yaml", world))
+    torques_read = table(world.arm.session, world.recorded, columns, None)
+    write_table(home / "sealed" / "test.csv", torques_read[test])
+    write_yaml(home / "visible" / "robot.yaml", _visible_robot(robots / f"{world.spec.arm}.yaml", world))
     write_yaml(home / "sealed" / "truth.yaml", _truth(world))
     return home
 

@@ -1,0 +1,66 @@
+"""The proof on sealed worlds of arms in motion, step by step."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from armscope.cli.commands import Commands
+from armscope.core.inputs import InputError, folder_of
+
+app = Commands("proof motion", no_args_is_help=True)
+
+Output = Annotated[Path, typer.Option("--output", "-o", help="where to write")]
+
+
+@app.command()
+def worlds(
+    robots: Annotated[Path, typer.Argument(help="folder of the moving arms' descriptions")],
+    seed_file: Annotated[Path, typer.Option(help="as `armscope proof seed` writes it")],
+    visible: Annotated[Path, typer.Option(help="folder for what may be seen")],
+    sealed: Annotated[Path, typer.Option(help="archive for the truth")],
+    size: Annotated[str, typer.Option(help="small or full")] = "small",
+) -> None:
+    """Make moving worlds: motions with concealed causes, and the truth in an archive of its own."""
+    from armscope.cli.proof import size_of
+    from armscope.core.files import read_json
+    from armscope.proof.motion.making import make
+
+    seed = read_json(seed_file, "the file of `armscope proof seed`")
+    if not isinstance(seed, dict) or not isinstance(seed.get("proof_seed"), int):
+        raise InputError(seed_file, "", "no proof_seed", "`armscope proof seed` writes this file")
+    make(seed["proof_seed"], size_of(size), folder_of(robots, "the moving arms"), visible, sealed)
+
+
+@app.command()
+def diagnose(
+    visible: Annotated[Path, typer.Argument(help="folder of worlds: robot.yaml and motions.csv of each")],
+    output: Output,
+) -> None:
+    """Diagnose every world of a folder and predict its test path, each by its visible files alone."""
+    from armscope.proof.motion.diagnosing import diagnose_worlds
+
+    found = sorted(path for path in folder_of(visible, "worlds").iterdir() if path.is_dir() and path.name[0] != ".")
+    diagnose_worlds(found, output)
+
+
+@app.command()
+def score(
+    folder: Annotated[Path, typer.Argument(help="folder with visible, sealed.tar.gz, verdicts and seen.txt")],
+    output: Output,
+) -> None:
+    """Unseal the truth, compare it with the verdicts, and write cases (proof.csv and others) and their summary."""
+    from armscope.core.files import write_table, write_text
+    from armscope.proof.motion.rates import in_words, per_effect, summary
+    from armscope.proof.motion.reading import read_worlds
+    from armscope.proof.motion.scoring import score as score_worlds
+
+    cases = score_worlds(read_worlds(folder_of(folder, "the proof")))
+    told = summary(cases)
+    tables = {**cases, "summary": told, "per_effect": per_effect(cases)}
+    for name, table in tables.items():
+        write_table(output / f"{'proof' if name == 'worlds' else name}.csv", table, digits=6)
+    write_text(output / "summary.md", in_words(told))
+    print(in_words(told))

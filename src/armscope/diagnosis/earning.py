@@ -1,0 +1,98 @@
+"""Whether a name earns its place on rows that took no part in fitting it.
+
+The columns stay; their values are fitted on four fifths of the rows and judged on the rest, once with all names and
+once without each. What makes held-out rows worse is no cause, whatever the evidence on the fitted rows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+
+import numpy as np
+
+from armscope.core.types import Array, Indices
+from armscope.diagnosis.constants import FOLDING
+from armscope.inference.edits import Edits
+from armscope.inference.evidence import Hypothesis, evaluate
+from armscope.inference.model_space import BackgroundSizes
+from armscope.inference.normal_equations import NormalEquations, total
+from armscope.inference.problem import Problem, SelectedEffect
+from armscope.inference.search import Search
+
+Reading = tuple[tuple[SelectedEffect, ...], BackgroundSizes]
+"""Effects and backgrounds whose values are fitted anew."""
+
+
+def earned(problem: Problem, blocks: Sequence[NormalEquations], hypothesis: Hypothesis) -> Hypothesis:
+    """The hypothesis without the names that make held-out rows worse, the worst first.
+
+    A name that a background or a curve holds, too, changes nothing that is predicted, and is not asked.
+
+    Args:
+        problem: the sums of all rows, priors and costs.
+        blocks: sums of blocks of rows.
+        hypothesis: chosen on all rows.
+
+    Returns:
+        The hypothesis with the names that earn their place.
+    """
+    search = Search.on(problem)
+    while own := [c for c in hypothesis.chosen if not c.nested and not search.in_background(hypothesis, c.candidate)]:
+        without = [(search.kept(hypothesis, [c.candidate]), hypothesis.background) for c in own]
+        gains = held_out_gains(problem, blocks, hypothesis, without)
+        worst = int(np.argmin(gains))
+        if not gains[worst] < 0:
+            return hypothesis
+        hypothesis = search.evaluated(without[worst][0], hypothesis)
+    return hypothesis
+
+
+def held_out_gains(
+    problem: Problem, blocks: Sequence[NormalEquations], hypothesis: Hypothesis, others: Sequence[Reading]
+) -> Array:
+    """By how much a hypothesis predicts held-out rows better than some others, as a reduction of their chi squared.
+
+    Args:
+        problem: the sums of all rows, priors and costs.
+        blocks: sums of blocks of rows.
+        hypothesis: that is judged.
+        others: effects and backgrounds that are judged beside it.
+
+    Returns:
+        (others,) in squares of the hypothesis' noise, summed over all rows; zeros where rows are too few to hold out.
+    """
+    everything = total(blocks)
+    readings = [(hypothesis.chosen, hypothesis.background), *others]
+    errors = np.zeros(len(readings))
+    for fold in _folds(len(blocks)):
+        held = total([blocks[int(k)] for k in fold])
+        trained = problem.with_equations(everything - held)
+        judged = held.scaled(problem.scale)
+        for number, (chosen, background) in enumerate(readings):
+            fitted = evaluate(trained, chosen, background, hypothesis.noise)
+            errors[number] += judged.rss(fitted.coefficients(len(problem.scale)))
+    return np.asarray((errors[1:] - errors[0]) / hypothesis.noise**2)
+
+
+def _folds(blocks: int) -> Iterator[Indices]:
+    """Numbers of the blocks of each fold."""
+    for fold in range(FOLDING.folds if blocks >= FOLDING.folds else 0):
+        yield np.arange(fold, blocks, FOLDING.folds)
+
+
+def without_members(
+    edits: Edits, hypothesis: Hypothesis, members: Collection[int], families: Collection[int]
+) -> Reading:
+    """A hypothesis without some effects and without the backgrounds of some families.
+
+    Args:
+        edits: of the search.
+        hypothesis: from which they are taken.
+        members: candidates.
+        families: numbers of families.
+
+    Returns:
+        The effects and backgrounds that are left.
+    """
+    background = tuple(0 if n in families else size for n, size in enumerate(hypothesis.background))
+    return edits.kept(hypothesis, members), background

@@ -1,0 +1,105 @@
+"""What is wrong, in a few causes: family first, then place, then effect, as deep as the evidence goes.
+
+The effects of one family, and the small errors of that family that were allowed for everywhere, are one cause: who
+mends it does one thing, a geometric calibration or an elastic model in the controller, however many names it has.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from armscope.core.location import Location
+from armscope.diagnosis.earning import held_out_gains, without_members
+from armscope.diagnosis.state import DiagnosisState
+from armscope.inference.search import Search
+from armscope.physics.backgrounds import FAMILIES
+from armscope.verdict.schema import Background, Cause, CauseLevel, FoundEffect
+from armscope.verdict.sentences import cause_in_words, cure_of_family
+
+PAYLOAD = "payload"
+EVERYWHERE = "arm"
+"""The place of what is so in all joints and links."""
+
+
+def causes(
+    state: DiagnosisState,
+    search: Search,
+    named: Mapping[int, FoundEffect],
+    others: Sequence[FoundEffect],
+    background: Sequence[Background],
+) -> tuple[Cause, ...]:
+    """The causes, largest share first.
+
+    Args:
+        state: the finished selection.
+        search: its search.
+        named: effects by candidate.
+        others: effects that are no candidates: scatter.
+        background: what is small everywhere, by family.
+
+    Returns:
+        One cause per family that has effects or a background.
+    """
+    members: dict[str, list[FoundEffect]] = {}
+    candidates: dict[str, list[int]] = {}
+    for candidate, effect in named.items():
+        members.setdefault(_group(effect), []).append(effect)
+        candidates.setdefault(_group(effect), []).append(candidate)
+    for effect in others:
+        members.setdefault(_group(effect), []).append(effect)
+    everywhere = {family.family: family for family in background if family.present and family.family in FAMILIES}
+    families = [*members, *(family for family in everywhere if family not in members)]
+    readings = [
+        without_members(
+            search,
+            state.best,
+            candidates.get(family, []),
+            [FAMILIES.index(family)] if family in everywhere else [],
+        )
+        for family in families
+    ]
+    gains = held_out_gains(state.problem, state.blocks, state.best, readings)
+    found = [
+        _cause(state, family, members.get(family, []), everywhere.get(family), float(gain))
+        for family, gain in zip(families, gains, strict=True)
+    ]
+    return tuple(sorted(found, key=lambda cause: -cause.share))
+
+
+def _group(effect: FoundEffect) -> str:
+    """What is mended together: a family; but a payload is weighed, whatever gives way under it."""
+    return effect.location if effect.location == PAYLOAD else effect.family
+
+
+def _cause(
+    state: DiagnosisState, family: str, members: Sequence[FoundEffect], small: Background | None, gain: float
+) -> Cause:
+    ordered = sorted(members, key=lambda effect: -effect.share)
+    level, place = _level(ordered, small is not None)
+    squared = state.best.noise**2 * gain / max(state.problem.n, 1.0)
+    left = state.fit.noise
+    return Cause(
+        family=ordered[0].family if ordered else family,
+        level=level,
+        place=place,
+        members=tuple(f"{effect.effect} at {effect.location}" for effect in ordered),
+        everywhere=small is not None,
+        minor=all(effect.minor for effect in ordered) and small is None,
+        share=sum(effect.share for effect in ordered) + (small.share if small else 0.0),
+        held_out_gain_mm=float(np.sqrt(max(left**2 + squared, 0.0)) - left),
+        text=cause_in_words(family, ordered, small is not None),
+        cure=cure_of_family(family, ordered, small is not None),
+    )
+
+
+def _level(members: Sequence[FoundEffect], everywhere: bool) -> tuple[CauseLevel, str]:
+    """How deep the evidence goes, and the place at that depth."""
+    places = {effect.location for effect in members}
+    if everywhere or not members:
+        return "family", EVERYWHERE
+    if len(members) == 1:
+        return ("effect" if members[0].named_as == "effect" else "place"), members[0].location
+    regions = {Location.of(place).region for place in places}
+    return ("place", members[0].location) if len(regions) == 1 else ("family", EVERYWHERE)

@@ -1,0 +1,203 @@
+"""Answers about moving worlds against truths: tables of cases, rates with exact intervals, aims.
+
+Names are right, acceptable or wrong, and worlds exact, as `armscope.proof.definitions` has them for positions. Beyond
+that: a clean world is silent if nothing is named and nothing called unknown; ordinary friction and rotors, which every
+arm has, are no names, but their intervals count where nothing is concealed at their joint; the held-out ratio is
+the RMS of measured minus predicted torque on a path nobody has seen, each joint in units of what the truth itself
+leaves there (noise, and what the drives' filter rounds off).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from armscope.core.location import Location
+from armscope.proof.answers import NamedEffect
+from armscope.proof.definitions import CLEAR_STRENGTH, place
+from armscope.proof.intervals import NORMAL_95
+from armscope.proof.matching import UNKNOWN, Match, among_all, match
+from armscope.proof.motion.answers import MotionAnswer
+from armscope.proof.motion.truth import MotionTruth
+
+Row = dict[str, object]
+COMMON = ("world", "category", "arm", "fresh", "weakest")
+COLUMNS = {
+    "worlds": (*COMMON, "stated", "rows", "concealed", "said", "answer", "mismatch", "silent", "exact", "missed",
+               "wrong_names", "outside", "outside_right", "held_out_ratio", "failed"),
+    "effects": (*COMMON, "effect", "location", "shape", "strength", "outcome", "right", "ambiguous", "among_all",
+                "said_effect", "said_location"),
+    "names": (*COMMON, "effect", "location", "minor", "evidence_nats", "right", "effect_right"),
+    "intervals": (*COMMON, "effect", "location", "parameter", "unit", "true", "fitted", "stderr", "covered"),
+}  # fmt: skip
+ENOUGH_PREDICTED = 0.8
+"""Share of the test path that must have a prediction: filters lose the ends."""
+ORDINARY = "ordinary"
+
+
+@dataclass(frozen=True, eq=False)
+class MotionWorld:
+    """A world unsealed beside the answer it got."""
+
+    truth: MotionTruth
+    answer: MotionAnswer
+
+
+def score(worlds: Iterable[MotionWorld]) -> dict[str, pd.DataFrame]:
+    """Tables of cases by name, with `COLUMNS`."""
+    rows: dict[str, list[Row]] = {name: [] for name in COLUMNS}
+    for world in worlds:
+        truth, claims = world.truth, world.answer.claims
+        matches, left = match(truth.effects, claims)
+        common: Row = {"world": truth.world, "category": truth.category, "arm": truth.arm, "fresh": truth.fresh}
+        common["weakest"] = min((effect.strength for effect in truth.effects), default=float("nan"))
+        rows["worlds"].append(common | _world(world, matches, left))
+        rows["effects"] += [common | _effect(found, claims) for found in matches]
+        rows["names"] += [
+            common | _name(truth, claim, claim not in left) for claim in claims if claim.effect != UNKNOWN
+        ]
+        rows["intervals"] += [common | number for number in [*_numbers(matches), *_ordinary(world)]]
+    return {name: pd.DataFrame(found, columns=list(COLUMNS[name])) for name, found in rows.items()}
+
+
+def _world(world: MotionWorld, matches: list[Match], left: list[NamedEffect]) -> Row:
+    truth, answer = world.truth, world.answer
+    outside = _outside(truth, answer, matches, left) if truth.outside else ""
+    return {
+        "stated": truth.stated,
+        "rows": truth.rows,
+        "concealed": "; ".join(f"{each.shape or each.effect} {each.location}" for each in truth.effects),
+        "said": "; ".join(f"{claim.effect} {claim.location}" for claim in answer.claims),
+        "answer": answer.answer,
+        "mismatch": answer.mismatch,
+        "silent": not answer.failed and not answer.claims,
+        "exact": not answer.failed and not left and all(found.right for found in matches),
+        "missed": sum(not found.right for found in matches),
+        "wrong_names": sum(claim.effect != UNKNOWN for claim in left),
+        "outside": outside,
+        "outside_right": outside in ("located", "acceptable") if truth.outside else None,
+        "held_out_ratio": held_out_ratio(truth, answer),
+        "failed": answer.failed,
+    }
+
+
+def _outside(truth: MotionTruth, answer: MotionAnswer, matches: list[Match], left: list[NamedEffect]) -> str:
+    """How a world outside the library was answered, as in `armscope.proof.definitions`."""
+    names = [claim for claim in left if claim.effect != UNKNOWN]
+    where = {place(effect.location) for effect in truth.effects}
+    if answer.failed:
+        return "failed"
+    if all(found.right for found in matches):
+        if not names:
+            return "located" if all(found.outcome == "named" for found in matches) else "acceptable"
+        return "partly named" if {place(claim.location) for claim in names} <= where else "misnamed"
+    if names:
+        return "misnamed"
+    return "elsewhere" if answer.claims else "missed"
+
+
+def held_out_ratio(truth: MotionTruth, answer: MotionAnswer) -> float:
+    """See the module; infinite if it failed or too little of the path was predicted."""
+    if answer.predicted is None:
+        return float("inf")
+    names = [f"tau{j + 1}_nm" for j in range(len(truth.left_nm))]
+    if not set(names) <= set(answer.predicted) or len(answer.predicted) != len(truth.test):
+        return float("inf")
+    off = (answer.predicted[names].to_numpy() - truth.test[names].to_numpy()) / truth.left_nm
+    there = np.isfinite(off).all(axis=1)
+    return float(np.sqrt(np.mean(off[there] ** 2))) if there.mean() >= ENOUGH_PREDICTED else float("inf")
+
+
+def _effect(found: Match, claims: tuple[NamedEffect, ...]) -> Row:
+    truth, claim = found.truth, found.claim
+    return {
+        "effect": truth.effect,
+        "location": truth.location,
+        "shape": truth.shape,
+        "strength": truth.strength,
+        "outcome": found.outcome,
+        "right": found.right,
+        "ambiguous": bool(truth.alternatives),
+        "among_all": among_all(truth, claims),
+        "said_effect": claim.effect if claim else "",
+        "said_location": claim.location if claim else "",
+    }
+
+
+def _name(truth: MotionTruth, claim: NamedEffect, right: bool) -> Row:
+    acceptable = {effect for each in truth.effects for effect, _ in (each.name, *each.alternatives)}
+    return {
+        "effect": claim.effect,
+        "location": claim.location,
+        "minor": claim.minor,
+        "evidence_nats": claim.evidence_nats,
+        "right": right,
+        "effect_right": claim.effect in acceptable,
+    }
+
+
+def _numbers(matches: list[Match]) -> Iterator[Row]:
+    """The numbers of causes found under their own name."""
+    for found in matches:
+        if found.outcome == "named" and found.claim is not None and found.truth.comparable:
+            about: Row = {"effect": found.truth.effect, "location": found.truth.location}
+            for name, (true, unit) in found.truth.parameters.items():
+                if name in found.claim.parameters:
+                    yield about | _covered(name, unit, true, found.claim.parameters[name])
+
+
+def _ordinary(world: MotionWorld) -> Iterator[Row]:
+    """Friction and rotors of joints at which nothing is concealed; where robot.yaml states them they are no finding."""
+    truth = world.truth
+    if truth.stated or truth.outside or any(Location.of(each.location).kind != "joint" for each in truth.effects):
+        return  # wrong masses pull at every joint
+    busy = {place(each.location) for each in truth.effects}
+    for joint, numbers in world.answer.background:
+        if joint in truth.background and place(joint) not in busy:
+            for name, true in truth.background[joint].items():
+                if name in numbers:
+                    about: Row = {"effect": ORDINARY, "location": joint}
+                    yield about | _covered(name, numbers[name][2], true, numbers[name])
+
+
+def _covered(name: str, unit: str, true: float, fitted: tuple[float, float, str]) -> Row:
+    value, stderr, _ = fitted
+    covered = bool(abs(value - true) <= NORMAL_95 * stderr)
+    return {
+        "parameter": name, "unit": unit, "true": true, "fitted": value, "stderr": stderr, "covered": covered,
+    }  # fmt: skip
+
+
+@dataclass(frozen=True)
+class MotionAim:
+    """An aim: its words, the table and column that say right or wrong, its bounds, and which rows count."""
+
+    text: str
+    table: str
+    column: str
+    bounds: tuple[float, float]
+    among: Callable[[pd.DataFrame], pd.Series]
+
+
+def _of(category: str) -> Callable[[pd.DataFrame], pd.Series]:
+    return lambda rows: rows["category"] == category
+
+
+AIMS: tuple[MotionAim, ...] = (
+    MotionAim("no name on clean arms", "worlds", "silent", (0.99, 1.0), _of("clean")),
+    MotionAim("exact set of names, single causes at 3x the noise and above", "worlds", "exact", (0.95, 1.0),
+              lambda rows: (rows["category"] == "single") & (rows["weakest"] >= CLEAR_STRENGTH)),
+    MotionAim("exact set of names, several causes", "worlds", "exact", (0.90, 1.0), _of("multiple")),
+    MotionAim("location right whenever the name is", "names", "right", (0.98, 1.0),
+              lambda rows: rows["effect_right"].astype(bool)),
+    MotionAim("95 % intervals of causes hold the true number", "intervals", "covered", (0.90, 0.97),
+              lambda rows: rows["effect"] != ORDINARY),
+    MotionAim("95 % intervals of ordinary friction and rotors hold the true number", "intervals", "covered",
+              (0.90, 0.97), lambda rows: rows["effect"] == ORDINARY),
+    MotionAim("outside the library: located and not misnamed", "worlds", "outside_right", (0.90, 1.0), _of("outside")),
+    MotionAim("ambiguous: the truth among causes or alternatives", "effects", "among_all", (0.95, 1.0),
+              lambda rows: rows["ambiguous"].astype(bool)),
+)  # fmt: skip

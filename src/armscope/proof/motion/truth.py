@@ -1,0 +1,96 @@
+"""The sealed truth of moving worlds, as scoring reads it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from armscope.core.types import Array
+from armscope.proof.matching import UNKNOWN
+from armscope.proof.truth import Concealed, unsealed
+
+COMPARED = {
+    "coulomb_friction": ("coulomb",), "viscous_friction": ("viscous",), "asymmetric_friction": ("viscous_difference",),
+    "stribeck_friction": ("stribeck",), "load_friction": ("per_load",), "thermal_friction": ("per_kelvin",),
+    "rotor_inertia": ("inertia",), "torque_offset": ("offset",), "motor_constant": ("gain",),
+    "torque_delay": ("delay",), "link_mass": ("mass",), "payload_error": ("mass",), "torque_ripple": ("amplitude",),
+    "coupled_friction": ("coulomb", "viscous"), "coupled_inertia": ("inertia",), "gravity_direction": ("x", "y"),
+}  # fmt: skip
+"""Numbers whose meaning does not hang on what else is fitted; scanned ones (speed, waves per turn) have no interval."""
+BACKGROUND = {"coulomb": "coulomb_nm", "viscous": "viscous_nm_s_rad", "inertia": "rotor_inertia_kg_m2"}
+"""Ordinary friction and rotors: a verdict's name and the truth's."""
+
+
+@dataclass(frozen=True, eq=False)
+class MotionTruth:
+    """What a moving world conceals.
+
+    Attributes:
+        world, category, arm, fresh, rows, stated: as made.
+        outside: whether no library has it.
+        effects: what is concealed.
+        background: by joint, the friction and rotors of this arm.
+        left_nm: (n,) RMS that the truth itself leaves on the test path.
+        test: the test path with its torques.
+    """
+
+    world: str
+    category: str
+    arm: str
+    fresh: bool
+    rows: int
+    stated: bool
+    outside: bool
+    effects: tuple[Concealed, ...]
+    background: dict[str, dict[str, float]]
+    left_nm: Array
+    test: pd.DataFrame
+
+
+def unseal(archive: Path) -> dict[str, MotionTruth]:
+    """The truths of an archive, by world.
+
+    Raises:
+        InputError: it holds something else.
+    """
+    return {world: _truth(world, content, test) for world, (content, test) in unsealed(archive).items()}
+
+
+def _truth(world: str, content: dict[str, Any], test: pd.DataFrame) -> MotionTruth:
+    about = content["scoring"]
+    return MotionTruth(
+        world=world,
+        category=about["category"],
+        arm=about["arm"],
+        fresh=about["fresh"],
+        rows=about["rows"],
+        stated=about["stated"],
+        outside=about["outside_library"],
+        effects=tuple(_effect(each) for each in content["effects"]),
+        background={each["location"]: {name: each[key] for name, key in BACKGROUND.items()} 
+                    for each in content["background"]},
+        left_nm=np.array(content["left_on_test_nm"]),
+        test=test,
+    )  # fmt: skip
+
+
+def _effect(content: dict[str, Any]) -> Concealed:
+    kept = COMPARED.get(content["effect"], ())
+    return Concealed(
+        effect=content["effect"],
+        location=content["location"],
+        driver=content["driver"],
+        minor=False,
+        strength=content["strength"],
+        parameters={p["name"]: (p["value"], p["unit"]) for p in content["parameters"] if p["name"] in kept},
+        comparable=content["effect"] != UNKNOWN,
+        noncentrality=float("nan"),
+        columns=0,
+        frame_numbers=0,
+        alternatives=tuple((each["effect"], each["location"]) for each in content["alternatives"]),
+        shape=content["shape"],
+    )

@@ -1,0 +1,60 @@
+"""Names and held-out rows, on columns that are no robot's: what helps stays, what harms goes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from armscope.diagnosis.earning import earned, held_out_gains
+from armscope.inference.evidence import evaluate
+from armscope.inference.model_space import Candidate, ModelSpace
+from armscope.inference.normal_equations import NormalEquations, total
+from armscope.inference.problem import Problem, SelectedEffect, build_problem
+
+BLOCKS, ROWS, FRAMES, NOISE = 10, 12, 2, 0.1
+HELPFUL, WIDE = 0, 1
+LARGE = 4
+
+
+def blocks_and_problem() -> tuple[list[NormalEquations], Problem]:
+    """One column that made the response, and thirty that follow nothing, as one candidate."""
+    rng = np.random.default_rng(5)
+    X = rng.normal(size=(BLOCKS * ROWS, FRAMES + 31))
+    y = 0.5 * X[:, FRAMES] + rng.normal(0, NOISE, len(X))
+    space = ModelSpace(
+        np.arange(FRAMES),
+        (),
+        (
+            Candidate("helpful", "here", np.array([FRAMES]), np.ones(1)),
+            Candidate("wide", "there", np.arange(FRAMES + 1, FRAMES + 31), np.ones(30)),
+        ),
+    )
+    parts = np.split(np.arange(len(X)), BLOCKS)
+    blocks = [NormalEquations(X[r].T @ X[r], X[r].T @ y[r], float(y[r] @ y[r]), float(len(r))) for r in parts]
+    return blocks, build_problem(space, total(blocks), 0.5 * NOISE)
+
+
+def test_what_makes_held_out_rows_worse_is_not_named() -> None:
+    blocks, problem = blocks_and_problem()
+    both = evaluate(problem, (SelectedEffect(HELPFUL, LARGE), SelectedEffect(WIDE, LARGE)), (), NOISE)
+    assert earned(problem, blocks, both).candidates == {HELPFUL}
+
+
+def test_a_name_within_something_else_is_not_asked() -> None:
+    blocks, problem = blocks_and_problem()
+    nested = evaluate(problem, (SelectedEffect(HELPFUL, LARGE), SelectedEffect(WIDE, LARGE, nested=True)), (), NOISE)
+    assert earned(problem, blocks, nested).candidates == {HELPFUL, WIDE}
+
+
+def test_gains_are_those_of_rows_left_out_by_hand() -> None:
+    blocks, problem = blocks_and_problem()
+    with_it = evaluate(problem, (SelectedEffect(HELPFUL, LARGE),), (), NOISE)
+    (gain,) = held_out_gains(problem, blocks, with_it, [((), ())])
+    expected = 0.0
+    for fold in range(5):
+        held = [k for k in range(BLOCKS) if k % 5 == fold]
+        trained = problem.with_equations(total([b for k, b in enumerate(blocks) if k not in held]))
+        judged = total([blocks[k] for k in held])
+        for chosen, sign in (((), 1), ((SelectedEffect(HELPFUL, LARGE),), -1)):
+            fitted = evaluate(trained, chosen, (), with_it.noise)
+            expected += sign * judged.rss(fitted.coefficients(len(problem.scale)) / problem.scale)
+    np.testing.assert_allclose(gain, expected / with_it.noise**2)

@@ -1,0 +1,127 @@
+"""Verdicts on moving worlds scored: each case is one that a person would judge the same way."""
+
+import numpy as np
+import pytest
+from scipy.stats import beta
+
+from armscope.core.inputs import InputError
+from armscope.proof.motion.rates import in_words, per_effect, summary
+from armscope.proof.motion.reading import check_seal
+from armscope.proof.motion.scoring import COLUMNS, held_out_ratio, score
+from tests.proof.motion.cases import ROWS, effect, said, world
+
+HYSTERESIS = effect("unknown", "joint 2", shape="hysteresis")
+
+
+def only(tables, table="worlds"):
+    assert len(tables[table]) == 1
+    return tables[table].iloc[0]
+
+
+def test_the_right_name_at_the_right_place_is_exact_and_its_interval_counts():
+    tables = score([world([effect(offset=2.0)], [said(offset=(2.1, 0.1))])])
+    assert only(tables)["exact"]
+    assert only(tables, "effects")["outcome"] == "named"
+    assert only(tables, "intervals")["covered"]
+    assert not only(score([world([effect(offset=2.0)], [said(offset=(2.3, 0.1))])]), "intervals")["covered"]
+
+
+@pytest.mark.parametrize(
+    ("answer", "exact", "outcome"),
+    [
+        (said("gravity_balance", "joint 2"), True, "acceptable"),
+        (said("cable_torque", "joint 2"), False, "located"),
+        (said("torque_offset", "joint 1"), False, "missed"),
+        (said("cable_torque", "joint 2", [("torque_offset", "joint 2")]), False, "listed"),
+    ],
+)
+def test_sealed_alternatives_are_right_and_other_names_are_not(answer, exact, outcome):
+    tables = score([world([effect(alternatives=[("gravity_balance", "joint 2")])], [answer])])
+    assert only(tables)["exact"] == exact
+    assert only(tables, "effects")["outcome"] == outcome
+
+
+def test_a_name_too_many_or_an_unknown_beside_it_is_not_exact():
+    assert not only(score([world([effect()], [said(), said("rotor_inertia", "joint 1")])]))["exact"]
+    assert not only(score([world([effect()], [said()], unknown_at="joint 1")]))["exact"]
+
+
+def test_clean_arms_are_silent_or_not():
+    assert only(score([world(category="clean")]))["silent"]
+    assert not only(score([world([], [said()], "clean")]))["silent"]
+    assert not only(score([world(category="clean", unknown_at="joint 1")]))["silent"]
+    assert not only(score([world(category="clean", failed=True)]))["silent"]
+
+
+@pytest.mark.parametrize(
+    ("answers", "unknown_at", "outcome"),
+    [
+        ([], "joint 2", "located"),
+        ([], "joint 1", "elsewhere"),
+        ([], None, "missed"),
+        ([said("stribeck_friction", "joint 2")], None, "misnamed"),
+        ([said("stribeck_friction", "joint 2")], "joint 2", "partly named"),
+        ([said("stribeck_friction", "joint 1")], "joint 2", "misnamed"),
+    ],
+)
+def test_physics_outside_the_library_is_located_without_a_name(answers, unknown_at, outcome):
+    row = only(score([world([HYSTERESIS], answers, "outside", unknown_at)]))
+    assert (row["outside"], row["outside_right"]) == (outcome, outcome == "located")
+
+
+def test_held_out_error_counts_in_units_of_what_the_truth_leaves():
+    right = world()
+    assert held_out_ratio(right.truth, right.answer) == pytest.approx(1, abs=0.05)
+    off = world(off=3.0)
+    assert held_out_ratio(off.truth, off.answer) == pytest.approx(np.sqrt(1 + 9), rel=0.05)
+
+
+def test_a_path_without_prediction_is_infinitely_wrong_but_its_ends_may_be_lost():
+    lost = world()
+    lost.answer.predicted.iloc[: ROWS // 20] = np.nan
+    assert held_out_ratio(lost.truth, lost.answer) == pytest.approx(1, abs=0.05)
+    lost.answer.predicted.iloc[: ROWS // 2] = np.nan
+    assert np.isinf(held_out_ratio(lost.truth, lost.answer))
+    failed = world(failed=True)
+    assert np.isinf(held_out_ratio(failed.truth, failed.answer))
+
+
+def test_ordinary_friction_counts_where_nothing_is_concealed_at_the_joint():
+    numbers = {"coulomb": (5.1, 0.1, "N m"), "viscous": (4.5, 0.1, "N m s/rad")}
+    told = (("joint 1", numbers), ("joint 2", numbers))
+    intervals = score([world([effect()], [said()], background=told)])["intervals"]
+    assert list(intervals["location"]) == ["joint 1", "joint 1"]
+    assert list(intervals["covered"]) == [True, False]
+    assert score([world([effect()], [said()], background=told, stated=True)])["intervals"].empty
+
+
+def test_rates_have_exact_intervals_and_aims_are_judged():
+    worlds = [world([effect()], [said()] if k else [], name=f"motion-{k:03d}", fresh=k % 2 == 1) for k in range(20)]
+    cases = score(worlds)
+    told = summary(cases).set_index(["aim", "seeds"])
+    row = told.loc[("exact set of names, single causes at 3x the noise and above", "all")]
+    assert (row["cases"], row["right"]) == (20, 19)
+    # Clopper & Pearson (1934) by the beta distribution
+    assert (row["low"], row["high"]) == pytest.approx((beta.ppf(0.025, 19, 2), beta.ppf(0.975, 20, 1)))
+    assert row["verdict"] == "met"
+    assert told.loc[("no name on clean arms", "all"), "verdict"] == "too few cases"
+    assert "19" not in in_words(summary(score([])))
+    assert "| 20 | 0.95 |" in in_words(summary(cases))
+    found = per_effect(cases).set_index(["effect", "score"])
+    assert found.loc[("torque_offset", "found"), "right"] == 19
+
+
+def test_nothing_scored_is_empty_tables():
+    for name, cases in score([]).items():
+        assert tuple(cases.columns) == COLUMNS[name]
+        assert cases.empty
+
+
+def test_a_job_that_saw_the_truth_is_refused(tmp_path):
+    seen = tmp_path / "seen.txt"
+    seen.write_text("visible/motion-000/motions.csv\nvisible/motion-000/robot.yaml\n")
+    check_seal(seen)
+    for wrong in ("sealed/motion-000/truth.yaml\n", ""):
+        seen.write_text(wrong)
+        with pytest.raises(InputError, match="diagnosing job"):
+            check_seal(seen)
