@@ -164,9 +164,9 @@ class SelectionLoop:
             scanning: whether scanned numbers are looked for.
         """
         if not self.families:  # on all rows of a long table they are those that its sample left
-            arm, shifts = self.model.arm, base_shifts_of_runs(set_ups_of(self.frames))
-            self.candidates = [*library(arm, self.recordings), *shifts]
-            self.families = list(backgrounds(arm, self.recordings).values())
+            arm, set_ups = self.model.arm, set_ups_of(self.frames)
+            self.candidates = [*library(arm, self.recordings), *base_shifts_of_runs(set_ups)]
+            self.families = list(backgrounds(arm, self.recordings, set_ups).values())
         self.point, payload, self.loads = _on_loads(self.model, self.recordings)
         self.space = build_model_space(self.frames, self.families, [*self.candidates, *payload], self.loads)
         weights = self.noise.weights
