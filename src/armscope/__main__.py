@@ -1,5 +1,6 @@
 """`python -m armscope` and the command `armscope`: even while it imports, Ctrl-C is answered in one line."""
 
+import os
 import sys
 import time
 
@@ -7,6 +8,7 @@ import time
 def main() -> None:
     """Run the command line."""
     started = time.time()
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # looking for them takes as long as reading YAML
     try:
         from armscope.cli import main as run
     except KeyboardInterrupt:

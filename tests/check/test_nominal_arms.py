@@ -6,10 +6,12 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from armscope.check.nominal_arms import nominal_fits
+from armscope.check.suspicions import against_arm
 from armscope.recordings import as_recordings
 from armscope.robot import chain
 from armscope.robot.arm import build_arm
 from armscope.robot.library import nominal_description
+from armscope.verdict.sentences import ANOTHER_MODEL
 
 
 def table(name, noise_mm=0.05, seed=0, rows=60):
@@ -44,3 +46,19 @@ def test_points_of_no_arm_of_the_library_are_explained_by_none():
 
 def test_only_arms_with_as_many_motors_are_tried():
     assert {fit.name for fit in nominal_fits(table("panda"))} == {"panda", "iiwa7", "iiwa14"}
+
+
+@pytest.mark.parametrize(("stated", "weight"), [("ur5e", "hint"), ("ur10", "problem")])
+def test_a_table_of_another_arm_is_told_with_that_arm(stated, weight):
+    found = against_arm(build_arm(nominal_description(stated)), table("ur5")).suspicions
+    (other,) = [each for each in found if each.kind == ANOTHER_MODEL]
+    assert other.weight == weight
+    assert "armscope init ur5 " in other.cure
+
+
+@pytest.mark.parametrize("joint", [1, 2])
+def test_a_zero_far_off_makes_no_other_arm_of_it(joint):
+    points = table("ur5e")
+    points.motor_angles[:, joint] += np.radians(3)
+    found = against_arm(build_arm(nominal_description("ur5e")), points).suspicions
+    assert not any(each.kind == ANOTHER_MODEL for each in found)

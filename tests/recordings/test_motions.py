@@ -7,7 +7,8 @@ import pandas as pd
 import pytest
 
 from armscope.core.inputs import InputError
-from armscope.recordings.motions import as_motions, is_motion_table, read_motions
+from armscope.recordings.first_lines import is_motion_table
+from armscope.recordings.motions import as_motions, read_motions
 
 
 def table(**more: object) -> pd.DataFrame:

@@ -14,7 +14,7 @@ from armscope.report.html import unbroken
 from armscope.report.sections.effect_cards import card, chosen_how_often, title_of, told_parameters
 from armscope.robot import forward_kinematics
 from armscope.verdict.schema import Alternative, Curve, Notice, Parameter, Unexplained
-from armscope.verdict.sentences import exact_phrase, headline
+from armscope.verdict.sentences import ANOTHER_MODEL, exact_phrase, headline
 from armscope.verdict.wording import (
     evidence_in_words,
     main_and_minor,
@@ -101,6 +101,13 @@ def test_the_first_sentence_names_cause_size_and_share():
         "Joint 2 gives way by 0.21 µrad per N m under gravity – 55 % of the squared error. "
         "Small errors of shape in all its joints and links, as any arm has: 2.0 %. The 0.0276 mm left are noise."
     )
+
+
+def test_that_it_is_another_model_of_the_arm_comes_before_any_cause():
+    told = Notice(ANOTHER_MODEL, "Is this another model of the arm? A UR5 leaves 1 mm where this one leaves 15 mm.")
+    said = headline(verdicts.case(effects=(compliance(),), notices=(told,)).verdict)
+    assert said.startswith(told.text)
+    assert "gives way" not in said
 
 
 def test_many_effects_are_counted_not_recited():

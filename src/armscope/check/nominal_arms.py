@@ -8,11 +8,21 @@ import numpy as np
 
 from armscope.calibration.fit import placed, rms_distance
 from armscope.calibration.model import set_up
-from armscope.check.suspicions import FITS, MOST_ROWS, MOST_STEPS
+from armscope.check.suspicion import Suspicion
+from armscope.check.trials import FITS, MOST_ROWS, MOST_STEPS
 from armscope.core.sampling import spread_evenly
 from armscope.recordings import Recordings
 from armscope.robot.arm import Arm, build_arm
 from armscope.robot.library import nominal_description, nominal_names
+from armscope.verdict.sentences import ANOTHER_MODEL
+
+BETTER = 0.5
+"""Another arm's misfit must be below this share of the stated one's. No constant of either is fitted, so that errors of
+calibration, which both have, do not decide: the nearest of one maker (UR10 and UR10e) lie 7 mm apart, new arms err by
+1 to 3 mm."""
+
+WORTH_A_LOOK = 1.5e-3
+"""Share of the reach below which a misfit needs no other arm: half of what the nearest two in the library differ by."""
 
 
 @dataclass(frozen=True)
@@ -30,6 +40,30 @@ class NominalFit:
     title: str
     rms_mm: float
     explains: bool
+
+
+def better_arm(arm: Arm, recordings: Recordings, rms_m: float) -> list[Suspicion]:
+    """Whether an arm of the library explains a table clearly better than the stated one.
+
+    Args:
+        arm: the stated arm, and
+        recordings: the table.
+        rms_m: RMS distance that the stated arm leaves once base and tool are fitted, m.
+
+    Returns:
+        The hint, or nothing.
+    """
+    if rms_m < WORTH_A_LOOK * arm.reach:
+        return []
+    best = next((fit for fit in nominal_fits(recordings) if fit.explains), None)
+    if best is None or best.rms_mm > BETTER * 1e3 * rms_m:
+        return []
+    statement = (
+        f"is this another model of the arm? {best.title} of the library leaves {best.rms_mm:.2g} mm "
+        f"where {arm.name} leaves {1e3 * rms_m:.2g} mm"
+    )
+    cure = f"`armscope init {best.name} -o robot.yaml` writes it: diagnose again with it before you change anything."
+    return [Suspicion("hint", statement, cure, ANOTHER_MODEL)]
 
 
 def nominal_fits(recordings: Recordings) -> tuple[NominalFit, ...]:

@@ -20,6 +20,7 @@ from armscope.recordings import Recordings
 from armscope.recordings.motion import moving
 from armscope.robot import Arm
 from armscope.verdict.schema import Notice
+from armscope.verdict.sentences import ANOTHER_MODEL
 
 FEWEST_ROWS = 15
 """Below, frames and a handful of effects take up all there is."""
@@ -64,8 +65,9 @@ def check_table(arm: Arm, recordings: Recordings) -> Checked:
 
 
 def suspected(arm: Arm, recordings: Recordings) -> tuple[Suspicion, ...]:
-    """What looks wrong with units, signs, orders and frames of the rows that are used, as `armscope check` finds it."""
-    return tuple(found for found in check(recordings, arm).suspicions if found.weight == "problem")
+    """What `armscope check` finds wrong with units, signs, orders, frames or the arm of the rows that are used."""
+    found = check(recordings, arm).suspicions
+    return tuple(each for each in found if each.weight == "problem" or each.kind == ANOTHER_MODEL)
 
 
 def refuse_unusable(arm: Arm, recordings: Recordings) -> None:
@@ -80,7 +82,8 @@ def refuse_unusable(arm: Arm, recordings: Recordings) -> None:
     Raises:
         InputError: it holds a problem.
     """
-    problems = suspected(arm, replace(recordings, orientation=None))
+    suspicions = suspected(arm, replace(recordings, orientation=None))
+    problems = [each for each in suspicions if each.weight == "problem"]
     if problems:
         more = f" ({len(problems) - 1} more: see `armscope check`)" if len(problems) > 1 else ""
         cure = f"{problems[0].cure} --anyway diagnoses it all the same.".strip()
@@ -89,9 +92,9 @@ def refuse_unusable(arm: Arm, recordings: Recordings) -> None:
 
 def as_notices(problems: Sequence[Suspicion], obstacle: Notice | None) -> tuple[Notice, ...]:
     """Problems as notices, but for the one that an obstacle names already."""
-    texts = [each.text() for each in problems]
     said = "" if obstacle is None else obstacle.text
-    return tuple(Notice("check", text[0].upper() + text[1:]) for text in texts if text not in said)
+    kinds = [(each.kind if each.kind == ANOTHER_MODEL else "check", each.text()) for each in problems]
+    return tuple(Notice(kind, text[0].upper() + text[1:]) for kind, text in kinds if text not in said)
 
 
 def _without_empty_context(recordings: Recordings) -> Recordings:

@@ -14,9 +14,10 @@ import numpy as np
 from armscope.calibration.fit import placed, rms_distance, robust_least_squares
 from armscope.calibration.model import SetUp, set_up
 from armscope.calibration.state import State
+from armscope.check.nominal_arms import better_arm
 from armscope.check.orientations import orientation_mistakes
 from armscope.check.suspicion import Suspicion
-from armscope.check.trials import trials
+from armscope.check.trials import FITS, MOST_ROWS, MOST_STEPS, trials
 from armscope.core.sampling import spread_evenly
 from armscope.fitting.exchanged_tool import exchanged_tool
 from armscope.fitting.registration import fit_frames
@@ -24,15 +25,7 @@ from armscope.measurement.robust import scale_of
 from armscope.recordings import Recordings
 from armscope.recordings.motion import moving
 from armscope.robot import Arm
-
-MOST_ROWS = 400
-"""Mistakes of a whole table show in a part of it: the trials look at so many rows, spread evenly."""
-
-FITS = 0.05
-"""A table fits an arm if base and tool leave at most this share of the points' spread."""
-
-MOST_STEPS = 12
-"""Steps of refinement per trial: the right one settles in fewer, a wrong one need not settle."""
+from armscope.verdict.sentences import ANOTHER_MODEL
 
 ROWS_PER_PARAMETER = 2
 """Measured numbers per frame parameter below which anything fits."""
@@ -43,6 +36,7 @@ CLEARLY_BETTER = 0.3
 AS_GOOD = 1.05
 """Mistakes whose undoing leaves this many times the least are as good: some are the same to an arm's kinematics."""
 
+WRONG_ROBOT = "wrong robot"
 MOST_ROWS_FOR_EXCHANGE = 20_000
 FAR = 10
 """Rows further off than so many times the usual spread may have exchanged their points."""
@@ -87,13 +81,23 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
     found: list[Suspicion] = []
     turned: list[Suspicion] = []
     if _share_left(rows, state) > FITS:
-        found += _moved_tools(arm, replace(some, orientation=None), explains=True) or [explanation(arm, recordings)]
+        found += _moved_tools(arm, replace(some, orientation=None), explains=True) or _unexplained(
+            arm, recordings, misfit
+        )
     else:
+        found += better_arm(arm, some, misfit)
         found += _exchanged_rows(arm, recordings)
         turned = orientation_mistakes(rows, state, some.orientation)
         found += turned
         found += _moved_tools(arm, replace(some, orientation=None) if turned else some)
     return Consistency(misfit, spread, len(some), (*found, *_outside_limits(arm, recordings)), orientations=not turned)
+
+
+def _unexplained(arm: Arm, recordings: Recordings, misfit: float) -> list[Suspicion]:
+    """The mistake whose undoing explains the points, another arm of the library that does, or neither."""
+    mistake = explanation(arm, recordings)
+    other = better_arm(arm, _spread_evenly(recordings), misfit) if mistake.kind == WRONG_ROBOT else []
+    return [replace(mistake, cure=f"I{other[0].text()[1:]}", kind=ANOTHER_MODEL)] if other else [mistake]
 
 
 def _spread_evenly(recordings: Recordings) -> Recordings:
@@ -174,7 +178,7 @@ def _best_trial(arm: Arm, table: Recordings, where: str) -> Suspicion:
         f"the arm does not explain the points{where}: {100 * min(share, 1):.0f} % of their spread of "
         f"{spread * 1e3:.0f} mm are left after base and tool are fitted",
         "Is it another robot, are angles and points of different rows, or is a joint's zero far off?",
-        "wrong robot",
+        WRONG_ROBOT,
     )
 
 

@@ -16,6 +16,15 @@ from armscope.robot import Arm
 
 LARGEST_ROW_SHIFT = 3
 
+MOST_ROWS = 400
+"""Mistakes of a whole table show in a part of it: the trials look at so many rows, spread evenly."""
+
+FITS = 0.05
+"""A table fits an arm if base and tool leave at most this share of the points' spread."""
+
+MOST_STEPS = 12
+"""Steps of refinement per trial: the right one settles in fewer, a wrong one need not settle."""
+
 
 @dataclass(frozen=True)
 class Trial:

@@ -15,6 +15,7 @@ import typer
 from typer.core import TyperCommand
 
 from armscope.cli.endings import told_to_end
+from armscope.core.inputs import InputError, nearest
 from armscope.core.outputs import Delivery
 from armscope.core.parallel import processes
 from armscope.core.streams import is_stream
@@ -82,6 +83,8 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
 
     def deliver(force: bool, values: dict[str, Any]) -> None:
         reads = _paths(value for name, value in values.items() if name not in outputs)
+        for name, value in values.items():
+            _refuse_absent(_paths([value] if name not in outputs else []), hints[name])
         writes = _paths(value for name, value in values.items() if name in outputs)
         delivery = Delivery(command, reads, writes, force)
         with processes(values.get("threads", 1)), told_to_end(), _stdout_kept_for_data(writes), delivery.running():
@@ -107,6 +110,21 @@ def _silence() -> Iterator[None]:
 def _paths(values: Iterable[Any]) -> list[Path]:
     several = (value if isinstance(value, list | tuple) else [value] for value in values)
     return [each for value in several for each in value if isinstance(each, Path)]
+
+
+def _refuse_absent(paths: list[Path], hint: Any) -> None:
+    """What is to be read must be there: said before a command imports what it works with.
+
+    Raises:
+        InputError: it is not.
+    """
+    for path in paths:
+        if not (path.exists() or is_stream(path)):
+            needed = next((each.help for each in getattr(hint, "__metadata__", ()) if hasattr(each, "help")), None)
+            beside = [each.name for each in path.parent.glob(f"*{path.suffix}")]
+            alike = nearest(path.name, beside)
+            cure = alike if alike.startswith("Did") else "No such file or directory."
+            raise InputError(path, "", "no readable file", f"needed here: {needed or 'a file'}", cure)
 
 
 @contextlib.contextmanager

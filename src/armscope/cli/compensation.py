@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from armscope.compensation import Compensated, Identified
+    from armscope.compensation import Compensated, ErrorModel, Identified
     from armscope.physics.model import FittedModel
     from armscope.robot import Arm
 
@@ -47,29 +47,24 @@ def compensate(
     threads: Threads = 1,
 ) -> None:
     """Commands that make the real arm reach the wanted points; exit code 3 where some rows have none."""
-    import numpy as np
-
     from armscope.cli.cost import COMPENSATE, announce
-    from armscope.compensation import (
-        ErrorModel,
-        Options,
-        compensate_black_box,
-        compensate_physical,
-        load_error_model,
-        read_path,
-    )
     from armscope.compensation.output import FORMATS, write_commands
+    from armscope.compensation.path import read_path
     from armscope.core.streams import is_stream
-    from armscope.physics.model_file import load_model
-    from armscope.robot.inverse import LARGEST_STEP_RAD
 
     if not str(output).endswith(FORMATS) and not is_stream(output):
         raise InputError("--output", "", str(output), f"the file's ending says the format: {', '.join(FORMATS)}")
-    step = np.inf if separate_points else LARGEST_STEP_RAD
-    fitted: ErrorModel | FittedModel = load_error_model(model) if model.suffix == ".json" else load_model(model)
+    fitted = _load(model)
     _check_robot(robot, fitted.arm)
     announce(path, COMPENSATE, threads)
     wanted = read_path(path, fitted.arm)
+
+    import numpy as np
+
+    from armscope.compensation import ErrorModel, Options, compensate_black_box, compensate_physical
+    from armscope.robot.inverse import LARGEST_STEP_RAD
+
+    step = np.inf if separate_points else LARGEST_STEP_RAD
     options = Options(frame, pose, _start(start_rad, fitted.arm), allowed_outside, step)
     if isinstance(fitted, ErrorModel):
         result = compensate_black_box(fitted, wanted, options)
@@ -134,6 +129,16 @@ def fit_error_model(
     if len(fitted.coefficients) > 1:
         print(f"{len(fitted.coefficients)} regions")
     print(output)
+
+
+def _load(model: Path) -> ErrorModel | FittedModel:
+    if model.suffix == ".json":
+        from armscope.compensation import load_error_model
+
+        return load_error_model(model)
+    from armscope.physics.model_file import load_model
+
+    return load_model(model)
 
 
 def _identified(model: Path, fitted: FittedModel, recordings: Path | None) -> Identified:

@@ -7,7 +7,7 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-from armscope.recordings.size import estimated_rows
+from armscope.recordings.first_lines import estimated_rows
 
 LONG_ROWS = 300_000
 """A shorter table is done before anybody asks."""

@@ -60,7 +60,7 @@ def diagnose(
     from armscope.cli.cost import DIAGNOSE, announce
     from armscope.cli.motion import diagnose_motions
     from armscope.cli.robots import print_json, robot_of, table_of
-    from armscope.recordings.motions import is_motion_table
+    from armscope.recordings.first_lines import is_motion_table
 
     started = waiting_since()
     if is_motion_table(recordings):

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from armscope.compensation.rapid import write_rapid
-from armscope.compensation.result import Compensated
 from armscope.core.files import write_json, write_table
 from armscope.core.inputs import InputError
 from armscope.core.streams import is_stream
+
+if TYPE_CHECKING:
+    from armscope.compensation.result import Compensated
 
 FORMATS = (".csv", ".csv.gz", ".json", ".mod")
 

@@ -6,15 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from scipy.spatial.transform import Rotation
 
-from armscope.compensation.black_box import domain_inputs
-from armscope.compensation.domain import ALLOWED
-from armscope.compensation.error_model_file import load_error_model
-from armscope.compensation.physical import FILE, drivers_of, load_identified, missing_context
 from armscope.core.inputs import InputError, read_yaml
 from armscope.core.types import Array
-from armscope.physics.drivers import KINDS
 from armscope.physics.model import FittedModel, predict_orientation
 from armscope.physics.model import predict as predicted_points
 from armscope.physics.model_file import load_model
@@ -61,6 +55,8 @@ def points_table(points: Array, rotations: Array | None, rows: Recordings) -> pd
     Returns:
         Columns id, run, x_mm, y_mm, z_mm and, where there are rotations, qw, qx, qy, qz.
     """
+    from scipy.spatial.transform import Rotation
+
     table = pd.DataFrame({"id": rows.id, "run": rows.run})
     table[["x_mm", "y_mm", "z_mm"]] = points * 1e3
     if rotations is not None:
@@ -87,6 +83,9 @@ def _refuse_missing_context(model: Path, fitted: FittedModel, rows: Recordings) 
     Raises:
         InputError: it is not.
     """
+    from armscope.compensation.physical import FILE, drivers_of, load_identified, missing_context
+    from armscope.physics.drivers import KINDS
+
     beside = model.parent / FILE
     if not beside.is_file():
         if rows.payload is None and any("payload" in KINDS[kind].follows for kind in drivers_of(fitted)):
@@ -110,6 +109,10 @@ def _by_description(robot: Path, poses: Path, pose: bool) -> Found:
 
 def _by_black_box(model: Path, poses: Path, pose: bool) -> Found:
     """As `_by_physics` for a black-box model; poses outside the identified range are named."""
+    from armscope.compensation.black_box import domain_inputs
+    from armscope.compensation.domain import ALLOWED
+    from armscope.compensation.error_model_file import load_error_model
+
     fitted = load_error_model(model)
     rows = read_recordings(poses, fitted.arm.n_motors, measured=False)
     if pose and fitted.turning is None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -15,10 +14,9 @@ from numpy.typing import NDArray
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array
 from armscope.recordings.column_reader import ColumnReader
-from armscope.recordings.opening import open_text
+from armscope.recordings.first_lines import DRIVE_COLUMN
 from armscope.recordings.textfile import read_text_table
 
-DRIVE_COLUMN = r"tau[1-9]\d*_nm|f[1-9]\d*_n|current[1-9]\d*_a"
 MOTION_COLUMN = (
     DRIVE_COLUMN + r"|q[1-9]\d*_(rad|deg|m)|dq[1-9]\d*_(rad|deg|m)_s|ddq[1-9]\d*_(rad|deg|m)_s2"
     r"|q[1-9]\d*_cmd_(rad|deg|m)|temperature[1-9]\d*_c"
@@ -88,17 +86,6 @@ class Motions:
     def at_times(self, time: Array) -> Motions:
         """The same samples at other times (N,), s."""
         return replace(self, time=time)
-
-
-def is_motion_table(path: Path | str) -> bool:
-    """Whether a table is of an arm in motion: its columns are torques or currents, and no measured points."""
-    try:
-        with open_text(Path(path), "utf-8") as stream:
-            names = next(csv.reader(stream), [])
-    except (OSError, EOFError, UnicodeDecodeError, csv.Error):
-        return False  # whoever reads the table says what is wrong with it
-    drives = any(re.fullmatch(DRIVE_COLUMN, name) for name in names)
-    return drives and not {"x_mm", "x_m"} & set(names)
 
 
 def read_motions(path: Path | str, n_motors: int | None = None, measured: bool = True) -> Motions:

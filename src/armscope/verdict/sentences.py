@@ -20,6 +20,9 @@ from armscope.verdict.wording import (
     spelled,
 )
 
+ANOTHER_MODEL = "another model"
+"""The kind of a notice that an arm of the library fits clearly better."""
+
 MOST_TOLD = 3
 """More causes than this are counted, not told."""
 _KINDS = {"geometric": "shape", "elastic": "stiffness", "transmission": "drives"}
@@ -56,6 +59,8 @@ def headline(verdict: Diagnosis) -> str:
     main, minor = main_and_minor(verdict.effects)
     if verdict.answer == "cannot tell" and not main:
         return _cannot_tell(verdict)
+    if other := another_model(verdict):
+        return f"{other} What stands below only describes the difference between the two."
     doubt = unusable(verdict)
     if doubt:
         return f"These recordings cannot be relied on, and nothing below should be acted on: {_small(doubt)}."
@@ -118,6 +123,11 @@ def cure_of_family(family: str, members: Sequence[FoundEffect], everywhere: bool
 def unusable(verdict: Diagnosis) -> str:
     """What the check says against the recordings, without its advice; "" for nothing."""
     return next((notice.text.split(". ")[0].rstrip(".") for notice in verdict.notices if notice.kind == "check"), "")
+
+
+def another_model(verdict: Diagnosis) -> str:
+    """That an arm of the library fits clearly better than the stated one, and which; "" for nothing."""
+    return next((notice.text for notice in verdict.notices if notice.kind == ANOTHER_MODEL), "")
 
 
 def more_than_noise(verdict: Verdict) -> bool:

@@ -19,7 +19,7 @@ from armscope.report.sections.effects import findings
 from armscope.report.sections.registry import SECTIONS
 from armscope.report.subject import Drawn, Section, Subject
 from armscope.verdict.schema import Diagnosis, Notice
-from armscope.verdict.sentences import more_than_noise, unusable
+from armscope.verdict.sentences import another_model, more_than_noise, unusable
 from armscope.verdict.wording import millimetres, percent
 from armscope.verdict.work_order import corrected_rows, zero_offsets
 
@@ -140,6 +140,8 @@ def _head(verdict: Diagnosis) -> dict[str, Any]:
 
 def _answer(verdict: Diagnosis) -> tuple[str, str]:
     """Colour and words of the answer; never "explained" where more than noise is left, or the table is unusable."""
+    if another_model(verdict):
+        return "fails", "another model?"
     if unusable(verdict):
         return "fails", "not to be relied on"
     if verdict.answer == "explained" and more_than_noise(verdict):

@@ -4,7 +4,7 @@ import gzip
 
 import pytest
 
-from armscope.recordings.size import estimated_rows
+from armscope.recordings.first_lines import estimated_rows
 
 
 @pytest.mark.parametrize("packed", [False, True])

@@ -1,11 +1,14 @@
-"""How long a table is, guessed from its first lines before it is read."""
+"""What a table is by its first lines, before it is read: how long, and whether of an arm in motion."""
 
 from __future__ import annotations
 
+import csv
+import re
 from pathlib import Path
 
 from armscope.recordings.opening import GZIP, open_text
 
+DRIVE_COLUMN = r"tau[1-9]\d*_nm|f[1-9]\d*_n|current[1-9]\d*_a"
 LOOKED_AT = 1 << 16
 """Characters from which the length of a line is taken."""
 
@@ -23,3 +26,14 @@ def estimated_rows(path: Path) -> int:
         return 0
     lines = start.count("\n")
     return round(size * lines / len(start)) if lines else 0
+
+
+def is_motion_table(path: Path | str) -> bool:
+    """Whether a table is of an arm in motion: its columns are torques or currents, and no measured points."""
+    try:
+        with open_text(Path(path), "utf-8") as stream:
+            names = next(csv.reader(stream), [])
+    except (OSError, EOFError, UnicodeDecodeError, csv.Error):
+        return False  # whoever reads the table says what is wrong with it
+    drives = any(re.fullmatch(DRIVE_COLUMN, name) for name in names)
+    return drives and not {"x_mm", "x_m"} & set(names)
