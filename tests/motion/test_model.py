@@ -55,10 +55,11 @@ def every_cause() -> MotionModel:
         arm,
         preparation(200.0, 10.0, "test"),
         "torque",
-        rng.normal(size=(3, 5)),
+        rng.normal(size=(3, 6)),
         arm.inertial * (1 + 0.01 * rng.normal(size=30)),
         0.01 * rng.normal(size=3),
-        tuple(FittedCause(each, 0.01 * rng.normal(size=each.width), np.full(each.width, 0.1)) for each in placed),
+        tuple(FittedCause(each, 0.01 * rng.normal(size=each.width), 0.01 * np.eye(each.width)) for each in placed),
+        response=1e-5,
     )
 
 
@@ -68,8 +69,8 @@ def test_the_error_of_its_predictions_is_the_verdicts(found: MotionDiagnosis, tm
     held_out = motions.rows(motions.run == "path 2")
     predicted, notes = torque_of_rows(load_motion_model(tmp_path / "model.yaml"), held_out)
     how = found.how
-    kept = slice(how.edge, len(held_out) - how.edge, how.every)
-    measured, expected = how.low_passed(held_out.effort)[kept], how.low_passed(predicted)[kept]
+    kept = np.arange(how.edge, len(held_out) - how.edge, how.every)
+    measured, expected = how.low_passed(held_out.effort, kept), how.low_passed(predicted, kept)
     assert not notes
     assert relative(measured - expected, measured) == pytest.approx(found.verdict.held_out.model, rel=1e-3)
     assert found.verdict.held_out.model < 0.7 * found.verdict.held_out.background
@@ -142,6 +143,7 @@ def test_a_cause_is_read_by_what_the_file_says_of_it() -> None:
         assert again.placed.parameters == cause.placed.parameters
         assert again.placed.columns == cause.placed.columns
         np.testing.assert_array_equal(again.values, cause.values)
+        np.testing.assert_allclose(again.stderr, cause.stderr)
 
 
 def inertial(link: int) -> dict[str, object]:

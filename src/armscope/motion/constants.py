@@ -8,103 +8,6 @@ from armscope.core.constants import Constants, constant
 
 
 @dataclass(frozen=True)
-class TimingRules(Constants):
-    """When time stamps are mended."""
-
-    uneven: float = constant(
-        0.05, "steps that differ from the usual one by this share are uneven", "judgement: jitter of a real clock"
-    )
-    rebuilt: float = constant(
-        0.5,
-        "share of what angle and velocity disagree by that must go for time to be rebuilt from them",
-        "judgement: whole steps always fit a little better; measured on the Panda 0.1, on the UR10e 1.0",
-    )
-    gap: float = constant(
-        5.0,
-        "a longer step than this parts a run in two",
-        "judgement: a line across more is a guess",
-        unit="usual steps",
-    )
-    gap_s: float = constant(
-        0.05, "a shorter step parts no run", "judgement: arms hardly bend their path in it", unit="s"
-    )
-    told_apart: float = constant(
-        0.1,
-        "error of a step, from angle and velocity, with which it is whole",
-        "judgement: rounding is then sure",
-        unit="periods",
-    )
-    resolved: float = constant(
-        3.0,
-        "that a moving arm travels between two samples; one that stays is a repetition",
-        "judgement: more than rounding",
-        unit="digits of the table",
-    )
-    slowest_hz: float = constant(
-        5.0,
-        "a motion is sampled at least this often",
-        "judgement: joints turn through a cycle in seconds; slower stamps are milliseconds called seconds",
-        unit="Hz",
-    )
-
-
-@dataclass(frozen=True)
-class FilterRules(Constants):
-    """How samples become rows."""
-
-    order: int = constant(4, "of the Butterworth low-pass, run forward and back", "convention")
-    position_band: float = constant(
-        5.0,
-        "cut-off of the positions, before they are derived",
-        "convention: of the motions' protocol",
-        unit="cut-offs",
-    )
-    nyquist: float = constant(0.8, "largest cut-off", "convention: of the protocol", unit="half sampling rates")
-    edge_s: float = constant(0.5, "left out at both ends of every stretch", "convention: of the protocol", unit="s")
-    rows_per_cutoff: float = constant(
-        3.0,
-        "rows kept, per cycle of the cut-off frequency",
-        "derived: a fourth-order filter's noise is independent from about here; the rest is measured",
-    )
-    coulomb_width_rad_s: float = constant(
-        0.01, "speed within which friction changes sides", "convention: of the protocol", unit="rad/s"
-    )
-    coulomb_width_m_s: float = constant(
-        0.001, "the same of a joint that slides", "convention: of the protocol", unit="m/s"
-    )
-    steeper: float = constant(
-        5.0, "that friction may change sides more sharply than within the width", "judgement: no filter shows more"
-    )
-    still: float = constant(
-        2.0,
-        "a joint slower than this stands: its friction may be anything",
-        "judgement: in the band where it changes sides",
-        unit="widths",
-    )
-    still_s: float = constant(
-        0.25, "how long, to stand and not to turn back", "judgement: a reversal is shorter", unit="s"
-    )
-    chunk: int = constant(30_000, "worked on at a time", "judgement: memory", unit="samples")
-
-
-@dataclass(frozen=True)
-class CutoffRules(Constants):
-    """How the cut-off is chosen."""
-
-    widest: float = constant(
-        0.2, "largest cut-off, as a share of the sampling rate", "judgement: derivatives are noise above"
-    )
-    widest_hz: float = constant(50.0, "largest cut-off", "judgement: arms' drives do not follow faster", unit="Hz")
-    least_hz: float = constant(2.0, "smallest cut-off", "judgement: motions of arms", unit="Hz")
-    window: int = constant(256, "of the spectra", "judgement: some tenths of a hertz", unit="rows")
-    drowned: float = constant(2.0, "of what is left, below which the model drowns", "judgement: neither is exact")
-    bins: int = constant(4, "in a row that must be drowned", "judgement: gaps in a spectrum are no end", unit="bins")
-    fallback: float = constant(
-        0.05, "of the sampling rate, where no spectrum can be taken", "judgement: as in the sets"
-    )
-
-
-@dataclass(frozen=True)
 class CheckRules(Constants):
     """When a table is doubtful."""
 
@@ -188,11 +91,20 @@ class PriorRules(Constants):
         "of a joint's torque: how far the shape of friction's change of sides is free",
         "judgement: a part of dry friction",
     )
-    timing: float = constant(
-        0.25,
-        "by which torque and motion may be apart unnamed",
-        "derived: half a sample is what sampling leaves open",
-        unit="samples",
+    turning_s: float = constant(
+        0.002,
+        "by which a joint's torque may change sides sooner or later than its speed, unnamed",
+        "judgement: a milliradian of presliding, or a filter of a drive",
+        unit="s",
+    )
+    reversal_sizes: tuple[float, ...] = constant(
+        (0.0, 1.0, 5.0), "of both, that compete", "judgement: dry friction may be all of a joint's torque"
+    )
+    response: float = constant(
+        0.16,
+        "second derivative of a torque by which drives round it off unnamed",
+        "derived: (1 / (2 pi 0.4))^2, of a filter at two fifths of the sampling rate, where half of it must be gone",
+        unit="samples^2",
     )
     gain: float = constant(
         0.1,
@@ -279,13 +191,10 @@ class ModelFileRules(Constants):
     least_knots: int = constant(4, "of a free curve", "derived: a cubic spline has no fewer", unit="columns")
 
 
-TIMING = TimingRules()
-FILTER = FilterRules()
 LIBRARY = LibraryRules()
 PRIOR = PriorRules()
 NOISE = RowNoiseRules()
 CONSISTENCY = ConsistencyRules()
 TELLING = MotionTelling()
-CUTOFF = CutoffRules()
 CHECK = CheckRules()
 MODEL_FILE = ModelFileRules()

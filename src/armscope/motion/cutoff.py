@@ -8,9 +8,10 @@ import numpy as np
 from scipy.signal import welch
 
 from armscope.core.types import Array
-from armscope.motion.constants import CUTOFF
+from armscope.motion.layout import TorqueLayout
 from armscope.motion.preparation import Preparation, preparation
-from armscope.motion.rows import MotionRows, SoFar, TorqueLayout, build_rows
+from armscope.motion.rows import MotionRows, SoFar, build_rows
+from armscope.motion.sampling_constants import CUTOFF
 from armscope.motion.timing import Stretch
 from armscope.motion.weights import fitted_together
 from armscope.robot.dynamics import MovingArm
@@ -31,18 +32,30 @@ def chosen_cutoff(arm: MovingArm, stretches: Sequence[Stretch], asked: float | N
         The filters and the decimation.
     """
     rate = stretches[0].rate
-    if asked is not None:
-        return preparation(rate, asked, "as asked")
-    generous = preparation(rate, min(CUTOFF.widest * rate, CUTOFF.widest_hz), "generous")
     longest = max(stretches, key=len)
+    moving = _position_cutoff(longest)
+    if asked is not None:
+        return preparation(rate, asked, "as asked", moving)
+    generous = preparation(rate, min(CUTOFF.widest * rate, CUTOFF.widest_hz), "generous", moving)
     rows = build_rows(
         TorqueLayout(arm, (), False), [longest], generous, SoFar(arm.inertial, np.zeros((arm.n_motors, 4)))
     )
     if len(rows) < CUTOFF.window:
-        return preparation(rate, CUTOFF.fallback * rate, "a share of the sampling rate: the motion is short")
+        return preparation(rate, CUTOFF.fallback * rate, "a share of the sampling rate: the motion is short", moving)
     crossing = _crossing(rows, rate / generous.every)
     cutoff = float(np.clip(crossing, CUTOFF.least_hz, generous.cutoff))
-    return preparation(rate, float(f"{cutoff:.2g}"), "where the model explains as much as it leaves")
+    return preparation(rate, float(f"{cutoff:.2g}"), "where the model explains as much as it leaves", moving)
+
+
+def _position_cutoff(stretch: Stretch) -> float:
+    """Hz above which positions hold noise only: where their spectrum comes down to that of the highest frequencies."""
+    size = min(len(stretch) - 2, CUTOFF.window)
+    bends = np.diff(stretch.q, n=2, axis=0)  # differences, so that a slow motion does not leak into all frequencies
+    frequency, power = welch(bends, stretch.rate, nperseg=size, axis=0)
+    power = power[1:] / (2 * np.sin(np.pi * frequency[1:, None] / stretch.rate)) ** 4
+    floor = np.median(power[-len(power) // 4 :], axis=0)
+    moving = np.flatnonzero((power > CUTOFF.above_noise * floor).any(axis=1))
+    return CUTOFF.beyond_motion * float(frequency[1 + moving[-1]]) if len(moving) else np.inf
 
 
 def _crossing(rows: MotionRows, rate: float) -> float:

@@ -6,13 +6,13 @@ A law's columns are torque, N m (N of a sliding joint), per unit of the cause's 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import BSpline
 
 from armscope.core.types import Array
-from armscope.motion.causes import Moment
+from armscope.motion.causes import Moment, side
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,8 @@ def _speed(m: Moment, joints: tuple[int, ...]) -> Array:
 
 
 def _side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
-    return np.asarray(np.tanh(_speed(m, joints) / width))
+    own = list(joints[:1])
+    return side(replace(m.signals, dq=m.signals.dq[:, own], ddq=m.signals.ddq[:, own]), np.array([width]))[:, 0]
 
 
 def _stribeck(m: Moment, joints: tuple[int, ...], width: float, speed: float) -> Array:
@@ -98,8 +99,9 @@ def _curve(driver: str) -> Callable[..., Array]:
 
 def _rubbing(m: Moment, joints: tuple[int, ...], sign: float, width: float) -> Array:
     j, k = joints
-    speed = m.signals.dq[:, j] + sign * m.signals.dq[:, k]
-    both = np.column_stack([np.tanh(speed / width), speed])
+    speed, turning = (values[:, j] + sign * values[:, k] for values in (m.signals.dq, m.signals.ddq))
+    turned = side(replace(m.signals, dq=speed[:, None], ddq=turning[:, None]), np.array([width]))
+    both = np.column_stack([turned, speed])
     return np.stack([both, sign * both], axis=1)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.motion import catalogue
-from armscope.motion.causes import Cause, PlacedCause, Seen, coulomb_width
+from armscope.motion.causes import Cause, PlacedCause, Seen, coulomb_width, sharp_width
 from armscope.motion.constants import LIBRARY
 from armscope.motion.laws import Law
 from armscope.motion.masses import place_masses
@@ -79,6 +79,11 @@ class _Joint:
         return float(coulomb_width(self.seen.arm)[self.number])
 
     @property
+    def sharp(self) -> float:
+        """The least of it."""
+        return float(sharp_width(self.seen.arm)[self.number])
+
+    @property
     def both_ways(self) -> bool:
         """Whether it moves fast enough either way to show friction."""
         slow = LIBRARY.slow * self.width
@@ -107,8 +112,8 @@ def _friction(at: _Joint) -> Iterator[PlacedCause]:
     for v in map(float, widths):
         more: dict[str, Any] = {"variant": f"{v:.3g}", "scanned": (("speed", f"{unit}/s", v),)}
         names = (("stribeck", torque),)
-        yield at.cause(catalogue.STRIBECK, "speed", names, "stribeck", at.width, v, multiplicity=len(widths), **more)
-    yield at.cause(catalogue.LOAD_FRICTION, "load", (("per_load", ""),), "load friction", at.width)
+        yield at.cause(catalogue.STRIBECK, "speed", names, "stribeck", at.sharp, v, multiplicity=len(widths), **more)
+    yield at.cause(catalogue.LOAD_FRICTION, "load", (("per_load", ""),), "load friction", at.sharp)
     powers = (("square", f"{torque} s^2/{unit}^2"), ("cube", f"{torque} s^3/{unit}^3"))
     yield at.cause(catalogue.VISCOUS_CURVE, "speed", powers, "powers of speed")
 
@@ -118,7 +123,7 @@ def _warmth(at: _Joint, limits: Array) -> Iterator[PlacedCause]:
     viscous = (("per_kelvin", f"{at.torque} s/({at.unit} K)"),)
     yield at.cause(cause, driver, viscous, "warm speed", middle, variant="viscous")
     dry = (("dry_per_kelvin", f"{at.torque}/K"),)
-    yield at.cause(cause, driver, dry, "warm side", at.width, middle, variant="dry")
+    yield at.cause(cause, driver, dry, "warm side", at.sharp, middle, variant="dry")
     yield at.curve(catalogue.CURVE, driver, limits, LIBRARY.knots_of_others, variant=driver)
 
 
@@ -138,7 +143,7 @@ def _springs(at: _Joint) -> Iterator[PlacedCause]:
 
 def _coupled(seen: Seen, j: int, k: int) -> Iterator[PlacedCause]:
     """What turns with the sum or the difference of two neighbours' motions, and acts on both of them."""
-    width, place = coulomb_width(seen.arm), f"joint {k + 1} from joint {j + 1}"
+    width, place = sharp_width(seen.arm), f"joint {k + 1} from joint {j + 1}"
     if seen.arm.sliding[j] != seen.arm.sliding[k]:
         return
     torque, unit = seen.torque(k), seen.unit(k)

@@ -10,19 +10,25 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.motion.causes import Moment, PlacedCause
+from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.preparation import Preparation, Signals, parts
-from armscope.motion.rows import OWN, SoFar, TorqueLayout, own_columns
+from armscope.motion.rows import SoFar, bend, own_columns
 from armscope.motion.timing import Stretch
 from armscope.robot.dynamics import MovingArm
 
 
 @dataclass(frozen=True, eq=False)
 class FittedCause:
-    """A placed cause with the values of its parameters, SI, and their standard errors."""
+    """A placed cause with the values (c,) of its parameters, SI, and their covariance (c, c)."""
 
     placed: PlacedCause
     values: Array
-    stderr: Array
+    covariance: Array
+
+    @property
+    def stderr(self) -> Array:
+        """(c,) standard errors."""
+        return np.asarray(np.sqrt(np.diag(self.covariance)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,10 +39,11 @@ class MotionModel:
         arm: the arm as stated.
         how: filters and decimation of the rows that it was fitted to.
         kind: whether they held torques or currents; what it predicts is torque by the stated gains in either case.
-        joints: (m, 5) of every joint, `rows.OWN`: stated and fitted together.
+        joints: (m, 6) of every joint, `layout.OWN`: stated and fitted together.
         inertial: (10 n,) inertial parameters: stated ones, and by how much the fit moved them unnamed.
         gains: (m,) shares by which recorded torque exceeds the true one.
         causes: the named ones.
+        response: by how much of its second derivative drives round a torque off, s^2.
     """
 
     arm: MovingArm
@@ -46,10 +53,11 @@ class MotionModel:
     inertial: Array
     gains: Array
     causes: tuple[FittedCause, ...]
+    response: float = 0.0
 
     def followed(self) -> SoFar:
         """What load, delay and gain follow: masses with all that is added to them, friction and rotors."""
-        return SoFar(self.inertial + self._added(None), self.joints[:, :-1])
+        return SoFar(self.inertial + self._added(None), self.joints[:, :CAUSES_OF_OWN])
 
     def _added(self, run: str | None) -> Array:
         """(10 n,) inertial parameters that causes add: those of every run, or those in one run."""
@@ -73,10 +81,11 @@ class MotionModel:
             carried = signals.payload[:, None] * (regressor @ self.arm.point_load())
         followed, own = self.followed(), own_columns(self.arm, signals)
         rigid = regressor @ followed.inertial + carried
-        predicted = rigid + np.einsum("nmk,mk->nm", own[:, :, : OWN - 1], followed.background)
+        predicted = rigid + np.einsum("nmk,mk->nm", own[:, :, :CAUSES_OF_OWN], followed.background)
         moment = Moment(signals, rigid, predicted, self._gravity(signals.q), rate)
         total = regressor @ (self.inertial + self._added(signals.run)) + carried
         total += np.einsum("nmk,mk->nm", own, self.joints) + self.gains * predicted
+        total += self.response * bend(predicted, rate)
         for cause in self.causes:
             if cause.placed.columns is not None:
                 total[:, list(cause.placed.joints)] += cause.placed.columns(moment) @ cause.values
@@ -96,14 +105,14 @@ def fitted_model(
     Args:
         layout: of the columns.
         coefficients: (p,) of all columns, SI.
-        chosen: number of each chosen cause, and the standard errors of its parameters.
+        chosen: number of each chosen cause, and the covariance of its parameters.
         how: filters and decimation.
 
     Returns:
         The model.
     """
     arm = layout.arm
-    stated = np.column_stack([np.nan_to_num(arm.stated_background), np.zeros(arm.n_motors)])
+    stated = np.column_stack([np.nan_to_num(arm.stated_background), np.zeros((arm.n_motors, OWN - CAUSES_OF_OWN))])
     gains = coefficients[layout.gains] if layout.with_gains else np.zeros(arm.n_motors)
     return MotionModel(
         arm=arm,
@@ -113,9 +122,10 @@ def fitted_model(
         inertial=arm.inertial + layout.inertial_scale * coefficients[layout.inertial],
         gains=gains,
         causes=tuple(
-            FittedCause(layout.placed[number], coefficients[layout.columns[number]], stderr)
-            for number, stderr in chosen
+            FittedCause(layout.placed[number], coefficients[layout.columns[number]], covariance)
+            for number, covariance in chosen
         ),
+        response=float(coefficients[layout.response][0]),
     )
 
 

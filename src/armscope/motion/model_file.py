@@ -13,6 +13,7 @@ from armscope.core.inputs import InputError, Strict, read_yaml, validate
 from armscope.core.types import Array
 from armscope.motion.constants import MODEL_FILE
 from armscope.motion.laws import Law
+from armscope.motion.layout import OWN_NAMES
 from armscope.motion.model import FittedCause, MotionModel
 from armscope.motion.model_check import CauseReader
 from armscope.motion.preparation import Preparation
@@ -40,7 +41,8 @@ class PreparationFile(Strict):
 class JointFile(Strict):
     """Friction and rotor of one motor, SI: torque = offset + coulomb side(dq) + viscous dq + inertia ddq.
 
-    ``reversal``: how much more sharply friction changes sides; ``gain``: share by which recorded torque is too large.
+    ``blunter``, ``later``: how friction changes sides (N m), and when (N m s); ``gain``: share by which recorded
+    torque is too large.
     """
 
     joint: Word
@@ -48,7 +50,8 @@ class JointFile(Strict):
     coulomb: Number
     viscous: Number
     inertia: Number
-    reversal: Number
+    blunter: Number
+    later: Number
     gain: Number
 
 
@@ -69,7 +72,7 @@ class LinkFile(Strict):
 
 
 class ParameterFile(Strict):
-    """A number of a cause with its standard error."""
+    """A number of a cause with its standard error; null where the motion does not tell it."""
 
     name: Word
     unit: Word
@@ -126,6 +129,7 @@ class MotionModelFile(Strict):
     joints: tuple[JointFile, ...]
     links: tuple[LinkFile, ...]
     causes: tuple[CauseFile, ...]
+    response_s2: Number = 0.0
 
 
 def schema() -> dict[str, Any]:
@@ -150,7 +154,7 @@ def save_motion_model(path: Path | str, model: MotionModel) -> None:
         joints=tuple(
             JointFile(
                 joint=f"joint {j + 1}",
-                **dict(zip(("offset", "coulomb", "viscous", "inertia", "reversal"), map(float, own), strict=True)),
+                **dict(zip(OWN_NAMES, map(float, own), strict=True)),
                 gain=float(gain),
             )
             for j, (own, gain) in enumerate(zip(model.joints, model.gains, strict=True))
@@ -160,6 +164,7 @@ def save_motion_model(path: Path | str, model: MotionModel) -> None:
             for n, values in enumerate(model.inertial.reshape(-1, len(PARAMETERS)))
         ),
         causes=tuple(cause_out(cause) for cause in model.causes),
+        response_s2=model.response,
     )
     robot = model.arm.description.model_dump(mode="json", exclude_none=True)
     write_yaml(path, {**file.model_dump(mode="json"), "robot": robot})
@@ -176,13 +181,18 @@ def cause_out(cause: FittedCause) -> CauseFile:
         variant=placed.variant,
         runs=placed.runs,
         parameters=tuple(
-            ParameterFile(name=name, unit=unit, value=float(value), stderr=float(error) if np.isfinite(error) else None)
+            ParameterFile(name=name, unit=unit, value=float(value), stderr=_told(float(error)))
             for (name, unit), value, error in zip(placed.parameters, cause.values, cause.stderr, strict=True)
         ),
         scanned=tuple(ScannedFile(name=name, unit=unit, value=value) for name, unit, value in placed.scanned),
         law=None if law is None else LawFile(kind=law.kind, joints=[j + 1 for j in law.joints], numbers=law.numbers),
         inertial=() if placed.inertial is None else tuple(_inertial_out(placed.inertial)),
     )
+
+
+def _told(error: float) -> float | None:
+    """A standard error; none where the motion does not tell the number at all."""
+    return error if error <= MODEL_FILE.largest else None
 
 
 def _inertial_out(inertial: Array) -> list[InertialFile]:
@@ -219,7 +229,7 @@ def load_motion_model(path: Path | str) -> MotionModel:
         if count != wanted:
             raise InputError(path, place, f"{count} {place}", f"the model's arm has {wanted}")
     how = file.preparation
-    own = [[j.offset, j.coulomb, j.viscous, j.inertia, j.reversal] for j in file.joints]
+    own = [[getattr(joint, name) for name in OWN_NAMES] for joint in file.joints]
     return MotionModel(
         arm=arm,
         how=Preparation(how.rate_hz, how.cutoff_hz, how.position_cutoff_hz, how.every, how.cutoff_source),
@@ -228,4 +238,5 @@ def load_motion_model(path: Path | str) -> MotionModel:
         inertial=np.array([[getattr(link, name) for name in PARAMETERS] for link in file.links], dtype=float).ravel(),
         gains=np.array([joint.gain for joint in file.joints], dtype=float),
         causes=CauseReader(arm, path).causes(file.causes),
+        response=file.response_s2,
     )

@@ -12,21 +12,23 @@ import numpy as np
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Progress
 from armscope.motion.check import check_motions, check_rows
-from armscope.motion.constants import FILTER, LIBRARY
+from armscope.motion.constants import LIBRARY
 from armscope.motion.cutoff import chosen_cutoff
 from armscope.motion.holding_out import HeldOutTorque, folds, held_out_torques, measure, own_fold, waterfall
 from armscope.motion.judgement import (
     answer_of,
+    covariance_of,
     found_causes,
     headline,
     joint_backgrounds,
-    parameter_errors,
     unexplained,
 )
+from armscope.motion.layout import TorqueLayout
 from armscope.motion.library import place_causes
 from armscope.motion.model import MotionModel, fitted_model
 from armscope.motion.preparation import Preparation
-from armscope.motion.rows import MotionRows, TorqueLayout, build_rows, torque_of
+from armscope.motion.rows import MotionRows, build_rows, torque_of
+from armscope.motion.sampling_constants import FILTER
 from armscope.motion.seen import seen_in
 from armscope.motion.selection import SelectedCauses, model_so_far, select_causes
 from armscope.motion.timing import Stretch, mended, stretches
@@ -77,7 +79,7 @@ class MotionDiagnosis:
         return fitted_model(
             layout,
             self.selected.coefficients,
-            [(number, parameter_errors(self.selected, number)) for number in numbers],
+            [(number, covariance_of(self.selected, number)) for number in numbers],
             self.how,
         )
 

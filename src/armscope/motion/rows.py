@@ -10,90 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices, Progress
-from armscope.motion.causes import Moment, PlacedCause, side
-from armscope.motion.constants import FILTER, PRIOR
+from armscope.motion.causes import Moment, coulomb_width, sharp_width, side
+from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.preparation import Preparation, Signals, parts
+from armscope.motion.sampling_constants import FILTER
 from armscope.motion.timing import Stretch
 from armscope.robot.dynamics import MovingArm
-
-OWN = len(("offset", "dry friction", "viscous friction", "rotor inertia", "reversal"))
-"""Columns that every joint has: offset, dry and viscous friction, rotor inertia, how steeply friction changes sides.
-
-The last is no cause: within a hundredth of a radian per second friction turns over in a way that filters and rounding
-blur. It is free, so that no cause is named for it.
-"""
-
-
-@dataclass(frozen=True, eq=False)
-class TorqueLayout:
-    """Which column stands where: background of each joint, inertial parameters, gains, causes.
-
-    Attributes:
-        arm: the arm.
-        placed: the causes that compete.
-        with_gains: whether torques come from currents, whose gains are known to some percent.
-    """
-
-    arm: MovingArm
-    placed: tuple[PlacedCause, ...]
-    with_gains: bool
-
-    @property
-    def own(self) -> Indices:
-        """(5 m,) of `OWN`, joint by joint."""
-        return np.arange(OWN * self.arm.n_motors)
-
-    @property
-    def frames(self) -> Indices:
-        """Those of `own` that are always free: friction and rotors that robot.yaml does not state."""
-        free = np.ones((self.arm.n_motors, OWN), dtype=np.bool_)
-        free[:, :-1] = np.isnan(self.arm.stated_background)
-        free[:, [0, -1]] = False
-        return np.flatnonzero(free.ravel())
-
-    @property
-    def reversals(self) -> Indices:
-        """(m,) the last of `OWN` of each joint."""
-        return np.arange(self.arm.n_motors) * OWN + OWN - 1
-
-    @property
-    def inertial(self) -> Indices:
-        """(10 n,) inertial parameters, in shares of `inertial_scale`."""
-        return len(self.own) + np.arange(len(self.arm.inertial))
-
-    @property
-    def gains(self) -> Indices:
-        """(m,) or none: shares of each joint's torque."""
-        return len(self.own) + len(self.inertial) + np.arange(self.arm.n_motors if self.with_gains else 0)
-
-    @functools.cached_property
-    def columns(self) -> list[Indices]:
-        """Of each cause."""
-        start, columns = len(self.own) + len(self.inertial) + len(self.gains), []
-        for cause in self.placed:
-            if cause.of_background is not None:
-                columns.append(np.array([OWN * cause.of_background[0] + cause.of_background[1]]))
-            else:
-                columns.append(np.arange(start, start + cause.width))
-                start += cause.width
-        return columns
-
-    @functools.cached_property
-    def width(self) -> int:
-        """Number of columns."""
-        last = max((int(columns[-1]) for columns in self.columns), default=0)
-        return max(last + 1, len(self.own) + len(self.inertial) + len(self.gains))
-
-    @property
-    def inertial_scale(self) -> Array:
-        """(10 n,) kg, kg m, kg m^2 of each link: its mass, mass x length, mass x length^2."""
-        mass = self.arm.inertial[::10]
-        mass = np.maximum(mass, PRIOR.lightest_share * mass.mean())
-        reach = sum(
-            np.linalg.norm(self.arm.model.jointPlacements[j].translation) for j in range(2, self.arm.model.njoints)
-        )
-        length = max(float(reach) / max(self.arm.n_links - 1, 1), 0.05)
-        return np.asarray(np.concatenate([m * np.array([1.0, *[length] * 3, *[length**2] * 6]) for m in mass]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -207,27 +129,27 @@ def _piece(layout: TorqueLayout, signals: Signals, how: Preparation, model: SoFa
     rigid = regressor @ model.inertial
     if signals.payload is not None:
         rigid = rigid + signals.payload[:, None] * (regressor @ arm.point_load())
-    predicted = rigid + np.einsum("nmk,mk->nm", background[:, :, :-1], model.background)
+    predicted = rigid + np.einsum("nmk,mk->nm", background[:, :, :CAUSES_OF_OWN], model.background)
     gravity = None
     if any(cause.cause.name == "gravity_direction" for cause in layout.placed):
         gravity = np.stack([arm.gravity_torques(signals.q, axis) for axis in np.eye(3)], axis=2)
     moment = Moment(signals, rigid, predicted, gravity, how.rate)
-    low = how.low_passed
-    regressor = low(regressor)[kept]
+    low = functools.partial(how.low_passed, kept=kept)
+    regressor = low(regressor)
     stated = np.nan_to_num(arm.stated_background)
     nominal = regressor @ arm.inertial
     if np.any(stated):
-        nominal += low(np.einsum("nmk,mk->nm", background[:, :, :-1], stated))[kept]
+        nominal += low(np.einsum("nmk,mk->nm", background[:, :, :CAUSES_OF_OWN], stated))
     if signals.payload is not None:
         nominal += signals.payload[kept, None] * (regressor @ arm.point_load())
     columns, at = [], []
     own = _own_columns(layout, moment)
     inertial = _made_of_masses(layout, regressor, signals.run)
+    rounded = bend(predicted, how.rate)
     for j in range(arm.n_motors):
         of_joint, where = own[j]
-        filtered = low(np.column_stack([background[:, j], *of_joint]))[kept]
-        if layout.with_gains:
-            filtered = np.column_stack([filtered, low(predicted[:, j : j + 1])[kept]])
+        gain = [predicted[:, j]] if layout.with_gains else []
+        filtered = low(np.column_stack([background[:, j], *of_joint, *gain, rounded[:, j]]))
         whole = np.column_stack(
             [filtered, regressor[:, j] * layout.inertial_scale, *(made[:, j] for made, _ in inertial)]
         )
@@ -238,6 +160,7 @@ def _piece(layout: TorqueLayout, signals: Signals, how: Preparation, model: SoFa
                     OWN * j + np.arange(OWN),
                     *where,
                     *([layout.gains[j : j + 1]] if layout.with_gains else []),
+                    layout.response,
                     layout.inertial,
                     *(index for _, index in inertial),
                 ]
@@ -250,7 +173,7 @@ def _piece(layout: TorqueLayout, signals: Signals, how: Preparation, model: SoFa
         stretch=np.full(len(kept), signals.stretch),
         q=signals.q[kept],
         dq=signals.dq[kept],
-        torque=low(signals.effort)[kept],
+        torque=low(signals.effort),
         nominal=nominal,
         still=_still(arm, signals, how)[kept],
         columns=tuple(columns),
@@ -258,11 +181,19 @@ def _piece(layout: TorqueLayout, signals: Signals, how: Preparation, model: SoFa
     )
 
 
+def bend(torque: Array, rate: float) -> Array:
+    """(N, m) second derivative of torques, N m/s^2: what drives' filters and rounding take part of."""
+    slope = np.gradient(torque, 1 / rate, axis=0)
+    return np.asarray(np.gradient(slope, 1 / rate, axis=0))
+
+
 def own_columns(arm: MovingArm, signals: Signals) -> Array:
-    """(N, m, 5) of `OWN`, per unit of each."""
-    turned = side(arm, signals.dq)
-    steeper = side(arm, FILTER.steeper * signals.dq) - turned
-    return np.stack([np.ones_like(signals.q), turned, signals.dq, signals.ddq, steeper], axis=2)
+    """(N, m, 6) of `OWN`, per unit of each."""
+    width = sharp_width(arm)
+    turned = side(signals, width)
+    blunter = side(signals, coulomb_width(arm)) - turned
+    later = -np.gradient(turned, signals.period, axis=0)
+    return np.stack([np.ones_like(signals.q), turned, signals.dq, signals.ddq, blunter, later], axis=2)
 
 
 def _own_columns(layout: TorqueLayout, moment: Moment) -> list[tuple[list[Array], list[Indices]]]:

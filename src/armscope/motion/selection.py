@@ -15,8 +15,9 @@ from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, build_problem
 from armscope.inference.search import Search
 from armscope.motion.constants import NOISE, PRIOR
+from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.preparation import Preparation
-from armscope.motion.rows import OWN, MotionRows, SoFar, TorqueLayout, build_rows
+from armscope.motion.rows import MotionRows, SoFar, build_rows
 from armscope.motion.space import build_space
 from armscope.motion.timing import Stretch
 from armscope.motion.weights import TorqueWeights, estimate_weights, fitted_together, sums_by_block
@@ -63,7 +64,8 @@ def model_so_far(layout: TorqueLayout, coefficients: Array) -> SoFar:
         if cause.inertial is not None and not cause.runs:
             inertial = inertial + cause.inertial @ coefficients[columns]
     return SoFar(
-        inertial, np.nan_to_num(layout.arm.stated_background) + coefficients[layout.own].reshape(-1, OWN)[:, :-1]
+        inertial,
+        np.nan_to_num(layout.arm.stated_background) + coefficients[layout.own].reshape(-1, OWN)[:, :CAUSES_OF_OWN],
     )
 
 

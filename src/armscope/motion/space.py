@@ -9,7 +9,7 @@ from armscope.inference.model_space import BackgroundFamily, Candidate, ModelSpa
 from armscope.motion import catalogue
 from armscope.motion.causes import PlacedCause
 from armscope.motion.constants import PRIOR
-from armscope.motion.rows import TorqueLayout
+from armscope.motion.layout import TorqueLayout
 
 
 def build_space(layout: TorqueLayout, torque: Array, rate: float) -> ModelSpace:
@@ -27,13 +27,12 @@ def build_space(layout: TorqueLayout, torque: Array, rate: float) -> ModelSpace:
         Columns, priors, and what excludes what.
     """
     shares = PRIOR.inertial_shares
-    reversals = ToleranceFamily("reversals", layout.reversals, PRIOR.reversal * torque, (0.0, 1.0))
-    delays = [at for cause, at in zip(layout.placed, layout.columns, strict=True) if cause.cause is catalogue.DELAY]
-    timing = np.concatenate([*delays, np.empty(0, dtype=np.intp)])
+    shape = torque[:, None] * [PRIOR.reversal, PRIOR.turning_s]
+    reversals = ToleranceFamily("reversals", layout.reversals.ravel(), shape.ravel(), PRIOR.reversal_sizes)
     families: list[BackgroundFamily] = [
         ToleranceFamily("masses", layout.inertial, np.ones(len(layout.inertial)), shares),
         reversals,
-        ToleranceFamily("timing", timing, np.full(len(timing), PRIOR.timing / rate), (0.0, 1.0)),
+        ToleranceFamily("response", layout.response, np.array([PRIOR.response / rate**2]), (0.0, 1.0)),
     ]
     starts: list[tuple[int, ...]] = [(0, 1, 1), (2, 1, 1), (4, 1, 1)]
     if layout.with_gains:

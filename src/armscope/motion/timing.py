@@ -9,7 +9,7 @@ import numpy as np
 
 from armscope.core.inputs import InputError
 from armscope.core.types import Array, Indices
-from armscope.motion.constants import TIMING
+from armscope.motion.sampling_constants import TIMING
 from armscope.recordings.motions import Motions
 from armscope.verdict.schema import Notice
 

@@ -1,0 +1,101 @@
+"""Which column of a motion's model stands where: every joint's own, masses, gains, the drives' response, causes."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+
+import numpy as np
+
+from armscope.core.types import Array, Indices
+from armscope.motion.causes import PlacedCause
+from armscope.motion.constants import PRIOR
+from armscope.robot.dynamics import MovingArm
+
+NAMED_OF_OWN = ("offset", "coulomb", "viscous", "inertia")
+OWN_NAMES = (*NAMED_OF_OWN, "blunter", "later")
+"""Columns that every joint has: offset, dry and viscous friction, rotor inertia, how friction changes sides, and when.
+
+The last two are no causes: within a hundredth of a radian per second and some milliseconds friction turns over in a
+way that presliding, filters and rounding blur. They are free within limits, so that no cause is named for them, and
+so that no other number of the joint takes them up: a delay of all torque in their place takes viscous friction, times
+its seconds, from the rotor's inertia.
+"""
+OWN, CAUSES_OF_OWN = len(OWN_NAMES), len(NAMED_OF_OWN)
+
+
+@dataclass(frozen=True, eq=False)
+class TorqueLayout:
+    """Which column stands where: background of each joint, inertial parameters, gains, causes.
+
+    Attributes:
+        arm: the arm.
+        placed: the causes that compete.
+        with_gains: whether torques come from currents, whose gains are known to some percent.
+    """
+
+    arm: MovingArm
+    placed: tuple[PlacedCause, ...]
+    with_gains: bool
+
+    @property
+    def own(self) -> Indices:
+        """(6 m,) of `OWN`, joint by joint."""
+        return np.arange(OWN * self.arm.n_motors)
+
+    @property
+    def frames(self) -> Indices:
+        """Those of `own` that are always free: friction and rotors that robot.yaml does not state."""
+        free = np.ones((self.arm.n_motors, OWN), dtype=np.bool_)
+        free[:, :CAUSES_OF_OWN] = np.isnan(self.arm.stated_background)
+        free[:, [0, *range(CAUSES_OF_OWN, OWN)]] = False
+        return np.flatnonzero(free.ravel())
+
+    @property
+    def response(self) -> Indices:
+        """(1,) how drives round off all torque, in seconds squared; after `gains`."""
+        return len(self.own) + len(self.inertial) + len(self.gains) + np.arange(1)
+
+    @property
+    def reversals(self) -> Indices:
+        """(m, 2) the last two of `OWN` of each joint."""
+        return np.arange(self.arm.n_motors)[:, None] * OWN + np.arange(CAUSES_OF_OWN, OWN)
+
+    @property
+    def inertial(self) -> Indices:
+        """(10 n,) inertial parameters, in shares of `inertial_scale`."""
+        return len(self.own) + np.arange(len(self.arm.inertial))
+
+    @property
+    def gains(self) -> Indices:
+        """(m,) or none: shares of each joint's torque."""
+        return len(self.own) + len(self.inertial) + np.arange(self.arm.n_motors if self.with_gains else 0)
+
+    @functools.cached_property
+    def columns(self) -> list[Indices]:
+        """Of each cause."""
+        start, columns = int(self.response[0]) + 1, []
+        for cause in self.placed:
+            if cause.of_background is not None:
+                columns.append(np.array([OWN * cause.of_background[0] + cause.of_background[1]]))
+            else:
+                columns.append(np.arange(start, start + cause.width))
+                start += cause.width
+        return columns
+
+    @functools.cached_property
+    def width(self) -> int:
+        """Number of columns."""
+        last = max((int(columns[-1]) for columns in self.columns), default=0)
+        return max(last, int(self.response[0])) + 1
+
+    @property
+    def inertial_scale(self) -> Array:
+        """(10 n,) kg, kg m, kg m^2 of each link: its mass, mass x length, mass x length^2."""
+        mass = self.arm.inertial[::10]
+        mass = np.maximum(mass, PRIOR.lightest_share * mass.mean())
+        reach = sum(
+            np.linalg.norm(self.arm.model.jointPlacements[j].translation) for j in range(2, self.arm.model.njoints)
+        )
+        length = max(float(reach) / max(self.arm.n_links - 1, 1), 0.05)
+        return np.asarray(np.concatenate([m * np.array([1.0, *[length] * 3, *[length**2] * 6]) for m in mass]))

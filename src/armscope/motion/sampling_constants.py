@@ -1,0 +1,132 @@
+"""Numbers that decide how samples become rows; see `armscope.core.constants`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from armscope.core.constants import Constants, constant
+
+
+@dataclass(frozen=True)
+class TimingRules(Constants):
+    """When time stamps are mended."""
+
+    uneven: float = constant(
+        0.05, "steps that differ from the usual one by this share are uneven", "judgement: jitter of a real clock"
+    )
+    rebuilt: float = constant(
+        0.5,
+        "share of what angle and velocity disagree by that must go for time to be rebuilt from them",
+        "judgement: whole steps always fit a little better; measured on the Panda 0.1, on the UR10e 1.0",
+    )
+    gap: float = constant(
+        5.0,
+        "a longer step than this parts a run in two",
+        "judgement: a line across more is a guess",
+        unit="usual steps",
+    )
+    gap_s: float = constant(
+        0.05, "a shorter step parts no run", "judgement: arms hardly bend their path in it", unit="s"
+    )
+    told_apart: float = constant(
+        0.1,
+        "error of a step, from angle and velocity, with which it is whole",
+        "judgement: rounding is then sure",
+        unit="periods",
+    )
+    resolved: float = constant(
+        3.0,
+        "that a moving arm travels between two samples; one that stays is a repetition",
+        "judgement: more than rounding",
+        unit="digits of the table",
+    )
+    slowest_hz: float = constant(
+        5.0,
+        "a motion is sampled at least this often",
+        "judgement: joints turn through a cycle in seconds; slower stamps are milliseconds called seconds",
+        unit="Hz",
+    )
+
+
+@dataclass(frozen=True)
+class FilterRules(Constants):
+    """How samples become rows."""
+
+    order: int = constant(4, "of the Butterworth low-pass, run forward and back", "convention")
+    position_band: float = constant(
+        5.0,
+        "cut-off of the positions, before they are derived",
+        "convention: of the motions' protocol",
+        unit="cut-offs",
+    )
+    nyquist: float = constant(0.8, "largest cut-off", "convention: of the protocol", unit="half sampling rates")
+    edge_s: float = constant(0.5, "left out at both ends of every stretch", "convention: of the protocol", unit="s")
+    rows_per_cutoff: float = constant(
+        3.0,
+        "rows kept, per cycle of the cut-off frequency",
+        "derived: a fourth-order filter's noise is independent from about here; the rest is measured",
+    )
+    coulomb_width_rad_s: float = constant(
+        0.01, "speed within which friction changes sides", "convention: of the protocol", unit="rad/s"
+    )
+    coulomb_width_m_s: float = constant(
+        0.001, "the same of a joint that slides", "convention: of the protocol", unit="m/s"
+    )
+    reach: float = constant(
+        6.0,
+        "of the low-pass's weights either way",
+        "derived: a fourth-order Butterworth filter has forgotten all but a millionth",
+        unit="periods of the cut-off",
+    )
+    rows_at_once: int = constant(16, "filtered at a time", "measured: the fastest of 8, 16, 32", unit="rows")
+    sharper: float = constant(
+        5.0, "that friction may change sides more sharply than within the width", "judgement: no filter shows more"
+    )
+    alike: float = constant(
+        1e-3,
+        "change of speed within a sample below which friction's mean over it is that in its middle",
+        "derived: they differ by a millionth",
+        unit="widths",
+    )
+    still: float = constant(
+        2.0,
+        "a joint slower than this stands: its friction may be anything",
+        "judgement: in the band where it changes sides",
+        unit="widths",
+    )
+    still_s: float = constant(
+        0.25, "how long, to stand and not to turn back", "judgement: a reversal is shorter", unit="s"
+    )
+    chunk: int = constant(30_000, "worked on at a time", "judgement: memory", unit="samples")
+
+
+@dataclass(frozen=True)
+class CutoffRules(Constants):
+    """How the cut-off is chosen."""
+
+    widest: float = constant(
+        0.2, "largest cut-off, as a share of the sampling rate", "judgement: derivatives are noise above"
+    )
+    widest_hz: float = constant(50.0, "largest cut-off", "judgement: arms' drives do not follow faster", unit="Hz")
+    least_hz: float = constant(2.0, "smallest cut-off", "judgement: motions of arms", unit="Hz")
+    window: int = constant(256, "of the spectra", "judgement: some tenths of a hertz", unit="rows")
+    above_noise: float = constant(
+        10.0,
+        "of the positions' noise, from which their spectrum shows motion",
+        "derived: a chi-squared of some ten degrees of freedom hardly ever reaches it",
+    )
+    beyond_motion: float = constant(
+        2.0,
+        "times the highest frequency of motion at which positions are low-passed",
+        "derived: the filter then takes 0.4 % of that frequency",
+    )
+    drowned: float = constant(2.0, "of what is left, below which the model drowns", "judgement: neither is exact")
+    bins: int = constant(4, "in a row that must be drowned", "judgement: gaps in a spectrum are no end", unit="bins")
+    fallback: float = constant(
+        0.05, "of the sampling rate, where no spectrum can be taken", "judgement: as in the sets"
+    )
+
+
+TIMING = TimingRules()
+FILTER = FilterRules()
+CUTOFF = CutoffRules()
