@@ -58,7 +58,7 @@ def every_cause() -> MotionModel:
         rng.normal(size=(3, 6)),
         arm.inertial * (1 + 0.01 * rng.normal(size=30)),
         0.01 * rng.normal(size=3),
-        tuple(FittedCause(each, 0.01 * rng.normal(size=each.width), np.full(each.width, 0.1)) for each in placed),
+        tuple(FittedCause(each, 0.01 * rng.normal(size=each.width), 0.01 * np.eye(each.width)) for each in placed),
         response=1e-5,
     )
 
@@ -143,6 +143,7 @@ def test_a_cause_is_read_by_what_the_file_says_of_it() -> None:
         assert again.placed.parameters == cause.placed.parameters
         assert again.placed.columns == cause.placed.columns
         np.testing.assert_array_equal(again.values, cause.values)
+        np.testing.assert_allclose(again.stderr, cause.stderr)
 
 
 def inertial(link: int) -> dict[str, object]:

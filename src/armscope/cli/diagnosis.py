@@ -58,14 +58,15 @@ def diagnose(
     written, unless --anyway.
     """
     from armscope.cli.cost import DIAGNOSE, announce
-    from armscope.cli.motion import diagnose_motions
+    from armscope.cli.motion import Asked, diagnose_motions
     from armscope.cli.robots import print_json, robot_of, table_of
     from armscope.recordings.first_lines import is_motion_table
 
     started = waiting_since()
     if is_motion_table(recordings):
         with _progress("diagnosing") as tell:
-            mismatch = diagnose_motions(recordings, robot, output, (cutoff, held_out or [], run or []), json, tell)
+            asked = Asked(cutoff, held_out or [], run or [], json, report, started)
+            mismatch = diagnose_motions(recordings, robot, output, asked, tell)
         if exit_code and mismatch is not False:
             raise typer.Exit(MISMATCH if mismatch else UNUSABLE)
         return

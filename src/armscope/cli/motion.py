@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,24 +12,38 @@ if TYPE_CHECKING:
     import pandas as pd
 
 Tell = Callable[[str, float], None]
+FILES = ("verdict.json", "model.yaml")
+"""All that is written beside the page."""
 
 
-def diagnose_motions(
-    table: Path,
-    robot: Path,
-    output: Path,
-    settings: tuple[float | None, list[str], list[str]],
-    as_json: bool,
-    tell: Tell,
-) -> bool | None:
+@dataclass(frozen=True)
+class Asked:
+    """What a user asks of a diagnosis of a motion.
+
+    Attributes:
+        cutoff: Hz, or None.
+        held_out, runs: runs that are held out, and runs that are used (none: all).
+        as_json: whether verdict.json is printed in place of words.
+        report: whether the page is written.
+        started: when the user began to wait.
+    """
+
+    cutoff: float | None
+    held_out: list[str]
+    runs: list[str]
+    as_json: bool
+    report: bool
+    started: float
+
+
+def diagnose_motions(table: Path, robot: Path, output: Path, asked: Asked, tell: Tell) -> bool | None:
     """Diagnose motions.csv and write what was found.
 
     Args:
         table: motions.csv.
         robot: robot.yaml.
         output: the folder for verdict and model.
-        settings: cut-off in Hz or None, runs that are held out, runs that are used (none: all).
-        as_json: whether verdict.json is printed in place of words.
+        asked: what the user asks for.
         tell: hears what is being done.
 
     Returns:
@@ -40,6 +55,7 @@ def diagnose_motions(
     import numpy as np
 
     from armscope.cli.robots import print_json
+    from armscope.core.files import writable
     from armscope.core.inputs import InputError, nearest
     from armscope.motion.model_file import save_motion_model
     from armscope.motion.pipeline import MotionSettings, diagnose_motion
@@ -47,24 +63,29 @@ def diagnose_motions(
     from armscope.recordings.motions import read_motions
     from armscope.robot.dynamics import load_moving_arm
 
-    cutoff, held_out, runs = settings
+    writable(output, *FILES, *(("report.html",) if asked.report else ()))
     arm = load_moving_arm(robot)
     motions = read_motions(table, arm.n_motors)
-    for run in runs:
+    for run in asked.runs:
         if run not in motions.runs:
             raise InputError("--run", "", run, f"{table} has no such run", nearest(run, motions.runs))
-    if runs:
-        motions = motions.rows(np.isin(motions.run, [*runs, *held_out]))
-    found = diagnose_motion(arm, motions, MotionSettings(cutoff, tuple(held_out)), tell)
+    if asked.runs:
+        motions = motions.rows(np.isin(motions.run, [*asked.runs, *asked.held_out]))
+    found = diagnose_motion(arm, motions, MotionSettings(asked.cutoff, tuple(asked.held_out)), tell)
     write_motion_verdict(found.verdict, output)
     save_motion_model(output / "model.yaml", found.model)
+    if asked.report:
+        from armscope.report.pages.motion import write_motion_report
+
+        tell("drawing the report", 0.98)
+        write_motion_report(found, table.name, output, asked.started)
     for notice in found.verdict.notices:
         print(f"note: {notice.text}", file=sys.stderr)
-    if as_json:
+    if asked.as_json:
         print_json(found.verdict.to_json())
     else:
         print(found.verdict.headline)
-        print(f"{output}/verdict.json")
+        print(f"{output}/{'report.html' if asked.report else 'verdict.json'}")
     return found.verdict.mismatch
 
 

@@ -80,7 +80,7 @@ def title(placed: PlacedCause) -> str:
 def cause_parameters(selected: SelectedCauses, number: int) -> tuple[Parameter, ...]:
     """A cause's numbers with standard errors: fitted ones, then scanned ones."""
     placed, columns = selected.rows.layout.placed[number], selected.rows.layout.columns[number]
-    values, stderr = selected.coefficients[columns], parameter_errors(selected, number)
+    values, stderr = selected.coefficients[columns], np.sqrt(np.diag(covariance_of(selected, number)))
     told = [
         Parameter(name, unit, float(value), float(error))
         for (name, unit), value, error in zip(placed.parameters, values, stderr, strict=True)
@@ -88,10 +88,11 @@ def cause_parameters(selected: SelectedCauses, number: int) -> tuple[Parameter, 
     return (*told, *(Parameter(name, unit, value, float("nan")) for name, unit, value in placed.scanned))
 
 
-def parameter_errors(selected: SelectedCauses, number: int) -> Array:
-    """(c,) standard errors of a chosen cause's fitted numbers, SI."""
+def covariance_of(selected: SelectedCauses, number: int) -> Array:
+    """(c, c) covariance of a chosen cause's fitted numbers, SI."""
     columns = selected.rows.layout.columns[number]
-    return np.asarray(np.sqrt(np.diag(selected.best.covariance(columns))) / selected.problem.scale[columns])
+    scale = selected.problem.scale[columns]
+    return np.asarray(selected.best.covariance(columns) / np.outer(scale, scale))
 
 
 def _shares(selected: SelectedCauses) -> list[float]:

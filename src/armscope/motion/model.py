@@ -20,11 +20,16 @@ from armscope.robot.dynamics import MovingArm
 
 @dataclass(frozen=True, eq=False)
 class FittedCause:
-    """A placed cause with the values of its parameters, SI, and their standard errors."""
+    """A placed cause with the values (c,) of its parameters, SI, and their covariance (c, c)."""
 
     placed: PlacedCause
     values: Array
-    stderr: Array
+    covariance: Array
+
+    @property
+    def stderr(self) -> Array:
+        """(c,) standard errors."""
+        return np.asarray(np.sqrt(np.diag(self.covariance)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +111,7 @@ def fitted_model(
     Args:
         layout: of the columns.
         coefficients: (p,) of all columns, SI.
-        chosen: number of each chosen cause, and the standard errors of its parameters.
+        chosen: number of each chosen cause, and the covariance of its parameters.
         how: filters and decimation.
 
     Returns:
@@ -123,8 +128,8 @@ def fitted_model(
         inertial=arm.inertial + layout.inertial_scale * coefficients[layout.inertial],
         gains=gains,
         causes=tuple(
-            FittedCause(layout.placed[number], coefficients[layout.columns[number]], stderr)
-            for number, stderr in chosen
+            FittedCause(layout.placed[number], coefficients[layout.columns[number]], covariance)
+            for number, covariance in chosen
         ),
         response=float(coefficients[layout.response][0]),
     )

@@ -60,7 +60,7 @@ class CauseReader:
             scanned=tuple((each.name, each.unit, each.value) for each in file.scanned),
         )
         errors = [np.nan if each.stderr is None else each.stderr for each in file.parameters]
-        return FittedCause(placed, np.array([each.value for each in file.parameters]), np.array(errors))
+        return FittedCause(placed, np.array([each.value for each in file.parameters]), np.diag(np.square(errors)))
 
     def _inertial(self, file: CauseFile, place: str) -> Array:
         inertial = np.zeros((len(self.arm.inertial), len(file.parameters)))

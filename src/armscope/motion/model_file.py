@@ -72,7 +72,7 @@ class LinkFile(Strict):
 
 
 class ParameterFile(Strict):
-    """A number of a cause with its standard error."""
+    """A number of a cause with its standard error; null where the motion does not tell it."""
 
     name: Word
     unit: Word
@@ -181,13 +181,18 @@ def cause_out(cause: FittedCause) -> CauseFile:
         variant=placed.variant,
         runs=placed.runs,
         parameters=tuple(
-            ParameterFile(name=name, unit=unit, value=float(value), stderr=float(error) if np.isfinite(error) else None)
+            ParameterFile(name=name, unit=unit, value=float(value), stderr=_told(float(error)))
             for (name, unit), value, error in zip(placed.parameters, cause.values, cause.stderr, strict=True)
         ),
         scanned=tuple(ScannedFile(name=name, unit=unit, value=value) for name, unit, value in placed.scanned),
         law=None if law is None else LawFile(kind=law.kind, joints=[j + 1 for j in law.joints], numbers=law.numbers),
         inertial=() if placed.inertial is None else tuple(_inertial_out(placed.inertial)),
     )
+
+
+def _told(error: float) -> float | None:
+    """A standard error; none where the motion does not tell the number at all."""
+    return error if error <= MODEL_FILE.largest else None
 
 
 def _inertial_out(inertial: Array) -> list[InertialFile]:

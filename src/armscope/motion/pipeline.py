@@ -17,10 +17,10 @@ from armscope.motion.cutoff import chosen_cutoff
 from armscope.motion.holding_out import HeldOutTorque, folds, held_out_torques, measure, own_fold, waterfall
 from armscope.motion.judgement import (
     answer_of,
+    covariance_of,
     found_causes,
     headline,
     joint_backgrounds,
-    parameter_errors,
     unexplained,
 )
 from armscope.motion.layout import TorqueLayout
@@ -80,7 +80,7 @@ class MotionDiagnosis:
         return fitted_model(
             layout,
             self.selected.coefficients,
-            [(number, parameter_errors(self.selected, number)) for number in numbers],
+            [(number, covariance_of(self.selected, number)) for number in numbers],
             self.how,
         )
 

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 from armscope.errormodels.reference_models import held_out_rms
 from armscope.recordings import Recordings
-from armscope.report.svg import Drawing
 from armscope.robot import Arm
 from armscope.verdict.contributions import Contributions, contributions
 from armscope.verdict.schema import Diagnosis
@@ -46,34 +43,3 @@ class Subject:
     def references(self) -> list[tuple[str, float]]:
         """(model, RMS per axis in mm on held-out rows) of the paper's models."""
         return held_out_rms(self.arm, self.recordings, self.verdict.residuals.before)
-
-
-@dataclass(frozen=True, eq=False)
-class Drawn:
-    """A figure and the name of its file."""
-
-    name: str
-    figure: Drawing
-
-
-@dataclass(frozen=True)
-class Section:
-    """A section of the page; its template is templates/diagnosis/<name>.html.j2.
-
-    Attributes:
-        name: its anchor.
-        link: what leads to it from the top of the page.
-        title: its heading.
-        context: what its template is filled with, beside ``verdict`` and ``figures`` (the saved ones by name).
-        figures: each draws what this verdict has something for.
-        applies: whether the page has it at all.
-        folded: whether it opens only when it is asked for.
-    """
-
-    name: str
-    link: str
-    title: str
-    context: Callable[[Subject], dict[str, Any]] = lambda subject: {}
-    figures: tuple[Callable[[Subject], Iterable[Drawn]], ...] = ()
-    applies: Callable[[Diagnosis], bool] = lambda verdict: True
-    folded: bool = False

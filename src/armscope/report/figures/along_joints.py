@@ -10,7 +10,8 @@ from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.recordings.motion import moving
 from armscope.report.colours import AFTER, BEFORE
-from armscope.report.subject import Drawn, Subject
+from armscope.report.sectioning import Drawn
+from armscope.report.subject import Subject
 from armscope.report.svg import Drawing, Panel
 from armscope.robot import chain, position_jacobian
 

@@ -10,7 +10,8 @@ import numpy as np
 from armscope.core.numerals import shown_unit
 from armscope.core.types import Array
 from armscope.report.colours import AFTER, OUTLINE, PALE
-from armscope.report.subject import Drawn, Subject
+from armscope.report.sectioning import Drawn
+from armscope.report.subject import Subject
 from armscope.report.svg import Drawing, Panel
 from armscope.verdict.schema import INTERVAL, FoundEffect
 from armscope.verdict.schema import Curve as FoundCurve

@@ -9,7 +9,8 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.report.colours import AFTER, BEFORE, INK, PAPER, QUIET
 from armscope.report.figures.arm_shape import ArmShape, View, arm_shape, view_from
-from armscope.report.subject import Drawn, Subject
+from armscope.report.sectioning import Drawn
+from armscope.report.subject import Subject
 from armscope.report.svg import Drawing
 from armscope.robot import Arm
 

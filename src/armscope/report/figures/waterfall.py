@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from armscope.report.colours import AFTER, BEFORE, GAIN, GOOD, INK, LINE, LOSS, OTHERS, PALE, QUIET
-from armscope.report.subject import Drawn, Subject
+from armscope.report.sectioning import Drawn
+from armscope.report.subject import Subject
 from armscope.report.svg import LETTER, Drawing, number, ticks
 from armscope.verdict.schema import Verdict, WaterfallStep
 from armscope.verdict.wording import plain
@@ -21,29 +22,46 @@ BEYOND = 1.6
 """Other models' errors are drawn up to so many times the largest of the steps."""
 
 
+@dataclass(frozen=True)
+class Quantity:
+    """What the bars are long by: the axis' words, and a value in words."""
+
+    axis: str
+    words: Callable[[float], str]
+
+
+def _millimetres(value: float) -> str:
+    return f"{value:.3f} mm" if value < 1 else f"{value:.2f} mm"
+
+
+POSITIONS = Quantity("RMS on held-out rows, per axis (mm)", _millimetres)
+
+
 def draw_waterfall(
     steps: Sequence[tuple[str, float]],
-    noise_mm: float | None,
+    noise: float | None,
     references: Sequence[tuple[str, float]] = (),
     spreads: Sequence[float] | None = None,
+    quantity: Quantity = POSITIONS,
 ) -> Drawing:
-    """Held-out RMS as effects enter, the noise floor, and other models fitted to the same rows.
+    """Held-out error as effects enter, the noise floor, and other models fitted to the same rows.
 
     Args:
-        steps: (what entered, held-out RMS in mm with it), the first without any effect.
-        noise_mm: the noise per axis, None where unknown.
-        references: (model, held-out RMS in mm), for comparison.
-        spreads: standard deviation of each step's RMS from fold to fold, mm: drawn as whiskers.
+        steps: (what entered, held-out error with it, in the unit of the quantity), the first without any effect.
+        noise: in that unit, None where unknown.
+        references: (model, held-out error), for comparison.
+        spreads: standard deviation of each step's error from fold to fold: drawn as whiskers.
+        quantity: what the error is.
 
     Returns:
         The figure.
     """
     shown = [(name, rms) for name, rms in references if np.isfinite(rms)]
-    return _Bars(steps, noise_mm, shown, spreads or [np.nan] * len(steps)).drawn()
+    return _Bars(steps, noise, shown, spreads or [np.nan] * len(steps), quantity).drawn()
 
 
 class _Bars:
-    """Bars under each other; x turns mm into px."""
+    """Bars under each other; x turns errors into px."""
 
     def __init__(
         self,
@@ -51,8 +69,10 @@ class _Bars:
         noise: float | None,
         others: Sequence[tuple[str, float]],
         spreads: Sequence[float],
+        quantity: Quantity,
     ) -> None:
         self.steps, self.noise, self.others, self.spreads = steps, noise, others, spreads
+        self.quantity = quantity
         largest = max(rms for _, rms in steps)
         self.limit = 1.2 * max([largest, *(min(rms, BEYOND * largest) for _, rms in others)])
         longest = max(len(name) for name, _ in [*steps, *others])
@@ -63,8 +83,8 @@ class _Bars:
             WIDTH, self.bottom + 46, "Held-out error as effects enter the model, with its spread from fold to fold"
         )
 
-    def x(self, millimetres: float) -> float:
-        return self.left + min(millimetres, self.limit) / self.limit * (WIDTH - self.left - 14)
+    def x(self, error: float) -> float:
+        return self.left + min(error, self.limit) / self.limit * (WIDTH - self.left - 14)
 
     def bar(self, top: float, start: float, end: float, colour: str) -> None:
         low, high = sorted((self.x(start), self.x(end)))
@@ -83,7 +103,7 @@ class _Bars:
             self.drawing.text((self.left - 8, top + ROW / 2), name, size=LETTERS, anchor="end", fill=QUIET)
             self.bar(top, 0, rms, OTHERS)
             at = (WIDTH - 20, top + ROW / 2) if beyond else (self.x(rms) + 6, top + ROW / 2)
-            words = _millimetres(rms) + (" →" if beyond else "")
+            words = self.quantity.words(rms) + (" →" if beyond else "")
             self.drawing.text(at, words, size=LETTERS, anchor="end" if beyond else "start")
         return self.drawing
 
@@ -103,7 +123,7 @@ class _Bars:
             ends = np.array([[self.x(max(rms - spread, 0)), middle], [self.x(rms + spread), middle]])
             self.drawing.line(ends, INK, 1.2, 2)
         edge = self.x(max(rms + spread, before)) + 6
-        self.drawing.text((edge, middle), _millimetres(rms), size=LETTERS)
+        self.drawing.text((edge, middle), self.quantity.words(rms), size=LETTERS)
 
     def axis(self) -> None:
         for tick in ticks(0, self.limit):
@@ -111,17 +131,13 @@ class _Bars:
             self.drawing.line(np.array([[x, self.top - 4], [x, self.bottom]]), LINE, 0.8, -2)
             self.drawing.text((x, self.bottom + 10), number(tick), size=11, anchor="middle", fill=QUIET)
         whiskers = "; whiskers: standard deviation from fold to fold" if np.isfinite(self.spreads).any() else ""
-        words = f"RMS on held-out rows, per axis (mm){whiskers}"
+        words = f"{self.quantity.axis}{whiskers}"
         self.drawing.text(((self.left + WIDTH) / 2, self.bottom + 30), words, size=LETTERS, anchor="middle")
         if self.noise is not None:
             x = self.x(self.noise)
             self.drawing.line(np.array([[x, self.top - 6], [x, self.bottom]]), GOOD, 1.8, 3, "6 4")
-            words = f"noise {_millimetres(self.noise)}"
+            words = f"noise {self.quantity.words(self.noise)}"
             self.drawing.text((x + 3, self.top - 14), words, size=LETTERS, fill=GOOD, weight="bold")
-
-
-def _millimetres(value: float) -> str:
-    return f"{value:.3f} mm" if value < 1 else f"{value:.2f} mm"
 
 
 def waterfall_figure(subject: Subject) -> Iterator[Drawn]:

@@ -5,8 +5,6 @@ from __future__ import annotations
 import importlib.metadata
 import math
 import time
-from collections.abc import Iterable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +13,10 @@ from markupsafe import Markup
 from armscope.core.files import write_table, write_text
 from armscope.report.colours import page_variables
 from armscope.report.html import render_page
+from armscope.report.sectioning import write_sections
 from armscope.report.sections.effects import findings
 from armscope.report.sections.registry import SECTIONS
-from armscope.report.subject import Drawn, Section, Subject
+from armscope.report.subject import Subject
 from armscope.verdict.schema import Diagnosis, Notice
 from armscope.verdict.sentences import another_model, more_than_noise, unusable
 from armscope.verdict.wording import millimetres, percent
@@ -35,17 +34,6 @@ REPORT, ORDER = "report.html", "work-order.html"
 ZEROS, ROWS = "zero_offsets.csv", "corrected_dh.csv"
 
 
-@dataclass(frozen=True)
-class Written:
-    """A section as the page takes it."""
-
-    name: str
-    link: str
-    title: str
-    folded: bool
-    html: Markup
-
-
 def write_report(verdict: Diagnosis, folder: Path | str, started: float | None = None) -> Path:
     """Write ``report.html``, ``work-order.html``, its tables as CSV, and ``figures/*.svg``.
 
@@ -58,14 +46,7 @@ def write_report(verdict: Diagnosis, folder: Path | str, started: float | None =
         The page's path.
     """
     folder, subject = Path(folder), Subject(verdict)
-    sections = [section for section in SECTIONS if section.applies(verdict)]
-    figures = {
-        drawn.name: _saved(drawn, folder / "figures")
-        for section in sections
-        for figure in section.figures
-        for drawn in figure(subject)
-    }
-    written = list(_written(sections, subject, figures))
+    written = write_sections(SECTIONS, subject, "diagnosis", folder)
     write_work_order(subject, folder)
     seconds = "" if started is None else f"{time.time() - started:.1f}"
     page = render_page("diagnosis.html.j2", **_head(verdict), sections=written, seconds=seconds)
@@ -99,23 +80,11 @@ def write_work_order(subject: Subject, folder: Path) -> None:
     write_text(folder / ORDER, render_page("work_order.html.j2", **content))
 
 
-def _saved(drawn: Drawn, folder: Path) -> Markup:
-    write_text(folder / f"{drawn.name}.svg", drawn.figure.svg(paper=True))
-    return Markup(drawn.figure.svg())  # its words were escaped when they were drawn
-
-
-def _written(sections: Iterable[Section], subject: Subject, figures: dict[str, Markup]) -> Iterable[Written]:
-    for section in sections:
-        context = {"verdict": subject.verdict, "figures": figures, **section.context(subject)}
-        # its own template escaped what it was filled with
-        html = Markup(render_page(f"diagnosis/{section.name}.html.j2", **context))
-        yield Written(section.name, section.link, section.title, section.folded, html)
-
-
 def _about(verdict: Diagnosis) -> dict[str, Any]:
     """What both pages say of what they are about."""
     return {
         "version": importlib.metadata.version("armscope"),
+        "arm_name": verdict.arm,
         "verdict": verdict,
         "source": Path(verdict.source).name,
         "warnings": [notice for notice in verdict.notices if _warns(notice, verdict)],

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from armscope.report.figures.along_joints import along_joints_figure
-from armscope.report.subject import Section
+from armscope.report.sectioning import Section
 
 TITLE = "The error along each joint's motion"
 ALONG = Section("along", "Joint by joint", TITLE, figures=(along_joints_figure,), folded=True)

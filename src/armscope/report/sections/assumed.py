@@ -11,7 +11,8 @@ import pandas as pd
 from armscope.core.numerals import rounded
 from armscope.recordings import Recordings
 from armscope.recordings.motion import moving
-from armscope.report.subject import Section, Subject
+from armscope.report.sectioning import Section
+from armscope.report.subject import Subject
 from armscope.robot import Arm
 from armscope.verdict.schema import Verdict
 from armscope.verdict.wording import millimetres

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from armscope.report.figures.atlas import atlas_map, attribution
-from armscope.report.subject import Section, Subject
+from armscope.report.sectioning import Section
+from armscope.report.subject import Subject
 
 
 def _context(subject: Subject) -> dict[str, Any]:

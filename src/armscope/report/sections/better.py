@@ -10,7 +10,8 @@ import pandas as pd
 
 from armscope.core.numerals import rounded
 from armscope.report.figures.waterfall import waterfall_figure, waterfall_steps
-from armscope.report.subject import Section, Subject
+from armscope.report.sectioning import Section
+from armscope.report.subject import Subject
 from armscope.verdict.schema import Verdict
 from armscope.verdict.wording import millimetres
 

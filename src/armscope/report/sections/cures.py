@@ -12,7 +12,8 @@ from markupsafe import Markup
 from armscope.core.types import Array
 from armscope.report.figures.arm import location_shares
 from armscope.report.figures.error_field import ErrorField, turnable
-from armscope.report.subject import Section, Subject
+from armscope.report.sectioning import Section
+from armscope.report.subject import Subject
 from armscope.verdict.contributions import Contributions, rms
 from armscope.verdict.wording import capitalised, millimetres, plain
 

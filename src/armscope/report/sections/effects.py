@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from armscope.report.figures.effect_curve import effect_curves, worth_drawing
+from armscope.report.sectioning import Section
 from armscope.report.sections.effect_cards import Card, card
-from armscope.report.subject import Section, Subject
+from armscope.report.subject import Subject
 from armscope.verdict.contributions import rms
 from armscope.verdict.schema import Diagnosis, FoundEffect, NextPoses
 from armscope.verdict.wording import main_and_minor, millimetres, percent

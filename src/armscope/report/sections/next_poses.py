@@ -8,8 +8,9 @@ import numpy as np
 import pandas as pd
 
 from armscope.report.figures.next_poses import next_poses_figure
+from armscope.report.sectioning import Section
 from armscope.report.sections.effects import findings
-from armscope.report.subject import Section, Subject
+from armscope.report.subject import Subject
 from armscope.verdict.schema import NextPoses
 
 

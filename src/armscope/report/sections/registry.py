@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from armscope.report.sectioning import Section
 from armscope.report.sections.along import ALONG
 from armscope.report.sections.assumed import ASSUMED
 from armscope.report.sections.atlas import ATLAS
@@ -14,9 +15,9 @@ from armscope.report.sections.rows import ROWS
 from armscope.report.sections.terms import TERMS
 from armscope.report.sections.where import WHERE
 from armscope.report.sections.work import WORK
-from armscope.report.subject import Section
+from armscope.report.subject import Subject
 
-SECTIONS: tuple[Section, ...] = (
+SECTIONS: tuple[Section[Subject], ...] = (
     WORK, WHERE, CURES, EFFECTS, NEXT, LEFT, BETTER, ATLAS, ALONG, ROWS, ASSUMED, TERMS,
 )  # fmt: skip
 """What a person acts on comes first; what it rests on is folded below."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from armscope.report.subject import Section
+from armscope.report.sectioning import Section
+from armscope.report.subject import Subject
 
 GLOSSARY = (
     ("Mismatch, residual", "Measured tool position minus the position that the model predicts from the joint angles."),
@@ -29,4 +30,4 @@ GLOSSARY = (
 )  # fmt: skip
 
 
-TERMS = Section("terms", "Terms", "Terms", lambda subject: {"glossary": GLOSSARY}, folded=True)
+TERMS: Section[Subject] = Section("terms", "Terms", "Terms", lambda subject: {"glossary": GLOSSARY}, folded=True)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from armscope.report.figures.arm import arm_figure
+from armscope.report.sectioning import Section
 from armscope.report.sections.effects import findings
-from armscope.report.subject import Section, Subject
+from armscope.report.subject import Subject
 
 
 def _context(subject: Subject) -> dict[str, Any]:

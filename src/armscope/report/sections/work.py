@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from armscope.report.subject import Section, Subject
+from armscope.report.sectioning import Section
+from armscope.report.subject import Subject
 from armscope.verdict.wording import millimetres
 
 

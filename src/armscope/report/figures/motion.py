@@ -1,0 +1,194 @@
+"""Torques of an arm in motion: over time, friction over speed, and what is left over angle, speed and time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from armscope.core.sampling import spread_evenly
+from armscope.core.types import Array
+from armscope.motion.laws import Law
+from armscope.motion.shapes import free_curve, friction_over_speed, limits_of
+from armscope.report.colours import AFTER, BEFORE, INK, OUTLINE, QUIET
+from armscope.report.figures.along_joints import running_mean
+from armscope.report.figures.effect_curve import Curve, draw_curves
+from armscope.report.motion_subject import MotionSubject, longest_piece
+from armscope.report.sectioning import Drawn
+from armscope.report.svg import Drawing, Panel
+from armscope.verdict.schema import INTERVAL
+
+WIDE, HIGH = 500.0, 200.0
+"""Of one joint's picture, px."""
+SMALL = 330.0
+"""Width of a picture of what is left, px."""
+MOST_ROWS, MOST_DOTS = 450, 500
+BEYOND = 1.6
+"""A simulated torque is drawn up to so many times the measured ones' range."""
+Key = tuple[str, str]
+"""A colour and what it stands for."""
+
+
+def trace_figures(subject: MotionSubject) -> Iterator[Drawn]:
+    """Torques of every joint over a piece of motion that took no part: measured, as stated, corrected."""
+    part = max(subject.found.held, key=lambda each: len(each.which))
+    piece = longest_piece(part, MOST_ROWS)
+    time = part.rows.time[part.which][piece]
+    for joint in range(subject.arm.n_motors):
+        lines = [(each[piece, joint], colour, width) for each, colour, width in (
+            (part.measured, INK, 3.2), (part.stated, BEFORE, 1.4), (part.model, AFTER, 1.6),
+        )]  # fmt: skip
+        yield Drawn(f"trace_{joint + 1}", draw_trace(f"joint {joint + 1}", subject.unit(joint), time, lines))
+
+
+def draw_trace(title: str, unit: str, time: Array, lines: Sequence[tuple[Array, str, float]]) -> Drawing:
+    """Measured, simulated and corrected torque over time.
+
+    Args:
+        title: the joint.
+        unit: of torque.
+        time: (K,) s.
+        lines: torque (K,), colour and width of each: measured first, then as stated, then corrected.
+
+    Returns:
+        The figure.
+    """
+    measured = lines[0][0]
+    middle, half = (measured.max() + measured.min()) / 2, max(float(np.ptp(measured)) / 2, 1e-9)
+    shown = np.clip(np.concatenate([each for each, _, _ in lines]), middle - BEYOND * half, middle + BEYOND * half)
+    drawing = Drawing(WIDE, HIGH, f"Torque of {title} over time on held-out motion: measured, as stated, corrected")
+    panel = _panel(drawing, WIDE, (float(time[0]), float(time[-1])), _range(shown))
+    panel.frame("", "time (s)", f"torque ({unit})")
+    for values, colour, width in lines:
+        drawing.line(panel.at(time, values), colour, width)
+    _head(drawing, title, ((INK, "measured"), (BEFORE, "as stated"), (AFTER, "corrected")))
+    return drawing
+
+
+def friction_figures(subject: MotionSubject) -> Iterator[Drawn]:
+    """Friction of every joint that moves, over its speed: what the rows say, and the model's curve."""
+    rows, model = subject.found.selected.rows, subject.found.model
+    left = subject.found.selected.residuals
+    few = spread_evenly(len(rows), MOST_DOTS)
+    for joint in subject.moving:
+        speed = rows.dq[:, joint]
+        cloud = left[few, joint] + friction_over_speed(model, joint, speed[few])
+        # steps fine enough for the change of sides at rest, which is the steepest there is
+        low, high = float(speed.min()), float(speed.max())
+        grid = np.unique(np.concatenate([np.linspace(low, high, 160), np.linspace(-0.02, 0.02, 41) * (high - low)]))
+        grid = grid[(grid >= low) & (grid <= high)]
+        factor, unit = subject.shown(joint)
+        curve = friction_over_speed(model, joint, grid)
+        drawn = draw_friction(
+            f"joint {joint + 1}",
+            (factor * speed[few], cloud),
+            (factor * grid, curve),
+            (f"speed ({unit}/s)", f"friction ({subject.unit(joint)})"),
+        )
+        yield Drawn(f"friction_{joint + 1}", drawn)
+
+
+def draw_friction(title: str, cloud: tuple[Array, Array], curve: tuple[Array, Array], labels: Key) -> Drawing:
+    """A cloud of friction over speed, and the model's curve.
+
+    Args:
+        title: the joint.
+        cloud: (K,) speeds and friction of rows.
+        curve: (N,) speeds and friction by the model.
+        labels: of both axes.
+
+    Returns:
+        The figure.
+    """
+    drawing = Drawing(WIDE, HIGH, f"Friction of {title} over its speed: rows and the model's curve")
+    values = np.concatenate([np.percentile(cloud[1], [0.5, 99.5]), curve[1]])
+    panel = _panel(drawing, WIDE, (float(curve[0][0]), float(curve[0][-1])), _range(values))
+    panel.frame("", *labels)
+    for ends in ((np.array(panel.x), np.zeros(2)), (np.zeros(2), np.array(panel.y))):
+        drawing.line(panel.at(*ends), OUTLINE, 0.8, -1)
+    drawing.dots(panel.at(*cloud), QUIET, 2.4, 0.45)
+    drawing.line(panel.at(*curve), AFTER, 2.4, 1)
+    _head(drawing, title, ((QUIET, "rows"), (AFTER, "model")))
+    return drawing
+
+
+def left_figures(subject: MotionSubject) -> Iterator[Drawn]:
+    """What is left of every joint's torque on held-out motion over its angle, its speed and time."""
+    held = subject.held
+    few = spread_evenly(len(held.time), MOST_DOTS)
+    for joint in subject.moving:
+        factor, unit = subject.shown(joint)
+        before, after = ((held.measured - each)[:, joint] for each in (held.background, held.model))
+        limit = 1.2 * float(np.percentile(np.abs(before), 99)) + 1e-12
+        along = (
+            ("position" if subject.arm.sliding[joint] else "angle", factor * held.q[:, joint], unit),
+            ("speed", factor * held.dq[:, joint], f"{unit}/s"),
+            ("time", held.time, "s"),
+        )
+        for name, at, of in along:
+            drawing = Drawing(SMALL, HIGH, f"What is left of joint {joint + 1}'s torque over its {name}")
+            panel = _panel(drawing, SMALL, (float(at.min()), float(at.max()) + 1e-9), (-limit, limit))
+            panel.frame("", f"{name} ({of})", f"left ({subject.unit(joint)})")
+            for values, colour in ((before, BEFORE), (after, AFTER)):
+                drawing.dots(panel.at(at[few], values[few]), colour, 2.2, 0.45)
+                drawing.line(panel.at(*running_mean(at, values)), colour, 2.2, 1)
+            _head(drawing, f"joint {joint + 1}", ((BEFORE, "friction only"), (AFTER, "with causes")))
+            yield Drawn(f"left_{joint + 1}_{name if name != 'position' else 'angle'}", drawing)
+
+
+def curve_figures(subject: MotionSubject) -> Iterator[Drawn]:
+    """Free curves among the causes, by the number of the cause."""
+    fitted = {(str(each.placed.cause.name), each.placed.location, each.placed.driver): each
+              for each in subject.found.model.causes if each.placed.is_curve}  # fmt: skip
+    for number, cause in enumerate(subject.verdict.effects, start=1):
+        curve = fitted.get((cause.effect, cause.location, cause.driver))
+        if curve is not None:
+            law = curve.placed.columns
+            assert isinstance(law, Law)
+            at = np.linspace(*_seen(subject, cause.driver, law.joints[0], limits_of(curve)), 120)
+            value, stderr = free_curve(curve, at)
+            factor, unit = _driver_unit(subject, cause.driver, law.joints[0])
+            band = INTERVAL * stderr
+            drawn = Curve(
+                f"what {cause.location} does over the {cause.driver}",
+                factor * at, value, value - band, value + band,
+                f"{cause.driver} ({unit})", f"torque ({cause.unit})",
+            )  # fmt: skip
+            yield Drawn(f"curve_{number}", draw_curves([drawn]))
+
+
+def _seen(subject: MotionSubject, driver: str, joint: int, limits: tuple[float, float]) -> tuple[float, float]:
+    """Where the rows were: beyond that a curve is anything."""
+    rows = subject.found.selected.rows
+    there = {"joint angle": rows.q, "speed": rows.dq, "load": rows.nominal}.get(driver)
+    if there is None:
+        return limits
+    low, high = np.percentile(there[:, joint], [1, 99])
+    return max(limits[0], float(low)), min(limits[1], float(high))
+
+
+def _driver_unit(subject: MotionSubject, driver: str, joint: int) -> tuple[float, str]:
+    factor, unit = subject.shown(joint)
+    units = {"joint angle": (factor, unit), "speed": (factor, f"{unit}/s"), "load": (1.0, subject.unit(joint))}
+    return units.get(driver, (1.0, {"time": "s", "temperature": "°C"}.get(driver, "")))
+
+
+def _panel(drawing: Drawing, wide: float, x: tuple[float, float], y: tuple[float, float]) -> Panel:
+    return Panel(drawing, 62, 26, wide - 74, HIGH - 68, x, y)
+
+
+def _range(values: Array) -> tuple[float, float]:
+    low, high = float(np.min(values)), float(np.max(values))
+    edge = 0.06 * max(high - low, 1e-9)
+    return low - edge, high + edge
+
+
+def _head(drawing: Drawing, title: str, keys: Sequence[Key]) -> None:
+    """The joint's name on the left, what the colours stand for on the right."""
+    drawing.text((62, 12), title, size=13, weight="bold")
+    right = drawing.width - 12
+    for colour, words in reversed(keys):
+        drawing.text((right, 12), words, size=12, anchor="end")
+        right -= 7.4 * len(words) + 6
+        drawing.line(np.array([[right - 16, 12], [right, 12]]), colour, 2.8)
+        right -= 30

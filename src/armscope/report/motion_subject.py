@@ -1,0 +1,91 @@
+"""What the page of a moving arm is about: the diagnosis, and what several sections and figures ask of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.motion.holding_out import HeldOutTorque
+from armscope.motion.pipeline import MotionDiagnosis
+from armscope.motion.verdict import FoundCause, MotionVerdict
+from armscope.robot.dynamics import MovingArm
+
+
+@dataclass(frozen=True, eq=False)
+class MotionSubject:
+    """A diagnosis of a motion, and the name of its table."""
+
+    found: MotionDiagnosis
+    source: str
+
+    @property
+    def verdict(self) -> MotionVerdict:
+        """What was found."""
+        return self.found.verdict
+
+    @property
+    def arm(self) -> MovingArm:
+        """The arm as stated."""
+        return self.found.arm
+
+    @property
+    def main(self) -> list[FoundCause]:
+        """The causes of the story, largest share first."""
+        return [cause for cause in self.verdict.effects if not cause.minor]
+
+    @property
+    def minor(self) -> list[FoundCause]:
+        """Those worth little."""
+        return [cause for cause in self.verdict.effects if cause.minor]
+
+    @cached_property
+    def held(self) -> HeldOutRows:
+        """All rows that took no part, one below the other."""
+        parts = self.found.held
+        return HeldOutRows(
+            *(np.concatenate([getattr(part.rows, name)[part.which] for part in parts]) for name in ("time", "q", "dq")),
+            *(np.concatenate([getattr(part, name) for part in parts]) for name in ("measured", "background", "model")),
+        )
+
+    @cached_property
+    def moving(self) -> list[int]:
+        """Joints, from 0, that move in the rows that were fitted."""
+        return [int(j) for j in np.flatnonzero((~self.found.selected.rows.still).any(axis=0))]
+
+    def unit(self, joint: int) -> str:
+        """Of a joint's torque."""
+        return "N" if self.arm.sliding[joint] else "N m"
+
+    def shown(self, joint: int) -> tuple[float, str]:
+        """Factor and unit in which a joint's position is shown."""
+        return (1e3, "mm") if self.arm.sliding[joint] else (180 / np.pi, "deg")
+
+
+@dataclass(frozen=True, eq=False)
+class HeldOutRows:
+    """(K,) time, s, and (K, m) positions, speeds, and torques: measured, with friction fitted, by the model."""
+
+    time: Array
+    q: Array
+    dq: Array
+    measured: Array
+    background: Array
+    model: Array
+
+
+def longest_piece(part: HeldOutTorque, most: int) -> slice:
+    """Of the rows that were held out, the piece without a gap in which most happens, at most so many rows."""
+    stretch = part.rows.stretch[part.which]
+    best, where = -1.0, slice(0, len(stretch))
+    scale = np.maximum(np.std(part.measured, axis=0), 1e-12)
+    for number in np.unique(stretch):
+        rows = np.flatnonzero(stretch == number)
+        for start in range(int(rows[0]), int(rows[-1]) + 1, most):
+            piece = slice(start, min(start + most, int(rows[-1]) + 1))
+            lively = float(np.sum(np.std(part.measured[piece] / scale, axis=0))) * (piece.stop - piece.start)
+            if lively > best:
+                best, where = lively, piece
+    return where

@@ -1,0 +1,100 @@
+"""Sections of a page: what each shows, and how it becomes HTML; the page of a diagnosis of positions or of a motion."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Generic, Protocol, TypeVar
+
+from markupsafe import Markup
+
+from armscope.core.files import write_text
+from armscope.report.html import render_page
+from armscope.report.svg import Drawing
+
+
+class HasVerdict(Protocol):
+    """What a page is about."""
+
+    @property
+    def verdict(self) -> Any:
+        """What was found."""
+
+
+S = TypeVar("S", bound=HasVerdict)
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """A figure and the name of its file."""
+
+    name: str
+    figure: Drawing
+
+
+@dataclass(frozen=True)
+class Section(Generic[S]):
+    """A section of a page; its template is <name>.html.j2 in the page's folder of templates.
+
+    Attributes:
+        name: its anchor.
+        link: what leads to it from the top of the page.
+        title: its heading.
+        context: what its template is filled with, beside ``verdict`` and ``figures`` (the saved ones by name).
+        figures: each draws what this subject has something for.
+        applies: whether the page of this verdict has it at all.
+        folded: whether it opens only when it is asked for.
+    """
+
+    name: str
+    link: str
+    title: str
+    context: Callable[[S], dict[str, Any]] = lambda subject: {}
+    figures: tuple[Callable[[S], Iterable[Drawn]], ...] = ()
+    applies: Callable[[Any], bool] = lambda verdict: True
+    folded: bool = False
+
+
+@dataclass(frozen=True)
+class Written:
+    """A section as the page takes it."""
+
+    name: str
+    link: str
+    title: str
+    folded: bool
+    html: Markup
+
+
+def write_sections(sections: Sequence[Section[S]], subject: S, templates: str, folder: Path) -> list[Written]:
+    """Draw and save the figures of those sections that apply, and fill the sections' templates.
+
+    Args:
+        sections: in their order.
+        subject: what the page is about.
+        templates: the folder of their templates.
+        folder: figures go into its folder ``figures``.
+
+    Returns:
+        The sections as HTML.
+    """
+    shown = [section for section in sections if section.applies(subject.verdict)]
+    figures = {
+        drawn.name: _saved(drawn, folder / "figures")
+        for section in shown
+        for figure in section.figures
+        for drawn in figure(subject)
+    }
+    written = []
+    for section in shown:
+        context = {"verdict": subject.verdict, "figures": figures, **section.context(subject)}
+        # its own template escaped what it was filled with
+        html = Markup(render_page(f"{templates}/{section.name}.html.j2", **context))
+        written.append(Written(section.name, section.link, section.title, section.folded, html))
+    return written
+
+
+def _saved(drawn: Drawn, folder: Path) -> Markup:
+    write_text(folder / f"{drawn.name}.svg", drawn.figure.svg(paper=True))
+    return Markup(drawn.figure.svg())  # its words were escaped when they were drawn

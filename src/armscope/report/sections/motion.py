@@ -1,0 +1,174 @@
+"""The sections of the page of an arm in motion, in their order, and what their templates are filled with."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+import pandas as pd
+
+from armscope.core.inputs import InputError
+from armscope.core.location import Location
+from armscope.motion.verdict import FoundCause, JointBackground
+from armscope.report.figures.arm_picture import draw_arm
+from armscope.report.figures.motion import curve_figures, friction_figures, left_figures, trace_figures
+from armscope.report.figures.waterfall import Quantity, draw_waterfall
+from armscope.report.motion_subject import MotionSubject
+from armscope.report.sectioning import Drawn, Section
+from armscope.report.sections.effect_cards import Alternative, gap_in_words
+from armscope.robot.arm import build_arm
+from armscope.verdict.schema import INDISTINGUISHABLE_NATS, Parameter
+from armscope.verdict.wording import Reading, capitalised, evidence_in_words, percent, read_parameter
+
+RELATIVE = Quantity("error on held-out motion, relative to its torque (%)", lambda value: f"{value:.3g} %")
+KNOT = "knot "
+BY_VALUES = "found by trying values"
+
+
+@dataclass(frozen=True)
+class MotionCard:
+    """The texts of a cause's card; `figure` is the name of its curve's figure or ""."""
+
+    anchor: str
+    title: str
+    share: str
+    share_width: float
+    size: str
+    readings: tuple[Reading, ...]
+    physics: str
+    confirm: str
+    cure: str
+    evidence: str
+    alternatives: tuple[Alternative, ...]
+    paths: str
+    doubt: str
+    figure: str
+
+
+def motion_card(cause: FoundCause, number: int) -> MotionCard:
+    """The card of the ``number``-th cause (from 1)."""
+    curve = any(each.name.startswith(KNOT) for each in cause.parameters)
+    doubt = ""
+    if cause.consistent is False:
+        doubt = "Its size differs from path to path: take it as one way to say what happens, not as the cause."
+    return MotionCard(
+        anchor=f"cause-{number}",
+        title=capitalised(cause.title),
+        share=percent(cause.share),
+        share_width=min(100.0, max(0.0, 100 * cause.share)),
+        size=f"{cause.rms:.2g} {cause.unit} RMS at {cause.joint}",
+        readings=tuple(signed(each) for each in cause.parameters if not each.name.startswith(KNOT)),
+        physics=cause.physics,
+        confirm=cause.confirm,
+        cure=cause.cure,
+        evidence=f"{capitalised(evidence_in_words(cause.evidence_nats))} ({cause.evidence_nats:.0f} nats).",
+        alternatives=tuple(
+            Alternative(
+                _named(other.effect, other.location, other.driver),
+                gap_in_words(other),
+                other.discriminability_nats < INDISTINGUISHABLE_NATS,
+            )
+            for other in cause.alternatives
+        ),
+        paths=f"{capitalised(cause.carries_over)}." if cause.carries_over else "",
+        doubt=doubt,
+        figure=f"curve_{number}" if curve else "",
+    )
+
+
+def signed(parameter: Parameter) -> Reading:
+    """A parameter as a card shows it: departures carry their sign."""
+    reading = read_parameter(parameter)
+    fitted = reading.interval != BY_VALUES
+    return replace(reading, value=f"+{reading.value}") if fitted and parameter.value > 0 else reading
+
+
+def _named(effect: str, location: str, driver: str) -> str:
+    follows = f" that follows the {driver}" if effect == "unknown" and driver else ""
+    name = "an unknown torque" if effect == "unknown" else effect.replace("_", " ")
+    return f"{name} at {location}{follows}" if location != "payload" else name
+
+
+def _cards(subject: MotionSubject) -> dict[str, Any]:
+    number = {id(cause): n for n, cause in enumerate(subject.verdict.effects, start=1)}
+    main, minor = ([motion_card(c, number[id(c)]) for c in each] for each in (subject.main, subject.minor))
+    return {"cards": main, "minor": minor, "minor_share": percent(sum(cause.share for cause in subject.minor))}
+
+
+def _where(subject: MotionSubject) -> dict[str, Any]:
+    return {**_cards(subject), "joints": subject.arm.n_motors}
+
+
+def arm_of_motion(subject: MotionSubject) -> Iterator[Drawn]:
+    """The arm coloured by share; none of an arm whose joints slide, which the picture does not know."""
+    try:
+        arm = build_arm(subject.arm.description)
+    except (InputError, ValueError):
+        return
+    shares: dict[str, float] = {}
+    for cause in subject.verdict.effects:
+        place = cause.location if _has_a_place(cause.location) else "payload"
+        shares[place] = shares.get(place, 0.0) + min(max(cause.share, 0.0), 1.0)
+    rows = subject.found.selected.rows
+    yield Drawn("arm", draw_arm(arm, rows.q, {place: min(share, 1.0) for place, share in shares.items()}))
+
+
+def _has_a_place(location: str) -> bool:
+    try:
+        return Location.of(location).kind in ("joint", "link", "base", "payload", "tool")
+    except ValueError:
+        return False
+
+
+def waterfall_of_motion(subject: MotionSubject) -> Iterator[Drawn]:
+    """The relative error on held-out motion as causes enter."""
+    steps = [(name, error) for name, error, _ in relative_steps(subject)]
+    yield Drawn("waterfall", draw_waterfall(steps, None, quantity=RELATIVE))
+
+
+def relative_steps(subject: MotionSubject) -> list[tuple[str, float, float]]:
+    """(what entered, error on held-out motion, error on fitted motion), %; the arm as stated first."""
+    steps = [("as stated, nothing fitted", 100 * subject.verdict.held_out.stated, float("nan"))]
+    for number, step in enumerate(subject.verdict.waterfall):
+        label = step.label if number == 0 else f"+ {step.label}"
+        steps.append((label, 100 * step.held_out, 100 * step.fitted))
+    return steps
+
+
+def _better(subject: MotionSubject) -> dict[str, Any]:
+    names = ["model", "error on held-out motion (%)", "on fitted motion (%)"]
+    model = RELATIVE.words(100 * subject.verdict.held_out.model)
+    return {"steps": pd.DataFrame(relative_steps(subject), columns=names), "model": model}
+
+
+def _friction(subject: MotionSubject) -> dict[str, Any]:
+    names = ("coulomb", "viscous", "inertia")
+    return {"joints": [(each, _told(each, names)) for each in subject.verdict.background]}
+
+
+def _told(joint: JointBackground, names: tuple[str, ...]) -> list[Reading | None]:
+    known = {parameter.name: read_parameter(parameter) for parameter in joint.parameters}
+    return [known.get(name) for name in names]
+
+
+def _left(subject: MotionSubject) -> dict[str, Any]:
+    return {"moving": [joint + 1 for joint in subject.moving], "by_joint": subject.verdict.held_out.by_joint,
+            "units": [subject.unit(joint) for joint in range(subject.arm.n_motors)]}  # fmt: skip
+
+
+def _prepared(subject: MotionSubject) -> dict[str, Any]:
+    return {"how": subject.found.how, "masses": percent(subject.verdict.masses_share)}
+
+
+Motion = Section[MotionSubject]
+MOTION_SECTIONS: tuple[Motion, ...] = (
+    Motion("where", "Where", "Where the torque goes", _where, (arm_of_motion,)),
+    Motion("causes", "Causes", "What was found", _cards, (curve_figures,)),
+    Motion("torque", "Torque", "Torque on motion that took no part", lambda s: {"n": s.arm.n_motors}, (trace_figures,)),
+    Motion("friction", "Friction", "Friction and rotors of every joint", _friction, (friction_figures,)),
+    Motion("better", "Validation", "How much better the model predicts", _better, (waterfall_of_motion,)),
+    Motion("left", "What is left", "What is left, over angle, speed and time", _left, (left_figures,), folded=True),
+    Motion("prepared", "Preparation", "How samples became rows", _prepared, folded=True),
+)
+"""What a person acts on comes first."""
