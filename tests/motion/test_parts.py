@@ -16,6 +16,7 @@ from armscope.motion.check import check_motions
 from armscope.motion.consistency import PathAgreement
 from armscope.motion.constants import LIBRARY
 from armscope.motion.cutoff import chosen_cutoff
+from armscope.motion.first_look import first_look
 from armscope.motion.holding_out import folds
 from armscope.motion.judgement import answer_of
 from armscope.motion.layout import TorqueLayout
@@ -112,8 +113,8 @@ def test_waves_that_the_library_will_try_are_those_in_the_torque() -> None:
     def rippled(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
         return np.column_stack([np.zeros(len(q)), 2 * np.cos(13 * q[:, 1] - 1), np.zeros(len(q))])
 
-    _, first = chosen_cutoff(robot(), list(stretches(moved(robot(), 3, rippled))), None)
-    counts, tried = first.waves[1]
+    longest = next(stretches(moved(robot(), 3, rippled)))
+    counts, tried = first_look(robot(), longest, preparation(200.0, 30.0, "test")).waves[1]
     assert 13 in counts
     assert tried > 20 > len(counts)
 

@@ -195,7 +195,16 @@ def bend(torque: Array, rate: float) -> Array:
 
 
 def own_columns(arm: MovingArm, signals: Signals, delay: Array) -> Array:
-    """(N, m, 6) of `OWN`, per unit of each; how friction changes sides is seen ``delay`` (m,) later."""
+    """What every joint has, per unit of each.
+
+    Args:
+        arm: the arm.
+        signals: N samples.
+        delay: (m,) s by which torques are late: how friction changes sides is seen later by as much.
+
+    Returns:
+        (N, m, 6) of `layout.OWN_NAMES`.
+    """
     width = sharp_width(arm)
     turned = side(signals, width)
     blunter = side(signals, coulomb_width(arm)) - turned
