@@ -65,7 +65,7 @@ def _inside(path: Path, name: str) -> Path:
 
 def _names(paths: list[Path]) -> list[str]:
     """What the recordings are called: folders or files by their own name, numbered where that is not enough."""
-    names = [path.resolve().name if path.is_dir() else path.name.partition(".")[0] for path in paths]
+    names = [path.resolve().name.removesuffix(".gz").removesuffix(".csv") for path in paths]
     if len(set(names)) < len(names):
         names = [
             path.resolve().parent.name if path.is_file() else name for path, name in zip(paths, names, strict=True)

@@ -68,6 +68,7 @@ class Comparison:
         level: below which changes are named.
         tried: how many causes times places to change were tried.
         changes: the surest first.
+        same_poses: recordings that cover the same ranges of joints and payload: only among them is a change told.
     """
 
     arm: str
@@ -78,6 +79,7 @@ class Comparison:
     level: float
     tried: int
     changes: tuple[Change, ...]
+    same_poses: tuple[tuple[str, ...], ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         """As plain data."""
@@ -86,11 +88,19 @@ class Comparison:
     @property
     def headline(self) -> str:
         """The answer in one sentence."""
-        among = ", ".join(self.names)
-        if not self.changes:
-            return f"Nothing changed that these recordings show ({among}; p = {self.p_nothing_changed:.2g})."
         told = "; ".join(f"{each.title} {each.kind} in {', '.join(each.where)}" for each in self.changes)
-        return f"{told[:1].upper()}{told[1:]} (p = {self.p_nothing_changed:.2g} that nothing changed)."
+        among = "; ".join(", ".join(family) for family in self.same_poses or (self.names,) if len(family) > 1)
+        said = ""
+        if self.changes:
+            said = f"{told[:1].upper()}{told[1:]} (p = {self.p_nothing_changed:.2g} that nothing changed)."
+        elif among:
+            said = f"Nothing changed that these recordings show ({among}; p = {self.p_nothing_changed:.2g})."
+        if len(self.same_poses) > 1:
+            families = " / ".join(", ".join(family) for family in self.same_poses)
+            said += (
+                f" Whether anything changed between recordings of other poses or payloads cannot be told ({families})."
+            )
+        return said.strip()
 
     def text(self) -> str:
         """In words, a line per cause and number."""

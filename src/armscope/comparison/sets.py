@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -15,6 +15,12 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm
 
 CONTEXT = ("time", "temperature", "payload", "approach", "speed", "torque", "sigma")
+
+SAME_POSES = 0.5
+"""Share of each joint's range (5 to 95 % of its angles) that recordings of the same poses have in common: judgement."""
+STILL_RAD = 0.02
+"""A joint that moves less stands still."""
+SAME_PAYLOAD_KG = 0.1
 
 
 def stacked(arm: Arm, recordings: Mapping[str, Recordings]) -> tuple[Recordings, Indices]:
@@ -47,6 +53,40 @@ def stacked(arm: Arm, recordings: Mapping[str, Recordings]) -> tuple[Recordings,
     parts: dict[str, Any] = {name: np.concatenate([getattr(table, name) for table in named]) for name in _ROWS}
     table = replace(named[0], **parts, **context, notes=(), source="recordings")
     return table, np.repeat(np.arange(len(named)), [len(each) for each in named])
+
+
+def of_same_poses(tables: Sequence[Recordings]) -> list[tuple[int, ...]]:
+    """Recordings in families that cover the same ranges of every joint, and of the payload.
+
+    What no effect says well follows pose and load, so that recordings of others differ although nothing changed.
+
+    Args:
+        tables: the recordings; without a payload, none was carried.
+
+    Returns:
+        Numbers of recordings; each stands in the first family with whose first member it overlaps.
+    """
+    still = np.array([*[STILL_RAD] * tables[0].n_motors, SAME_PAYLOAD_KG])
+    ranges = [np.quantile(_covered(table), (0.05, 0.95), axis=0) for table in tables]
+    families: list[list[int]] = []
+    for k, (low, high) in enumerate(ranges):
+        for family in families:
+            lower, upper = ranges[family[0]]
+            shared, either = (
+                np.minimum(high, upper) - np.maximum(low, lower),
+                np.maximum(high, upper) - np.minimum(low, lower),
+            )
+            if (shared >= SAME_POSES * either - still).all():
+                family.append(k)
+                break
+        else:
+            families.append([k])
+    return [tuple(family) for family in families]
+
+
+def _covered(table: Recordings) -> Array:
+    payload = np.zeros(len(table)) if table.payload is None else np.nan_to_num(table.payload)
+    return np.column_stack([table.motor_angles, payload])
 
 
 _ROWS = ("motor_angles", "positions", "run", "target", "id")

@@ -113,7 +113,7 @@ def _candidates(layout: ParameterLayout, placed: Sequence[Placed]) -> tuple[Cand
                 location=p.location,
                 columns=layout.columns[number],
                 prior_scale=np.array(p.prior_scale),
-                plausible=np.array([term.plausible for term in p.terms]),
+                plausible=np.array([term.prior_size for term in p.terms]),
                 variant=p.variant,
                 driver=p.driver,
                 label=str(p),

@@ -150,6 +150,11 @@ class PlausibleSizes(Constants):
         "judgement: a hand's width",
         unit="m",
     )
+    learned_within: float = constant(
+        3.0,
+        "times a plausible size, within which arms of the same type may move it",
+        "judgement: an arm unlike its fleet must still be seen; half a decade either way",
+    )
     beyond: float = constant(
         3.0,
         "times a plausible size, beyond which a value is no answer: the columns stand for something else",

@@ -1,0 +1,58 @@
+"""How much surer changes seem than they are, by halves of one recording, between which nothing changed.
+
+What no effect says follows the pose or the time: it is no noise from row to row, and between halves it shows as a
+change, too. Statistics are divided by what makes those of halves no surprise (variance inflation; McCullagh and Nelder
+1989, 4.5), so that a change between recordings must be surer than anything that differs inside one.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import fdtrc
+
+from armscope.core.types import Array
+
+AXES = 3
+"""Directions of the poses along which a recording is halved."""
+NO_SURPRISE = 0.5
+"""The smallest probability among halves times their number is chance's at this and above: every other time."""
+STEPS = np.geomspace(1.0, 1e4, 400)
+"""Factors that are tried, 2 % apart."""
+
+
+@dataclass(frozen=True)
+class Statistic:
+    """An F statistic with its degrees of freedom; ``q`` 0 where a change cannot be seen."""
+
+    f: float
+    q: int
+    free: float
+
+    def p(self, dispersion: float) -> float:
+        """How often chance alone gives one as large."""
+        return float(fdtrc(self.q, self.free - self.q, self.f / dispersion)) if self.q else 1.0
+
+
+def halves(angles: Array) -> Iterator[NDArray[np.bool_]]:
+    """A recording in two: early and late, and along the directions in which its poses (N, m), rad, differ most."""
+    count = len(angles)
+    yield np.arange(count) >= count // 2
+    centred = angles - angles.mean(axis=0)
+    for along in np.linalg.svd(centred, full_matrices=False)[0].T[: min(AXES, np.linalg.matrix_rank(centred))]:
+        yield along > np.median(along)
+
+
+def overdispersion(between_halves: Iterable[Statistic]) -> float:
+    """The factor, at least 1, that makes what differs between halves no surprise."""
+    seen = [each for each in between_halves if each.q]
+    if not seen:
+        return 1.0
+    f, q, free = np.array([(each.f, each.q, each.free) for each in seen]).T
+    # a larger factor makes all of them less of a surprise
+    least = bisect_left(STEPS, NO_SURPRISE, key=lambda factor: len(seen) * fdtrc(q, free - q, f / factor).min())
+    return float(STEPS[min(least, len(STEPS) - 1)])

@@ -1,0 +1,231 @@
+"""Frames and effects that recordings share, what they leave, and how surely a change stands beside them."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.comparison.dispersion import Statistic, halves, overdispersion
+from armscope.core.types import Array, Indices
+from armscope.fitting.design_matrix import point_columns
+from armscope.fitting.linearisation import linearised, point_residuals
+from armscope.fitting.registration import fit_frames
+from armscope.fitting.transfer import belongs_to_the_arm
+from armscope.measurement import robust
+from armscope.physics.effect import Placed, Term
+from armscope.physics.frames import free_frames
+from armscope.physics.model import FittedModel
+from armscope.physics.registry import library
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+
+PRIOR_MM = 3.0
+"""Of a shared effect at the tool: an arm's own errors are of this size (ISO 9283 accuracies of uncalibrated arms)."""
+MOST_TERMS = 12
+"""Of an effect whose change is tested; free curves are left out: they would stand for any other."""
+UNSEEN = 1e-3
+"""Share of a column's square that must be left beside what is shared for its change to be seen at all."""
+HELD = 1e-9
+"""Penalty on frames and changes of unit length: too little for any that the rows tell."""
+
+
+@dataclass(frozen=True, eq=False)
+class Possible:
+    """A change that may be: an effect, its parameters' usual sizes (q,), its columns (3N, q), mm per unit, and where.
+
+    In the rows of some recordings, ``sets``, held ``against`` others.
+    """
+
+    placed: Placed
+    plausible: Array
+    columns: Array
+    sets: tuple[int, ...]
+    against: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Scored:
+    """How surely a change is one: its F statistic, how likely chance makes it, and by how much it is the likelier."""
+
+    statistic: Statistic
+    p: float
+    nats: float
+
+
+class Problem:
+    """Frames and shared effects, what they leave, and changes beside them."""
+
+    def __init__(self, arm: Arm, table: Recordings, group: Indices) -> None:
+        self.group = np.repeat(group, 3)
+        model = fit_frames(arm, table)
+        residual = point_residuals(model, table)
+        weight = np.repeat(np.sqrt(robust.huber_weights(residual, np.ones(len(residual)), 0.0)), 3)
+        placed = [each for each in library(arm, table) if belongs_to_the_arm(each)]
+        self.placed = [each for each in placed if len(each.terms) <= MOST_TERMS and each.family != "unknown"]
+        frames = [term for each in free_frames(table, False) for term in each.terms]
+        terms = [term for each in self.placed for term in each.terms]
+        columns = weight[:, None] * _columns(model, table, [*frames, *terms])
+        self.residual = weight * residual.reshape(-1)
+        self.frames, self.effects = columns[:, : len(frames)], columns[:, len(frames) :]
+        size = np.sqrt(np.mean(self.effects**2, axis=0))
+        self.scale = np.where(size > 0, PRIOR_MM / np.where(size > 0, size, 1), 0.0)
+        self.plausible = np.array([term.plausible for each in self.placed for term in each.terms])
+        self._start = np.cumsum([0, *(len(each.terms) for each in self.placed)])
+        self.dispersion = 1.0
+        self._noise = self._settled_noise()
+        self._weigh_recordings(weight)
+        self.dispersion = overdispersion(self._between_halves(table.motor_angles))
+
+    def _weigh_recordings(self, weight: Array) -> None:
+        """Each recording counts by its own noise: pooled, the quiet one's rows would be too sure of themselves."""
+        base, penalty = self._base(())
+        square = (self.residual - base @ np.linalg.solve(base.T @ base + np.diag(penalty), base.T @ self.residual)) ** 2
+        noise = np.sqrt(np.bincount(self.group, square) / np.bincount(self.group) + 1e-24)
+        relative = np.sqrt(np.mean(square)) / noise[self.group]
+        self.weight = weight * relative
+        self.residual = self.residual * relative
+        self.frames, self.effects = self.frames * relative[:, None], self.effects * relative[:, None]
+        self._noise = self._settled_noise()
+
+    def _between_halves(self, angles: Array) -> Iterator[Statistic]:
+        """What differs between halves of each recording, for every effect, with frames and effects of its own."""
+        for number in range(self.group[-1] + 1):
+            rows = self.group == number
+            alone = copy.copy(self)
+            alone.residual, alone.frames, alone.effects = self.residual[rows], self.frames[rows], self.effects[rows]
+            alone.frames, alone.group = alone.frames[:, np.any(alone.frames != 0, axis=0)], self.group[rows]
+            alone._noise = alone._settled_noise()
+            parts = [np.repeat(half, 3)[:, None] for half in halves(angles[rows[::3]])]
+            changes = [
+                Possible(each, self._of(self.plausible, at), alone.columns_of(at, (number,)) * part, (), ())
+                for at, each in enumerate(self.placed)
+                for part in parts
+            ]
+            yield from (each.statistic for each in alone.scores(changes, ()))
+
+    def possible_changes(self, masks: Sequence[tuple[tuple[int, ...], tuple[int, ...]]]) -> list[Possible]:
+        """Every effect of the library in every one of some groups of recordings."""
+        return [
+            Possible(each, self._of(self.plausible, number), self.columns_of(number, inside), inside, against)
+            for number, each in enumerate(self.placed)
+            for inside, against in masks
+            if np.abs(self.columns_of(number, inside)).max() > 0
+        ]
+
+    def scores(self, possible: Sequence[Possible], taken: Sequence[Possible]) -> list[Scored]:
+        """How much better each change makes the fit, beside those that were taken."""
+        base, penalty = self._base(taken)
+        variance, free = self._left(base, penalty)
+        factor = np.linalg.cholesky(base.T @ base + np.diag(penalty))
+        half = np.linalg.solve(factor, base.T)
+        left = self.residual - half.T @ (half @ self.residual)
+        return [self._score(each, half, left, variance, free) for each in possible]
+
+    def _score(self, possible: Possible, half: Array, left: Array, variance: float, free: float) -> Scored:
+        size = np.sqrt(np.sum(possible.columns**2, axis=0))
+        # a change of the size that arms show must move the rows by more than their noise
+        told = size > np.sqrt(variance) / possible.plausible
+        columns = possible.columns[:, told] / size[told]
+        across = half @ columns
+        values, vectors = np.linalg.eigh(columns.T @ columns - across.T @ across)
+        seen = values > UNSEEN
+        if not seen.any():
+            return Scored(Statistic(0.0, 0, free), 1.0, 0.0)
+        along = (vectors[:, seen].T @ (columns.T @ left)) / np.sqrt(values[seen])
+        gain, q = float(along @ along), int(seen.sum())
+        total = variance * free
+        # the variance without what the change explains: of the model in which it is free
+        without = max(total - gain, 1e-12 * total)
+        statistic = Statistic((gain / q) / (without / (free - q)), q, free)
+        # the noise is as unknown as the change: profile likelihood, and what q numbers cost (Schwarz 1978)
+        nats = free / 2 * np.log(total / without) / self.dispersion - q / 2 * np.log(max(free, 2.0))
+        return Scored(statistic, statistic.p(self.dispersion), float(nats))
+
+    def variance(self, taken: Sequence[Possible]) -> float:
+        """Of what is left, per axis, mm^2."""
+        return self._left(*self._base(taken))[0]
+
+    def own_values(self, placed: Placed, beside: Sequence[Possible], count: int) -> tuple[Array, Array, float]:
+        """An effect with a value of its own in every recording.
+
+        Args:
+            placed: the effect, of q terms.
+            beside: changes of other effects.
+            count: of the recordings.
+
+        Returns:
+            Values (count q), SI units, their covariance, and how many numbers are free.
+        """
+        number = self.placed.index(placed)
+        base, penalty = self._base(beside, without=number)
+        own = np.hstack([self.columns_of(number, (k,)) for k in range(count)])
+        # what one recording alone does not tell stays at the prior
+        scale = np.tile(self._of(self.scale, number), count)
+        scale = np.where(scale > 0, scale, 1.0)
+        design = np.hstack([base, own])
+        held = np.concatenate([penalty, self._noise / (10 * scale) ** 2])
+        inverse = np.linalg.inv(design.T @ design + np.diag(held))
+        values = (inverse @ (design.T @ self.residual))[-own.shape[1] :]
+        variance, free = self._left(design, held)
+        return values, self.dispersion * variance * inverse[-own.shape[1] :, -own.shape[1] :], free
+
+    def moved_mm(self, possible: Possible, change: Array) -> float:
+        """What a change by (q,) SI units moves the tool beyond what frames absorb: RMS of the distance, mm."""
+        moved = possible.columns @ change
+        moved = moved - self.frames @ np.linalg.lstsq(self.frames, moved, rcond=None)[0]
+        there = np.isin(self.group, possible.sets)
+        return float(np.sqrt(np.sum((moved / self.weight)[there] ** 2) / (there.sum() / 3)))
+
+    def _of(self, numbers: Array, number: int) -> Array:
+        """An effect's part of numbers that stand one per term."""
+        return numbers[self._start[number] : self._start[number + 1]]
+
+    def columns_of(self, number: int, sets: tuple[int, ...]) -> Array:
+        """(3N, q) an effect's columns in the rows of some recordings."""
+        columns = self.effects[:, self._start[number] : self._start[number + 1]]
+        return columns * np.isin(self.group, sets)[:, None]
+
+    def _base(self, taken: Sequence[Possible], without: int | None = None) -> tuple[Array, Array]:
+        """Columns that all changes stand beside, and the penalty on each."""
+        kept: NDArray[np.bool_] = self.scale > 0
+        if without is not None:
+            kept = kept.copy()
+            kept[self._start[without] : self._start[without + 1]] = False
+        free = np.hstack([self.frames, *(each.columns for each in taken)])
+        free = free / np.maximum(_length(free), 1e-30)
+        shared = self.effects[:, kept] * self.scale[kept]
+        small = np.full(free.shape[1], HELD)  # a wrist that was held leaves part of its tool to the base
+        return np.hstack([free, shared]), np.concatenate([small, np.full(shared.shape[1], self._noise)])
+
+    def _left(self, base: Array, penalty: Array) -> tuple[float, float]:
+        """Variance per number, and how many numbers are free, beside columns with penalties."""
+        gram = base.T @ base
+        inverse = np.linalg.inv(gram + np.diag(penalty))
+        values = inverse @ (base.T @ self.residual)
+        left = self.residual - base @ values
+        used = float(np.trace(inverse @ gram))
+        free = max(len(left) - used, 1.0)
+        return float((left @ left + values**2 @ penalty) / free), free
+
+    def _settled_noise(self) -> float:
+        """The variance that the prior is weighed by, found with itself."""
+        self._noise = float(np.mean(self.residual**2)) / 100 + 1e-12
+        for _ in range(4):
+            self._noise = max(self._left(*self._base(()))[0], 1e-12)
+        return self._noise
+
+
+def _length(columns: Array) -> Array:
+    return np.asarray(np.sqrt(np.sum(columns**2, axis=0)))
+
+
+def _columns(model: FittedModel, table: Recordings, terms: Sequence[Term]) -> Array:
+    """(3N, p) columns in the order of the rows."""
+    found = np.empty((len(table), 3, len(terms)))
+    for rows, posture in linearised(table).chunks(model):
+        found[rows] = point_columns(posture, terms).reshape(-1, 3, len(terms))
+    return found.reshape(-1, len(terms))
