@@ -44,11 +44,11 @@ def filled(text: str, name: str, lines: list[str], readme: Path) -> str:
     Args:
         text: of the page.
         name: of the marks.
-        lines: Markdown.
-        readme: the page, for the error.
+        lines: that go between them.
+        readme: the page's file, for errors.
 
     Returns:
-        The text.
+        The text with those lines.
 
     Raises:
         InputError: the marks are missing.
