@@ -138,7 +138,7 @@ class SharedModel:
         across = half @ columns
         values, vectors = np.linalg.eigh(columns.T @ columns - across.T @ across)
         seen = values > UNSEEN
-        if not seen.any():
+        if not seen.any() or free - seen.sum() < 1:
             return Scored(Statistic(0.0, 0, free), 1.0, 0.0)
         along = (vectors[:, seen].T @ (columns.T @ left)) / np.sqrt(values[seen])
         gain, q = float(along @ along), int(seen.sum())
