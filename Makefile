@@ -51,31 +51,34 @@ fuzz: .venv/installed-test
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "armscope needs python 3.11 or newer: make PYTHON=/path/to/python3.11"; exit 1; }
 	$(PYTHON) -m venv .venv
 
-.venv/installed: .venv/bin/python requirements.txt pyproject.toml
-	$(BIN)/pip install --quiet --disable-pip-version-check -r requirements.txt
-	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps --editable .
+# what is installed must be, byte by byte, what was pinned (tools/lock.py), wherever it comes from
+PIP_INSTALL := pip install --quiet --disable-pip-version-check
+.venv/installed: .venv/bin/python requirements.lock pyproject.toml
+	$(BIN)/$(PIP_INSTALL) --require-hashes -r requirements.lock
+	$(BIN)/$(PIP_INSTALL) --no-deps --editable .
 	$(BIN)/python -c "from armscope.swarm import kernel; kernel.compile_now()"
 	@touch $@
 
-.venv/installed-test: .venv/installed requirements-test.txt
-	$(BIN)/pip install --quiet --disable-pip-version-check -r requirements-test.txt
+.venv/installed-test: .venv/installed requirements-test.lock
+	$(BIN)/$(PIP_INSTALL) --require-hashes -r requirements-test.lock
 	@touch $@
 
 .venv-peers/installed: requirements-benchmark.txt
 	$(PYTHON) -m venv .venv-peers
-	.venv-peers/bin/pip install --quiet --disable-pip-version-check -r requirements-benchmark.txt
-	.venv-peers/bin/pip install --quiet --disable-pip-version-check --no-deps --editable .
+	.venv-peers/bin/$(PIP_INSTALL) -r requirements-benchmark.txt
+	.venv-peers/bin/$(PIP_INSTALL) --no-deps --editable .
 	@touch $@
 
 .venv-figaroh/installed: benchmarks/peers/requirements-figaroh.txt
 	$(PYTHON) -m venv .venv-figaroh
-	.venv-figaroh/bin/pip install --quiet --disable-pip-version-check -r benchmarks/peers/requirements-figaroh.txt
+	.venv-figaroh/bin/$(PIP_INSTALL) -r benchmarks/peers/requirements-figaroh.txt
 	@touch $@
 
 # kills, full disks, too little memory, two of everything, SLURM: prints a table, docs/trust.md is made from it
 TIMES ?= 20
 campaign: .venv/installed-test
-	-$(BIN)/pip install --quiet --disable-pip-version-check -r requirements-cluster.txt pip-audit
+	-$(BIN)/$(PIP_INSTALL) --require-hashes -r requirements-cluster.lock
+	-$(BIN)/$(PIP_INSTALL) pip-audit
 	$(BIN)/python -m tests.campaign --times $(TIMES) --page docs/trust.md
 
 # works from files: open site/index.html

@@ -2,19 +2,17 @@
 
 import os
 import sys
-import time
 
 
 def main() -> None:
     """Run the command line."""
-    started = time.time()
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # looking for them takes as long as reading YAML
     try:
         from armscope.cli import main as run
     except KeyboardInterrupt:
         print("armscope: interrupted; nothing was left half-written", file=sys.stderr)
         sys.exit(130)
-    run(started)
+    run()
 
 
 if __name__ == "__main__":

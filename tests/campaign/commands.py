@@ -8,12 +8,15 @@ import shutil
 import signal
 import subprocess
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 
 from tests.campaign.trial import ENVIRONMENT, Outcome, commands, contents, ended, leftovers, run
+
+Command = Callable[[Path], list[str]]
+"""Made for an output folder."""
 
 
 def killed(home: Path, times: int, rng: np.random.Generator, sign: signal.Signals) -> Iterator[Outcome]:
@@ -26,7 +29,7 @@ def killed(home: Path, times: int, rng: np.random.Generator, sign: signal.Signal
         sign: SIGKILL, or SIGINT, which must end with 130.
     """
     for name, command in commands(home).items():
-        reference, seconds = _reference(home, name, command(home / name / "reference"))
+        reference, seconds = _reference(home, name, command)
         broken = []
         for number in range(times):
             out = home / name / f"{sign.name}-{number}"
@@ -51,12 +54,12 @@ def killed(home: Path, times: int, rng: np.random.Generator, sign: signal.Signal
         )
 
 
-def _reference(home: Path, name: str, command: list[str]) -> tuple[dict[str, str], float]:
+def _reference(home: Path, name: str, command: Command) -> tuple[dict[str, str], float]:
     """What a command writes when nothing happens, and how long it takes."""
     out = home / name / "reference"
     out.mkdir(parents=True, exist_ok=True)
     started = time.monotonic()
-    done = run(command)
+    done = run(command(out))
     assert done.returncode == 0, f"{name}: {done.stderr}"
     return contents(out), time.monotonic() - started
 
@@ -92,7 +95,7 @@ def starved(home: Path) -> Iterator[Outcome]:
         assert process.stdout is not None
         process.stdout.close()
         code = process.wait()
-        if code not in (0, 141) or contents(out) != contents(home / name / "reference"):
+        if code not in (0, 141) or contents(out) != _reference(home, name, command)[0]:
             broken.append(f"{name}: {code}")
     yield Outcome(
         "files are whole though nobody reads what is said", "closed standard output", len(commands(home)), tuple(broken)
@@ -114,23 +117,23 @@ def _mounted(folder: Path, options: str) -> Iterator[Path]:
         subprocess.run(["umount", str(folder)], check=False)
 
 
-def _full_disk(folder: Path, command: object) -> tuple[int, str, list[str]]:
+def _full_disk(folder: Path, command: Command) -> tuple[int, str, list[str]]:
     with _mounted(folder, "size=64k") as out:
         (out / "theirs").write_bytes(b"0" * 61_440)  # all but a page
-        done = run(command(out))  # type: ignore[operator]
+        done = run(command(out))
         return done.returncode, done.stderr, sorted(set(contents(out)) - {"theirs"})
 
 
-def _read_only(folder: Path, command: object) -> tuple[int, str, list[str]]:
+def _read_only(folder: Path, command: Command) -> tuple[int, str, list[str]]:
     with _mounted(folder, "size=1m,ro") as out:
-        done = run(command(out))  # type: ignore[operator]
+        done = run(command(out))
         return done.returncode, done.stderr, sorted(contents(out))
 
 
-def _no_memory(folder: Path, command: object) -> tuple[int, str, list[str]]:
+def _no_memory(folder: Path, command: Command) -> tuple[int, str, list[str]]:
     folder.mkdir(parents=True, exist_ok=True)
     limit = 420 * 1024**2  # of addresses: more than the interpreter and its libraries, less than the work
-    done = run(command(folder), preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))  # type: ignore[operator]
+    done = run(command(folder), preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
     return (
         done.returncode,
         "" if done.returncode == 0 else done.stderr,
@@ -141,7 +144,7 @@ def _no_memory(folder: Path, command: object) -> tuple[int, str, list[str]]:
 def two_at_once(home: Path, times: int) -> Iterator[Outcome]:
     """Two of the same command into one place: one writes, the other is told so; what is there is whole."""
     for name, command in commands(home).items():
-        reference, broken = contents(home / name / "reference"), []
+        (reference, _), broken = _reference(home, name, command), []
         for number in range(times):
             out = home / name / f"two-{number}"
             out.mkdir(parents=True)

@@ -51,7 +51,7 @@ def unavailable() -> str:
     if os.geteuid() != 0:
         return "slurmd must be started by root"
     if importlib.util.find_spec("snakemake_executor_plugin_cluster_generic") is None:
-        return "requirements-cluster.txt is not installed"
+        return "requirements-cluster.lock is not installed"
     return ""
 
 

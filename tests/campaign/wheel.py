@@ -28,7 +28,14 @@ def diagnoses(python: str) -> Outcome:
         steps = [
             [sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir", str(home), str(ROOT)],
             [python, "-m", "venv", str(home / "venv")],
-            [str(home / "venv/bin/pip"), "install", "--quiet", "-r", str(ROOT / "requirements.txt")],
+            [
+                str(home / "venv/bin/pip"),
+                "install",
+                "--quiet",
+                "--require-hashes",
+                "-r",
+                str(ROOT / "requirements.lock"),
+            ],
         ]
         for step in steps:
             if (done := subprocess.run(step, cwd=home, capture_output=True, text=True, check=False)).returncode:

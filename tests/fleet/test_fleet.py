@@ -6,7 +6,7 @@ import pytest
 
 from armscope.core.inputs import InputError
 from armscope.fleet.members import read_fleet
-from armscope.fleet.simulation import WEAKNESSES, _spec
+from armscope.fleet.simulation import WEAKNESSES, arm_spec
 from armscope.fleet.summary import outliers, priors, repeated
 
 HEADER = "arm,type,robot,recordings\n"
@@ -52,10 +52,11 @@ def test_what_repeats_is_counted_by_arm_not_by_diagnosis():
     )
     often = repeated(named, pd.DataFrame({"arm": ["a", "b", "c"], "type": "one"}))
     assert often[["cause", "arms", "of"]].to_dict("records") == [{"cause": "x", "arms": 2, "of": 3}]
-    assert priors(often)["types"]["one"]["causes"]["x"] == {"share": 0.6, "rms_at_tool_mm": 2.0}
+    learned = pd.DataFrame(columns=["type", "cause", "parameter", "unit", "rms", "arms"])
+    assert priors(often, learned)["types"]["one"]["causes"]["x"] == {"share": 0.6, "rms_at_tool_mm": 2.0}
 
 
 def test_simulated_arms_have_the_weakness_of_their_type_as_a_rule():
-    specs = [_spec(number, 300, 5) for number in range(299)]
+    specs = [arm_spec(number, 300, 5) for number in range(299)]
     share = np.mean([any((w.kind, w.location) == WEAKNESSES[s.arm] for w in s.wishes) for s in specs])
     assert 0.6 < share < 0.8

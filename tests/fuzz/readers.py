@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +14,7 @@ from armscope.core.inputs import read_yaml, validate
 from armscope.core.variants import read_variants
 from armscope.physics.model import predict
 from armscope.physics.model_file import load_model
+from armscope.physics.registry import library
 from armscope.real.reference import load_reference
 from armscope.recordings import read_recordings
 from armscope.recordings.importing.draft import draft_mapping
@@ -21,6 +22,7 @@ from armscope.recordings.importing.fetching import load_source
 from armscope.recordings.importing.mapping import load_mapping
 from armscope.recordings.importing.tables import import_recordings
 from armscope.robot import chain, load_arm
+from armscope.robot.arm_type import read_arm_type
 from armscope.robot.dh_table import parse_dh_table
 from armscope.verdict.files import read_verdict
 
@@ -123,6 +125,13 @@ def _pasted(path: Path) -> None:
     parse_dh_table(text, "arm")
 
 
+def _type_of_arm(path: Path) -> None:
+    arm = load_arm(EXAMPLE / "robot.yaml")
+    library(
+        replace(arm, type=read_arm_type(path, "six-axis")), read_recordings(EXAMPLE / "recordings.csv", arm.n_motors)
+    )
+
+
 READERS = {
     "robot.yaml": Reader(_arm, _seeds("config/robots/*.yaml", "examples/*/robot.yaml")),
     "urdf": Reader(_arm_of_urdf, (URDF,)),
@@ -140,6 +149,7 @@ READERS = {
     "domain.json": Reader(load_identified, _seeds("tests/fuzz/corpus/domain/*")),
     "errormodel.json": Reader(_black_box, _seeds("tests/fuzz/corpus/errormodel/*")),
     "verdict.json": Reader(read_verdict, _seeds("tests/fuzz/corpus/verdict/*")),
+    "priors.yaml": Reader(_type_of_arm, _seeds("tests/fuzz/corpus/priors/*")),
     "sweep.csv": Reader(read_variants, _seeds("config/sweeps/*")),
     "config.yaml": Reader(_config, _seeds("config/*.yaml")),
 }

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from tools import hygiene
+from tools import hygiene, lock
 
 ROOT = Path(__file__).parents[2]
 PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "examples").glob("*.md")])
@@ -31,6 +31,16 @@ def test_hooks_are_local_and_run_what_is_pinned() -> None:
     hooks = yaml.safe_load((ROOT / ".pre-commit-config.yaml").read_text(encoding="utf-8"))["repos"]
     assert [each["repo"] for each in hooks] == ["local"]
     assert all(hook["language"] == "system" for hook in hooks[0]["hooks"])
+
+
+@pytest.mark.parametrize("name", lock.LOCKS)
+def test_locks_hold_what_is_pinned_with_hashes_and_name_no_index(name: str) -> None:
+    """`python -m tools.lock` was run when a pin changed."""
+    locked = (ROOT / f"{name}.lock").read_text(encoding="utf-8")
+    known = lock.pins(locked) | lock.pins((ROOT / f"{lock.LOCKS[0]}.lock").read_text(encoding="utf-8"))
+    assert lock.pins((ROOT / f"{name}.txt").read_text(encoding="utf-8")).items() <= known.items()
+    assert all("--hash=sha256:" in entry for entry in re.split(r"\n(?=[^\s#-])", locked)[1:])
+    assert "://" not in locked
 
 
 def test_ends_are_mended_and_merges_noticed(tmp_path: Path) -> None:

@@ -92,14 +92,10 @@ def print_schema(
     print(json.dumps({**schemas, "motion-model": motion_model_file.schema}[of](), indent=2))
 
 
-def main(started: float | None = None) -> None:
-    """Run the command line; whatever goes wrong ends it with one clear line and an exit code of its own.
-
-    Args:
-        started: when its user began to wait (`time.time`); None: now.
-    """
+def main() -> None:
+    """Run the command line; whatever goes wrong ends it with one clear line and an exit code of its own."""
     # many small matrices: threads of BLAS would wait for each other and for other jobs; read when numpy is imported
     for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ.setdefault(variable, "1")
-    with endings(started):
+    with endings():
         app()

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from armscope.cli.commands import Commands, Threads
-from armscope.cli.endings import MISMATCH, UNUSABLE, waiting_since
+from armscope.cli.endings import MISMATCH, UNUSABLE
 
 if TYPE_CHECKING:
     import numpy as np
@@ -48,6 +48,10 @@ def diagnose(
         float | None, typer.Option(min=0.01, help="motions: of the low-pass, Hz; chosen if left out")
     ] = None,
     held_out: Annotated[list[str] | None, typer.Option(help="motions: a run that takes no part in the fit")] = None,
+    priors: Annotated[
+        Path | None, typer.Option(help="priors.yaml of a fleet: how large errors of such arms are")
+    ] = None,
+    arm_type: Annotated[str | None, typer.Option(help="which type in --priors, where it has several")] = None,
     json: Annotated[bool, typer.Option("--json", help="print verdict.json in place of words")] = False,
     threads: Threads = 1,
 ) -> None:
@@ -60,17 +64,21 @@ def diagnose(
     from armscope.cli.cost import DIAGNOSE, announce
     from armscope.cli.motion import Asked, diagnose_motions
     from armscope.cli.robots import print_json, robot_of, table_of
+    from armscope.core.inputs import InputError
     from armscope.recordings.first_lines import is_motion_table
 
-    started = waiting_since()
     if is_motion_table(recordings):
+        if priors is not None:
+            raise InputError(
+                "--priors", "", priors, f"{recordings} is a table of motions, for which no sizes are learned"
+            )
         with _progress("diagnosing") as tell:
-            asked = Asked(cutoff, held_out or [], run or [], json, report, started)
+            asked = Asked(cutoff, held_out or [], run or [], json, report)
             mismatch = diagnose_motions(recordings, robot, output, asked, tell)
         if exit_code and mismatch is not False:
             raise typer.Exit(MISMATCH if mismatch else UNUSABLE)
         return
-    arm = robot_of(robot)
+    arm = robot_of(robot, priors, arm_type)
     announce(recordings, DIAGNOSE, threads)
     table = table_of(recordings, arm.n_motors)
 
@@ -98,7 +106,7 @@ def diagnose(
             from armscope.report.pages.diagnosis import write_report
 
             tell("drawing the report", 0.95)
-            write_report(verdict, output, started)
+            write_report(verdict, output)
     obstacle = verdict.notices[-1:] if verdict.mismatch is None else ()
     for notice in (*(each for each in verdict.notices if each.kind == "check"), *obstacle):
         print(f"note: {notice.text}", file=sys.stderr)

@@ -8,7 +8,6 @@ import os
 import signal
 import sys
 import threading
-import time
 from collections.abc import Callable, Iterator
 from typing import Any, TextIO
 
@@ -31,19 +30,9 @@ CLOSED = 141
 """Nobody reads standard output any more (128 + SIGPIPE)."""
 
 
-_since: list[float] = []
-"""When the command line that runs began."""
-
-
-def waiting_since() -> float:
-    """When the user began to wait (`time.time`): at the start of the command line, or now where there is none."""
-    return _since[-1] if _since else time.time()
-
-
 @contextlib.contextmanager
-def endings(started: float | None = None) -> Iterator[None]:
-    """Around a whole command line that began at a time (`time.time`), or now."""
-    _since.append(time.time() if started is None else started)
+def endings() -> Iterator[None]:
+    """Around a whole command line."""
     patient = sys.stdout = _Patient(sys.stdout)
     try:
         try:

@@ -25,7 +25,6 @@ class Asked:
         held_out, runs: runs that are held out, and runs that are used (none: all).
         as_json: whether verdict.json is printed in place of words.
         report: whether the page is written.
-        started: when the user began to wait.
     """
 
     cutoff: float | None
@@ -33,7 +32,6 @@ class Asked:
     runs: list[str]
     as_json: bool
     report: bool
-    started: float
 
 
 def diagnose_motions(table: Path, robot: Path, output: Path, asked: Asked, tell: Tell) -> bool | None:
@@ -78,7 +76,7 @@ def diagnose_motions(table: Path, robot: Path, output: Path, asked: Asked, tell:
         from armscope.report.pages.motion import write_motion_report
 
         tell("drawing the report", 0.98)
-        write_motion_report(found, table.name, output, asked.started)
+        write_motion_report(found, table.name, output)
     for notice in found.verdict.notices:
         print(f"note: {notice.text}", file=sys.stderr)
     if asked.as_json:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,20 +12,33 @@ if TYPE_CHECKING:
     from armscope.robot import Arm
 
 
-def robot_of(path: Path) -> Arm:
+def robot_of(path: Path, priors: Path | None = None, arm_type: str | None = None) -> Arm:
     """The arm of a robot.yaml or a URDF; guesses about a URDF are said.
 
+    Args:
+        path: of the arm.
+        priors: priors.yaml of a fleet, and
+        arm_type: which of its types the arm is.
+
+    Returns:
+        The arm.
+
     Raises:
-        InputError: it can't be used.
+        InputError: a file can't be used.
     """
+    from armscope.core.inputs import InputError
     from armscope.robot.arm import build_arm
+    from armscope.robot.arm_type import ArmType, read_arm_type
     from armscope.robot.description_file import guesses, load_description
     from armscope.robot.urdf_file import is_xml
 
     description = load_description(path)
     for guess in guesses(description) if is_xml(path) else ():
         print(f"note: {path}: {guess}; `armscope init {path}` writes a robot.yaml to mend it", file=sys.stderr)
-    return build_arm(description)
+    if priors is None and arm_type is not None:
+        raise InputError("--arm-type", "", arm_type, "a type of --priors, which is not given")
+    known = ArmType() if priors is None else read_arm_type(priors, arm_type)
+    return replace(build_arm(description), type=known)
 
 
 def table_of(path: Path, n_motors: int | None = None) -> Recordings:

@@ -88,7 +88,7 @@ def diagnose(
     frames = sharing_bases(nuisances(channels, table, tool_per_run), set_ups)
     problems = suspected(arm, checked.recordings)
     obstacle = too_far(arm, table, first.points_mm, problems) or _too_few(table, frames)
-    notices = (*as_notices(problems, obstacle), *checked.notices, *told, *doubts)
+    notices = (*as_notices(problems, obstacle), *checked.notices, *told, *doubts, *_of_type(arm))
     if obstacle is not None:
         return undecided(start, table, first.points_mm, noise, (*notices, obstacle), time.perf_counter() - started)
     if settings.estimate_gravity:
@@ -108,6 +108,14 @@ def diagnose(
     )
     tell("done", 1.0)
     return verdict.after(time.perf_counter() - started, vars(settings))
+
+
+def _of_type(arm: Arm) -> list[Notice]:
+    """That other arms were asked, and for what."""
+    if not arm.type.sizes:
+        return []
+    text = f"What {arm.type.title} have shown says how large these are as a rule: {', '.join(sorted(arm.type.sizes))}."
+    return [Notice("sizes of its type", text)]
 
 
 def _frames(arm: Arm, table: Recordings, tool_per_run: bool) -> tuple[FittedModel, bool, SetUps, list[Notice]]:

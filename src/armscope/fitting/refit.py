@@ -233,6 +233,6 @@ def _precision(
         # nor farther than frames go, however much of it they would absorb
         variance[at] = np.minimum(variance[at], PRIORS.frame_mm**2 * gram.n / np.maximum(np.diag(gram.G)[at], 1e-24))
     inside = np.unique(np.concatenate([*parts.background, *parts.columns])) if parts.columns else np.empty(0, np.intp)
-    variance[inside] = np.minimum(variance[inside], np.array([parts.terms[n].plausible for n in inside]) ** 2)
+    variance[inside] = np.minimum(variance[inside], np.array([parts.terms[n].prior_size for n in inside]) ** 2)
     variance[parts.frames] = (PRIORS.frame_mm / scale[parts.frames]) ** 2
     return np.asarray(1 / variance)

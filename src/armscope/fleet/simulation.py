@@ -36,7 +36,7 @@ def simulate(count: int, seed: int, robots: Path, output: Path) -> None:
     rows = []
     with tempfile.TemporaryDirectory() as made:
         for number in range(count):
-            spec = _spec(number, count, seed)
+            spec = arm_spec(number, count, seed)
             visible = build(spec, Path(made), robots) / "visible"
             for file in ("robot.yaml", "recordings.csv"):
                 copy_file(visible / file, output / spec.id / file)
@@ -47,7 +47,17 @@ def simulate(count: int, seed: int, robots: Path, output: Path) -> None:
     write_table(output / "fleet.csv", pd.DataFrame(rows, columns=["arm", "type", "date", "robot", "recordings"]))
 
 
-def _spec(number: int, count: int, seed: int) -> WorldSpec:
+def arm_spec(number: int, count: int, seed: int) -> WorldSpec:
+    """What one arm of a fleet conceals.
+
+    Args:
+        number: of the arm, from 0; its type is the number's turn.
+        count: arms; the last one's errors are ten times the others'.
+        seed: of everything random.
+
+    Returns:
+        The world to make.
+    """
     rng = np.random.default_rng([seed, number])
     arm = list(WEAKNESSES)[number % len(WEAKNESSES)]
     unlike = 10.0 if number == count - 1 else 1.0

@@ -111,8 +111,33 @@ def repeated(table: pd.DataFrame, of_arms: pd.DataFrame) -> pd.DataFrame:
     return found.sort_values(["type", "arms"], ascending=[True, False], ignore_index=True)
 
 
-def priors(table: pd.DataFrame) -> dict[str, Any]:
-    """What the next arm of a type may be expected to have, as written to priors.yaml; from `repeated`."""
+def learned_sizes(members: Sequence[Member], found: Mapping[str, Verdict]) -> pd.DataFrame:
+    """By type, cause and parameter: its unit, and its root mean square over the arms in which it was named.
+
+    An arm that was diagnosed several times counts once.
+    """
+    keys = ["type", "cause", "parameter", "unit"]
+    rows = [
+        (member.type, f"{effect.effect} at {effect.location}", each.name, each.unit, member.arm, each.value**2)
+        for member in members if member.name in found
+        for effect in found[member.name].effects
+        for each in effect.parameters if np.isfinite(each.value)
+    ]  # fmt: skip
+    of_arms = pd.DataFrame(rows, columns=[*keys, "arm", "square"]).groupby([*keys, "arm"])["square"].mean()
+    sizes = of_arms.groupby(keys).agg(["mean", "size"]).reset_index()
+    return sizes.assign(rms=np.sqrt(sizes["mean"])).rename(columns={"size": "arms"})[[*keys, "rms", "arms"]]
+
+
+def priors(table: pd.DataFrame, sizes: pd.DataFrame) -> dict[str, Any]:
+    """What the next arm of a type may be expected to have, as written to priors.yaml (`armscope.robot.arm_type`).
+
+    Args:
+        table: of `repeated`.
+        sizes: of `learned_sizes`.
+
+    Returns:
+        Plain values.
+    """
     content: dict[str, Any] = {}
     for row in table.to_dict("records"):
         of_type = content.setdefault(str(row["type"]), {"arms": int(row["of"]), "causes": {}})
@@ -120,4 +145,9 @@ def priors(table: pd.DataFrame) -> dict[str, Any]:
             "share": round(float(row["expected_share"]), 4),
             "rms_at_tool_mm": round(float(row["median_mm"]), 4),
         }
-    return {"format": "armscope fleet priors 1", "types": content}
+    for row in sizes.to_dict("records"):
+        if (of_type := content.get(str(row["type"]))) is not None:
+            of_cause = of_type.setdefault("sizes", {}).setdefault(str(row["cause"]), {})
+            size = {"unit": str(row["unit"]), "rms": float(f"{row['rms']:.4g}"), "arms": int(row["arms"])}
+            of_cause[str(row["parameter"])] = size
+    return {"format": "armscope fleet priors 2", "types": content}

@@ -82,6 +82,7 @@ class Term:
         products: what one SI unit of the parameter does.
         plausible: SI, the size that it has on real arms (one standard deviation; `armscope.physics.constants`). No part
             of what the term is: two tables may give a load's term different ones.
+        learned: SI, the same of arms of this type, where a fleet has shown it (`armscope.physics.learned_sizes`).
     """
 
     name: str
@@ -89,6 +90,12 @@ class Term:
     si: float
     products: tuple[Product, ...]
     plausible: float = field(default=math.inf, compare=False)
+    learned: float | None = field(default=None, compare=False)
+
+    @property
+    def prior_size(self) -> float:
+        """SI, one standard deviation of what is believed before the rows speak."""
+        return self.plausible if self.learned is None else self.learned
 
 
 def term(

@@ -13,6 +13,7 @@ from armscope.core.inputs import InputError
 from armscope.physics import drift, elastic, freeform, geometric, instrument, payload, thermal, transmission
 from armscope.physics.drivers import KINDS
 from armscope.physics.effect import Effect, Placed
+from armscope.physics.learned_sizes import with_learned_sizes
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -75,4 +76,5 @@ def effect_named(name: str) -> Effect | None:
 
 def library(arm: Arm, recordings: Recordings) -> list[Placed]:
     """Every effect at every location of an arm where the recordings can show it, without those found by scanning."""
-    return [placed for effect in effects() for placed in effect.place(arm, recordings)]
+    placed = [placed for effect in effects() for placed in effect.place(arm, recordings)]
+    return with_learned_sizes(placed, arm.type, [effect.name for effect in effects()])

@@ -61,7 +61,7 @@ def read_answer(folder: Path) -> Answer:
     verdict = read_verdict(folder / VERDICT)
     return Answer(
         world=folder.name,
-        claims=tuple(_claim(effect) for effect in verdict.effects),
+        claims=tuple(claim_of(effect) for effect in verdict.effects),
         mismatch=verdict.mismatch,
         answer=verdict.answer,
         noise_mm=verdict.noise_mm,
@@ -71,7 +71,8 @@ def read_answer(folder: Path) -> Answer:
     )
 
 
-def _claim(effect: FoundEffect) -> NamedEffect:
+def claim_of(effect: FoundEffect) -> NamedEffect:
+    """An effect of a verdict as scoring reads it."""
     return NamedEffect(
         effect=effect.effect,
         location=effect.location,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +11,7 @@ import pinocchio as pin
 
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
+from armscope.robot.arm_type import ArmType
 from armscope.robot.description import RobotDescription
 from armscope.robot.description_file import load_description
 from armscope.robot.model import TIP, dh_halves, pinocchio_model
@@ -35,6 +36,7 @@ class Arm:
         actuation: (n, m) chain angles by motor angles.
         limits: (m, 2) motor angles, rad; infinite where not stated.
         sigma: 1-sigma noise per axis, m; None where not stated.
+        type: what other arms of its type have shown.
     """
 
     description: RobotDescription
@@ -49,6 +51,7 @@ class Arm:
     actuation: Array
     limits: Array
     sigma: float | None
+    type: ArmType = field(default_factory=ArmType)
 
     @property
     def name(self) -> str:

@@ -72,7 +72,7 @@ def undetermined(placed: Placed, covariance: Array) -> tuple[str, ...]:
     if placed.parametrisation != "plain":
         return ()
     stderr = np.sqrt(np.diag(covariance))
-    limits = [TELLING.undetermined * term.plausible for term in placed.terms]
+    limits = [TELLING.undetermined * term.prior_size for term in placed.terms]
     return tuple(t.name for t, error, limit in zip(placed.terms, stderr, limits, strict=True) if error > limit)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib.metadata
 import math
-import time
 from pathlib import Path
 from typing import Any
 
@@ -35,13 +34,12 @@ REPORT, ORDER = "report.html", "work-order.html"
 ZEROS, ROWS = "zero_offsets.csv", "corrected_dh.csv"
 
 
-def write_report(verdict: Diagnosis, folder: Path | str, started: float | None = None) -> Path:
+def write_report(verdict: Diagnosis, folder: Path | str) -> Path:
     """Write ``report.html``, ``work-order.html``, its tables as CSV, and ``figures/*.svg``.
 
     Args:
         verdict: the diagnosis.
         folder: where the page goes.
-        started: when its reader began to wait (`time.time`), for the footer; None leaves it out.
 
     Returns:
         The page's path.
@@ -49,8 +47,7 @@ def write_report(verdict: Diagnosis, folder: Path | str, started: float | None =
     folder, subject = Path(folder), Subject(verdict)
     written = write_sections(SECTIONS, subject, "diagnosis", folder)
     write_work_order(subject, folder)
-    seconds = "" if started is None else f"{time.time() - started:.1f}"
-    page = render_page("diagnosis.html.j2", **_head(verdict), sections=written, seconds=seconds)
+    page = render_page("diagnosis.html.j2", **_head(verdict), sections=written)
     write_text(folder / REPORT, page)
     return folder / REPORT
 

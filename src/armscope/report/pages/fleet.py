@@ -8,7 +8,17 @@ import pandas as pd
 
 from armscope.core.files import write_table, write_yaml
 from armscope.fleet.members import Member
-from armscope.fleet.summary import COMMON, OUTLIER, arms, causes_of_arms, outliers, priors, repeated, verdicts
+from armscope.fleet.summary import (
+    COMMON,
+    OUTLIER,
+    arms,
+    causes_of_arms,
+    learned_sizes,
+    outliers,
+    priors,
+    repeated,
+    verdicts,
+)
 from armscope.report.figures.fleet import fleet_figure
 from armscope.report.html import write_page
 from armscope.report.style import save_figure
@@ -29,7 +39,7 @@ def write_fleet_page(members: list[Member], folders: list[Path], output: Path) -
     often = repeated(of_causes, of_arms)
     for name, table in (("arms", of_arms), ("causes", of_causes), ("repeated", often)):
         write_table(output / f"{name}.csv", table)
-    write_yaml(output / "priors.yaml", priors(often))
+    write_yaml(output / "priors.yaml", priors(often, learned_sizes(members, found)))
     drawn = bool(len(of_causes)) and not of_causes["minor"].all()
     if drawn:
         save_figure(fleet_figure(of_causes), output / "causes.svg", formats=("svg", "png"))

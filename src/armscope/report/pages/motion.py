@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib.metadata
-import time
 from pathlib import Path
 
 from markupsafe import Markup
@@ -21,14 +20,13 @@ QUIET = ("table", "joint stands")
 """Kinds of notices that lie folded."""
 
 
-def write_motion_report(found: MotionDiagnosis, source: str, folder: Path | str, started: float | None = None) -> Path:
+def write_motion_report(found: MotionDiagnosis, source: str, folder: Path | str) -> Path:
     """Write ``report.html`` and ``figures/*.svg`` of a diagnosis of a motion.
 
     Args:
         found: the diagnosis.
         source: the table's name.
         folder: where the page goes.
-        started: when its reader began to wait (`time.time`), for the footer; None leaves it out.
 
     Returns:
         The page's path.
@@ -51,7 +49,6 @@ def write_motion_report(found: MotionDiagnosis, source: str, folder: Path | str,
         warnings=[notice for notice in verdict.notices if notice.kind not in QUIET],
         tiles=_tiles(subject),
         sections=sections,
-        seconds="" if started is None else f"{time.time() - started:.1f}",
         shades=Markup(page_variables()),
     )
     write_text(folder / REPORT, page)
