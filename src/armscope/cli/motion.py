@@ -104,3 +104,31 @@ def predicted_motions(model: Path, motions: Path) -> tuple[pd.DataFrame, list[st
     from armscope.motion.predicting import predict_motions
 
     return predict_motions(model, motions) if is_motion_model(read_yaml(model)) else None
+
+
+def check_motions_table(table: Path, robot: Path | None, as_json: bool) -> bool:
+    """Say what a table of motions holds and what looks wrong in it.
+
+    Args:
+        table: motions.csv.
+        robot: robot.yaml, to compare torques with its masses; None looks at the table alone.
+        as_json: whether it is printed as JSON in place of words.
+
+    Returns:
+        Whether something makes results meaningless.
+
+    Raises:
+        InputError: the table can't be used.
+    """
+    from armscope.check.motions import check_moving
+    from armscope.cli.robots import print_json
+    from armscope.recordings.motions import read_motions
+    from armscope.robot.dynamics import load_moving_arm
+
+    arm = None if robot is None else load_moving_arm(robot)
+    found = check_moving(read_motions(table, None if arm is None else arm.n_motors), arm)
+    if as_json:
+        print_json(found.to_json())
+    else:
+        print(found.text())
+    return found.has_problems
