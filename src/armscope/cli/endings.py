@@ -5,8 +5,8 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
-import signal
 import resource
+import signal
 import sys
 import threading
 from collections.abc import Callable, Iterator
