@@ -181,7 +181,7 @@ def _folders(made: Path) -> list[Path]:
     child = multiprocessing.get_context("fork").Process(target=_make_folders, args=(made,))
     child.start()
     child.join()
-    examples = [path for path in sorted((ROOT / "examples").iterdir()) if path.is_dir()]
+    examples = [path.parent for path in sorted((ROOT / "examples").glob("*/recordings.csv"))]
     worlds = sorted(made.glob("*/visible"))
     return sorted([*examples, *worlds], key=lambda folder: (folder / "recordings.csv").stat().st_size)
 

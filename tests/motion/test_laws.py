@@ -3,7 +3,7 @@
 import numpy as np
 
 from armscope.motion.causes import Moment
-from armscope.motion.laws import Law
+from armscope.motion.laws import Law, taken_along
 from armscope.motion.preparation import Signals
 
 RNG = np.random.default_rng(3)
@@ -35,6 +35,36 @@ def test_a_curve_can_be_constant_and_ends_where_its_range_does() -> None:
         columns = Law(f"curve over {driver}", (0,), (-0.5, 0.5, 6.0))(MOMENT)
         assert columns.shape == (50, 1, 6)
         np.testing.assert_allclose(columns.sum(axis=2), 1.0)
+
+
+def test_a_stribeck_speed_is_refined_along_its_own_slope() -> None:
+    def at(speed: float) -> np.ndarray:
+        return Law("stribeck", (1,), (0.01, speed))(MOMENT)[:, 0, 0]
+
+    slope = (at(0.5 * np.exp(1e-4)) - at(0.5 * np.exp(-1e-4))) / 2e-4
+    np.testing.assert_allclose(Law("stribeck", (1,), (0.01, 0.5))(MOMENT)[:, 0, 1], slope, atol=1e-6)
+
+
+def test_a_spring_and_a_warm_gear_own_their_constants() -> None:
+    spring = Law("spring", (0,), (0.3,))(MOMENT)[:, 0]
+    np.testing.assert_allclose(spring, np.column_stack([Q[:, 0] - 0.3, np.ones(50)]))
+    warm = Law("warm speed", (0,), (25.0, 1.0))(MOMENT)[:, 0]
+    np.testing.assert_allclose(warm[:, 1], DQ[:, 0])
+
+
+def test_what_clings_over_a_way_is_prandtls_stop() -> None:
+    values = np.cumsum(RNG.normal(size=400)) * 0.1
+    expected, state = np.empty((400, 2)), np.full(2, np.sign(values[1] - values[0]))
+    for row in range(400):
+        step = values[row] - values[row - 1] if row else 0.0
+        state = np.clip(state + step / np.array([0.05, 0.3]), -1, 1)
+        expected[row] = state
+    np.testing.assert_allclose(taken_along(values, (0.05, 0.3)), expected, atol=1e-12)
+
+
+def test_a_delay_is_exact_where_it_is_stated() -> None:
+    late = PREDICTED[:, 0] + 0.04 * Law("delayed torque", (0,), (2 / 49,))(MOMENT)[:, 0, 0] * (2 / 49) / 0.04
+    np.testing.assert_allclose(late[2:], PREDICTED[:-2, 0], atol=1e-12)
 
 
 def test_a_delayed_torque_falls_short_by_its_slope() -> None:

@@ -8,6 +8,7 @@ import pytest
 from scipy.signal import butter, sosfiltfilt
 
 from armscope.core.inputs import InputError
+from armscope.core.types import Array
 from armscope.inference.model_space import Candidate
 from armscope.motion import catalogue
 from armscope.motion.causes import Seen
@@ -15,13 +16,14 @@ from armscope.motion.check import check_motions
 from armscope.motion.consistency import PathAgreement
 from armscope.motion.constants import LIBRARY
 from armscope.motion.cutoff import chosen_cutoff
+from armscope.motion.first_look import first_look
 from armscope.motion.holding_out import folds
 from armscope.motion.judgement import answer_of
 from armscope.motion.layout import TorqueLayout
 from armscope.motion.library import place_causes
 from armscope.motion.masses import place_masses
 from armscope.motion.preparation import parts, preparation
-from armscope.motion.rows import SoFar, build_rows
+from armscope.motion.rows import build_rows, stated_model
 from armscope.motion.sampling_constants import FILTER
 from armscope.motion.seen import seen_in
 from armscope.motion.selection import select_causes
@@ -30,7 +32,7 @@ from armscope.motion.timing import Stretch, mended, stretches
 from armscope.motion.verdict import UnexplainedTorque, relative
 from armscope.motion.weights import estimate_weights, fitted_together
 from armscope.recordings.motions import Motions
-from tests.motion.moving import moved, robot
+from tests.motion.moving import COULOMB, moved, robot
 
 
 def seen(motions: Motions) -> Seen:
@@ -90,7 +92,7 @@ def test_the_filter_has_no_lag_and_derivatives_are_those_of_the_path() -> None:
 def test_long_stretches_in_parts_give_the_rows_of_the_whole(monkeypatch: pytest.MonkeyPatch) -> None:
     arm, motions = robot(), moved(robot(), 2, runs=1, seconds=12.0)
     how = preparation(200.0, 10.0, "test")
-    layout, model = TorqueLayout(arm, (), False), SoFar(arm.inertial, np.zeros((3, 4)))
+    layout, model = TorqueLayout(arm, (), False), stated_model(arm)
     whole = build_rows(layout, list(stretches(motions)), how, model)
     monkeypatch.setattr("armscope.motion.preparation.FILTER", dataclasses.replace(FILTER, chunk=500))
     pieces = build_rows(layout, list(stretches(motions)), how, model)
@@ -100,17 +102,35 @@ def test_long_stretches_in_parts_give_the_rows_of_the_whole(monkeypatch: pytest.
 
 
 def test_the_cutoff_follows_the_motion_and_not_the_noise() -> None:
-    how = chosen_cutoff(robot(), list(stretches(moved(robot(), 3, noise=0.05))), None)
+    how, first = chosen_cutoff(robot(), list(stretches(moved(robot(), 3, noise=0.05))), None)
     assert 2.0 <= how.cutoff < 40.0
     assert "explains as much" in how.words
-    assert chosen_cutoff(robot(), list(stretches(moved(robot(), 3, runs=1))), 6.0).cutoff == 6.0
+    assert first.model.background[:, 1] == pytest.approx(COULOMB, rel=0.1)
+    assert chosen_cutoff(robot(), list(stretches(moved(robot(), 3, runs=1))), 6.0)[0].cutoff == 6.0
+
+
+def test_waves_that_the_library_will_try_are_those_in_the_torque() -> None:
+    def rippled(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+        return np.column_stack([np.zeros(len(q)), 2 * np.cos(13 * q[:, 1] - 1), np.zeros(len(q))])
+
+    longest = next(stretches(moved(robot(), 3, rippled)))
+    counts, tried = first_look(robot(), longest, preparation(200.0, 30.0, "test")).waves[1]
+    assert 13 in counts
+    assert tried > 20 > len(counts)
+
+
+def test_positions_are_smoothed_where_their_own_noise_begins() -> None:
+    quiet, noisy = moved(robot(), 3), moved(robot(), 3)
+    worse = dataclasses.replace(noisy, q=noisy.q + 1e-3 * np.random.default_rng(0).normal(size=noisy.q.shape))
+    cutoffs = [chosen_cutoff(robot(), list(stretches(each)), 20.0)[0].position_cutoff for each in (quiet, worse)]
+    assert 1.0 < cutoffs[1] <= cutoffs[0] < 40.0
 
 
 def test_correlated_residuals_count_as_fewer_rows() -> None:
     arm, motions = robot(), moved(robot(), 4)
     rows = build_rows(
         TorqueLayout(arm, (), False), list(stretches(motions)), preparation(200.0, 10.0, "test"),
-        SoFar(arm.inertial, np.zeros((3, 4))),
+        stated_model(arm),
     )  # fmt: skip
     rng = np.random.default_rng(0)
     white = rng.normal(size=rows.torque.shape)
@@ -119,7 +139,7 @@ def test_correlated_residuals_count_as_fewer_rows() -> None:
         slow[row] = 0.9 * slow[row - 1] + np.sqrt(1 - 0.81) * white[row]
     assert estimate_weights(rows, white).correlated.max() < 2
     assert 8 < np.median(estimate_weights(rows, slow).correlated) < 35  # 19 by theory
-    left = rows.torque - rows.nominal - rows.modelled(fitted_together(rows))
+    left = rows.torque - rows.nominal - rows.modelled(fitted_together(rows, np.arange(rows.layout.width)))
     assert relative(left, rows.torque) < 0.01
 
 

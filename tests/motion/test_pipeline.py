@@ -4,7 +4,7 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
-from tests.motion.moving import COULOMB, Plant, moved, robot
+from tests.motion.moving import COULOMB, ROTOR, VISCOUS, Plant, moved, robot
 
 
 def diagnosed(plant: Plant | None, seed: int = 1, **more: float) -> MotionDiagnosis:
@@ -44,6 +44,42 @@ def test_friction_that_grows_with_load_is_found_at_its_joint() -> None:
     assert low - 0.004 < 0.08 < high + 0.004
     assert cause.consistent
     assert found.verdict.held_out.model < found.verdict.held_out.background
+
+
+def test_what_no_cause_has_is_located_and_not_called_something_else() -> None:
+    def clinging(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+        extra, state = np.zeros_like(q), 0.0
+        for row in range(1, len(q)):  # Dahl's friction: it comes back over a way
+            step = q[row, 1] - q[row - 1, 1]
+            state = np.sign(step) + (state - np.sign(step)) * np.exp(-abs(step) / 0.1)
+            extra[row, 1] = 3 * state
+        return extra
+
+    found = diagnosed(clinging)
+    assert names(found) == [("unknown", "joint 2")]
+    assert found.verdict.effects[0].driver == "way since the last reversal"
+    assert found.verdict.answer == "cannot tell"
+
+
+def test_a_delay_is_found_to_the_millisecond_though_friction_jumps() -> None:
+    def late(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+        true = rigid + COULOMB * np.sign(dq) + VISCOUS * dq + ROTOR * ddq
+        extra = np.zeros_like(q)
+        extra[6:, 2] = true[:-6, 2] - true[6:, 2]
+        return extra
+
+    found = diagnosed(late)
+    assert names(found) == [("torque_delay", "joint 3")]
+    assert abs(found.verdict.effects[0].parameters[0].value - 0.03) < 0.001
+
+
+def test_friction_that_turns_early_takes_nothing_from_the_rotor() -> None:
+    def early(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+        return COULOMB * (np.sign(dq + 0.002 * ddq) - np.sign(dq))
+
+    for told, rotor in zip(diagnosed(early).verdict.background, ROTOR, strict=True):
+        inertia = next(parameter for parameter in told.parameters if parameter.name == "inertia")
+        assert abs(inertia.value - rotor) < 3 * inertia.stderr < 0.05 * rotor
 
 
 def test_a_payload_that_nobody_stated_is_weighed() -> None:

@@ -64,3 +64,16 @@ def score(
         write_table(output / f"{'proof' if name == 'worlds' else name}.csv", table, digits=6)
     write_text(output / "summary.md", in_words(told))
     print(in_words(told))
+
+
+@app.command()
+def page(
+    page: Annotated[Path, typer.Argument(help="docs/motion.md")],
+    of: Annotated[str, typer.Option(help="what the results are of: 'commit ..., the small proof'")],
+    proof: Annotated[Path | None, typer.Option(help="folder of the scores: summary.csv, proof.csv")] = None,
+    real: Annotated[Path | None, typer.Option(help="folder with verdict.json of each real set in its folder")] = None,
+) -> None:
+    """Fill the tables of docs/motion.md from the library and from results."""
+    from armscope.report.pages.motion_docs import fill_motion_page
+
+    fill_motion_page(page, proof, real, of)

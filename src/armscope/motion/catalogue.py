@@ -54,6 +54,7 @@ LOAD_FRICTION = Cause(
     "Dry friction grows with the torque that the gear carries.",
     "Repeat one motion with and without a payload: friction must grow with the load.",
     "Let dry friction in the model grow with the absolute torque of the joint.",
+    nonnegative=True,
 )
 VISCOUS_CURVE = Cause(
     "viscous_curve",
@@ -82,6 +83,7 @@ COUPLED_INERTIA = Cause(
     "Something turns with the sum or difference of two joints' motions and has inertia of its own.",
     "Accelerate one of the joints alone and watch the other one's torque.",
     "State how the two joints' motors are coupled (`actuation`), with their rotor inertias.",
+    nonnegative=True,
 )
 GAIN = Cause(
     "motor_constant",
@@ -160,6 +162,8 @@ GRAVITY = Cause(
     "Put a level on the base.",
     "Correct `gravity_m_s2`.",
 )
+WAY, PLAY, SCALE = "way since the last reversal", "torque since its last reversal", "torque"
+"""What laws follow that no cause has: hysteresis of friction, play between motor and sensor, a sensor that bends."""
 CURVE = Cause(
     "unknown",
     UNKNOWN,

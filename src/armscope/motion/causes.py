@@ -6,8 +6,8 @@ is linear in them. Signs: torque is the motor's, positive along the motion that 
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,6 +76,7 @@ class PlacedCause:
         multiplicity: how many values of a scanned number compete.
         is_curve: a free curve.
         scanned: (name, unit, value) of numbers that were scanned.
+        expected: (c,) how large its parameters are expected to be beside each other; empty: alike.
     """
 
     cause: Cause
@@ -91,6 +92,7 @@ class PlacedCause:
     multiplicity: int = 1
     is_curve: bool = False
     scanned: tuple[tuple[str, str, float], ...] = ()
+    expected: tuple[float, ...] = ()
 
     @property
     def width(self) -> int:
@@ -109,22 +111,26 @@ class Seen:
         arm: the arm.
         q, dq: (m, 2) least and largest position and velocity.
         load: (m,) largest torque that the stated masses ask for, N m.
+        effort: (m,) RMS of the recorded torque.
         time: (2,) s, first and last, of the longest run.
         temperature: (m, 2) deg C, or None.
         runs: names in order.
         moving: (m,) whether each joint moves.
         regressor: (K, 10 n) torque per inertial parameter in some of the samples, joints below each other.
+        waves: by joint (from 0), the waves per turn that stand out of what is left, and how many were tried.
     """
 
     arm: MovingArm
     q: Array
     dq: Array
     load: Array
+    effort: Array
     time: Array
     temperature: Array | None
     runs: tuple[str, ...]
     moving: NDArray[np.bool_]
     regressor: Array
+    waves: Mapping[int, tuple[tuple[int, ...], int]] = field(default_factory=dict)
 
     def unit(self, joint: int) -> str:
         """Of a joint's position."""

@@ -49,11 +49,27 @@ class LibraryRules(Constants):
     stribeck_widths: int = constant(
         5, "speeds that are scanned", "judgement: they follow in steps of two", unit="speeds"
     )
-    ripple_counts: tuple[int, ...] = constant(
-        (2, 3, 4, 5, 6, 8, 10, 12),
-        "waves per turn that are scanned",
-        "judgement: motors' and gears' low harmonics",
-        unit="waves",
+    between_speeds: float = constant(
+        0.5,
+        "relative change of a scanned speed that its cause allows for",
+        "derived: half a step of the scan",
+    )
+    delays_s: tuple[float, ...] = constant(
+        (0.004, 0.012, 0.036), "delays that are tried first", "judgement: of drives and field buses", unit="s"
+    )
+    most_waves: int = constant(60, "per turn that are tried", "judgement: gears' and motors' low harmonics")
+    waves_kept: int = constant(3, "of those tried that compete at a joint", "judgement: time", unit="waves")
+    ways: tuple[float, ...] = constant(
+        (0.003, 0.01, 0.03, 0.1),
+        "over which friction may come back after a reversal",
+        "judgement: some mrad of presliding to a tenth of the range",
+        unit="ranges of the joint",
+    )
+    plays: tuple[float, ...] = constant(
+        (0.02, 0.05, 0.12, 0.3),
+        "half widths of a play in the torque",
+        "judgement: from what noise hides to what nobody overlooks",
+        unit="RMS of the torque",
     )
     least_waves: float = constant(
         1.5,
@@ -138,7 +154,10 @@ class RowNoiseRules(Constants):
         0.7, "of a curve's evidence that names must have to take its place", "judgement: most of what it explains"
     )
     rounds: int = constant(
-        3, "of noise and selection, at most", "judgement: names rest after two as a rule", unit="rounds"
+        5, "of noise and selection, at most", "judgement: names rest after two as a rule", unit="rounds"
+    )
+    settled: float = constant(
+        0.3, "standard errors within which a number that is refined rests", "judgement: its interval hardly moves"
     )
     blocks_of_time: int = constant(5, "of a single run", "convention: as many as folds", unit="blocks")
     ridge: float = constant(
@@ -162,6 +181,13 @@ class ConsistencyRules(Constants):
         0.25, "by which sizes may differ in any case", "judgement: models are a little wrong", unit="1"
     )
     widths: float = constant(3.0, "standard errors by which sizes may differ", "convention: one chance in 400")
+    below: float = constant(
+        2.0, "standard errors by which what can't be negative may be below zero", "convention: one chance in 40"
+    )
+    cancelled: float = constant(
+        0.5, "of the lesser of two torques that is left of both, where they cancel", "judgement: most of it is gone"
+    )
+    judged: int = constant(6, "times that names are judged and weighed anew, at most", "judgement: time", unit="times")
 
 
 @dataclass(frozen=True)

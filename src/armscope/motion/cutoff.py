@@ -8,20 +8,18 @@ import numpy as np
 from scipy.signal import welch
 
 from armscope.core.types import Array
-from armscope.motion.layout import TorqueLayout
+from armscope.motion.first_look import FirstLook, first_look
 from armscope.motion.preparation import Preparation, preparation
-from armscope.motion.rows import MotionRows, SoFar, build_rows
 from armscope.motion.sampling_constants import CUTOFF
 from armscope.motion.timing import Stretch
-from armscope.motion.weights import fitted_together
 from armscope.robot.dynamics import MovingArm
 
 
-def chosen_cutoff(arm: MovingArm, stretches: Sequence[Stretch], asked: float | None) -> Preparation:
+def chosen_cutoff(arm: MovingArm, stretches: Sequence[Stretch], asked: float | None) -> tuple[Preparation, FirstLook]:
     """How samples become rows, with the cut-off that was asked for or the one that the spectra give.
 
-    Friction, rotors and masses are fitted at a generous cut-off; of its torque and of what it leaves, the spectra are
-    taken. Above the frequency where what is left is as large, samples hold noise.
+    Friction, rotors, masses and ripple are fitted at a generous cut-off; of their torque and of what it leaves, the
+    spectra are taken. Above the frequency where what is left is as large, samples hold noise.
 
     Args:
         arm: the arm.
@@ -29,22 +27,22 @@ def chosen_cutoff(arm: MovingArm, stretches: Sequence[Stretch], asked: float | N
         asked: Hz; None where it is to be chosen.
 
     Returns:
-        The filters and the decimation.
+        The filters and the decimation; what the fit tells besides.
     """
     rate = stretches[0].rate
     longest = max(stretches, key=len)
     moving = _position_cutoff(longest)
-    if asked is not None:
-        return preparation(rate, asked, "as asked", moving)
     generous = preparation(rate, min(CUTOFF.widest * rate, CUTOFF.widest_hz), "generous", moving)
-    rows = build_rows(
-        TorqueLayout(arm, (), False), [longest], generous, SoFar(arm.inertial, np.zeros((arm.n_motors, 4)))
-    )
-    if len(rows) < CUTOFF.window:
-        return preparation(rate, CUTOFF.fallback * rate, "a share of the sampling rate: the motion is short", moving)
-    crossing = _crossing(rows, rate / generous.every)
+    first = first_look(arm, longest, generous)
+    if asked is not None:
+        return preparation(rate, asked, "as asked", moving), first
+    if len(first.left) < CUTOFF.window:
+        source = "a share of the sampling rate: the motion is short"
+        return preparation(rate, CUTOFF.fallback * rate, source, moving), first
+    crossing = _crossing(first, rate / generous.every)
     cutoff = float(np.clip(crossing, CUTOFF.least_hz, generous.cutoff))
-    return preparation(rate, float(f"{cutoff:.2g}"), "where the model explains as much as it leaves", moving)
+    source = "where the model explains as much as it leaves"
+    return preparation(rate, float(f"{cutoff:.2g}"), source, moving), first
 
 
 def _position_cutoff(stretch: Stretch) -> float:
@@ -58,13 +56,11 @@ def _position_cutoff(stretch: Stretch) -> float:
     return CUTOFF.beyond_motion * float(frequency[1 + moving[-1]]) if len(moving) else np.inf
 
 
-def _crossing(rows: MotionRows, rate: float) -> float:
+def _crossing(first: FirstLook, rate: float) -> float:
     """Hz up to which the model's torque has more power than what it leaves, all joints in units of their noise."""
-    modelled = rows.nominal + rows.modelled(fitted_together(rows))
-    left = rows.torque - modelled
-    unit = np.maximum(left.std(axis=0), 1e-12)
-    frequency, explained = _spectrum(modelled / unit, rate)
-    _, remains = _spectrum(left / unit, rate)
+    unit = np.maximum(first.left.std(axis=0), 1e-12)
+    frequency, explained = _spectrum(first.modelled / unit, rate)
+    _, remains = _spectrum(first.left / unit, rate)
     drowned = explained < CUTOFF.drowned * remains
     peak = int(np.argmax(explained))
     several = np.convolve(drowned[peak:], np.ones(CUTOFF.bins), mode="valid") == CUTOFF.bins

@@ -45,7 +45,10 @@ def _side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
 
 
 def _stribeck(m: Moment, joints: tuple[int, ...], width: float, speed: float) -> Array:
-    return np.asarray(_side(m, joints, width) * np.exp(-((_speed(m, joints) / speed) ** 2)))
+    """The law, and its change with the logarithm of its speed: a scanned speed is never quite the true one."""
+    share = (_speed(m, joints) / speed) ** 2
+    fallen = _side(m, joints, width) * np.exp(-share)
+    return np.column_stack([fallen, 2 * share * fallen])
 
 
 def _load_side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
@@ -63,12 +66,55 @@ def warmth(m: Moment, joint: int) -> Array:
     return m.signals.temperature[:, joint]
 
 
-def _warm_speed(m: Moment, joints: tuple[int, ...], middle: float) -> Array:
-    return (warmth(m, joints[0]) - middle) * _speed(m, joints)
+def _warm_speed(m: Moment, joints: tuple[int, ...], middle: float, constant: float = 0.0) -> Array:
+    return _warm(m, joints, _speed(m, joints), middle, constant)
 
 
-def _warm_side(m: Moment, joints: tuple[int, ...], width: float, middle: float) -> Array:
-    return (warmth(m, joints[0]) - middle) * _side(m, joints, width)
+def _warm_side(m: Moment, joints: tuple[int, ...], width: float, middle: float, constant: float = 0.0) -> Array:
+    return _warm(m, joints, _side(m, joints, width), middle, constant)
+
+
+def _warm(m: Moment, joints: tuple[int, ...], friction: Array, middle: float, constant: float) -> Array:
+    """With ``constant``, what friction is off at the middle temperature, too: nobody knows at which it was stated."""
+    changing = (warmth(m, joints[0]) - middle) * friction
+    return np.column_stack([changing, friction]) if constant else changing
+
+
+def _delayed(m: Moment, joints: tuple[int, ...], delay: float = 0.0) -> Array:
+    """What a delay changes, per second of it: exactly at the delay given, along the slope for none."""
+    torque = m.predicted[:, joints[0]]
+    if delay == 0:
+        return np.asarray(-np.gradient(torque, 1 / m.rate))
+    return (np.interp(m.signals.time - delay, m.signals.time, torque) - torque) / delay
+
+
+def _spring(m: Moment, joints: tuple[int, ...], middle: float) -> Array:
+    """Its stiffness, and its pull in the middle of the range: where it rests is not known."""
+    turned = m.signals.q[:, joints[0]] - middle
+    return np.column_stack([turned, np.ones_like(turned)])
+
+
+def taken_along(values: Array, ways: tuple[float, ...]) -> Array:
+    """(N, c) how far something that clings over each way is taken along, -1 ... 1: Prandtl's stop operator.
+
+    Sums of it approach any hysteresis that depends on the way since the last turn and not on time (Visintin 1994).
+    """
+    steps = np.sign(np.diff(values))
+    steps = steps[np.flatnonzero(steps)] if not steps.all() else steps
+    found, state = np.empty((len(values), len(ways))), np.full(len(ways), steps[0] if len(steps) else 0.0)
+    turns = 1 + np.flatnonzero(np.diff(values)[1:] * np.diff(values)[:-1] < 0)
+    start = 0
+    for stop in [*turns, len(values) - 1]:
+        part = (values[start : stop + 1] - values[start])[:, None] / np.array(ways)
+        found[start : stop + 1] = np.clip(state + part, -1, 1)
+        start, state = stop, found[stop]
+    return found
+
+
+def _powers_of_torque(m: Moment, joints: tuple[int, ...], usual: float) -> Array:
+    torque = m.predicted[:, joints[0]]
+    share = torque / usual
+    return np.column_stack([torque, torque * np.abs(share), torque * share**2])
 
 
 def _wave(m: Moment, joints: tuple[int, ...], count: float) -> Array:
@@ -124,8 +170,11 @@ LAWS: dict[str, Callable[..., Array]] = {
     "warm speed": _warm_speed,
     "warm side": _warm_side,
     "torque": lambda m, joints: m.predicted[:, joints[0]],
-    "delayed torque": lambda m, joints: -np.gradient(m.predicted[:, joints[0]], 1 / m.rate),
-    "spring": lambda m, joints, middle: m.signals.q[:, joints[0]] - middle,
+    "delayed torque": _delayed,
+    "powers of torque": _powers_of_torque,
+    "clinging over ways": lambda m, joints, *ways: taken_along(m.signals.q[:, joints[0]], ways),
+    "clinging over torques": lambda m, joints, *widths: taken_along(m.predicted[:, joints[0]], widths),
+    "spring": _spring,
     "wave": _wave,
     "rubbing of two": _rubbing,
     "inertia of two": _inert,

@@ -45,11 +45,14 @@ class TorqueLayout:
 
     @property
     def frames(self) -> Indices:
-        """Those of `own` that are always free: friction and rotors that robot.yaml does not state."""
+        """Those of `own` that are always free: friction and rotors that robot.yaml does not state.
+
+        Where it states them all, the drives' response: something must be free for noise to be told from torque.
+        """
         free = np.ones((self.arm.n_motors, OWN), dtype=np.bool_)
         free[:, :CAUSES_OF_OWN] = np.isnan(self.arm.stated_background)
         free[:, [0, *range(CAUSES_OF_OWN, OWN)]] = False
-        return np.flatnonzero(free.ravel())
+        return np.flatnonzero(free.ravel()) if free.any() else self.response
 
     @property
     def response(self) -> Indices:

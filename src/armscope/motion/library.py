@@ -50,7 +50,10 @@ def _at_joint(seen: Seen, j: int) -> Iterator[PlacedCause]:
         if seen.temperature is not None and np.ptp(seen.temperature[j]) > LIBRARY.least_warming_k:
             yield from _warmth(at, seen.temperature[j])
     yield at.cause(catalogue.GAIN, "torque", (("gain", ""),), "torque")
-    yield at.cause(catalogue.DELAY, "torque", (("delay", "s"),), "delayed torque")
+    for delay in LIBRARY.delays_s:
+        how = {"variant": f"{delay:.3g} s", "multiplicity": len(LIBRARY.delays_s)}
+        yield at.cause(catalogue.DELAY, "torque", (("delay", "s"),), "delayed torque", delay, **how)
+    yield from _outside(at)
     yield from _springs(at)
     yield at.curve(catalogue.CURVE, "time", seen.time, LIBRARY.knots_of_time, variant="time")
     for driver, limits in (("speed", seen.dq[j]), ("load", np.array([-1.0, 1.0]) * seen.load[j])):
@@ -111,7 +114,8 @@ def _friction(at: _Joint) -> Iterator[PlacedCause]:
     widths = np.geomspace(slowest, max(fastest / 2, 2 * slowest), LIBRARY.stribeck_widths)
     for v in map(float, widths):
         more: dict[str, Any] = {"variant": f"{v:.3g}", "scanned": (("speed", f"{unit}/s", v),)}
-        names = (("stribeck", torque),)
+        names = (("stribeck", torque), ("wider", torque))
+        more["expected"] = (1.0, LIBRARY.between_speeds)
         yield at.cause(catalogue.STRIBECK, "speed", names, "stribeck", at.sharp, v, multiplicity=len(widths), **more)
     yield at.cause(catalogue.LOAD_FRICTION, "load", (("per_load", ""),), "load friction", at.sharp)
     powers = (("square", f"{torque} s^2/{unit}^2"), ("cube", f"{torque} s^3/{unit}^3"))
@@ -120,25 +124,41 @@ def _friction(at: _Joint) -> Iterator[PlacedCause]:
 
 def _warmth(at: _Joint, limits: Array) -> Iterator[PlacedCause]:
     middle, cause, driver = float(np.mean(limits)), catalogue.TEMPERATURE_FRICTION, "temperature"
-    viscous = (("per_kelvin", f"{at.torque} s/({at.unit} K)"),)
-    yield at.cause(cause, driver, viscous, "warm speed", middle, variant="viscous")
-    dry = (("dry_per_kelvin", f"{at.torque}/K"),)
-    yield at.cause(cause, driver, dry, "warm side", at.sharp, middle, variant="dry")
+    dry_stated, viscous_stated = np.isfinite(at.seen.arm.stated_background[at.number, 1:3])
+    viscous = (("per_kelvin", f"{at.torque} s/({at.unit} K)"), ("viscous", f"{at.torque} s/{at.unit}"))
+    yield at.cause(
+        cause, driver, viscous[: 1 + viscous_stated], "warm speed", middle, viscous_stated, variant="viscous"
+    )
+    dry = (("dry_per_kelvin", f"{at.torque}/K"), ("dry", at.torque))[: 1 + dry_stated]
+    yield at.cause(cause, driver, dry, "warm side", at.sharp, middle, dry_stated, variant="dry")
     yield at.curve(catalogue.CURVE, driver, limits, LIBRARY.knots_of_others, variant=driver)
 
 
 def _springs(at: _Joint) -> Iterator[PlacedCause]:
     driver, q = "joint angle", at.seen.q[at.number]
-    yield at.cause(catalogue.BALANCER, driver, (("stiffness", f"{at.torque}/{at.unit}"),), "spring", float(np.mean(q)))
+    stiffness = (("stiffness", f"{at.torque}/{at.unit}"), ("torque", at.torque))
+    yield at.cause(catalogue.BALANCER, driver, stiffness, "spring", float(np.mean(q)))
     if not at.seen.arm.sliding[at.number]:
         waves = (("sine", at.torque), ("cosine", at.torque))
         yield at.cause(catalogue.BALANCER, driver, waves, "wave", 1, variant="counterweight")
-        turns = float(np.ptp(q)) / (2 * np.pi)
-        counts = [n for n in LIBRARY.ripple_counts if n * turns > LIBRARY.least_waves]
-        for n in counts:
+        found, tried = at.seen.waves.get(at.number, ((), 1))
+        for n in found:
             more: dict[str, Any] = {"variant": str(n), "scanned": (("per_turn", "", float(n)),)}
-            yield at.cause(catalogue.RIPPLE, driver, waves, "wave", n, multiplicity=len(counts), **more)
+            yield at.cause(catalogue.RIPPLE, driver, waves, "wave", n, multiplicity=tried, **more)
     yield at.curve(catalogue.CABLE, driver, q, LIBRARY.knots_of_position)
+
+
+def _outside(at: _Joint) -> Iterator[PlacedCause]:
+    """Laws that no cause has, so that what follows them is located and not called something else."""
+    ways = np.array(LIBRARY.ways) * float(np.ptp(at.seen.q[at.number]))
+    names = tuple((f"over way {k + 1}", at.torque) for k in range(len(ways)))
+    yield at.cause(catalogue.CURVE, catalogue.WAY, names, "clinging over ways", *ways, variant="way")
+    usual = float(at.seen.effort[at.number])
+    widths = np.array(LIBRARY.plays) * usual
+    names = tuple((f"over torque {k + 1}", at.torque) for k in range(len(widths)))
+    yield at.cause(catalogue.CURVE, catalogue.PLAY, names, "clinging over torques", *widths, variant="play")
+    names = (("linear", ""), ("square", ""), ("cube", ""))
+    yield at.cause(catalogue.CURVE, catalogue.SCALE, names, "powers of torque", usual, variant="scale")
 
 
 def _coupled(seen: Seen, j: int, k: int) -> Iterator[PlacedCause]:

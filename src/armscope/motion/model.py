@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.motion import catalogue
 from armscope.motion.causes import Moment, PlacedCause
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.preparation import Preparation, Signals, parts
@@ -57,7 +58,11 @@ class MotionModel:
 
     def followed(self) -> SoFar:
         """What load, delay and gain follow: masses with all that is added to them, friction and rotors."""
-        return SoFar(self.inertial + self._added(None), self.joints[:, :CAUSES_OF_OWN])
+        delay = np.zeros(self.arm.n_motors)
+        for cause in self.causes:
+            if cause.placed.cause is catalogue.DELAY:
+                delay[cause.placed.joints[0]] = cause.values[0]
+        return SoFar(self.inertial + self._added(None), self.joints[:, :CAUSES_OF_OWN], delay)
 
     def _added(self, run: str | None) -> Array:
         """(10 n,) inertial parameters that causes add: those of every run, or those in one run."""
@@ -79,7 +84,8 @@ class MotionModel:
         carried = np.zeros(regressor.shape[:2])
         if signals.payload is not None:
             carried = signals.payload[:, None] * (regressor @ self.arm.point_load())
-        followed, own = self.followed(), own_columns(self.arm, signals)
+        followed = self.followed()
+        own = own_columns(self.arm, signals, followed.delay)
         rigid = regressor @ followed.inertial + carried
         predicted = rigid + np.einsum("nmk,mk->nm", own[:, :, :CAUSES_OF_OWN], followed.background)
         moment = Moment(signals, rigid, predicted, self._gravity(signals.q), rate)

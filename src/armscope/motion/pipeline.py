@@ -31,6 +31,7 @@ from armscope.motion.rows import MotionRows, build_rows, torque_of
 from armscope.motion.sampling_constants import FILTER
 from armscope.motion.seen import seen_in
 from armscope.motion.selection import SelectedCauses, model_so_far, select_causes
+from armscope.motion.tenable import tenable
 from armscope.motion.timing import Stretch, mended, stretches
 from armscope.motion.verdict import MotionVerdict
 from armscope.recordings.motions import Motions
@@ -112,11 +113,13 @@ def diagnose_motion(
     notices = [Notice("table", note) for note in motions.notes] + check_motions(arm, motions)
     motions, told = mended(motions)
     train, test = _parted(arm, motions, settings.held_out)
-    how = chosen_cutoff(arm, train, settings.cutoff)
-    seen = seen_in(arm, train, LIBRARY.still_rad)
+    how, first = chosen_cutoff(arm, train, settings.cutoff)
+    seen = replace(seen_in(arm, train, LIBRARY.still_rad), waves=first.waves)
     layout = TorqueLayout(arm, tuple(place_causes(seen)), motions.kind == "current")
     runs = tuple(dict.fromkeys(stretch.run for stretch in train))
-    selected = select_causes(layout, train, how, runs, lambda text, share: progress(text, 0.1 + 0.6 * share))
+    weighing = lambda text, share: progress(text, 0.1 + 0.6 * share)
+    selected = tenable(select_causes(layout, train, how, runs, weighing, first.model), how.rate)
+    layout = selected.rows.layout
     notices += [*told, *check_rows(selected.rows, motions.source)]
     progress("measuring on motion that took no part", 0.75)
     apart = None

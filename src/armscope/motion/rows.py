@@ -63,10 +63,17 @@ class SoFar:
     Attributes:
         inertial: (10 n,) inertial parameters.
         background: (m, 4) offset, dry and viscous friction, rotor inertia, with what is stated.
+        delay: (m,) s by which torques are late: where friction changes sides is then seen later, too.
     """
 
     inertial: Array
     background: Array
+    delay: Array
+
+
+def stated_model(arm: MovingArm) -> SoFar:
+    """What robot.yaml states."""
+    return SoFar(arm.inertial, np.nan_to_num(arm.stated_background), np.zeros(arm.n_motors))
 
 
 def torque_of(arm: MovingArm, stretch_effort: Array, kind: str) -> Array:
@@ -125,7 +132,7 @@ def build_rows(
 def _piece(layout: TorqueLayout, signals: Signals, how: Preparation, model: SoFar) -> MotionRows:
     arm, kept = layout.arm, signals.kept
     regressor = arm.regressor(signals.q, signals.dq, signals.ddq)
-    background = own_columns(arm, signals)
+    background = own_columns(arm, signals, model.delay)
     rigid = regressor @ model.inertial
     if signals.payload is not None:
         rigid = rigid + signals.payload[:, None] * (regressor @ arm.point_load())
@@ -187,12 +194,24 @@ def bend(torque: Array, rate: float) -> Array:
     return np.asarray(np.gradient(slope, 1 / rate, axis=0))
 
 
-def own_columns(arm: MovingArm, signals: Signals) -> Array:
-    """(N, m, 6) of `OWN`, per unit of each."""
+def own_columns(arm: MovingArm, signals: Signals, delay: Array) -> Array:
+    """What every joint has, per unit of each.
+
+    Args:
+        arm: the arm.
+        signals: N samples.
+        delay: (m,) s by which torques are late: how friction changes sides is seen later by as much.
+
+    Returns:
+        (N, m, 6) of `layout.OWN_NAMES`.
+    """
     width = sharp_width(arm)
     turned = side(signals, width)
     blunter = side(signals, coulomb_width(arm)) - turned
     later = -np.gradient(turned, signals.period, axis=0)
+    for j in np.flatnonzero(delay):
+        for shape in (blunter, later):
+            shape[:, j] = np.interp(signals.time - delay[j], signals.time, shape[:, j])
     return np.stack([np.ones_like(signals.q), turned, signals.dq, signals.ddq, blunter, later], axis=2)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,12 +12,14 @@ from armscope.core.types import Array, Indices, Progress
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import ModelSpace
 from armscope.inference.normal_equations import NormalEquations, total
-from armscope.inference.problem import Problem, build_problem
+from armscope.inference.problem import Problem, SelectedEffect, build_problem
 from armscope.inference.search import Search
-from armscope.motion.constants import NOISE, PRIOR
+from armscope.motion import catalogue
+from armscope.motion.constants import LIBRARY, NOISE, PRIOR
+from armscope.motion.laws import Law
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.preparation import Preparation
-from armscope.motion.rows import MotionRows, SoFar, build_rows
+from armscope.motion.rows import MotionRows, SoFar, build_rows, stated_model
 from armscope.motion.space import build_space
 from armscope.motion.timing import Stretch
 from armscope.motion.weights import TorqueWeights, estimate_weights, fitted_together, sums_by_block
@@ -60,17 +62,23 @@ def coefficients_of(problem: Problem, hypothesis: Hypothesis) -> Array:
 def model_so_far(layout: TorqueLayout, coefficients: Array) -> SoFar:
     """What load, delay and gain follow: inertial parameters with all that was added to them, and the background."""
     inertial = layout.arm.inertial + layout.inertial_scale * coefficients[layout.inertial]
+    delay = np.zeros(layout.arm.n_motors)
     for cause, columns in zip(layout.placed, layout.columns, strict=True):
         if cause.inertial is not None and not cause.runs:
             inertial = inertial + cause.inertial @ coefficients[columns]
-    return SoFar(
-        inertial,
-        np.nan_to_num(layout.arm.stated_background) + coefficients[layout.own].reshape(-1, OWN)[:, :CAUSES_OF_OWN],
-    )
+        if cause.cause is catalogue.DELAY:
+            delay[cause.joints[0]] += coefficients[columns[0]]
+    own = coefficients[layout.own].reshape(-1, OWN)[:, :CAUSES_OF_OWN]
+    return SoFar(inertial, np.nan_to_num(layout.arm.stated_background) + own, delay)
 
 
 def select_causes(
-    layout: TorqueLayout, stretches: Sequence[Stretch], how: Preparation, block_of: Sequence[str], progress: Progress
+    layout: TorqueLayout,
+    stretches: Sequence[Stretch],
+    how: Preparation,
+    block_of: Sequence[str],
+    progress: Progress,
+    model: SoFar | None = None,
 ) -> SelectedCauses:
     """The causes that the evidence asks for.
 
@@ -80,37 +88,69 @@ def select_causes(
         how: filters and decimation.
         block_of: what rows are blocked by: names of the runs; one name or none for blocks of time.
         progress: hears what is being done.
+        model: what load, delay and gain follow at first; the stated one where there is none.
 
     Returns:
-        The selection.
+        The selection; the numbers in its layout that were scanned are those at which they rest.
     """
-    model = SoFar(layout.arm.inertial, np.nan_to_num(layout.arm.stated_background))
+    model = model or stated_model(layout.arm)
     selected: SelectedCauses | None = None
-    names: set[tuple[str, str]] | None = None
     for number in range(NOISE.rounds):
         share = number / NOISE.rounds
         rows = build_rows(layout, stretches, how, model, functools.partial(_within, progress, share))
         block = blocks_of(rows, block_of)
-        weights = _start(rows) if selected is None else estimate_weights(rows, selected.residuals)
-        progress("weighing causes", share + 0.15)
         space = build_space(layout, np.sqrt(np.mean(rows.torque**2, axis=0)), how.rate)
-        selected = chosen(rows, weights, block, space)
-        weights = estimate_weights(rows, selected.residuals)
-        selected = chosen(rows, weights, block, space)
-        found = {space.candidates[c].key for c in selected.best.candidates}
-        if found == names:
+        progress("weighing causes", share + 0.15)
+        if selected is None:
+            first = chosen(rows, _start(rows), block, space)
+            found, before = None, (first.best, first.best.chosen)
+            weights = estimate_weights(rows, first.residuals)
+        else:
+            found, before = selected.best.candidates, (selected.best, selected.best.chosen)
+            weights = estimate_weights(rows, selected.residuals)
+        selected = chosen(rows, weights, block, space, before)
+        finer = refined(selected)
+        if selected.best.candidates == found and finer is None:
             break
-        names = found
         model = model_so_far(layout, selected.coefficients)
+        layout = finer or layout
     assert selected is not None
     return selected
+
+
+def refined(selected: SelectedCauses) -> TorqueLayout | None:
+    """The layout with scanned speeds and delays where the fit puts them; None where they rest."""
+    layout, moved = selected.rows.layout, False
+    placed = list(layout.placed)
+    for number in selected.best.candidates:
+        cause, columns = placed[number], layout.columns[number]
+        if cause.cause not in (catalogue.STRIBECK, catalogue.DELAY) or not isinstance(cause.columns, Law):
+            continue
+        values = selected.coefficients[columns]
+        error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
+        *others, now = cause.columns.numbers
+        if cause.cause is catalogue.DELAY:
+            better, rests = float(values[0]), abs(values[0] - now) < NOISE.settled * error[0]
+        else:
+            by = float(np.clip(values[1] / values[0], -LIBRARY.between_speeds, LIBRARY.between_speeds))
+            better, rests = now * np.exp(by), abs(values[1]) < NOISE.settled * error[1]
+        scanned = tuple((name, unit, better) for name, unit, _ in cause.scanned)
+        placed[number] = replace(cause, columns=replace(cause.columns, numbers=(*others, better)), scanned=scanned)
+        moved = moved or not rests
+    return replace(layout, placed=tuple(placed)) if moved else None
 
 
 def _within(progress: Progress, start: float, text: str, done: float) -> None:
     progress(text, start + 0.1 * done)
 
 
-def chosen(rows: MotionRows, weights: TorqueWeights, block: Indices, space: ModelSpace) -> SelectedCauses:
+def chosen(
+    rows: MotionRows,
+    weights: TorqueWeights,
+    block: Indices,
+    space: ModelSpace,
+    before: tuple[Hypothesis, Sequence[SelectedEffect]] | None = None,
+) -> SelectedCauses:
     """The selection at given weights.
 
     Args:
@@ -118,6 +158,7 @@ def chosen(rows: MotionRows, weights: TorqueWeights, block: Indices, space: Mode
         weights: how much they count.
         block: (K,) number of each row's block.
         space: what competes.
+        before: a hypothesis found on much the same sums, and those of its effects to start from.
 
     Returns:
         What won.
@@ -125,13 +166,22 @@ def chosen(rows: MotionRows, weights: TorqueWeights, block: Indices, space: Mode
     blocks = sums_by_block(rows, weights, block)
     problem = build_problem(space, total(blocks), least_noise=0.5 * PRIOR.unit)
     search = Search.on(problem)
-    best = _settled(search, named_first(search, search.best()))
-    return SelectedCauses(rows, weights, block, blocks, space, problem, best)
+    if before is None:
+        best = search.best()
+    else:
+        found, effects = before
+        best = search.best((found.background,), also=search.evaluated(effects, found))
+    return SelectedCauses(rows, weights, block, blocks, space, problem, _settled(search, named_first(search, best)))
 
 
 def _start(rows: MotionRows) -> TorqueWeights:
-    """Weights from what everything at once leaves: noise is then at its least, and correlation, too."""
-    return estimate_weights(rows, rows.torque - rows.nominal - rows.modelled(fitted_together(rows)))
+    """Weights from what friction, rotors and masses leave.
+
+    With all causes fitted at once, a short motion would have no noise left, and everything would be sure of itself;
+    so noise starts too large, and comes down as causes are found.
+    """
+    ordinary = np.concatenate([rows.layout.own, rows.layout.inertial, rows.layout.response])
+    return estimate_weights(rows, rows.torque - rows.nominal - rows.modelled(fitted_together(rows, ordinary)))
 
 
 def blocks_of(rows: MotionRows, runs: Sequence[str]) -> Indices:

@@ -7,12 +7,12 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.inference.model_space import BackgroundFamily, Candidate, ModelSpace, ToleranceFamily
 from armscope.motion import catalogue
-from armscope.motion.causes import PlacedCause
+from armscope.motion.causes import Cause, PlacedCause
 from armscope.motion.constants import PRIOR
 from armscope.motion.layout import TorqueLayout
 
 
-def build_space(layout: TorqueLayout, torque: Array, rate: float) -> ModelSpace:
+def build_space(layout: TorqueLayout, torque: Array, rate: float, barred: frozenset[int] = frozenset()) -> ModelSpace:
     """What may take part in the diagnosis of a motion.
 
     Offset, friction and rotor inertia of every joint are always free; inertial parameters are held near the stated ones
@@ -22,6 +22,7 @@ def build_space(layout: TorqueLayout, torque: Array, rate: float) -> ModelSpace:
         layout: of the columns.
         torque: (m,) RMS torque of each joint.
         rate: samples per second.
+        barred: numbers of causes that can't stand.
 
     Returns:
         Columns, priors, and what excludes what.
@@ -41,11 +42,11 @@ def build_space(layout: TorqueLayout, torque: Array, rate: float) -> ModelSpace:
         families.append(ToleranceFamily("gains", layout.gains, np.full(len(layout.gains), sigma), (0.0, 1.0)))
         starts = [(*start, 1) for start in starts]
     return ModelSpace(
-        frames=layout.frames, families=tuple(families), candidates=_candidates(layout), starts=tuple(starts)
+        frames=layout.frames, families=tuple(families), candidates=_candidates(layout, barred), starts=tuple(starts)
     )
 
 
-def _candidates(layout: TorqueLayout) -> tuple[Candidate, ...]:
+def _candidates(layout: TorqueLayout, barred: frozenset[int]) -> tuple[Candidate, ...]:
     placed = layout.placed
     candidates = []
     for number, (cause, columns) in enumerate(zip(placed, layout.columns, strict=True)):
@@ -55,7 +56,7 @@ def _candidates(layout: TorqueLayout) -> tuple[Candidate, ...]:
                 kind=cause.cause.name,
                 location=cause.location,
                 columns=columns,
-                prior_scale=np.ones(cause.width),
+                prior_scale=np.array(cause.expected or np.ones(cause.width)),
                 variant=cause.variant,
                 driver=cause.driver,
                 label=str(cause),
@@ -64,8 +65,9 @@ def _candidates(layout: TorqueLayout) -> tuple[Candidate, ...]:
                 multiplicity=cause.multiplicity,
                 nonnegative=cause.cause.nonnegative and cause.width == 1,
                 is_curve=cause.is_curve,
+                competes=number not in barred,
                 excludes=excludes,
-                special_cases=frozenset(n for n in excludes if cause.is_curve and not placed[n].is_curve),
+                special_cases=frozenset(n for n in excludes - barred if cause.is_curve and not placed[n].is_curve),
                 side_by_side=2,
             )
         )
@@ -93,6 +95,14 @@ CONTAINED = {
     "temperature": (catalogue.OFFSET,),
 }
 """What a free curve at the same joint contains, by what it follows."""
+OWNED = {
+    catalogue.WAY: catalogue.COULOMB,
+    catalogue.PLAY: catalogue.DELAY,
+    catalogue.SCALE: catalogue.GAIN,
+}
+"""What a law outside the library contains, by what it follows."""
+OWNS = {catalogue.BALANCER: catalogue.OFFSET}
+"""A spring's rest is not known, so that its pull in the middle of the range is its own."""
 
 
 def _clash(one: PlacedCause, other: PlacedCause) -> bool:
@@ -104,4 +114,15 @@ def _clash(one: PlacedCause, other: PlacedCause) -> bool:
     if one.is_curve or other.is_curve:
         curve, special = (one, other) if one.is_curve else (other, one)
         return special.cause in CONTAINED[curve.driver]
+    for owner, owned in ((one, other), (other, one)):
+        own = (OWNS.get(owner.cause), OWNED.get(owner.driver) if owner.cause is catalogue.CURVE else None)
+        if owned.cause in own or _at_all_temperatures(owner) is owned.cause:
+            return True
     return one.cause is other.cause and not (one.runs or other.runs)
+
+
+def _at_all_temperatures(cause: PlacedCause) -> Cause | None:
+    """What a friction that changes with temperature contains where it has a constant part."""
+    if cause.cause is not catalogue.TEMPERATURE_FRICTION or cause.width == 1:
+        return None
+    return catalogue.VISCOUS if cause.variant == "viscous" else catalogue.COULOMB

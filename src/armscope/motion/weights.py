@@ -104,14 +104,14 @@ def sums_by_block(rows: MotionRows, weights: TorqueWeights, block: Indices) -> l
     return sums
 
 
-def fitted_together(rows: MotionRows) -> Array:
-    """(p,) coefficients of all columns at once, each as free as the others, joints in units of their own torque."""
+def fitted_together(rows: MotionRows, among: Indices) -> Array:
+    """(p,) coefficients of some columns at once, each as free as the others, joints in units of their own torque."""
     plain = TorqueWeights(
         np.maximum(np.std(rows.torque, axis=0), 1e-9), np.ones(rows.torque.shape[1]), (~rows.still).astype(np.float64)
     )
     sums = sums_by_block(rows, plain, np.zeros(len(rows), dtype=np.intp))[0]
     scale = np.sqrt(np.maximum(np.diag(sums.G), 1e-300))
-    used = np.flatnonzero(np.diag(sums.G) > 0)
+    used = among[np.diag(sums.G)[among] > 0]
     G = sums.G[np.ix_(used, used)] / np.outer(scale[used], scale[used])
     factor = lower_cholesky(G, np.full(len(used), NOISE.ridge))
     coefficients = np.zeros(rows.layout.width)

@@ -8,6 +8,7 @@ import pytest
 import yaml
 
 from armscope.robot.description_file import load_description
+from armscope.world.motion import folder
 from armscope.world.motion.catalogue import KINDS, MotionSpec, Wish, catalogue
 from armscope.world.motion.folder import build, make
 from armscope.world.motion.recording import independent_share, record
@@ -112,6 +113,11 @@ def test_another_arm_conceals_what_this_one_cannot():
     """The stage of two axes has no wrist that could be coupled."""
     world = make(spec(("coupled_friction", 3.0, None)), FOLDER)
     assert world.spec.arm == "six-axis"
+
+
+def test_an_arm_without_the_ruled_joint_makes_no_such_world():
+    with pytest.raises(ImpossibleWish, match="joint 4"):
+        folder._make(spec(rule="one_way", joint=3), FOLDER)
 
 
 def test_a_world_is_two_folders_and_the_same_every_time(tmp_path):

@@ -31,14 +31,14 @@ def fill_readme(readme: Path, results: Path, proof: Path) -> None:
     claims, table = read_table(results / "claims.csv"), read_table(results / "table2.csv")
     audited = f"*{audit_sentence(read_table(results / 'audit.csv'))}*"
     text = readme.read_text(encoding="utf-8")
-    text = _filled(text, "results", [*_claim_lines(claims), "", *_table_lines(table), "", audited], readme)
+    text = filled(text, "results", [*_claim_lines(claims), "", *_table_lines(table), "", audited], readme)
     if (proof / "aims.csv").is_file():
         aims, worlds = read_table(proof / "aims.csv"), read_table(proof / "worlds.csv")
-        text = _filled(text, "proof", _proof_lines(aims, len(worlds)), readme)
+        text = filled(text, "proof", _proof_lines(aims, len(worlds)), readme)
     write_text(readme, text)
 
 
-def _filled(text: str, name: str, lines: list[str], readme: Path) -> str:
+def filled(text: str, name: str, lines: list[str], readme: Path) -> str:
     """A text with other lines between two marks."""
     begin, end = f"<!-- {name}: begin", f"<!-- {name}: end -->"
     if begin not in text or end not in text:

@@ -77,6 +77,8 @@ def _make(spec: MotionSpec, robots: Path) -> World:
     arms, paths, places, noise, drives = (np.random.default_rng([spec.seed, part]) for part in range(5))
     description = load_description(robots / f"{spec.arm}.yaml")
     dynamics = ordinary(stated_dynamics(description), arms)
+    if spec.joint is not None and spec.joint >= dynamics.n_joints:
+        raise ImpossibleWish(f"{spec.arm} has no joint {spec.joint + 1} that could move by a rule")
     session = make_session(description, spec.durations, spec.rule, spec.joint, paths)
     arm = VirtualArm(description, dynamics, session, np.ones(dynamics.n_joints), spec.stated)
     plain = arm.torques([])

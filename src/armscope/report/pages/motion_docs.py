@@ -1,0 +1,94 @@
+"""docs/motion.md: its tables, filled from the library and from results so that they can't go stale unnoticed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+
+from armscope.core.files import read_table, write_text
+from armscope.motion.catalogue import CAUSES
+from armscope.motion.verdict import read_motion_verdict
+from armscope.report.html import significant
+from armscope.report.pages.readme import filled
+
+MEDIAN = "median"
+"""In the name of the one aim that is no rate."""
+
+
+def fill_motion_page(page: Path, proof: Path | None, real: Path | None, of: str) -> None:
+    """Replace what stands between the page's marks.
+
+    Args:
+        page: docs/motion.md; it keeps everything outside the marks.
+        proof: folder with a motion proof's summary.csv and proof.csv; None keeps the rates that stand there.
+        real: folder with a folder per real set, each with verdict.json; None keeps what stands there.
+        of: what the results are of: a commit, and which proof.
+
+    Raises:
+        InputError: marks are missing, or a file of the results.
+    """
+    text = filled(page.read_text(encoding="utf-8"), "causes", cause_lines(), page)
+    if proof is not None:
+        summary, worlds = read_table(proof / "summary.csv"), read_table(proof / "proof.csv")
+        text = filled(text, "rates", rate_lines(summary, len(worlds), of), page)
+    if real is not None:
+        text = filled(text, "real", real_lines(real, of), page)
+    write_text(page, text)
+
+
+def cause_lines() -> list[str]:
+    """Every cause of the library: its name in verdict.json, its family, what it is."""
+    rows = [f"| `{cause.name}` | {cause.family} | {cause.physics} |" for cause in CAUSES]
+    return ["| name | family | what it is |", "|---|---|---|", *rows]
+
+
+def rate_lines(summary: pd.DataFrame, worlds: int, of: str) -> list[str]:
+    """The proof's aims over all of its worlds, with exact intervals.
+
+    Args:
+        summary: of `armscope.proof.motion.rates.summary`.
+        worlds: how many there were.
+        of: what the results are of.
+
+    Returns:
+        Lines of Markdown.
+    """
+    lines = [
+        f"Measured at {of}, {worlds} worlds, with 95 % intervals:",
+        "",
+        "| | cases | found | aim |",
+        "|---|---|---|---|",
+    ]
+    for row in summary[(summary["seeds"] == "all") & (summary["cases"] > 0)].to_dict("records"):
+        if MEDIAN in row["aim"]:
+            found = f"{significant(row['estimate'], 3)} ({significant(row['low'], 3)}–{significant(row['high'], 3)})"
+        else:
+            found = f"{row['estimate']:.0%} ({row['low']:.0%}–{row['high']:.0%})".replace("%", " %")
+        lines.append(f"| {row['aim']} | {row['cases']} | {found} | {row['verdict']} |")
+    return lines
+
+
+def real_lines(folder: Path, of: str) -> list[str]:
+    """Held-out errors on real arms, and what was said of them.
+
+    Args:
+        folder: a folder per set.
+        of: what the results are of.
+
+    Returns:
+        Lines of Markdown.
+    """
+    lines = [
+        f"Measured at {of}:",
+        "",
+        "| set | held out | as stated | friction and rotors | with masses and causes | said |",
+        "|---|---|---|---|---|---|",
+    ]
+    for path in sorted(folder.glob("*/verdict.json")):
+        verdict = read_motion_verdict(path)
+        held = verdict["held_out"]
+        errors = " | ".join(f"{significant(100 * held[name], 2)} %" for name in ("stated", "background", "model"))
+        said = verdict["headline"].partition("; on held-out")[0]
+        lines.append(f"| {path.parent.name} | {held['what']} | {errors} | {said} |")
+    return lines

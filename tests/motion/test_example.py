@@ -1,0 +1,47 @@
+"""The example of an arm in motion: by the command line, what it conceals is found and its test path predicted."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+from typer.testing import CliRunner
+
+from armscope.cli import app
+from armscope.motion.verdict import read_motion_verdict
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "moving-arm"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    out = tmp_path_factory.mktemp("out")
+    robot, motions = str(EXAMPLE / "robot.yaml"), str(EXAMPLE / "motions.csv.gz")
+    made = CliRunner().invoke(app, ["diagnose", motions, "--robot", robot, "-o", str(out), "--no-report"])
+    assert made.exit_code == 0, made.output
+    return out
+
+
+def test_what_the_example_conceals_is_found_and_nothing_else(folder: Path) -> None:
+    truth = yaml.safe_load((EXAMPLE / "truth.yaml").read_text(encoding="utf-8"))
+    found = {(e["effect"], e["location"]): e for e in read_motion_verdict(folder / "verdict.json")["effects"]}
+    assert found.keys() == {(e["effect"], e["location"]) for e in truth["effects"]}
+    for effect in truth["effects"]:
+        (wanted,) = effect["parameters"]
+        (told,) = found[effect["effect"], effect["location"]]["parameters"]
+        low, high = told["interval_95"]
+        assert low - (high - low) < wanted["value"] < high + (high - low)
+
+
+def test_its_test_path_is_predicted_as_well_as_noise_allows(folder: Path) -> None:
+    made = CliRunner().invoke(
+        app, ["predict", str(folder / "model.yaml"), str(EXAMPLE / "test.csv.gz"), "-o", str(folder / "p.csv")]
+    )
+    assert made.exit_code == 0, made.output
+    truth = yaml.safe_load((EXAMPLE / "truth.yaml").read_text(encoding="utf-8"))
+    names = [f"tau{j}_nm" for j in range(1, 7)]
+    off = pd.read_csv(folder / "p.csv")[names] - pd.read_csv(EXAMPLE / "test.csv.gz")[names]
+    assert np.sqrt(np.mean((off / truth["left_on_test_nm"]).to_numpy() ** 2)) < 1.2
