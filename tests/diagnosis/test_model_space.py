@@ -84,8 +84,8 @@ def test_a_drift_leaves_with_one_more_effect_of_the_base_where_there_are_pauses(
 
 def test_tolerances_are_free_and_other_backgrounds_pay(space: EffectSpace) -> None:
     assert [family.name for family in space.families] == list(FAMILIES)
-    assert [family.is_priced for family in space.families] == [False, True, True]
-    geometric, elastic, _ = space.families
+    assert [family.is_priced for family in space.families] == [False, True, True, True]
+    geometric, elastic, *_ = space.families
     scale = np.full(len(space.layout.terms), 1000.0)
     # the whole tolerance of a millimetre, of columns that move the tool by a metre per metre
     np.testing.assert_allclose(geometric.prior_variance(geometric.sizes - 1, scale), 1.0)

@@ -204,7 +204,7 @@ def test_a_jump_of_the_base_is_found_with_its_row() -> None:
 def test_a_faint_jump_has_a_wide_interval() -> None:
     arm, table = planted("six-axis", {}, 120, 0.02, seed=14)
     spreads = []
-    for size in (1.0, 0.08):
+    for size in (1.0, 0.12):  # a smaller one might be the set-up's wander as well
         moved = table.positions.copy()
         moved[70:] += size * np.array([3e-4, -2e-4, 1e-4])
         (found,) = diagnose(arm, replace(table, time=None, positions=moved), QUICK).effects

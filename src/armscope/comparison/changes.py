@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import stdtrit
 
-from armscope.comparison.problem import Possible, Problem, Scored
 from armscope.comparison.result import Change, Comparison, Kind, Valued
 from armscope.comparison.sets import of_same_poses, stacked
+from armscope.comparison.shared_model import Possible, Scored, SharedModel
 from armscope.core.types import Array
 from armscope.physics.effect import Term
 from armscope.recordings import Recordings
@@ -47,7 +47,7 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         InputError: fewer than two recordings, or one that does not fit the arm.
     """
     table, group = stacked(arm, recordings)
-    problem = Problem(arm, table, group)
+    problem = SharedModel(arm, table, group)
     families = of_same_poses(list(recordings.values()))
     possible = problem.possible_changes(_masks(families, of_arms))
     taken: list[Possible] = []
@@ -95,7 +95,7 @@ def _as_good(possible: Sequence[Possible], scores: Sequence[Scored], best: int) 
 
 
 def _change(
-    problem: Problem,
+    problem: SharedModel,
     found: Possible,
     p: float,
     others: tuple[str, ...],

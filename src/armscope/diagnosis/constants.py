@@ -27,8 +27,13 @@ class BackgroundPriors(Constants):
         "the same of the gears' waves",
         "judgement: seen with bench cases in view; from ground gears to ordinary ones; what is larger has a name",
     )
+    wander_shares: tuple[float, ...] = constant(
+        (0.0, 0.03, 0.1, 0.3, 1.0),
+        "the same of the set-up's wander",
+        "judgement: from a hundredth of a millimetre to a workshop between morning and noon",
+    )
     starts: tuple[tuple[int, ...], ...] = constant(
-        ((0, 0, 0), (2, 0, 0), (4, 0, 0), (3, 3, 2)),
+        ((0, 0, 0, 0), (2, 0, 0, 0), (4, 0, 0, 0), (3, 3, 2, 2)),
         "sizes of the backgrounds from which searches start",
         "judgement: a perfect arm, two with geometric tolerances, one with a little of everything",
         unit="indices",

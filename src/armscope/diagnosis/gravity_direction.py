@@ -121,8 +121,8 @@ class _Valley:
             space, total(normal_equations_by_block(space.layout, model, self.recordings, self.weights, blocks)), 0.0
         )
         start = max(made.mismatch, 1e-4)
-        geometric, elastic, _ = (range(family.sizes) for family in space.families)
-        sizes = [(g, e, 0) for g in (0, geometric[-1]) for e in elastic[1:]]
+        geometric, elastic, *others = (range(family.sizes) for family in space.families)
+        sizes = [(g, e, *(0 for _ in others)) for g in (0, geometric[-1]) for e in elastic[1:]]
         weighed = (evaluate(made, (), size, start) for size in sizes)
         return -max(each.log_posterior + _gives_along(made, each) for each in weighed)
 

@@ -36,6 +36,7 @@ from armscope.inference.search import Search
 from armscope.inference.shapley import shares
 from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.noise import Noise
+from armscope.physics.drift import is_of_rows
 from armscope.physics.freeform import held
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
@@ -159,8 +160,13 @@ def _with_weights(waterfall: Sequence[WaterfallStep], named: Sequence[FoundEffec
 
 
 def _held(model: FittedModel, recordings: Recordings) -> FittedModel:
-    """The model to predict with: its free curves go no farther than they were learned."""
-    return replace(model, parts=tuple(replace(p, placed=held(p.placed, recordings)) for p in model.parts))
+    """The model to predict with: its free curves go no farther than they were learned.
+
+    A wander in the order of these rows says nothing of other rows.
+    """
+    background = tuple(p for p in model.background if not is_of_rows(p.placed))
+    parts = tuple(replace(p, placed=held(p.placed, recordings)) for p in model.parts)
+    return replace(model, parts=parts, background=background)
 
 
 def _plain_gram(state: DiagnosisState) -> NormalEquations:

@@ -20,7 +20,7 @@ from armscope.inference.model_space import (
     ModelSpace,
     ToleranceFamily,
 )
-from armscope.physics.backgrounds import FAMILIES, GEOMETRIC, MASSES
+from armscope.physics.backgrounds import DRIFT, FAMILIES, GEOMETRIC, MASSES
 from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import Placed, clash, region
 from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
@@ -71,9 +71,16 @@ def build_model_space(
 
 def _families(layout: ParameterLayout) -> tuple[BackgroundFamily, ...]:
     """Every family is measured against its tolerances; geometric errors are free, since every arm has them."""
-    shares = (BACKGROUNDS.tolerance_shares, BACKGROUNDS.elastic_shares, BACKGROUNDS.gear_shares)
+    shares = (
+        BACKGROUNDS.tolerance_shares,
+        BACKGROUNDS.elastic_shares,
+        BACKGROUNDS.gear_shares,
+        BACKGROUNDS.wander_shares,
+    )
     families = zip(FAMILIES, layout.background[:-1], layout.background_scale[:-1], shares, strict=True)
-    return tuple(ToleranceFamily(*family, is_priced=family[0] != GEOMETRIC) for family in families)
+    return tuple(
+        ToleranceFamily(*family, is_priced=family[0] != GEOMETRIC, takes_one=family[0] == DRIFT) for family in families
+    )
 
 
 def _masses(
@@ -117,7 +124,7 @@ def _candidates(layout: ParameterLayout, placed: Sequence[Placed]) -> tuple[Cand
                 variant=p.variant,
                 driver=p.driver,
                 label=str(p),
-                family=p.family,
+                family=DRIFT if curve and p.location == "base" and p.variant == "time" else p.family,
                 region=region(p),
                 multiplicity=p.multiplicity,
                 nonnegative=p.effect.nonnegative and len(p.terms) == 1,

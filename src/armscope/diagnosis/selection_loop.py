@@ -29,7 +29,7 @@ from armscope.inference.problem import Problem, background_sizes, build_problem
 from armscope.inference.search import Search
 from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.noise import Growth, Noise
-from armscope.physics.backgrounds import FAMILIES, TRANSMISSION, backgrounds, gear_waves
+from armscope.physics.backgrounds import DRIFT, FAMILIES, TRANSMISSION, backgrounds, gear_waves
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.drift import BASE_DRIFT, base_shifts_of_runs
 from armscope.physics.effect import Effect, Placed
@@ -164,9 +164,9 @@ class SelectionLoop:
             scanning: whether scanned numbers are looked for.
         """
         if not self.families:  # on all rows of a long table they are those that its sample left
-            arm, shifts = self.model.arm, base_shifts_of_runs(set_ups_of(self.frames))
-            self.candidates = [*library(arm, self.recordings), *shifts]
-            self.families = list(backgrounds(arm, self.recordings).values())
+            arm, set_ups = self.model.arm, set_ups_of(self.frames)
+            self.candidates = [*library(arm, self.recordings), *base_shifts_of_runs(set_ups)]
+            self.families = list(backgrounds(arm, self.recordings, set_ups).values())
         self.point, payload, self.loads = _on_loads(self.model, self.recordings)
         self.space = build_model_space(self.frames, self.families, [*self.candidates, *payload], self.loads)
         weights = self.noise.weights
@@ -257,7 +257,9 @@ class SelectionLoop:
         context = ScanContext(self.problem, self.space, self.point, self.recordings, self.noise.weights)
         self.scans += 1
         most = MESH_COUNTS[-1] if self.scans == SCANS.scan_of_fine_lines else SCANS.ordinary_lines
-        for found in (mesh_lines(context, given, most), jumps(context, given), self._paused(search, context)):
+        # a jump is most of what a wander would be: it is looked for where none is allowed for
+        steady = [search.with_background(each, FAMILIES.index(DRIFT), 0) for each in given]
+        for found in (mesh_lines(context, given, most), jumps(context, steady), self._paused(search, context)):
             for placed in found:
                 if (placed.key, placed.variant) not in known:
                     new[(placed.key, placed.variant)] = placed

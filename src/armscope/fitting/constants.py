@@ -91,6 +91,7 @@ class SetUpRules(Constants):
         "with the other effects; an arm's own errors, seen in other poses, seldom pass for more",
         unit="mm",
     )
+    most_runs: int = constant(20, "compared; of more, each keeps a base of its own", "judgement: time", unit="runs")
 
 
 @dataclass(frozen=True)

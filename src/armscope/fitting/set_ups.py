@@ -32,7 +32,8 @@ class ComparedBases:
 def compare_bases(own: FittedModel, recordings: Recordings) -> ComparedBases:
     """Runs that stand on one base, by what one base leaves beyond what each run's own leaves.
 
-    A run joins the set-up that it agrees with best; what neither's rows determine cannot part them.
+    A run joins the set-up that it agrees with best; what neither's rows determine cannot part them. Of very many runs
+    each keeps its own.
 
     Args:
         own: the arm with its frames fitted to the recordings, a base for every run.
@@ -42,8 +43,8 @@ def compare_bases(own: FittedModel, recordings: Recordings) -> ComparedBases:
         The set-ups.
     """
     runs = in_order_of_time(recordings)
-    if len(runs) < 2:
-        return ComparedBases(tuple((run,) for run in runs), ())
+    if not 2 <= len(runs) <= SET_UPS.most_runs:
+        return ComparedBases(tuple((run,) for run in runs), (float("nan"),) * (len(runs) - 1))
     points = _Points.of(own, recordings)
     groups: list[list[str]] = []
     for run in runs:
@@ -100,6 +101,8 @@ def _turn(here: Array, there: Array, weight: Array) -> Array:
 
 def told(compared: ComparedBases) -> str:
     """What was set up anew, in words; empty where all runs stand on one base."""
+    if np.isnan(compared.apart_mm).any():
+        return ""
     parts = [
         f"one base for {_names(before)} and {_names(after)} misses their points by {apart:.3g} mm more"
         for (before, after), apart in zip(pairwise(compared.set_ups), compared.apart_mm, strict=True)

@@ -125,7 +125,11 @@ def belongs_to_the_arm(placed: Placed) -> bool:
 def _applied(model: FittedModel, wanted: Collection[str] | None) -> tuple[tuple[Part, ...], tuple[Part, ...]]:
     """The effects and the parts of the background that are applied."""
     if wanted is None:
-        return tuple(part for part in model.parts if belongs_to_the_arm(part.placed)), model.background
+        of_the_arm = (
+            tuple(part for part in some if belongs_to_the_arm(part.placed)) for some in (model.parts, model.background)
+        )
+        parts, background = of_the_arm
+        return parts, background
     known = {name for part in model.parts for name in _names(part.placed)} | {BACKGROUND}
     known |= {name for part in model.background for name in _names_of_background(part.placed)}
     for name in wanted:

@@ -100,6 +100,10 @@ class BackgroundFamily(Protocol):
     def is_priced(self) -> bool:
         """Whether it pays, as one kind of error among the others; one that everything real has is free."""
 
+    @property
+    def takes_one(self) -> bool:
+        """Whether it may take the place of a single name of its family, not only of several."""
+
     def prior_variance(self, size: int, scale: Array) -> Array:
         """(c,) prior variances, mm^2, of the columns once they are divided by ``scale`` (p,).
 
@@ -125,6 +129,7 @@ class ToleranceFamily:
         tolerance: (c,) in the columns' own units.
         shares: of the tolerance, none first.
         is_priced: whether it pays.
+        takes_one: whether it may take the place of a single name of its family, not only of several.
     """
 
     name: str
@@ -132,6 +137,7 @@ class ToleranceFamily:
     tolerance: Array
     shares: tuple[float, ...]
     is_priced: bool = False
+    takes_one: bool = False
 
     @property
     def sizes(self) -> int:

@@ -30,7 +30,7 @@ def neighbours(edits: Edits, hypothesis: Hypothesis) -> list[Hypothesis]:
         assert rest is not None
         least = hypothesis.log_posterior - rest.log_posterior - BUDGET.slack_nats
         found += edits.additions(rest, edits.branches, removed, least, rest.conditioned(whole))
-    moves = (_from_free_backgrounds, _into_background, _exchanges)
+    moves = (_out_of_backgrounds, _into_background, _exchanges)
     return [*found, *(each for move in moves for each in move(edits, hypothesis))]
 
 
@@ -44,10 +44,10 @@ def block_removals(space: ModelSpace, chosen: Sequence[int]) -> list[tuple[int, 
     return [*((number,) for number in chosen), *regions, *pairs]
 
 
-def _from_free_backgrounds(edits: Edits, hypothesis: Hypothesis) -> Iterator[Hypothesis]:
+def _out_of_backgrounds(edits: Edits, hypothesis: Hypothesis) -> Iterator[Hypothesis]:
     """Less of what everything has a little of, and names for what then stands out."""
     for number, family in enumerate(edits.space.families):
-        for size in range(0 if family.is_priced else hypothesis.background[number]):
+        for size in range(hypothesis.background[number] if family.takes_one or not family.is_priced else 0):
             smaller = edits.with_background(hypothesis, number, size)
             for _ in range(BUDGET.named_at_once):
                 larger = edits.additions(smaller, 1, least=0.0)
@@ -61,7 +61,7 @@ def _into_background(edits: Edits, hypothesis: Hypothesis) -> Iterator[Hypothesi
     """A family's background in place of all its names: one of them may pass for what is so everywhere."""
     for number, family in enumerate(edits.space.families):
         members = [c.candidate for c in hypothesis.chosen if edits.candidate(c.candidate).family == family.name]
-        if family.is_priced and len(members) > 1 and len(family.columns):
+        if family.is_priced and len(members) >= (1 if family.takes_one else 2) and len(family.columns):
             rest = edits.without(hypothesis, members)
             for size in range(1, family.sizes):
                 yield edits.with_background(rest, number, size)

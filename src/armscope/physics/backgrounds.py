@@ -12,27 +12,43 @@ import numpy as np
 
 from armscope.physics import elastic, geometric, transmission
 from armscope.physics.constants import PLAUSIBLE
+from armscope.physics.drift import wander
 from armscope.physics.effect import Placed
 from armscope.physics.placing import moving_joints
+from armscope.physics.set_ups import SetUps
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
-GEOMETRIC, ELASTIC, TRANSMISSION = "geometric", "elastic", "transmission"
-FAMILIES = (GEOMETRIC, ELASTIC, TRANSMISSION)
+GEOMETRIC, ELASTIC, TRANSMISSION, DRIFT = "geometric", "elastic", "transmission", "drift"
+FAMILIES = (GEOMETRIC, ELASTIC, TRANSMISSION, DRIFT)
 TOLERANCE = 1.0e-3
 """Geometric tolerance of an industrial arm: 1 mm and 1 mrad per D-H value."""
 MASSES = "mass"
 """The family that comes with all that gives way: how wrong stated masses are, in shares."""
 
 
-def backgrounds(arm: Arm, recordings: Recordings) -> dict[str, list[Placed]]:
-    """By family: D-H constants of all links, give of all joints and bearings, the first waves per turn of all gears."""
+def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[str, list[Placed]]:
+    """By family: D-H constants, give of joints and bearings, the first waves per turn of all gears, a base's wander.
+
+    Args:
+        arm: the nominal arm.
+        recordings: the table.
+        set_ups: runs that share a base, which stands a little elsewhere in each of them.
+
+    Returns:
+        What every real arm and set-up has a little of, in the order of `FAMILIES`.
+    """
     drives = [placed for placed in elastic.JOINT_COMPLIANCE.place(arm, recordings) if placed.variant == ""]
     springs = [*drives, *elastic.BEARING_COMPLIANCE.place(arm, recordings)]
     # what bears no load has no size, and shows nothing
     give = [_sized(placed) for placed in springs if all(np.isfinite(term.plausible) for term in placed.terms)]
     constant = [replace(placed, prior_scale=(TOLERANCE,) * len(placed.terms)) for placed in geometric.background(arm)]
-    return {GEOMETRIC: constant, ELASTIC: give, TRANSMISSION: gear_waves(recordings, PLAUSIBLE.waves)}
+    return {
+        GEOMETRIC: constant,
+        ELASTIC: give,
+        TRANSMISSION: gear_waves(recordings, PLAUSIBLE.waves),
+        DRIFT: wander(recordings, set_ups),
+    }
 
 
 def _sized(placed: Placed) -> Placed:

@@ -160,6 +160,18 @@ class PlausibleSizes(Constants):
         "times a plausible size, beyond which a value is no answer: the columns stand for something else",
         "convention: three standard deviations",
     )
+    wander_m: float = constant(
+        3e-4,
+        "by which base and instrument wander in a session, and settle between its runs",
+        "derived: 3 m of steel or stone, 12 millionths per K, some 8 K between morning and noon",
+        unit="m",
+    )
+    wander_rad: float = constant(
+        1e-4,
+        "by which they lean meanwhile",
+        "derived: that over 3 m",
+        unit="rad",
+    )
 
 
 PLAUSIBLE = PlausibleSizes()

@@ -11,6 +11,7 @@ import numpy as np
 
 from armscope.core.inputs import InputError, nearest
 from armscope.physics import drivers
+from armscope.physics.drift import BASE_WANDER
 from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term
 from armscope.physics.frames import BASE_FRAME, TOOL_FRAME
 from armscope.physics.geometric import BACKGROUND, is_parallelogram
@@ -41,7 +42,8 @@ class Reader:
     def __init__(self, arm: Arm, source: object) -> None:
         self.arm, self.source = arm, source
         self._definitions: dict[str, Effect] = {
-            effect.name: effect for effect in (BASE_FRAME, TOOL_FRAME, BACKGROUND, STATED_MASSES, *effects())
+            effect.name: effect
+            for effect in (BASE_FRAME, TOOL_FRAME, BACKGROUND, STATED_MASSES, BASE_WANDER, *effects())
         }
 
     def parts(self, contents: Sequence[PartFile], place: str) -> tuple[Part, ...]:

@@ -30,7 +30,9 @@ _EVERYWHERE = {
     "geometric": "the geometry is off a little in all joints and links, as on any arm",
     "elastic": "all joints and links give way a little, as in any arm",
     "transmission": "all drives err a little, as in any arm",
+    "drift": "base and instrument wander a little, as in any session",
 }
+_WANDER = "a slow wander of the set-up"
 _CURES = {
     "geometric": "Calibrate the geometry: put the fitted zeros and D-H rows (`armscope calibrate`, or model.yaml) into "
     "the controller, or command what their inverse kinematics asks for (`armscope compensate`).",
@@ -136,15 +138,22 @@ def more_than_noise(verdict: Verdict) -> bool:
 def background_in_words(verdict: Verdict) -> str:
     """ "small errors of shape and stiffness in all its joints and links, as any arm has"."""
     families = [family.family for family in verdict.background_families if family.present] or ["geometric"]
-    *first, last = [_KINDS.get(family, family) for family in families]
+    wander = _WANDER if "drift" in families else ""
+    of_arm = [_KINDS.get(family, family) for family in families if family != "drift"]
+    if not of_arm:
+        return wander
+    *first, last = of_arm
     listed = f"{', '.join(first)} and {last}" if first else last
-    return f"small errors of {listed} in all its joints and links, as any arm has"
+    small = f"small errors of {listed} in all its joints and links, as any arm has"
+    return f"{wander} and {small}" if wander else small
 
 
 def _no_cause(verdict: Diagnosis, rest: Sequence[FoundEffect]) -> str:
     if verdict.background.present:
         share = percent(verdict.background.share)
-        return f"No single part stands out: {background_in_words(verdict)}, are {share} of the squared error."
+        told = background_in_words(verdict)
+        verb = "is" if told == _WANDER else "are"
+        return f"No single part stands out: {told}, {verb} {share} of the squared error."
     return f"Only minor causes were found ({spelled(len(rest))})."
 
 
@@ -171,6 +180,8 @@ def _others(rest: Sequence[Cause]) -> Iterator[str]:
         *first, last = small
         kinds = f"{', '.join(first)} and {last}" if first else last
         parts.append(f"small errors of {kinds} in all its joints and links, as any arm has")
+    if any(cause.family == "drift" and not cause.members for cause in rest):
+        parts.append(_WANDER)
     if parts:
         yield f"{capitalised(', and '.join(parts))}: {percent(sum(cause.share for cause in rest))}."
 

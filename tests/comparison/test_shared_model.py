@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from armscope.comparison.problem import Problem
 from armscope.comparison.sets import stacked
+from armscope.comparison.shared_model import SharedModel
 from tests.comparison.test_changes import ARM, session
 
 
@@ -15,7 +15,7 @@ def problem():
     noisy = session(52, noise_mm=0.3)
     held = replace(noisy, motor_angles=noisy.motor_angles.copy())
     held.motor_angles[:, 4] = 0.3 + 1e-6 * np.sin(np.arange(len(held)))  # stands still, but for an encoder's last bit
-    return Problem(ARM, *stacked(ARM, {"quiet": session(51), "noisy": held}))
+    return SharedModel(ARM, *stacked(ARM, {"quiet": session(51), "noisy": held}))
 
 
 def test_a_noisy_recording_counts_by_its_noise(problem):

@@ -56,7 +56,7 @@ class Scored:
     nats: float
 
 
-class Problem:
+class SharedModel:
     """Frames and shared effects, what they leave, and changes beside them."""
 
     def __init__(self, arm: Arm, table: Recordings, group: Indices) -> None:

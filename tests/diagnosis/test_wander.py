@@ -1,0 +1,98 @@
+"""Time: a slow wander of the set-up is background, a jump and a steady drift keep their names, look-alikes are told."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from armscope.diagnosis import Settings, diagnose
+from armscope.fitting.transfer import transfer
+from armscope.physics.model import predict
+from armscope.physics.model_file import load_model, save_model
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+from armscope.verdict.schema import Diagnosis
+
+from ..physics.scenes import arm_named
+from .planted import one_run, recorded
+
+QUICK = Settings(resamples=0, cross_validation=False)
+ROWS = 150
+
+
+def session(name: str = "six-axis") -> tuple[Arm, Recordings]:
+    """An arm measured for three hours with noise of 0.02 mm, row after row; the temperature stays what it is."""
+    arm = arm_named(name)
+    table = replace(one_run(arm, ROWS, seed=5), time=np.linspace(0.0, 10800.0, ROWS), temperature=None)
+    return arm, recorded(arm, table, {}, 0.02, seed=9)
+
+
+def wandering(table: Recordings, size_mm: float) -> Recordings:
+    """The table measured from an instrument that settled exponentially and breathed: neither a line nor a step."""
+    hours = table.time / 3600
+    way = np.exp(-hours / 0.5) + 0.5 * np.sin(2.2 * hours)
+    shape = np.outer((way - way.mean()) / way.std(), [0.8, -0.5, 0.33])
+    return replace(table, positions=table.positions + 1e-3 * size_mm * shape)
+
+
+def drift_of(verdict: Diagnosis) -> float:
+    """RMS of the wander that was allowed for, mm."""
+    return next(family.rms_at_tool_mm for family in verdict.background_families if family.family == "drift")
+
+
+def test_a_slow_wander_is_background_and_no_jump() -> None:
+    arm, table = session()
+    verdict = diagnose(arm, wandering(table, 0.02), QUICK)
+    assert verdict.effects == ()
+    assert drift_of(verdict) == pytest.approx(0.02 / np.sqrt(3), rel=0.3)
+    assert "wander a little" in verdict.headline
+
+
+def test_where_nothing_wanders_none_is_allowed_for() -> None:
+    verdict = diagnose(*session(), QUICK)
+    assert verdict.answer == "nothing missing"
+    assert drift_of(verdict) == 0
+
+
+def test_a_steady_drift_keeps_its_name() -> None:
+    arm, table = session()
+    steady = np.outer(np.linspace(-1, 1, ROWS), [0.05, -0.03, 0.02]) * 1e-3
+    (found,) = diagnose(arm, replace(table, positions=table.positions + steady), QUICK).effects
+    assert found.effect == "base_drift"
+
+
+def test_a_jump_keeps_its_name_beside_a_wander() -> None:
+    arm, table = session()
+    table = wandering(table, 0.015)
+    table.positions[90:] += [2e-4, -1e-4, 1e-4]
+    jumps = [effect for effect in diagnose(arm, table, QUICK).effects if effect.effect == "base_shift"]
+    assert [effect.location for effect in jumps] == ["base"]
+    moment = {p.name: p.value for p in jumps[0].parameters}["time"]
+    assert moment == pytest.approx(table.time[90], abs=400)
+
+
+@pytest.mark.parametrize("in_step", [True, False])
+def test_growth_with_a_temperature_that_rises_with_time_may_be_a_drift(in_step: bool) -> None:
+    arm, table = session("seven-axis")  # its first link stands upright: growing, it lifts all that the base carries
+    warm = np.linspace(20.0, 28.0, ROWS)
+    if not in_step:
+        warm = np.random.default_rng(2).permutation(warm)
+    table = recorded(arm, replace(table, temperature=warm), {("thermal_expansion", "link 1"): [4e-5]}, 0.01, seed=4)
+    (found,) = diagnose(arm, table, QUICK).effects
+    assert (found.effect, found.location) == ("thermal_expansion", "link 1")
+    assert (("base_drift", "base") in {(a.effect, a.location) for a in found.alternatives}) == in_step
+
+
+def test_a_wander_belongs_to_its_session(tmp_path) -> None:
+    """Rows without a time stand where the set-up stood on average; another recording starts without it."""
+    arm, table = session()
+    moved = wandering(table, 0.02)
+    save_model(tmp_path / "model.yaml", diagnose(arm, moved, QUICK).model)
+    model = load_model(tmp_path / "model.yaml")
+    assert {part.placed.name for part in model.background} == {"base_wander"}
+    left = predict(model, moved) - moved.positions
+    unknown = predict(model, replace(moved, time=None)) - moved.positions
+    assert np.sqrt(np.mean(left**2)) < 0.021e-3 < np.sqrt(np.mean(unknown**2)) < 0.03e-3
+    assert transfer(model, table).applied == ()
