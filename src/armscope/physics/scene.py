@@ -224,14 +224,7 @@ class Scene:
     @property
     def row_numbers(self) -> Array:
         """(N,) the table's id as a number where all ids are, else the row's number from 1."""
-
-        def compute() -> Array:
-            try:
-                return self.recordings.id.astype(float)
-            except ValueError:
-                return np.arange(1.0, len(self) + 1)
-
-        numbers: Array = self.remember("row numbers", compute)
+        numbers: Array = self.remember("row numbers", lambda: numbers_of_rows(self.recordings))
         return numbers
 
     @property
@@ -388,3 +381,11 @@ def _by_motor(jacobian: Array) -> dict[Direction, Array]:
 def _by_axis(location: str, jacobian: Array) -> dict[Direction, Array]:
     """Columns (N, 3) of a Jacobian (N, 3, 6) by the directions of a frame."""
     return {Direction(location, name): jacobian[:, :, axis] for axis, name in enumerate(AXES)}
+
+
+def numbers_of_rows(recordings: Recordings) -> Array:
+    """(N,) the table's id as a number where all ids are, else the row's number from 1."""
+    try:
+        return recordings.id.astype(float)
+    except ValueError:
+        return np.arange(1.0, len(recordings) + 1)
