@@ -6,7 +6,7 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: help reproduce test benchmark proof fuzz campaign clean
+.PHONY: help reproduce test benchmark proof fuzz campaign docs clean
 help:
 	@echo "make reproduce   the paper, end to end: Table 2, Figs 1-11, claims, report"
 	@echo "make test        lint, types, unit tests, a small run of the whole workflow"
@@ -14,6 +14,7 @@ help:
 	@echo "make proof       the diagnosis on worlds with concealed effects"
 	@echo "make fuzz        an hour of bad files (SECONDS=60: a minute), and 3000 for every reader"
 	@echo "make campaign    what happens when it is broken on purpose (TIMES=1: a few minutes)"
+	@echo "make docs        the documentation as a site in site/, with a gallery of reports"
 	@echo "make clean       remove .venv and results"
 
 reproduce: .venv/installed
@@ -80,5 +81,18 @@ campaign: .venv/installed-test
 	-$(BIN)/$(PIP_INSTALL) pip-audit
 	$(BIN)/python -m tests.campaign --times $(TIMES) --page docs/trust.md
 
+# works from files: open site/index.html
+GALLERY := clean one-effect five-effects seven-axes-modified-dh
+docs: .venv-docs/installed $(GALLERY:%=docs/gallery/%/report.html)
+	.venv-docs/bin/mkdocs build --quiet
+
+docs/gallery/%/report.html: examples/%/recordings.csv examples/%/robot.yaml | .venv/installed
+	$(BIN)/armscope diagnose $< -r examples/$*/robot.yaml -o docs/gallery/$*
+
+.venv-docs/installed: requirements-docs.txt
+	$(PYTHON) -m venv .venv-docs
+	.venv-docs/bin/pip install --quiet --disable-pip-version-check -r requirements-docs.txt
+	@touch $@
+
 clean:
-	rm -rf .venv .venv-peers .venv-figaroh results .snakemake
+	rm -rf site docs/gallery .venv .venv-docs .venv-peers .venv-figaroh results .snakemake

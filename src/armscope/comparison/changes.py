@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import stdtrit
 
-from armscope.comparison.problem import Possible, Problem, Scored
 from armscope.comparison.result import Change, Comparison, Kind, Valued
 from armscope.comparison.sets import of_same_poses, stacked
+from armscope.comparison.shared_model import Possible, Scored, SharedModel
 from armscope.core.types import Array
 from armscope.physics.effect import Term
 from armscope.recordings import Recordings
@@ -47,14 +47,14 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         InputError: fewer than two recordings, or one that does not fit the arm.
     """
     table, group = stacked(arm, recordings)
-    problem = Problem(arm, table, group)
+    model = SharedModel(arm, table, group)
     families = of_same_poses(list(recordings.values()))
-    possible = problem.possible_changes(_masks(families, of_arms))
+    possible = model.possible_changes(_masks(families, of_arms))
     taken: list[Possible] = []
     found: list[tuple[Possible, Scored, tuple[str, ...]]] = []
     joint, tried = 1.0, len(possible)
     while possible and len(taken) < MOST_CHANGES:
-        scores = problem.scores(possible, taken)
+        scores = model.scores(possible, taken)
         p = min(1.0, min(score.p for score in scores) * tried)
         joint = p if not taken else joint
         if p > LEVEL:
@@ -68,12 +68,12 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         arm=arm.name,
         names=names,
         rows=tuple(np.bincount(group).tolist()),
-        noise_mm=float(np.sqrt(problem.variance(taken))),
+        noise_mm=float(np.sqrt(model.variance(taken))),
         p_nothing_changed=joint,
         level=LEVEL,
         tried=tried,
         same_poses=tuple(tuple(names[k] for k in family) for family in families),
-        changes=tuple(_change(problem, each, score.p, others, taken, names) for each, score, others in found),
+        changes=tuple(_change(model, each, score.p, others, taken, names) for each, score, others in found),
     )
 
 
@@ -95,7 +95,7 @@ def _as_good(possible: Sequence[Possible], scores: Sequence[Scored], best: int) 
 
 
 def _change(
-    problem: Problem,
+    model: SharedModel,
     found: Possible,
     p: float,
     others: tuple[str, ...],
@@ -104,7 +104,7 @@ def _change(
 ) -> Change:
     """A change in words and file units: the effect with a value of its own in every recording."""
     beside = [other for other in taken if other is not found]
-    values, covariance, free = problem.own_values(found.placed, beside, len(names))
+    values, covariance, free = model.own_values(found.placed, beside, len(names))
     q = len(found.placed.terms)
     inside, outside = (np.isin(np.arange(len(names)), sets) for sets in (found.sets, found.against))
     contrast = inside / inside.sum() - outside / outside.sum()
@@ -114,7 +114,7 @@ def _change(
         difference = float(contrast @ values[at])
         error = float(np.sqrt(contrast @ covariance[np.ix_(at, at)] @ contrast))
         parameters.append(_valued(term, values[at], np.sqrt(np.diag(covariance)[at]), difference, error, free))
-    rms = problem.moved_mm(found, contrast @ values.reshape(len(names), q))
+    rms = model.moved_mm(found, contrast @ values.reshape(len(names), q))
     title, where = plain(str(found.placed)), tuple(names[k] for k in found.sets)
     kind = _kind(parameters, inside, outside)
     return Change(found.placed.name, found.placed.location, title, where, kind, rms, p, tuple(parameters), others)

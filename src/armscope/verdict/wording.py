@@ -80,16 +80,18 @@ def _number(value: float, decimals: int | None) -> str:
 def _said_otherwise(parameter: Parameter) -> str:
     """The reciprocal of a compliance is a stiffness; angles also come in degrees."""
     other: dict[str, Callable[[Parameter], str]] = {
-        "rad/(N m)": lambda p: "stiffness " + _reciprocal(p, "N m/rad"),
-        "1/(N m^2)": lambda p: "bending stiffness E·I " + _reciprocal(p, "N m²"),
+        "rad/(N m)": lambda p: _reciprocal("stiffness", p, "N m/rad"),
+        "1/(N m^2)": lambda p: _reciprocal("bending stiffness E·I", p, "N m²"),
         "rad": lambda p: f"{math.degrees(p.value):.4f}°".replace("-", "−"),
     }
     return other[parameter.unit](parameter) if parameter.unit in other and parameter.value != 0 else ""
 
 
-def _reciprocal(parameter: Parameter, unit: str) -> str:
+def _reciprocal(name: str, parameter: Parameter, unit: str) -> str:
+    if parameter.value < 0:  # a tilt across the load, which is no stiffness
+        return ""
     low, high = parameter.interval
-    value = with_prefix(1 / parameter.value, unit)
+    value = f"{name} {with_prefix(1 / parameter.value, unit)}"
     if not math.isfinite(parameter.stderr) or low * high <= 0:
         return value
     ends = sorted((1 / low, 1 / high), key=abs)

@@ -32,7 +32,7 @@ CHANGES = {
     "joint_coupling": ("coupling table", "Put minus the coefficient into the coupling table for {location}."),
     "joint_compliance": (
         "elastic model",
-        "Add to the command what gravity takes: {opposite}{size}; or let the controller's elastic model do so.",
+        "Add to the command what gravity takes, so that {opposite}{size}; or let the controller's elastic model do so.",
     ),
     "bearing_compliance": ("bearing", "Preload or replace the bearing of {location}."),
     "base_compliance": ("mounting", "Tighten and stiffen the mounting of the base."),
@@ -42,7 +42,7 @@ CHANGES = {
     "parallelogram_geometry": ("linkage", "Adjust the rod of the parallelogram by minus its error."),
     "base_drift": ("set-up", "Fix base and instrument, and measure again."),
     "base_shift": ("set-up", "Fasten base and instrument, and measure again from the jump on."),
-    "tool_shift": ("tool", "Fasten the tool, and measure its tool point again from the jump on."),
+    "tool_shift": ("fastening", "Fasten the tool, and measure its tool point again from the jump on."),
     "payload_error": ("payload data", "Weigh the load and correct mass and centre of mass in the controller."),
     "instrument_scale": ("instrument", "Have the instrument's scale calibrated, and measure again."),
     "unknown": ("correction table", "Find what it follows; until then store its curve as a correction table."),
@@ -120,7 +120,7 @@ def _task(verdict: Diagnosis, worth: Contributions, number: int, cause: Repair, 
         words["zero"] = f"where the controller shows 0°, the joint stands at {angle(told['offset'].value)}"
     if "compliance" in told:
         size = read_parameter(told["compliance"], effect.effect)
-        words["size"] = f" ({size.value} × load)"
+        words["size"] = f" (minus {size.value} × load)"
     if "ratio" in told:
         words["ratio"] = f"{1 / (1 + told['ratio'].value):.6f}"
     if effect.effect == "link_geometry":

@@ -16,6 +16,7 @@ from armscope.report.sectioning import write_sections
 from armscope.report.sections.effects import findings
 from armscope.report.sections.registry import SECTIONS
 from armscope.report.subject import Subject
+from armscope.verdict.contributions import rms
 from armscope.verdict.schema import Diagnosis, Notice
 from armscope.verdict.sentences import another_model, more_than_noise, unusable
 from armscope.verdict.wording import millimetres, percent
@@ -66,11 +67,12 @@ def write_work_order(subject: Subject, folder: Path) -> None:
     content = {
         **_about(verdict),
         "tasks": subject.tasks,
-        "before": verdict.residual_before_mm,
-        "left": subject.worth.cured(range(len(subject.worth.causes))),
+        "before": rms(subject.worth.before),
+        "left": min((task.then_mm for task in subject.tasks), default=rms(subject.worth.before)),
         "mm": millimetres,
         "background": percent(verdict.background.share),
         "dh": None if rows is None else rows.to_dict("records"),
+        "rows_change": rows is not None and bool(rows.filter(like="correction_").any(axis=None)),
         "convention": "" if dh is None else dh.convention,
         "zeros": zeros[zeros["cause"] == "named"].to_dict("records"),
     }

@@ -39,7 +39,20 @@ def fill_readme(readme: Path, results: Path, proof: Path) -> None:
 
 
 def filled(text: str, name: str, lines: list[str], readme: Path) -> str:
-    """A text with other lines between two marks."""
+    """A text with other lines between two marks.
+
+    Args:
+        text: of the page.
+        name: of the marks.
+        lines: that go between them.
+        readme: the page's file, for errors.
+
+    Returns:
+        The text with those lines.
+
+    Raises:
+        InputError: the marks are missing.
+    """
     begin, end = f"<!-- {name}: begin", f"<!-- {name}: end -->"
     if begin not in text or end not in text:
         raise InputError(readme, "", "no marks", f"the numbers go between {begin!r} and {end!r}")

@@ -41,7 +41,13 @@ def _context(subject: Subject) -> dict[str, Any]:
     main, _ = main_and_minor(subject.verdict.effects)
     before = millimetres(rms(subject.worth.before))
     worth = [f"{before} → {millimetres(alone[id(effect)])}" if id(effect) in alone else "" for effect in main]
-    return {**findings(subject.verdict), "worth": worth}
+    found = findings(subject.verdict)
+    families: dict[str, list[tuple[Card, str]]] = {}
+    for effect, its_card, its_worth in zip(main, found["cards"], worth, strict=True):
+        families.setdefault(effect.family, []).append((its_card, its_worth))
+    share = {family: sum(e.share for e in main if e.family == family) for family in families}
+    ranked = sorted(families, key=lambda family: -share[family])
+    return {**found, "families": [(family, percent(share[family]), families[family]) for family in ranked]}
 
 
 def _concerns(poses: NextPoses | None, effects: Sequence[FoundEffect]) -> bool:

@@ -29,6 +29,8 @@ MOST_TERMS = 12
 """Of an effect whose change is tested; free curves are left out: they would stand for any other."""
 UNSEEN = 1e-3
 """Share of a column's square that must be left beside what is shared for its change to be seen at all."""
+WEIGHINGS = 4
+"""Rounds in which recordings get their weight: in the first a noisy one still pulls the fit of a quiet one."""
 HELD = 1e-9
 """Penalty on frames and changes of unit length: too little for any that the rows tell."""
 
@@ -56,7 +58,7 @@ class Scored:
     nats: float
 
 
-class Problem:
+class SharedModel:
     """Frames and shared effects, what they leave, and changes beside them."""
 
     def __init__(self, arm: Arm, table: Recordings, group: Indices) -> None:
@@ -82,14 +84,17 @@ class Problem:
 
     def _weigh_recordings(self, weight: Array) -> None:
         """Each recording counts by its own noise: pooled, the quiet one's rows would be too sure of themselves."""
-        base, penalty = self._base(())
-        square = (self.residual - base @ np.linalg.solve(base.T @ base + np.diag(penalty), base.T @ self.residual)) ** 2
-        noise = np.sqrt(np.bincount(self.group, square) / np.bincount(self.group) + 1e-24)
-        relative = np.sqrt(np.mean(square)) / noise[self.group]
-        self.weight = weight * relative
-        self.residual = self.residual * relative
-        self.frames, self.effects = self.frames * relative[:, None], self.effects * relative[:, None]
-        self._noise = self._settled_noise()
+        self.weight = weight
+        for _ in range(WEIGHINGS):
+            base, penalty = self._base(())
+            hat = np.linalg.solve(base.T @ base + np.diag(penalty), base.T)
+            square = (self.residual - base @ (hat @ self.residual)) ** 2
+            free = np.bincount(self.group, 1 - np.einsum("ij,ji->i", base, hat))
+            noise = np.sqrt(np.bincount(self.group, square) / np.maximum(free, 1) + 1e-24)
+            relative = (np.sqrt(np.mean(square)) / noise)[self.group]
+            self.weight, self.residual = self.weight * relative, self.residual * relative
+            self.frames, self.effects = self.frames * relative[:, None], self.effects * relative[:, None]
+            self._noise = self._settled_noise()
 
     def _between_halves(self, angles: Array) -> Iterator[Statistic]:
         """What differs between halves of each recording, for every effect, with frames and effects of its own."""
@@ -133,7 +138,7 @@ class Problem:
         across = half @ columns
         values, vectors = np.linalg.eigh(columns.T @ columns - across.T @ across)
         seen = values > UNSEEN
-        if not seen.any():
+        if not seen.any() or free - seen.sum() < 1:
             return Scored(Statistic(0.0, 0, free), 1.0, 0.0)
         along = (vectors[:, seen].T @ (columns.T @ left)) / np.sqrt(values[seen])
         gain, q = float(along @ along), int(seen.sum())

@@ -1,0 +1,32 @@
+"""Recordings count by their own noise, and what their rows cannot show is not seen to change."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from armscope.comparison.sets import stacked
+from armscope.comparison.shared_model import SharedModel
+from armscope.robot import chain
+from tests.comparison.test_changes import ARM, OWN, session
+
+
+def test_a_noisy_recording_counts_by_its_noise():
+    """0.03 and 0.3 mm: its rows count for a tenth."""
+    model = SharedModel(ARM, *stacked(ARM, {"quiet": session(51), "noisy": session(52, noise_mm=0.3)}))
+    quiet, noisy = (np.median(model.weight[model.group == k]) for k in (0, 1))
+    assert 0.07 < noisy / quiet < 0.14
+
+
+def test_a_joint_that_stands_still_shows_no_change_of_its_ratio():
+    table = session(53)
+    table.motor_angles[:, 4] = 1e-6 * np.sin(np.arange(len(table)))  # an encoder's last bit
+    points = chain(ARM, table.motor_angles + OWN).tool
+    held = replace(table, positions=points + np.random.default_rng(3).normal(0, 3e-5, points.shape))
+    model = SharedModel(ARM, *stacked(ARM, {"a": session(51), "b": held}))
+    possible = [each for each in model.possible_changes([((1,), (0,))]) if each.placed.name == "gear_ratio"]
+    unseen = [
+        each.placed.location
+        for each, score in zip(possible, model.scores(possible, ()), strict=True)
+        if not score.statistic.q
+    ]
+    assert unseen == ["joint 5"]
