@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.sampling import spread_evenly
-from armscope.core.types import Array, Progress
+from armscope.core.types import Progress
 from armscope.diagnosis.constants import TELLING
 from armscope.diagnosis.held_out import Rows, cross_validate
 from armscope.diagnosis.state import DiagnosisState
@@ -35,10 +35,9 @@ from armscope.inference.normal_equations import NormalEquations
 from armscope.inference.search import Search
 from armscope.inference.shapley import shares
 from armscope.measurement.constants import WEIGHTS
-from armscope.measurement.noise import Noise
-from armscope.physics.drift import is_of_rows
 from armscope.physics.freeform import held
 from armscope.physics.model import FittedModel
+from armscope.physics.wander import is_of_rows
 from armscope.recordings import Recordings
 from armscope.verdict.schema import (
     Answer,
@@ -266,57 +265,3 @@ def _carefully(state: DiagnosisState) -> list[Notice]:
         text = f"The residual ({fitted:.3g} mm) is well below the stated noise ({stated:.3g} mm): is that number right?"
         notices.append(Notice("stated noise", text))
     return notices
-
-
-def undecided(
-    start: FittedModel,
-    recordings: Recordings,
-    residuals: Array,
-    noise: Noise,
-    notices: tuple[Notice, ...],
-    seconds: float,
-) -> Diagnosis:
-    """The verdict where no effect can honestly be named.
-
-    Args:
-        start: the arm with its frames.
-        recordings: N rows.
-        residuals: (N, 3) mm after the frames.
-        noise: what is known of it.
-        notices: why nothing can be named.
-        seconds: taken so far.
-
-    Returns:
-        The verdict.
-    """
-    rms = float(np.sqrt(np.mean(residuals**2)))
-    points = start.to_base(recordings.positions, recordings.run) * 1e3
-    count = len(recordings)
-    draft = Diagnosis(
-        arm=start.arm.name,
-        source=recordings.source,
-        recordings=recordings,
-        rows=count,
-        runs=tuple(str(run) for run in np.unique(recordings.run)),
-        answer="cannot tell",
-        headline="",
-        mismatch=None,
-        noise_mm=noise.stated_mm or float("nan"),
-        noise_source=noise.source,
-        residual_before_mm=rms,
-        residual_after_mm=rms,
-        effects=(),
-        background=together(()),
-        background_families=(),
-        unexplained=Unexplained(False),
-        held_out=HeldOut(float("nan"), float("nan")),
-        waterfall=(),
-        atlas=None,
-        residuals=Residuals(points, residuals, residuals, np.ones(count), recordings.id, recordings.run),
-        suspects=(),
-        next_poses=None,
-        notices=notices,
-        model=start,
-        seconds=seconds,
-    )
-    return replace(draft, headline=headline(draft))

@@ -13,9 +13,10 @@ from armscope.check.preconditions import FEWEST_ROWS, as_notices, check_table, s
 from armscope.core.types import Progress
 from armscope.diagnosis.gravity_direction import lean
 from armscope.diagnosis.held_out import split
-from armscope.diagnosis.judgement import judge, undecided
+from armscope.diagnosis.judgement import judge
 from armscope.diagnosis.selection import select
 from armscope.diagnosis.state import DiagnosisState
+from armscope.diagnosis.undecided import undecided
 from armscope.fitting.exchanged_tool import exchanged_tool
 from armscope.fitting.linearisation import LinearisedTable, residuals
 from armscope.fitting.registration import fit_frames

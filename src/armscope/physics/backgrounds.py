@@ -12,10 +12,10 @@ import numpy as np
 
 from armscope.physics import elastic, geometric, transmission
 from armscope.physics.constants import PLAUSIBLE
-from armscope.physics.drift import wander
 from armscope.physics.effect import Placed
 from armscope.physics.placing import moving_joints
 from armscope.physics.set_ups import SetUps
+from armscope.physics.wander import wander
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 

@@ -9,9 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from armscope.core.numerals import rounded
-from armscope.core.types import Array
 from armscope.physics.clause import Told
-from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import Cure
 from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term, term
 from armscope.physics.placing import varies
@@ -23,9 +21,6 @@ OF_RUNS = {"run ": " in ", "in run ": " ", "between runs ": " ", "from run ": " 
 """How it begins to be told in which runs something is otherwise, and what comes before."""
 LEAST_SPAN_S = 1.0
 FEWEST_ORDERED_ROWS = 20
-WAVE_OF_ROWS = "slow wave of rows"
-WANDER_WAVES, ROWS_PER_WAVE = 6, 12
-"""Half waves of a set-up's slow wander at most, and rows for each of them: what is faster is hardly a set-up's."""
 
 
 def six_terms(location: str, driver: Driver, per: str = "", axes: tuple[str, ...] = AXES) -> tuple[Term, ...]:
@@ -262,60 +257,5 @@ TOOL_SHIFT = Effect(
     clauses=(_jumped, "the {location} jumped"),
     several=True,
 )
-
-BASE_WANDER = Effect(
-    "base_wander",
-    "drift",
-    lambda arm, recordings: iter(()),
-    "The base or the instrument wanders a little in the course of the recording, as any set-up does.",
-    "Measure fixed reference points on the base now and then.",
-    Cure("Nothing to cure."),
-)
-"""Allowed for, never named: what stands out of it is a drift or a jump."""
-
-
-def wander(recordings: Recordings, set_ups: SetUps) -> list[Placed]:
-    """A base that wanders slowly in the order of time, and stands a little elsewhere in each run of a set-up.
-
-    A random walk in the waves that count, its cosines falling with their number (Karhunen-Loeve). In time where it is
-    recorded, else in the order of rows. All waves together, and every run, are as large as is plausible.
-
-    Args:
-        recordings: the table.
-        set_ups: runs that share a base.
-
-    Returns:
-        Waves, then runs, in place.
-    """
-    count = min(WANDER_WAVES, len(recordings) // ROWS_PER_WAVE)
-    along, kind = _clock(recordings)
-    if not np.ptp(along) > 0:
-        count = 0
-    falling = 1 / np.arange(1, count + 1)
-    falling /= np.sqrt(np.sum(falling**2))
-    ends = float(along.min()), float(along.max())
-    waves = [_wandering(Driver(kind, (k, *ends)), share, f"wave {k}") for k, share in enumerate(falling.tolist(), 1)]
-    together = [run for runs in set_ups if len(runs) > 1 for run in runs]
-    return [*waves, *(_wandering(Driver("during run", (run,)), 1.0, f"run {run}") for run in together)]
-
-
-def _wandering(driver: Driver, share: float, variant: str) -> Placed:
-    sizes = (PLAUSIBLE.wander_m,) * 3 + (PLAUSIBLE.wander_rad,) * 3
-    terms = six_terms("base", driver)
-    return Placed(BASE_WANDER, "base", terms, tuple(share * size for size in sizes), "time", variant=variant)
-
-
-def is_of_rows(placed: Placed) -> bool:
-    """Whether an effect follows the order of the rows it was learned from, which says nothing of other rows."""
-    return placed.terms[0].products[0].driver.kind == WAVE_OF_ROWS
-
-
-def _clock(recordings: Recordings) -> tuple[Array, str]:
-    """(N,) what orders the rows, and the kind of driver that has waves along it."""
-    time = recordings.time
-    if time is not None and np.isfinite(time).all() and varies(time, LEAST_SPAN_S):
-        return time, "slow wave"
-    return np.array([row_number(recordings, row) for row in range(len(recordings))]), WAVE_OF_ROWS
-
 
 EFFECTS = [BASE_DRIFT, BASE_SHIFT, TOOL_SHIFT]

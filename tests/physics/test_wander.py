@@ -1,0 +1,39 @@
+"""A wander's waves: as large together as is plausible, slow, and at rest outside the time they were learned in."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from armscope.physics.constants import PLAUSIBLE
+from armscope.physics.wander import WANDER_WAVES, is_of_rows, wander
+
+from .scenes import arm_named, full_table
+
+TABLE = full_table(arm_named("six-axis"), 90, seed=3)
+
+
+def timed(time):
+    return replace(TABLE, time=time)
+
+
+def test_all_waves_together_are_as_large_as_is_plausible():
+    waves = wander(timed(np.linspace(0.0, 3600.0, 90)), ())
+    assert len(waves) == WANDER_WAVES
+    assert not any(is_of_rows(wave) for wave in waves)
+    sizes = np.array([wave.prior_scale for wave in waves])
+    assert np.allclose(np.sqrt(np.sum(sizes**2, axis=0)), [PLAUSIBLE.wander_m] * 3 + [PLAUSIBLE.wander_rad] * 3)
+    assert np.all(np.diff(sizes[:, 0]) < 0)
+
+
+def test_without_a_clock_it_follows_the_order_of_rows():
+    assert all(is_of_rows(wave) for wave in wander(timed(None), ()))
+
+
+def test_few_rows_have_few_waves():
+    few = timed(None).rows(np.arange(25))
+    assert len(wander(few, ())) == 2
+
+
+def test_runs_of_one_set_up_stand_a_little_elsewhere():
+    placed = wander(timed(None), (("a", "b"), ("c",)))
+    assert [each.variant for each in placed[WANDER_WAVES:]] == ["run a", "run b"]
