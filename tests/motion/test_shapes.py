@@ -19,11 +19,14 @@ def placed(cause: Cause, law: Law, width: int, is_curve: bool = False) -> Placed
 
 
 def test_friction_over_speed_is_all_that_follows_the_joints_own_speed() -> None:
-    arm, still = robot(), np.zeros((3, 5))
+    arm, still = robot(), np.zeros((3, 6))
     still[:, 1:3] = np.column_stack([COULOMB, VISCOUS])
-    stribeck = placed(catalogue.STRIBECK, Law("stribeck", (1,), (0.01, 0.2)), 1)
+    stribeck = placed(catalogue.STRIBECK, Law("stribeck", (1,), (0.01, 0.2)), 2)
     cable = placed(catalogue.CABLE, Law("curve over joint angle", (1,), (-1.0, 1.0, 6.0)), 6, is_curve=True)
-    causes = tuple(FittedCause(each, np.full(each.width, 2.0), np.eye(each.width)) for each in (stribeck, cable))
+    values = (np.array([2.0, 0.0]), np.full(6, 2.0))  # of the second parameter: the scanned speed is the true one
+    causes = tuple(
+        FittedCause(each, value, np.eye(each.width)) for each, value in zip((stribeck, cable), values, strict=True)
+    )
     model = MotionModel(arm, preparation(100.0, 5.0, "test"), "torque", still, arm.inertial, np.zeros(3), causes)
     speed = np.array([-0.8, -0.1, 0.1, 0.8])
     plain = np.sign(speed) * COULOMB[0] + VISCOUS[0] * speed

@@ -87,3 +87,11 @@ def test_a_rail_is_held_within_its_limits(tmp_path):
     found = guess_chain("made", root_of(str(robot(tmp_path, rail, *arm()))))
     assert found.held == {"rail": 0.3}
     assert found.guesses["hold_joints.rail"].startswith("guessed")
+
+
+def test_a_machine_of_which_nothing_turns_is_the_axes_that_slide(tmp_path):
+    rail = ("rail", "prismatic", "world", "cart", '<limit lower="0.3" upper="2" effort="1" velocity="1"/>')
+    found = guess_chain("made", root_of(str(robot(tmp_path, rail))))
+    assert (found.tip, found.held) == ("cart", {})
+    with pytest.raises(InputError, match="sliding joint"):
+        load_arm(robot(tmp_path, rail))  # positions need hinges; `diagnose` of a motion does not

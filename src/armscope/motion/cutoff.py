@@ -57,16 +57,17 @@ def _position_cutoff(stretch: Stretch) -> float:
 
 
 def _crossing(first: FirstLook, rate: float) -> float:
-    """Hz up to which the model's torque has more power than what it leaves, all joints in units of their noise."""
-    unit = np.maximum(first.left.std(axis=0), 1e-12)
-    frequency, explained = _spectrum(first.modelled / unit, rate)
-    _, remains = _spectrum(first.left / unit, rate)
+    """Hz up to which the model's torque has more power than what it leaves, at the joint that shows it furthest.
+
+    A joint that shows it less far counts by its own noise: what is beyond its crossing does it no harm.
+    """
+    frequency, explained = welch(first.modelled, rate, nperseg=CUTOFF.window, axis=0)
+    _, remains = welch(first.left, rate, nperseg=CUTOFF.window, axis=0)
+    return max(_drowned(frequency, *powers) for powers in zip(explained.T, remains.T, strict=True))
+
+
+def _drowned(frequency: Array, explained: Array, remains: Array) -> float:
     drowned = explained < CUTOFF.drowned * remains
     peak = int(np.argmax(explained))
     several = np.convolve(drowned[peak:], np.ones(CUTOFF.bins), mode="valid") == CUTOFF.bins
     return float(frequency[peak + int(np.argmax(several))]) if several.any() else float(frequency[-1])
-
-
-def _spectrum(values: Array, rate: float) -> tuple[Array, Array]:
-    frequency, power = welch(values, rate, nperseg=CUTOFF.window, axis=0)
-    return frequency, power.sum(axis=1)

@@ -55,9 +55,15 @@ def _load_side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
     return np.asarray(np.abs(m.rigid[:, joints[0]]) * _side(m, joints, width))
 
 
-def _powers(m: Moment, joints: tuple[int, ...]) -> Array:
-    speed = _speed(m, joints)
-    return np.column_stack([speed * np.abs(speed), speed**3])
+def _powers(m: Moment, joints: tuple[int, ...], width: float, fastest: float) -> Array:
+    """Square and cube of the speed, less the dry and viscous friction that are nearest to them up to the fastest.
+
+    So dry and viscous friction stay what a fit without the curve would say.
+    """
+    speed, turned = _speed(m, joints), _side(m, joints, width)
+    square = speed * np.abs(speed) - fastest * speed + fastest**2 / 6 * turned
+    cube = speed**3 - 0.9 * fastest**2 * speed + 0.2 * fastest**3 * turned
+    return np.column_stack([square, cube])
 
 
 def warmth(m: Moment, joint: int) -> Array:

@@ -119,7 +119,7 @@ def _friction(at: _Joint) -> Iterator[PlacedCause]:
         yield at.cause(catalogue.STRIBECK, "speed", names, "stribeck", at.sharp, v, multiplicity=len(widths), **more)
     yield at.cause(catalogue.LOAD_FRICTION, "load", (("per_load", ""),), "load friction", at.sharp)
     powers = (("square", f"{torque} s^2/{unit}^2"), ("cube", f"{torque} s^3/{unit}^3"))
-    yield at.cause(catalogue.VISCOUS_CURVE, "speed", powers, "powers of speed")
+    yield at.cause(catalogue.VISCOUS_CURVE, "speed", powers, "powers of speed", at.sharp, fastest)
 
 
 def _warmth(at: _Joint, limits: Array) -> Iterator[PlacedCause]:

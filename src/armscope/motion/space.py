@@ -38,8 +38,8 @@ def build_space(layout: TorqueLayout, torque: Array, rate: float, barred: frozen
     starts: list[tuple[int, ...]] = [(0, 1, 1), (2, 1, 1), (4, 1, 1)]
     if layout.with_gains:
         stated = layout.arm.gain_uncertainty
-        sigma = float(np.nanmedian(stated)) if np.isfinite(stated).any() else PRIOR.gain
-        families.append(ToleranceFamily("gains", layout.gains, np.full(len(layout.gains), sigma), (0.0, 1.0)))
+        sigma = np.where(np.isnan(stated), PRIOR.gain, stated)
+        families.append(ToleranceFamily("gains", layout.gains, sigma, (0.0, 1.0)))
         starts = [(*start, 1) for start in starts]
     return ModelSpace(
         frames=layout.frames, families=tuple(families), candidates=_candidates(layout, barred), starts=tuple(starts)

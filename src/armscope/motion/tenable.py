@@ -93,17 +93,20 @@ def _of_one_path(selected: SelectedCauses) -> Iterator[int]:
 
 
 def _held_out_gains(selected: SelectedCauses) -> dict[int, float]:
-    """Nats by which each cause betters blocks that took no part in its fit, all of them together."""
+    """Nats by which each cause betters the middle one of the blocks that took no part in its fit.
+
+    Not their sum: where one run has something of its own, a payload say, what that leaves there drowns all else.
+    """
     best = selected.best
-    gains = dict.fromkeys(best.candidates, 0.0)
+    gains: dict[int, list[float]] = {number: [] for number in best.candidates}
     for held, block in enumerate(selected.blocks):
         rest = total([other for number, other in enumerate(selected.blocks) if number != held])
         problem, apart = selected.problem.with_equations(rest), block.scaled(selected.problem.scale)
         whole = _misfit(problem, apart, best, best.chosen)
         for number in gains:
             kept = tuple(effect for effect in best.chosen if effect.candidate != number)
-            gains[number] += (_misfit(problem, apart, best, kept) - whole) / (2 * best.noise**2)
-    return gains
+            gains[number].append((_misfit(problem, apart, best, kept) - whole) / (2 * best.noise**2))
+    return {number: float(np.median(each)) for number, each in gains.items()}
 
 
 def _misfit(problem: Problem, apart: NormalEquations, best: Hypothesis, effects: tuple[SelectedEffect, ...]) -> float:

@@ -206,13 +206,14 @@ def guess_chain(path: str, root: ET.Element, tip: str | None = None) -> GuessedC
     if tip is not None and tip not in links:
         raise InputError(path, "tip", tip, "no link of that name", nearest(tip, links))
     ways = {link: _way(joints, link) for link in links}
+    slides = not any(joint.get("type") in TURNING for joint in joints.values())
     guesses = {}
     if tip is None:
-        tip, why = _last_link(path, ways)
+        tip, why = _last_link(path, ways, slides)
         guesses["tip"] = f"guessed: {why}"
     held = {}
     for joint in ways[tip]:
-        if joint.get("type") == "prismatic":
+        if joint.get("type") == "prismatic" and not slides:
             name = str(joint.get("name"))
             held[name] = _within_limits(joint)
             guesses[f"hold_joints.{name}"] = "guessed: a sliding joint is held; state where it stood, m"
@@ -234,27 +235,29 @@ def _way(joints: dict[str, ET.Element], link: str) -> list[ET.Element]:
     return way[::-1]
 
 
-def _turning(way: Iterable[ET.Element]) -> list[ET.Element]:
+def _moving(way: Iterable[ET.Element], slides: bool) -> list[ET.Element]:
+    """The joints of a way that turn; where nothing of the machine turns, those that slide."""
     return [
         joint
         for joint in way
-        if joint.get("type") in TURNING
+        if joint.get("type") in (("prismatic",) if slides else TURNING)
         and joint.find("mimic") is None
         and not any(word in str(joint.get("name")).lower() for word in HANDS)
     ]
 
 
-def _last_link(path: str, ways: dict[str, list[ET.Element]]) -> tuple[str, str]:
+def _last_link(path: str, ways: dict[str, list[ET.Element]], slides: bool) -> tuple[str, str]:
     """The link that carries the tool, and why it is taken for that."""
     by_last: dict[str, list[ET.Element]] = {}
-    for way in map(_turning, ways.values()):
-        if way:
+    fewest = 1 if slides else FEWEST_JOINTS
+    for link in ways:
+        if way := _moving(ways[link], slides):
             by_last[str(way[-1].get("name"))] = way
     most = max(map(len, by_last.values()), default=0)
     ends = [way for way in by_last.values() if len(way) == most]
     shared = [each[0] for each in zip(*ends, strict=False) if all(one is each[0] for one in each)]
-    if len(shared) < FEWEST_JOINTS:
-        if most < FEWEST_JOINTS:
+    if len(shared) < fewest:
+        if most < fewest:
             raise InputError(path, "", f"{most} turning joints in a row", f"an arm has at least {FEWEST_JOINTS}")
         names = ", ".join(_body(ways, way)[-1] for way in ends[:5])
         cure = "Say which in a robot.yaml: `armscope init arm.urdf --tip NAME -o robot.yaml`."
@@ -262,7 +265,8 @@ def _last_link(path: str, ways: dict[str, list[ET.Element]]) -> tuple[str, str]:
     body = _body(ways, shared)
     named = [link for name in TOOL_NAMES for link in body if link.lower() == name or link.lower().endswith(f"_{name}")]
     tip, last = (named or body[::-1])[0], shared[-1].get("name")
-    why = f"the {'usual name' if named else 'last'} of the links behind joint {last}, number {len(shared)} that turns"
+    moves = "slides" if slides else "turns"
+    why = f"the {'usual name' if named else 'last'} of the links behind joint {last}, number {len(shared)} that {moves}"
     return tip, f"{tip}, {why}"
 
 
