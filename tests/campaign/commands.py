@@ -132,7 +132,7 @@ def _read_only(folder: Path, command: Command) -> tuple[int, str, list[str]]:
 
 def _no_memory(folder: Path, command: Command) -> tuple[int, str, list[str]]:
     folder.mkdir(parents=True, exist_ok=True)
-    limit = 420 * 1024**2  # of addresses: more than the interpreter and its libraries, less than the work
+    limit = 500 * 1024**2  # of addresses: more than the interpreter and its libraries, less than a diagnosis
     done = run(command(folder), preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
     return (
         done.returncode,

@@ -2,6 +2,7 @@
 
 import json
 import os
+import resource
 import signal
 import stat
 import subprocess
@@ -114,6 +115,14 @@ def test_no_memory_is_one_line_with_an_exit_code_of_its_own(tmp_path):
     assert done.stderr.startswith("armscope: out of memory")
     assert done.stderr.count("\n") == 1
     assert not (tmp_path / "out.csv").exists()
+
+
+def test_too_few_addresses_for_the_libraries_are_refused_at_once(tmp_path):
+    """With less, BLAS tries for ever to get its buffers: found by the campaign."""
+    few = 400 * 2**20
+    done = command(*PREDICT, tmp_path / "a.csv", preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (few, few)))
+    assert (done.returncode, list(tmp_path.iterdir())) == (71, [])
+    assert "400 MB of addresses (ulimit -v); 500 are the least" in done.stderr
 
 
 def test_a_reader_that_goes_away_costs_no_result(tmp_path):

@@ -24,7 +24,8 @@ from armscope.physics.cure import Cure
 from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Term, term
 from armscope.physics.model import FittedModel
 from armscope.physics.payload import PAYLOAD_MASS
-from armscope.physics.scene import Part, Posture
+from armscope.physics.posture import Posture
+from armscope.physics.scene import Part
 from armscope.recordings import Recordings
 from armscope.robot import Arm, forward_kinematics
 from armscope.robot.gravity import gravity_torques

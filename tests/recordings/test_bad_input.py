@@ -43,6 +43,9 @@ def complaint(file, **options):
         pytest.param(changed(1, "x_mm", ""), ["row 3", "x_mm", "nothing", "required"], id="empty cell"),
         pytest.param(changed(2, "q1_rad", "nan"), ["row 4", "q1_rad", "nothing", "required"], id="NaN"),
         pytest.param(changed(2, "y_mm", "inf"), ["row 4", "y_mm", "inf", "finite"], id="infinite"),
+        pytest.param(
+            table(*[f"{n},0.1,0.2,{'9' * 400},4,5" for n in range(3)]), ["row 2", "x_mm", "finite"], id="400 digits"
+        ),
         pytest.param(changed(0, "z_mm", "tall"), ["row 2", "z_mm", "'tall'", "number"], id="text in a number"),
         pytest.param(changed(0, "z_mm", "TRUE"), ["row 2", "z_mm", "number"], id="a truth value in a number"),
         pytest.param(changed(1, "q2_rad", "35.5"), ["row 3", "q2_rad", "35.5", "12.57", "q2_deg"], id="degrees as rad"),

@@ -60,7 +60,7 @@ class CheckReport:
             [
                 *_table_lines(self.contents),
                 *_arm_lines(self.consistency, self.contents.rows),
-                *_verdict_lines(self.suspicions),
+                *verdict_lines(self.suspicions),
             ]
         )
 
@@ -180,7 +180,8 @@ def _arm_lines(consistency: Consistency | None, rows: int) -> list[str]:
     ]
 
 
-def _verdict_lines(suspicions: tuple[Suspicion, ...]) -> list[str]:
+def verdict_lines(suspicions: tuple[Suspicion, ...]) -> list[str]:
+    """Suspicions in words, problems first."""
     if not suspicions:
         return ["nothing looks wrong"]
     ordered = sorted(suspicions, key=lambda each: each.weight != "problem")

@@ -24,8 +24,16 @@ def check(
     json: Annotated[bool, typer.Option("--json", help="print what looks wrong as JSON in place of words")] = False,
 ) -> None:
     """Say what a recordings table holds and what looks wrong in it; exit code 1 if something does."""
+    from armscope.cli.motion import check_motions_table
     from armscope.cli.robots import print_json, robot_of, table_of
+    from armscope.recordings.first_lines import is_motion_table
 
+    if is_motion_table(recordings):
+        if figure is not None:
+            raise InputError("--figure", "", str(figure), "of a table of motions there is none")
+        if check_motions_table(recordings, robot, json):
+            raise typer.Exit(1)
+        return
     arm = None if robot is None else robot_of(robot)
     table = table_of(recordings)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import resource
 import signal
 import sys
 import threading
@@ -30,12 +31,24 @@ CLOSED = 141
 """Nobody reads standard output any more (128 + SIGPIPE)."""
 
 
+LEAST_ADDRESSES = 500 * 2**20
+"""Bytes that a process must be allowed: with less, the libraries' BLAS tries for ever to get its buffers."""
+
+
+def _check_addresses() -> None:
+    allowed, _ = resource.getrlimit(resource.RLIMIT_AS)
+    if 0 <= allowed < LEAST_ADDRESSES:
+        given, least = allowed // 2**20, LEAST_ADDRESSES // 2**20
+        raise MemoryError(f"This process is allowed {given} MB of addresses (ulimit -v); {least} are the least")
+
+
 @contextlib.contextmanager
 def endings() -> Iterator[None]:
     """Around a whole command line."""
     patient = sys.stdout = _Patient(sys.stdout)
     try:
         try:
+            _check_addresses()
             yield
         finally:
             patient.flush()

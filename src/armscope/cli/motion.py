@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 Tell = Callable[[str, float], None]
-FILES = ("verdict.json", "model.yaml")
+FILES = ("verdict.json", "model.yaml", "corrected.urdf", "mujoco.xml", "parameters.csv")
 """All that is written beside the page."""
 
 
@@ -55,6 +55,7 @@ def diagnose_motions(table: Path, robot: Path, output: Path, asked: Asked, tell:
     from armscope.cli.robots import print_json
     from armscope.core.files import writable
     from armscope.core.inputs import InputError, nearest
+    from armscope.motion.export import export_motion
     from armscope.motion.model_file import save_motion_model
     from armscope.motion.pipeline import MotionSettings, diagnose_motion
     from armscope.motion.verdict import write_motion_verdict
@@ -72,6 +73,7 @@ def diagnose_motions(table: Path, robot: Path, output: Path, asked: Asked, tell:
     found = diagnose_motion(arm, motions, MotionSettings(asked.cutoff, tuple(asked.held_out)), tell)
     write_motion_verdict(found.verdict, output)
     save_motion_model(output / "model.yaml", found.model)
+    export_motion(found.model, found.selected, output)
     if asked.report:
         from armscope.report.pages.motion import write_motion_report
 
@@ -102,3 +104,31 @@ def predicted_motions(model: Path, motions: Path) -> tuple[pd.DataFrame, list[st
     from armscope.motion.predicting import predict_motions
 
     return predict_motions(model, motions) if is_motion_model(read_yaml(model)) else None
+
+
+def check_motions_table(table: Path, robot: Path | None, as_json: bool) -> bool:
+    """Say what a table of motions holds and what looks wrong in it.
+
+    Args:
+        table: motions.csv.
+        robot: robot.yaml, to compare torques with its masses; None looks at the table alone.
+        as_json: whether it is printed as JSON in place of words.
+
+    Returns:
+        Whether something makes results meaningless.
+
+    Raises:
+        InputError: the table can't be used.
+    """
+    from armscope.check.motions import check_moving
+    from armscope.cli.robots import print_json
+    from armscope.recordings.motions import read_motions
+    from armscope.robot.dynamics import load_moving_arm
+
+    arm = None if robot is None else load_moving_arm(robot)
+    found = check_moving(read_motions(table, None if arm is None else arm.n_motors), arm)
+    if as_json:
+        print_json(found.to_json())
+    else:
+        print(found.text())
+    return found.has_problems

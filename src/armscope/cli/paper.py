@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from armscope.cli import paper_judging, paper_pages
-from armscope.cli.commands import Commands
+from armscope.cli.commands import WRITTEN, Commands
 from armscope.cli.studies import (
     Errors,
     Fits,
@@ -118,7 +118,9 @@ def residuals(
     errors: Errors,
     fits: Fits,
     output: Output,
-    bands: Annotated[Path | None, typer.Option(help="table of where the robots' errors lie at every point")] = None,
+    bands: Annotated[
+        Path | None, typer.Option(help="table of where the robots' errors lie at every point"), WRITTEN
+    ] = None,
 ) -> None:
     """What every fit leaves of the errors, for every robot of a table."""
     from armscope.core.files import write_table

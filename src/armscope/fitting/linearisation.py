@@ -26,7 +26,8 @@ from armscope.measurement.registry import supported
 from armscope.measurement.row_weights import RowWeights
 from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.model import FittedModel
-from armscope.physics.scene import Posture, Scene
+from armscope.physics.posture import Posture
+from armscope.physics.scene import Scene
 from armscope.recordings import Recordings
 
 Result = TypeVar("Result")

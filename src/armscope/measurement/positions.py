@@ -14,7 +14,8 @@ from armscope.measurement.channel import Channel
 from armscope.physics.effect import AXES, Direction, Placed, Term
 from armscope.physics.frames import bases_and_tools, runs_of
 from armscope.physics.model import Base, FittedModel
-from armscope.physics.scene import Part, Posture
+from armscope.physics.posture import Posture
+from armscope.physics.scene import Part
 from armscope.recordings import Recordings
 
 

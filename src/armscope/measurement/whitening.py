@@ -11,7 +11,8 @@ from armscope.core.types import Array
 from armscope.measurement.channel import Channel
 from armscope.physics.effect import Direction, Product, Term
 from armscope.physics.model import FittedModel
-from armscope.physics.scene import Posture, Scene
+from armscope.physics.posture import Posture
+from armscope.physics.scene import Scene
 
 
 @dataclass(frozen=True, eq=False)

@@ -27,6 +27,15 @@ def check_motions(arm: MovingArm, motions: Motions) -> list[Notice]:
         )
         raise InputError(motions.source, f"column current{j + 1}_a", "no gain_nm_per_a in robot.yaml", rule, cure)
     _refuse_dead(motions)
+    return doubts_about(motions)
+
+
+def doubts_about(motions: Motions) -> list[Notice]:
+    """Joints that stand, or move one way only.
+
+    Raises:
+        InputError: none moves.
+    """
     return [*_still_joints(motions), *_one_way(motions)]
 
 

@@ -220,6 +220,16 @@ class ModelFileRules(Constants):
     least_knots: int = constant(4, "of a free curve", "derived: a cubic spline has no fewer", unit="columns")
 
 
+@dataclass(frozen=True)
+class ExportRules(Constants):
+    """What a simulator takes for a body."""
+
+    least_eigenvalue: float = constant(
+        1e-6, "of a link's pseudo-inertia, to its largest", "judgement: simulators refuse bodies without extent"
+    )
+    lightest_kg: float = constant(0.1, "that a link counts as at least", "judgement: stubs of a few grams", unit="kg")
+
+
 LIBRARY = LibraryRules()
 PRIOR = PriorRules()
 NOISE = RowNoiseRules()
@@ -227,3 +237,4 @@ CONSISTENCY = ConsistencyRules()
 TELLING = MotionTelling()
 CHECK = CheckRules()
 MODEL_FILE = ModelFileRules()
+EXPORT = ExportRules()

@@ -12,7 +12,8 @@ from armscope.core.inputs import InputError
 from armscope.core.parallel import each_piece
 from armscope.core.types import Array
 from armscope.physics.frames import ToolKey
-from armscope.physics.scene import Part, Posture, Scene
+from armscope.physics.posture import Posture
+from armscope.physics.scene import Part, Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.robot.kinematics import ROWS_AT_A_TIME

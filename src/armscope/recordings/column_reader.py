@@ -27,7 +27,8 @@ class ColumnReader:
     def _numbers(self, column: str, required: bool) -> Array:
         values = self.table[column]
         if not pd.api.types.is_numeric_dtype(values) or pd.api.types.is_bool_dtype(values):
-            parsed = pd.to_numeric(values, errors="coerce")
+            words = values.where(values.isna(), values.astype(str))  # whole numbers of any length would not fit a float
+            parsed = pd.to_numeric(words, errors="coerce")
             wrong = np.flatnonzero(parsed.isna() & values.notna())
             if len(wrong):
                 found = values.iloc[wrong[0]]

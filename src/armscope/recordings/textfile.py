@@ -117,7 +117,11 @@ def _why_ragged(count: int, width: int) -> str:
 def _check_header(path: Path, header: list[str]) -> None:
     if len(header) == 1 and re.search(r"[;\t|]", header[0]):
         raise InputError(
-            path, "line 1", header[0], "columns are separated by commas", "Convert it with `armscope import`."
+            path,
+            "line 1",
+            header[0],
+            "columns are separated by commas",
+            f"`armscope init {path.name} -o mapping.yaml` drafts how to read it, `armscope import` converts it.",
         )
     if len(header) > MOST_COLUMNS:
         raise InputError(path, "line 1", f"{len(header)} columns", f"a table has at most {MOST_COLUMNS} columns")

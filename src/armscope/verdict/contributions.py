@@ -16,7 +16,8 @@ import numpy as np
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
 from armscope.physics.effect import AXES, Direction
-from armscope.physics.scene import Part, Posture
+from armscope.physics.posture import Posture
+from armscope.physics.scene import Part
 from armscope.verdict.schema import Diagnosis, FoundEffect
 from armscope.verdict.wording import main_and_minor
 

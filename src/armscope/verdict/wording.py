@@ -45,6 +45,7 @@ def read_parameter(parameter: Parameter, effect: str = "") -> Reading:
     known = math.isfinite(parameter.stderr) and parameter.stderr > 0
     low, high = (factor * edge for edge in parameter.interval)
     decimals = decimals_for(factor * parameter.stderr) if known else None
+    decimals = 0 if parameter.name == "row" else decimals
     value = f"{_number(factor * parameter.value, decimals)} {unit}".strip().replace(" °", "°")
     interval = f"{_number(low, decimals)} … {_number(high, decimals)} {unit}" if known else "found by trying values"
     return Reading(label, value, interval.replace(" °", "°"), _said_otherwise(parameter))

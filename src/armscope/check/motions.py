@@ -1,0 +1,226 @@
+"""What a table of an arm in motion holds, and what looks wrong with it, before anything is fitted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from armscope.check.report import verdict_lines
+from armscope.check.suspicion import Suspicion
+from armscope.core.sampling import spread_evenly
+from armscope.core.types import Array
+from armscope.motion.check import doubts_about, refuse_other_joints
+from armscope.motion.timing import mended_rows
+from armscope.recordings.motions import Motions, torque_columns
+from armscope.robot.dynamics import MovingArm
+
+WRONG_SCALE, LATE_STEPS = 0.05, 1.0
+"""Share by which a recorded speed may differ from the angle's derivative, and by how many samples it may be late."""
+FARTHEST_LAG = 40
+"""Samples over which a speed's lag is looked for."""
+AT_THE_LIMIT = 5
+"""Samples in a row at a channel's largest value that mean it was cut off there."""
+SAME_PATH = 0.01
+"""Of the joints' ranges, from one run's path to another's: nearer than this it is the same path."""
+FAR_TURNS_RAD = 4 * np.pi
+MOST_ROWS = 3000
+COARSE_S, FEWEST = 0.05, 20
+"""Over which positions are differenced, and of how many such samples at least."""
+TOLD = 0.8
+"""Share of a joint's torque, beyond friction, that masses must explain for its sign and size to be judged."""
+OTHER_SIZE = 3.0
+"""Factor between recorded torque and the masses' from which it is another quantity."""
+
+
+@dataclass(frozen=True)
+class MotionCheck:
+    """What was seen: the contents in lines, and what looks wrong."""
+
+    contents: tuple[str, ...]
+    suspicions: tuple[Suspicion, ...]
+
+    @property
+    def has_problems(self) -> bool:
+        """Whether anything makes results from this table meaningless."""
+        return any(each.weight == "problem" for each in self.suspicions)
+
+    def to_json(self) -> dict[str, Any]:
+        """Contents and suspicions as plain data."""
+        told = [vars(each) for each in self.suspicions]
+        return {"problems": self.has_problems, "suspicions": told, "contents": list(self.contents)}
+
+    def text(self) -> str:
+        """The report as plain text."""
+        return "\n".join([*self.contents, *verdict_lines(self.suspicions)])
+
+
+def check_moving(motions: Motions, arm: MovingArm | None = None) -> MotionCheck:
+    """Look through a table of motions.
+
+    Args:
+        motions: the table.
+        arm: the robot it should belong to; None looks at the table alone.
+
+    Returns:
+        What it holds and what looks wrong.
+
+    Raises:
+        InputError: time goes back or is in milliseconds, nothing moves, no channel records torque, other joints slide.
+    """
+    if arm is not None:
+        refuse_other_joints(arm, motions)
+    kept, time, notices = mended_rows(motions)
+    told = [Suspicion("hint", notice.text.rstrip(".")) for notice in [*notices, *doubts_about(motions)]]
+    even = motions.rows(kept).at_times(time)
+    found = [*told, *_dead(motions), *_saturated(motions), *_units(motions), *_speeds(even), *_same_paths(even)]
+    if arm is not None and motions.kind == "torque":
+        found += _torques(even, arm)
+    return MotionCheck(tuple(_contents(even)), tuple(found))
+
+
+def _contents(motions: Motions) -> Iterator[str]:
+    yield f"{motions.source}: {len(motions)} samples of {motions.n_motors} motors, {motions.kind}"
+    for run in motions.runs:
+        time = motions.time[motions.run == run]
+        rate = 1 / float(np.median(np.diff(time)))
+        yield f"  run {run or '(no name)'}: {len(time)} samples, {np.ptp(time):.4g} s at {rate:.4g} Hz"
+    for j in range(motions.n_motors):
+        factor, unit = (1e3, "mm") if motions.sliding[j] else (180 / np.pi, "deg")
+        low, high = factor * motions.q[:, j].min(), factor * motions.q[:, j].max()
+        yield f"  q{j + 1}: {low:8.2f} ... {high:8.2f} {unit}, {motions.kind} {_range(motions.effort[:, j])}"
+
+
+def _range(values: Array) -> str:
+    return f"{values.min():.4g} ... {values.max():.4g}"
+
+
+def _channels(motions: Motions) -> list[str]:
+    if motions.kind == "torque":
+        return torque_columns(motions.sliding)
+    return [f"current{j + 1}_a" for j in range(motions.n_motors)]
+
+
+def _dead(motions: Motions) -> Iterator[Suspicion]:
+    for name, values in zip(_channels(motions), motions.effort.T, strict=True):
+        if np.ptp(values) == 0:
+            yield Suspicion("problem", f"{name} is {values[0]:g} in every row", "Is the channel recorded?")
+
+
+def _saturated(motions: Motions) -> Iterator[Suspicion]:
+    for name, values in zip(_channels(motions), motions.effort.T, strict=True):
+        for limit in (values.max(), values.min()):
+            at = np.flatnonzero(np.convolve(values == limit, np.ones(AT_THE_LIMIT), "valid") == AT_THE_LIMIT)
+            if len(at) and np.ptp(values) > 0:
+                statement = f"{name} stays at {limit:.4g}, the farthest it goes, from row {at[0] + 2} on"
+                yield Suspicion(
+                    "hint", statement, "Was the channel cut off there? What lies beyond looks like friction."
+                )
+                break
+
+
+def _units(motions: Motions) -> Iterator[Suspicion]:
+    for j in np.flatnonzero(~motions.sliding):
+        far = float(np.abs(motions.q[:, j]).max())
+        if far > FAR_TURNS_RAD:
+            statement = f"q{j + 1}_rad reaches {far:.4g} rad, {far / (2 * np.pi):.3g} turns"
+            yield Suspicion("hint", statement, f"Are these degrees? Then call the column q{j + 1}_deg.")
+
+
+def _speeds(motions: Motions) -> Iterator[Suspicion]:
+    """Recorded speeds against the derivatives of the angles: factor and lag."""
+    if motions.dq is None or not np.isfinite(motions.dq).all():
+        return
+    for j in range(motions.n_motors):
+        found = [_speed_of_run(motions, run, j) for run in motions.runs]
+        told = [each for each in found if each is not None]
+        if not told:
+            continue
+        scale, late = (float(np.median([each[k] for each in told])) for k in (0, 1))
+        name, step = f"dq{j + 1}", float(np.median(np.diff(motions.time)))
+        if abs(scale - 1) > WRONG_SCALE:
+            cure = "It is in degrees a second, perhaps." if abs(scale * np.pi / 180 - 1) < WRONG_SCALE else ""
+            statement = f"{name} is {scale:.4g} times the derivative of q{j + 1}"
+            yield Suspicion("problem" if scale < 0 else "hint", statement, cure)
+        if abs(late) > LATE_STEPS:
+            statement = f"{name} is {abs(late * step) * 1e3:.3g} ms {'later' if late > 0 else 'earlier'} than q{j + 1}"
+            yield Suspicion("hint", statement, "Speeds are filtered, often; torques are compared by the angles alone.")
+
+
+def _speed_of_run(motions: Motions, run: str, joint: int) -> tuple[float, float] | None:
+    """(factor, samples late) of a recorded speed in a run; None where the joint hardly moves."""
+    assert motions.dq is not None
+    rows = np.flatnonzero(motions.run == run)
+    q, dq = motions.q[rows, joint], motions.dq[rows, joint]
+    if len(rows) < 4 * FARTHEST_LAG or np.ptp(dq) == 0 or len(np.unique(q)) < len(q) // 20:
+        return None
+    slope = np.gradient(q, motions.time[rows])
+    inside = slice(FARTHEST_LAG, len(rows) - FARTHEST_LAG)
+    lags = np.arange(-FARTHEST_LAG, FARTHEST_LAG + 1)
+    shifted = np.array([dq[FARTHEST_LAG + lag : len(rows) - FARTHEST_LAG + lag] for lag in lags])
+    fit = shifted @ slope[inside]
+    power = np.maximum(np.sum(shifted**2, axis=1), 1e-300)
+    best = int(np.argmax(fit**2 / power))
+    quality = fit**2 / power / max(float(slope[inside] @ slope[inside]), 1e-300)
+    if quality[best] < 0.5:
+        return None  # too noisy a derivative tells neither
+    late = float(lags[best])
+    if 0 < best < len(lags) - 1:
+        below, at, above = quality[best - 1 : best + 2]
+        late += float((below - above) / (2 * (below - 2 * at + above)))
+    return float(power[best] / fit[best]), late
+
+
+def _same_paths(motions: Motions) -> Iterator[Suspicion]:
+    if motions.n_motors == 1:
+        return  # every path of one axis passes where another one did
+    span = np.maximum(np.ptp(motions.q, axis=0), 1e-9)
+    paths = {run: motions.q[motions.run == run] / span for run in motions.runs}
+    for one, other in combinations(paths, 2):
+        dense = cKDTree(paths[one][spread_evenly(len(paths[one]), MOST_ROWS)])
+        away = dense.query(paths[other][spread_evenly(len(paths[other]), 300)])[0]
+        if float(np.percentile(away, 90)) < SAME_PATH * np.sqrt(motions.n_motors):
+            statement = f"run {other} repeats the path of run {one}"
+            yield Suspicion("hint", statement, "Held out, it tests the noise and not the model: hold out another path.")
+
+
+def _torques(motions: Motions, arm: MovingArm) -> Iterator[Suspicion]:
+    """Sign and size of recorded torques against what the stated masses ask for, with friction and a rotor fitted."""
+    parts = [_coarse(motions, run) for run in motions.runs]
+    q, dq, ddq, effort = (np.concatenate([part[k] for part in parts]) for k in range(4))
+    few = spread_evenly(len(q), MOST_ROWS)
+    rigid = arm.regressor(q[few], dq[few], ddq[few]) @ arm.inertial
+    for j in range(motions.n_motors):
+        ordinary = np.column_stack([np.ones(len(few)), np.sign(dq[few, j]), dq[few, j], ddq[few, j]])
+        left, asked = (
+            each - ordinary @ np.linalg.lstsq(ordinary, each, rcond=None)[0] for each in (effort[few, j], rigid[:, j])
+        )
+        power = float(asked @ asked)
+        if power <= 0 or (asked @ left) ** 2 < TOLD * power * float(left @ left):
+            continue
+        factor = float(asked @ left) / power
+        name = _channels(motions)[j]
+        if factor < 0:
+            cure = "Is it the load's torque? Turn its sign: torque is the motor's, positive along the motion it drives."
+            yield Suspicion("problem", f"{name} has the sign opposite to what moves the stated masses", cure)
+        elif not 1 / OTHER_SIZE < factor < OTHER_SIZE:
+            cure = "Is it the torque before the gear, or another unit?"
+            yield Suspicion("problem", f"{name} is {factor:.3g} times what the stated masses ask for", cure)
+
+
+def _coarse(motions: Motions, run: str) -> tuple[Array, Array, Array, Array]:
+    """Positions, derivatives and torques of a run, differenced over a twentieth of a second: to see sign and size."""
+    rows = np.flatnonzero(motions.run == run)
+    time = motions.time[rows]
+    step = max(int(COARSE_S / float(np.median(np.diff(time)))), 1)
+    q, time = motions.q[rows][::step], time[::step]
+    if len(q) < FEWEST:
+        none = np.empty((0, motions.n_motors))
+        return none, none, none, none
+    dq = np.gradient(q, time, axis=0)
+    inside = slice(2, -2)
+    return q[inside], dq[inside], np.gradient(dq, time, axis=0)[inside], motions.effort[rows][::step][inside]

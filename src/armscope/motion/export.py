@@ -1,0 +1,244 @@
+"""A fitted model as files for simulators: a URDF with corrected inertias, damping, friction; MuJoCo's joints; a table.
+
+What these formats have no place for (springs, cables, load friction, delays, offsets, gains) is named in the files.
+"""
+
+from __future__ import annotations
+
+import os
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pinocchio as pin
+
+from armscope.core.files import write_table, write_text
+from armscope.core.types import Array
+from armscope.motion.constants import EXPORT
+from armscope.motion.layout import OWN
+from armscope.motion.model import MotionModel
+from armscope.motion.selection import SelectedCauses
+from armscope.robot.dynamics import PARAMETERS, UNITS, MovingArm
+from armscope.robot.model import TIP
+from armscope.robot.urdf_file import root_of
+
+URDF, MUJOCO, TABLE = "corrected.urdf", "mujoco.xml", "parameters.csv"
+FILES = (URDF, MUJOCO, TABLE)
+HELD = ("coulomb_friction", "viscous_friction", "rotor_inertia", "link_mass", "link_first_moment", "link_inertia",
+        "payload_error", "attached_body")  # fmt: skip
+"""Causes that masses, friction and armature of a joint can say."""
+
+WRITTEN = (
+    "armscope: inertias, damping and friction as fitted, a tool load in the last link; rotors' inertia stands in "
+    "mujoco.xml (armature)"
+)
+
+
+def export_motion(model: MotionModel, selected: SelectedCauses, folder: Path | str) -> None:
+    """Write ``corrected.urdf``, ``mujoco.xml`` and ``parameters.csv``.
+
+    Args:
+        model: the fitted model.
+        selected: the selection that it is of, for standard errors.
+        folder: where to.
+    """
+    folder = Path(folder)
+    write_text(folder / URDF, corrected_urdf(model, folder))
+    write_text(folder / MUJOCO, mujoco_joints(model))
+    write_table(folder / TABLE, parameter_table(model, selected))
+
+
+def bodies(model: MotionModel) -> tuple[list[pin.Inertia], list[str]]:
+    """Every link's mass, centre and inertia about its joint's frame, and what had to be changed for it to be a body.
+
+    A combination of parameters that the motion does not tell may come out as no body has it: then the nearest body
+    (by its pseudo-inertia's eigenvalues, Wensing, Kim & Slotine 2018) stands in for it.
+    """
+    made, notes = [], []
+    total = model.followed().inertial.reshape(-1, len(PARAMETERS))
+    for number, parameters in enumerate(total, start=1):
+        pseudo = pin.PseudoInertia.FromDynamicParameters(parameters)
+        values, vectors = np.linalg.eigh(pseudo.toMatrix())
+        least = EXPORT.least_eigenvalue * max(float(values.max()), EXPORT.lightest_kg)
+        if values.min() < least:
+            mended = (vectors * np.maximum(values, least)) @ vectors.T
+            parameters = pin.PseudoInertia.FromMatrix(mended).toDynamicParameters()
+            notes.append(f"link {number}: no body has the fitted inertia; the nearest that a body has stands here")
+        made.append(pin.Inertia.FromDynamicParameters(parameters))
+    return made, notes
+
+
+def joint_numbers(model: MotionModel) -> tuple[Array, list[str]]:
+    """(n, 3) dry friction, damping and armature of each joint, none of them negative, and what was left out.
+
+    Where motors and joints are not one to one, friction belongs to motors and has no place at a joint: zeros.
+    """
+    if not np.array_equal(model.arm.actuation, np.eye(model.arm.n_links)):
+        return np.zeros((model.arm.n_links, 3)), ["friction and rotors are those of motors, which turn several joints"]
+    numbers, notes = model.joints[:, 1:4], []
+    for joint, name in np.argwhere(numbers < 0):
+        what = ("dry friction", "viscous friction", "rotor inertia")[name]
+        notes.append(f"joint {joint + 1}: {what} came out at {numbers[joint, name]:.4g}; simulators take none below 0")
+    return np.maximum(numbers, 0.0), notes
+
+
+def not_in_a_file(model: MotionModel) -> list[str]:
+    """Causes and numbers of the model for which a URDF has no place."""
+    causes = [str(each.placed) for each in model.causes if each.placed.cause.name not in HELD or each.placed.runs]
+    gains = [f"gain of joint {j + 1} {gain:+.3g}" for j, gain in enumerate(model.gains) if gain]
+    return [*causes, *gains]
+
+
+def corrected_urdf(model: MotionModel, folder: Path) -> str:
+    """The arm as a URDF: an arm that came from one keeps its links, meshes and names; others get their chain alone.
+
+    Args:
+        model: the model.
+        folder: where the file will stand, for paths of meshes.
+    """
+    source = model.arm.description.urdf
+    robot = _fresh(model.arm) if source is None else _kept(Path(source), model.arm, folder)
+    made, notes = bodies(model)
+    numbers, also = joint_numbers(model)
+    joints = {element.get("name"): element for element in robot.findall("joint")}
+    links = {element.get("name"): element for element in robot.findall("link")}
+    for name, body, (dry, damping, _) in zip(model.arm.joint_names, made, numbers, strict=True):
+        child = joints[name].find("child")
+        assert child is not None
+        _set_inertial(links[child.get("link")], body)
+        for old in joints[name].findall("dynamics"):
+            joints[name].remove(old)
+        ET.SubElement(joints[name], "dynamics", damping=repr(float(damping)), friction=repr(float(dry)))
+    left = not_in_a_file(model)
+    told = [WRITTEN, *notes, *also, *([f"not in this file: {'; '.join(left)}"] if left else [])]
+    robot.insert(0, ET.Comment(_as_comment(told)))
+    ET.indent(robot)
+    return '<?xml version="1.0"?>\n' + ET.tostring(robot, encoding="unicode") + "\n"
+
+
+def mujoco_joints(model: MotionModel) -> str:
+    """Attributes of the joints of an MJCF: dry friction, damping and armature, N m, N m s/rad, kg m^2."""
+    numbers, notes = joint_numbers(model)
+    told = _as_comment(
+        ["armscope: attributes for the joints of these names in your model", *notes, *not_in_a_file(model)]
+    )
+    robot = ET.Element("mujoco", model=model.arm.name)
+    robot.append(ET.Comment(told))
+    for name, values in zip(model.arm.joint_names, numbers, strict=True):
+        dry, damping, armature = (repr(float(f"{value:.6g}")) for value in values)
+        ET.SubElement(robot, "joint", name=name, frictionloss=dry, damping=damping, armature=armature)
+    ET.indent(robot)
+    return ET.tostring(robot, encoding="unicode") + "\n"
+
+
+def parameter_table(model: MotionModel, selected: SelectedCauses) -> pd.DataFrame:
+    """Regressor parameters: of every link the ten inertial ones, of every motor friction and rotor, SI.
+
+    Args:
+        model: the model.
+        selected: the selection that it is of.
+
+    Returns:
+        Columns place, parameter, unit, stated, fitted, stderr. Standard errors hold the priors, too: where they are as
+        large as what a drawing leaves open, the motion does not tell the number by itself.
+    """
+    arm, layout = model.arm, selected.rows.layout
+    columns = selected.best.columns
+    covariance = selected.best.covariance(columns) / np.outer(*[selected.problem.scale[columns]] * 2)
+    of_links, of_joints = np.zeros((len(arm.inertial), layout.width)), np.zeros((OWN * arm.n_motors, layout.width))
+    of_links[:, layout.inertial] = np.diag(layout.inertial_scale)
+    for number, cause in enumerate(layout.placed):
+        if cause.inertial is not None and not cause.runs:
+            of_links[:, layout.columns[number]] = cause.inertial
+    of_joints[:, layout.own] = np.eye(OWN * arm.n_motors)
+    errors = [np.sqrt(np.maximum(np.einsum("ip,pq,iq->i", each[:, columns], covariance, each[:, columns]), 0.0))
+              for each in (of_links, of_joints)]  # fmt: skip
+    fitted = model.followed().inertial
+    rows = [
+        (f"link {n // 10 + 1}", PARAMETERS[n % 10], UNITS[n % 10], arm.inertial[n], fitted[n], errors[0][n])
+        for n in range(len(fitted))
+    ]
+    for j in range(arm.n_motors):
+        torque, turn, inertia = ("N", "m", "kg") if arm.sliding[j] else ("N m", "rad", "kg m^2")
+        units = (torque, torque, f"{torque} s/{turn}", inertia)
+        for k, name in enumerate(("offset", "coulomb", "viscous", "inertia")):
+            stated, error = float(arm.stated_background[j, k]), errors[1][OWN * j + k]
+            rows.append((f"joint {j + 1}", name, units[k], stated, float(model.joints[j, k]), error))
+    return pd.DataFrame(rows, columns=["place", "parameter", "unit", "stated", "fitted", "stderr"])
+
+
+def _fresh(arm: MovingArm) -> ET.Element:
+    """The chain of a D-H arm: every link in the frame of its joint, whose z is the axis."""
+    robot = ET.Element("robot", name=arm.name)
+    # MuJoCo takes no body without mass and inertia, and would melt the flange into the last link; others skip this
+    ET.SubElement(ET.SubElement(robot, "mujoco"), "compiler", boundmass="1e-9", boundinertia="1e-9", fusestatic="false")
+    ET.SubElement(robot, "link", name="base")
+    parent, limits = "base", arm.description.joint_limits_deg
+    for number, name in enumerate(arm.joint_names, start=1):
+        ET.SubElement(robot, "link", name=f"link_{number}")
+        joint = _joint(robot, name, "continuous", (parent, f"link_{number}"), arm.model.jointPlacements[number])
+        ET.SubElement(joint, "axis", xyz="0 0 1")
+        if limits is not None and len(limits) == arm.n_links:
+            joint.set("type", "revolute")
+            low, high = (repr(float(np.radians(value))) for value in limits[number - 1])
+            ET.SubElement(joint, "limit", lower=low, upper=high, effort="1000", velocity="10")
+        parent = f"link_{number}"
+    ET.SubElement(robot, "link", name="flange")
+    tip = arm.model.frames[arm.model.getFrameId(TIP)]
+    _joint(robot, "flange_fixed", "fixed", (parent, "flange"), tip.placement)
+    return robot
+
+
+def _joint(robot: ET.Element, name: str, kind: str, links: tuple[str, str], placement: pin.SE3) -> ET.Element:
+    joint = ET.SubElement(robot, "joint", name=name, type=kind)
+    ET.SubElement(joint, "parent", link=links[0])
+    ET.SubElement(joint, "child", link=links[1])
+    rpy = _words(pin.rpy.matrixToRpy(placement.rotation))
+    ET.SubElement(joint, "origin", xyz=_words(placement.translation), rpy=rpy)
+    return joint
+
+
+def _kept(source: Path, arm: MovingArm, folder: Path) -> ET.Element:
+    """The arm's own URDF, without the inertias of what is fixed to a moving link: they are part of that link's."""
+    robot = root_of(str(source))
+    for mesh in robot.iter("mesh"):
+        name = mesh.get("filename", "")
+        if "://" not in name and not Path(name).is_absolute():  # beside the nominal file: seen from the new one
+            mesh.set("filename", Path(os.path.relpath(source.parent / name, folder.resolve())).as_posix())
+    moving = set(arm.joint_names)
+    children = {joint.find("child").get("link"): joint for joint in robot.findall("joint")}  # type: ignore[union-attr]
+    for link in robot.findall("link"):
+        joint = children.get(link.get("name"))
+        if joint is not None and joint.get("name") not in moving and _hangs_on(joint, children, moving):
+            for inertial in link.findall("inertial"):
+                link.remove(inertial)
+    return robot
+
+
+def _hangs_on(joint: ET.Element | None, children: dict[str | None, ET.Element], moving: set[str]) -> bool:
+    """Whether a moving joint of the chain carries this one."""
+    while joint is not None:
+        if joint.get("name") in moving:
+            return True
+        parent = joint.find("parent")
+        joint = None if parent is None else children.get(parent.get("link"))
+    return False
+
+
+def _set_inertial(link: ET.Element, body: pin.Inertia) -> None:
+    for old in link.findall("inertial"):
+        link.remove(old)
+    inertial = ET.SubElement(link, "inertial")
+    ET.SubElement(inertial, "origin", xyz=_words(body.lever), rpy="0 0 0")
+    ET.SubElement(inertial, "mass", value=repr(float(body.mass)))
+    names = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
+    ET.SubElement(inertial, "inertia", {name: repr(float(body.inertia[at])) for name, at in names.items()})
+
+
+def _words(values: Array) -> str:
+    return " ".join(repr(float(value)) for value in values)
+
+
+def _as_comment(lines: list[str]) -> str:
+    return f" {'. '.join(lines)} ".replace("--", "- -")

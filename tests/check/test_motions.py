@@ -1,0 +1,70 @@
+"""What is wrong with a table of motions is named before anything is fitted; a good one is not accused."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from armscope.check.motions import check_moving
+from armscope.core.inputs import InputError
+from armscope.recordings.motions import Motions
+from tests.motion.moving import moved, robot
+
+
+@pytest.fixture(scope="module")
+def good() -> Motions:
+    motions = moved(robot(), 5, seconds=8.0)
+    speed = np.concatenate(
+        [np.gradient(motions.q[motions.run == run], motions.time[motions.run == run], axis=0) for run in motions.runs]
+    )
+    return replace(motions, dq=speed)
+
+
+def said(motions: Motions) -> str:
+    return "; ".join(f"{each.weight} {each.statement}" for each in check_moving(motions, robot()).suspicions)
+
+
+def test_a_good_table_is_not_accused_and_its_runs_are_listed(good: Motions) -> None:
+    found = check_moving(good, robot())
+    assert not found.suspicions
+    assert not found.has_problems
+    assert "run path 2: 1600 samples" in found.text()
+    assert found.to_json()["problems"] is False
+
+
+def test_a_late_speed_is_told_with_its_lag_and_degrees_with_their_factor(good: Motions) -> None:
+    assert good.dq is not None
+    late = replace(good, dq=np.roll(good.dq, 4, axis=0))
+    assert "dq1 is 20 ms later than q1" in said(late)
+    assert "dq2 is 57.3 times the derivative of q2" in said(replace(good, dq=np.degrees(good.dq)))
+    assert "problem dq3 is -1 times" in said(replace(good, dq=good.dq * np.array([1, 1, -1])))
+
+
+def test_a_torque_of_the_load_or_before_the_gear_is_a_problem(good: Motions) -> None:
+    assert "problem tau2_nm has the sign opposite" in said(replace(good, effort=good.effort * np.array([1, -1, 1])))
+    assert "problem tau2_nm is 0.00997 times" in said(replace(good, effort=good.effort * np.array([1, 0.01, 1])))
+
+
+def test_dead_and_saturated_channels_are_named(good: Motions) -> None:
+    dead, cut = good.effort.copy(), good.effort.copy()
+    dead[:, 2] = 0.5
+    cut[:, 1] = np.clip(cut[:, 1], -20, 20)
+    assert "problem tau3_nm is 0.5 in every row" in said(replace(good, effort=dead))
+    assert "hint tau2_nm stays at -20" in said(replace(good, effort=cut))
+
+
+def test_a_run_that_repeats_another_is_no_test(good: Motions) -> None:
+    half = good.rows(good.run == "path 1")
+    rng = np.random.default_rng(1)
+    again = good.rows(slice(None))
+    twice = replace(again, q=np.vstack([half.q, half.q + 1e-4 * rng.normal(size=half.q.shape)]), dq=None)
+    assert "run path 2 repeats the path of run path 1" in said(twice)
+
+
+def test_milliseconds_and_far_angles_are_told(good: Motions) -> None:
+    with pytest.raises(InputError, match="milliseconds"):
+        check_moving(replace(good, time=good.time * 1e3))
+    far = replace(good, q=good.q + np.array([0, 0, 200.0]))
+    assert "q3_rad reaches" in said(far)
