@@ -53,6 +53,8 @@ def audit() -> Outcome:
         done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, timeout=300)
     except subprocess.TimeoutExpired:
         return Outcome(promise, tested, 0, (), "the index did not answer")
+    if (unknown := (done.stdout + done.stderr).count("could not be audited")) > 0:  # it ends with 0 all the same
+        return Outcome(promise, tested, 0, (), f"the index that can be reached says nothing of {unknown} packages")
     if done.returncode == 0:
         return Outcome(promise, tested, 1, ())
     found = [line for line in done.stdout.splitlines() if "==" in line or "-202" in line]

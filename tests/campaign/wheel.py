@@ -21,7 +21,7 @@ def diagnoses(python: str) -> Outcome:
         python: which interpreter.
     """
     promise, tested = "the built wheel works without the repository", f"`armscope diagnose` from a wheel, {python}"
-    if shutil.which(python) is None:
+    if shutil.which(python) is None or subprocess.run([python, "-V"], capture_output=True, check=False).returncode:
         return Outcome(promise, tested, 0, (), f"{python} is not installed")
     with tempfile.TemporaryDirectory(prefix="wheel-") as made:
         home = Path(made)

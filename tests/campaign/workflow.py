@@ -40,7 +40,9 @@ def campaign(home: Path, times: int, rng: np.random.Generator) -> list[Outcome]:
     """
     started = time.monotonic()
     done = run(snakemake("-j1"), cwd=checkout(home / "one"))
-    assert done.returncode == 0, done.stderr[-2000:]
+    if done.returncode:
+        said = [line for line in done.stderr.splitlines() if "rror" in line]
+        return [Outcome("the workflow ends well", "`-j1`", 1, ("; ".join(said)[-1000:],))]
     seconds, reference = time.monotonic() - started, contents(home / "one" / "results")
     done = run(snakemake("-j2"), cwd=checkout(home / "two"))
     same = done.returncode == 0 and contents(home / "two" / "results") == reference

@@ -48,6 +48,7 @@ def folder(request, tmp_path_factory):
             home / "visible" / f"arm-{part}",
             "--resamples",
             0,
+            "--no-cross-validation",
             "-o",
             home / "verdicts" / f"arm-{part}",
         )

@@ -134,6 +134,7 @@ class Calibration:
         return in_words(self)
 
 
+# so many parameters: each is a choice of its own that a user makes by name, and all have a default
 def calibrate(
     arm: Arm,
     recordings: Recordings,

@@ -9,7 +9,7 @@ import numpy as np
 
 from armscope.calibration.fit import placed, rms_distance
 from armscope.calibration.model import LEVELS, Level, set_up
-from armscope.calibration.solve import Priors, Redundancy, solve
+from armscope.calibration.solve import Priors, solve
 from armscope.calibration.splits import foretold, split
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -44,25 +44,23 @@ def held_out(
     levels: Iterable[Level] = LEVELS,
     seeds: Sequence[int] = (0, 1, 2, 3, 4),
     *,
-    redundancy: Redundancy = "priors",
     priors: Priors | None = None,
-    robust: bool = False,
-    one_base: bool = False,
-    tool_per_run: bool = False,
     most_rows: int | None = None,
 ) -> list[HeldOut]:
-    """Fit each level on 70 % of the configurations and test it on the rest, for several splits.
+    """Fit each level on 70 % of the configurations and test it on the rest, for several splits; a base for every run.
 
     Args:
-        arm, recordings, redundancy, priors, robust, one_base, tool_per_run: as for `calibrate`.
+        arm: the nominal arm.
+        recordings: measured points.
         levels: which levels; "compliance" is left out where no loads are known.
         seeds: one split each.
+        priors: sizes that hold what the rows do not tell; None takes the defaults.
         most_rows: train on the first so many of the training rows, as the reference does for very long runs.
 
     Returns:
         RMS of the 3D distance per split, m, by level.
     """
-    rows = set_up(arm, recordings, one_base, tool_per_run)
+    rows = set_up(arm, recordings, one_base=False, tool_per_run=False)
     levels = [level for level in levels if level != "compliance" or rows.loads is not None]
     found: dict[Level, list[float]] = {level: [] for level in levels}
     for seed in seeds:
@@ -72,6 +70,6 @@ def held_out(
         training, testing = rows.rows(train), rows.rows(foretold(rows, train, test))
         start = placed(training)
         for level in levels:
-            solved = solve(training, level, redundancy, priors or Priors(), robust, start)
+            solved = solve(training, level, "priors", priors or Priors(), robust=False, start=start)
             found[level].append(rms_distance(testing.residuals(solved.fitted.state)))
     return [HeldOut(level, tuple(values)) for level, values in found.items()]

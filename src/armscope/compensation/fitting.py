@@ -32,6 +32,7 @@ LARGEST_PLAIN_TURN_RAD = 0.1
 """Turns beyond this are no errors of the orientation: the measured tool frame is not the arm's last frame."""
 
 
+# so many parameters: each is a choice of its own that a user makes by name, and nearly all have a default
 def fit_error_model(
     arm: Arm,
     recordings: Recordings,

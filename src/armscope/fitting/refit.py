@@ -137,6 +137,7 @@ class ModelFit(NonlinearProblem[FittedModel, ChannelResiduals]):
         return bool(moved < max(STEPS.converged_mm, self.negligible * uncertain))
 
 
+# so many parameters: what is fitted (four), to what (one), and how its rows count (three)
 def refit(
     model: FittedModel,
     rows: Measured,

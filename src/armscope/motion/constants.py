@@ -159,6 +159,9 @@ class RowNoiseRules(Constants):
     settled: float = constant(
         0.3, "standard errors within which a number that is refined rests", "judgement: its interval hardly moves"
     )
+    parts: int = constant(
+        20, "of the motion, every fifth of which is fitted by the rest to see its noise", "judgement: longer than noise"
+    )
     blocks_of_time: int = constant(5, "of a single run", "convention: as many as folds", unit="blocks")
     ridge: float = constant(
         1e-6,

@@ -22,7 +22,7 @@ from armscope.motion.preparation import Preparation
 from armscope.motion.rows import MotionRows, SoFar, build_rows, stated_model
 from armscope.motion.space import build_space
 from armscope.motion.timing import Stretch
-from armscope.motion.weights import TorqueWeights, estimate_weights, fitted_together, sums_by_block
+from armscope.motion.weights import TorqueWeights, estimate_weights, left_apart, sums_by_block
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,13 +175,15 @@ def chosen(
 
 
 def _start(rows: MotionRows) -> TorqueWeights:
-    """Weights from what friction, rotors and masses leave.
+    """Weights from what friction, rotors and masses leave, or they and all causes at once.
 
-    With all causes fitted at once, a short motion would have no noise left, and everything would be sure of itself;
-    so noise starts too large, and comes down as causes are found.
+    At each joint the one that leaves less of motion that it was not fitted to: with all causes a short motion would
+    have no noise left, and without them a slow cause would count as noise that lasts.
     """
     ordinary = np.concatenate([rows.layout.own, rows.layout.inertial, rows.layout.response])
-    return estimate_weights(rows, rows.torque - rows.nominal - rows.modelled(fitted_together(rows, ordinary)))
+    left = np.stack([left_apart(rows, among) for among in (ordinary, np.arange(rows.layout.width))])
+    less = np.argmin(np.median(np.abs(left), axis=1), axis=0)
+    return estimate_weights(rows, np.take_along_axis(left, less[None, None], axis=0)[0])
 
 
 def blocks_of(rows: MotionRows, runs: Sequence[str]) -> Indices:

@@ -13,7 +13,7 @@ import numpy as np
 
 from armscope.core.types import Array, Indices
 from armscope.inference.linear_algebra import lower_cholesky, solve_lower
-from armscope.inference.normal_equations import NormalEquations
+from armscope.inference.normal_equations import NormalEquations, total
 from armscope.measurement.robust import huber_weights
 from armscope.motion.constants import NOISE, PRIOR
 from armscope.motion.rows import MotionRows
@@ -106,15 +106,33 @@ def sums_by_block(rows: MotionRows, weights: TorqueWeights, block: Indices) -> l
 
 def fitted_together(rows: MotionRows, among: Indices) -> Array:
     """(p,) coefficients of some columns at once, each as free as the others, joints in units of their own torque."""
-    plain = TorqueWeights(
-        np.maximum(np.std(rows.torque, axis=0), 1e-9), np.ones(rows.torque.shape[1]), (~rows.still).astype(np.float64)
-    )
-    sums = sums_by_block(rows, plain, np.zeros(len(rows), dtype=np.intp))[0]
+    sums = sums_by_block(rows, _plain(rows), np.zeros(len(rows), dtype=np.intp))[0]
+    return _solved(sums, among)
+
+
+def left_apart(rows: MotionRows, among: Indices) -> Array:
+    """(K, m) what some columns, fitted to the rest of the motion, leave of each part of it, N m."""
+    part = np.arange(len(rows)) * NOISE.parts // len(rows) % NOISE.blocks_of_time
+    sums = sums_by_block(rows, _plain(rows), part)
+    left = np.empty_like(rows.torque)
+    for number in range(len(sums)):
+        rest = total([other for k, other in enumerate(sums) if k != number])
+        modelled = rows.nominal + rows.modelled(_solved(rest, among))
+        left[part == number] = (rows.torque - modelled)[part == number]
+    return left
+
+
+def _plain(rows: MotionRows) -> TorqueWeights:
+    spread = np.maximum(np.std(rows.torque, axis=0), 1e-9)
+    return TorqueWeights(spread, np.ones(rows.torque.shape[1]), (~rows.still).astype(np.float64))
+
+
+def _solved(sums: NormalEquations, among: Indices) -> Array:
     scale = np.sqrt(np.maximum(np.diag(sums.G), 1e-300))
     used = among[np.diag(sums.G)[among] > 0]
     G = sums.G[np.ix_(used, used)] / np.outer(scale[used], scale[used])
     factor = lower_cholesky(G, np.full(len(used), NOISE.ridge))
-    coefficients = np.zeros(rows.layout.width)
+    coefficients = np.zeros(len(scale))
     whitened = solve_lower(factor, sums.b[used] / scale[used])
     coefficients[used] = np.linalg.solve(factor.T, whitened) / scale[used]
     return coefficients

@@ -52,6 +52,7 @@ class Choice:
         return all_indices(self.jacobian[self.rows])
 
 
+# so many parameters: each is a choice of its own that a user makes by name, and nearly all have a default
 def choose(
     arm: Arm,
     count: int,

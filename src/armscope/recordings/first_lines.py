@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
+import zlib
 from pathlib import Path
 
 from armscope.recordings.opening import GZIP, open_text
@@ -22,7 +23,7 @@ def estimated_rows(path: Path) -> int:
             size = int.from_bytes(stream.read(4), "little") if packed else stream.tell()
         with open_text(path, "utf-8") as text:
             start = text.read(LOOKED_AT)
-    except (OSError, EOFError, ValueError):
+    except (OSError, EOFError, ValueError, zlib.error):
         return 0
     lines = start.count("\n")
     return round(size * lines / len(start)) if lines else 0
@@ -33,7 +34,7 @@ def is_motion_table(path: Path | str) -> bool:
     try:
         with open_text(Path(path), "utf-8") as stream:
             names = next(csv.reader(stream), [])
-    except (OSError, EOFError, UnicodeDecodeError, csv.Error):
+    except (OSError, EOFError, UnicodeDecodeError, csv.Error, zlib.error):
         return False  # whoever reads the table says what is wrong with it
     drives = any(re.fullmatch(DRIVE_COLUMN, name) for name in names)
     return drives and not {"x_mm", "x_m"} & set(names)

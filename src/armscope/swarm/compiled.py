@@ -123,6 +123,7 @@ def _run_pack(given: Problems, outcome: Outcome, pack: Pack, lanes: np.uint64) -
             break
 
 
+# so many parameters here and below: in the innermost loop a tuple of them would be taken apart anew each time
 @_compiled
 def _move(
     stream: Words, cells: Array, cell: np.uint64, aims: Array, aim: np.uint64, tally: Array, clamped: bool,
@@ -178,6 +179,7 @@ def _sum_gaps(cells: Array, cell: np.uint64, aims: Array, tally: Array, dimensio
         aim += _THREE
 
 
+# as above
 @_compiled
 def _sum_images(
     cells: Array, cell: np.uint64, aims: Array, factor: Array, image: Array, tally: Array, first_blocks: Words,

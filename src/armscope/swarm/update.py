@@ -19,6 +19,7 @@ class Coefficients(NamedTuple):
     social: float
 
 
+# so many parameters: the symbols of the equation, as the paper has them
 def velocity_update(
     positions: Array,
     velocities: Array,

@@ -63,6 +63,7 @@ def _background(scene: Scene, wish: Wish, chosen: list[Sized], sigma: float, rng
     return [] if size is None else [replace(size, minor=True)]
 
 
+# so many parameters: what is known of a world while it is drawn
 def _of_the_story(
     scene: Scene, judge: Judge, wish: Wish, chosen: list[Sized], sigma: float, ambiguous: bool, rng: np.random.Generator
 ) -> list[Sized]:
