@@ -27,7 +27,8 @@ test: .venv/installed-test
 	$(BIN)/lint-imports
 	$(BIN)/python workflow/lint.py
 	$(BIN)/snakemake -j2 all poses --configfile config/small.yaml --forceall
-	$(BIN)/pytest -n 2
+	# what a module sets up for its tests is set up once: in one process
+	$(BIN)/pytest -n 2 --dist loadscope
 
 # the packages compared with need older versions of ours, so they live in environments of their own
 benchmark: .venv/installed .venv-peers/installed .venv-figaroh/installed
