@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array
 from armscope.recordings.columns import ABSOLUTE_ZERO_C, LARGEST_ANGLE_RAD, LARGEST_POSITION_M, UNITS
-from armscope.recordings.importing.formats import Column
-from armscope.recordings.importing.mapping import Columns, Label, Orientation, Scalar, Time
+from armscope.recordings.importing.formats import Column, Time
+from armscope.recordings.importing.mapping import Columns, Label, Orientation, Scalar
 from armscope.recordings.importing.pieces import Piece
 from armscope.recordings.orientations import NotARotation, from_euler, from_matrices, from_quaternions
 
@@ -65,7 +65,7 @@ class Converter:
             self._check_ids(
                 piece, cast(list[str], table["id"]), cast(list[str], table.get("target", [""] * len(piece)))
             )
-        table |= named([f"q{j + 1}_rad" for j in range(len(columns.angles.columns))], self._angles(piece))
+        table |= as_columns([f"q{j + 1}_rad" for j in range(len(columns.angles.columns))], self._angles(piece))
         table |= self._measured(piece)
         table |= self._context(piece)
         return pd.DataFrame(table)
@@ -116,8 +116,8 @@ class Converter:
             position = required(piece, columns.position.columns) * UNITS[columns.position.unit]
             self._check_lengths(piece, columns.position.columns, position, columns.position.unit)
             orientation = None if columns.orientation is None else self._orientation(piece, columns.orientation)
-        measured = named(["x_mm", "y_mm", "z_mm"], position * 1e3)
-        return measured if orientation is None else measured | named(["qw", "qx", "qy", "qz"], orientation)
+        measured = as_columns(["x_mm", "y_mm", "z_mm"], position * 1e3)
+        return measured if orientation is None else measured | as_columns(["qw", "qx", "qy", "qz"], orientation)
 
     def _check_lengths(self, piece: Piece, columns: tuple[Column, ...], lengths: Array, unit: str) -> None:
         rule = f"a measured point lies within {LARGEST_POSITION_M / 1e3:g} km of its frame's origin"
@@ -163,17 +163,17 @@ class Converter:
         columns = self.columns
         context: dict[str, Array] = {}
         if columns.torque is not None:
-            context |= named(
+            context |= as_columns(
                 [f"tau{j + 1}_nm" for j in range(len(columns.torque.columns))], piece.stack(columns.torque.columns)
             )
         if columns.speed is not None:
             speeds = piece.stack(columns.speed.columns) * UNITS[columns.speed.unit.removesuffix("/s")]
-            context |= named([f"dq{j + 1}_rad_s" for j in range(speeds.shape[1])], speeds)
+            context |= as_columns([f"dq{j + 1}_rad_s" for j in range(speeds.shape[1])], speeds)
         if columns.approach is not None:
             sides = piece.stack(columns.approach.columns)
             wrong = ~np.isin(sides, [-1, 0, 1]) & ~np.isnan(sides)
             _refuse(piece, columns.approach.columns, sides, wrong, "the side of approach is -1 or +1")
-            context |= named([f"approach{j + 1}" for j in range(sides.shape[1])], sides)
+            context |= as_columns([f"approach{j + 1}" for j in range(sides.shape[1])], sides)
         if columns.payload is not None:
             context["payload_kg"] = scalar(piece, columns.payload, 0.0, "a payload is not negative")
         if columns.time is not None:
@@ -185,11 +185,11 @@ class Converter:
             sigma = piece.stack(columns.sigma.columns) * UNITS[columns.sigma.unit] * 1e3
             rule = "an uncertainty is not negative"
             _refuse(piece, columns.sigma.columns, sigma, (sigma < 0) | (sigma > LARGEST_POSITION_M * 1e3), rule)
-            context |= named([f"sigma_{axis}_mm" for axis in "xyz"], sigma)
+            context |= as_columns([f"sigma_{axis}_mm" for axis in "xyz"], sigma)
         return context
 
 
-def named(names: list[str], values: Array) -> dict[str, Array]:
+def as_columns(names: list[str], values: Array) -> dict[str, Array]:
     """Columns of a table by their names."""
     return {name: values[:, column] for column, name in enumerate(names)}
 

@@ -1,7 +1,8 @@
-"""How raw files are written, and which of their rows stay: what mappings of points and of motions share."""
+"""How raw files are written, which rows stay, and when they were recorded: what mappings of all tables share."""
 
 from __future__ import annotations
 
+from datetime import datetime
 from typing import Annotated, Literal, Self
 
 import pydantic
@@ -97,3 +98,30 @@ class RowFilter(Strict):
         if len(self.model_fields_set) != 1:
             raise ValueError("a row filter has one rule: `drop_missing`, `first_of`, `between` or `equal`")
         return self
+
+
+class Time(Strict):
+    """When a row was recorded: numbers with a ``unit``, or time stamps with a strftime ``format``.
+
+    Time stamps become seconds since the first row of the run.
+    """
+
+    column: Column
+    unit: Literal["s", "ms", "min", "h"] | None = None
+    format: str | None = None
+
+    @pydantic.model_validator(mode="after")
+    def _one_way(self) -> Self:
+        if (self.unit is None) == (self.format is None):
+            raise ValueError("a time has a `unit` (numbers) or a `format` (time stamps), one of the two")
+        if self.format is not None:
+            self._check_directives(self.format)
+        return self
+
+    @staticmethod
+    def _check_directives(style: str) -> None:
+        try:
+            datetime.strptime("", style)
+        except ValueError as error:
+            if "bad directive" in str(error) or "stray %" in str(error):
+                raise ValueError(f"`format` is written with the directives of strftime: {error}") from error

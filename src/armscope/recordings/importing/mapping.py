@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Sequence
-from datetime import datetime
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
@@ -17,7 +16,7 @@ import pydantic
 from pydantic import Field
 
 from armscope.core.inputs import Strict, load, nearest
-from armscope.recordings.importing.formats import Column, Format, RowFilter, TextFormat
+from armscope.recordings.importing.formats import Column, Format, RowFilter, TextFormat, Time
 
 AngleUnit = Literal["rad", "deg"]
 LengthUnit = Literal["mm", "m"]
@@ -89,33 +88,6 @@ class Speeds(PerMotor):
     """Motor speeds."""
 
     unit: Literal["rad/s", "deg/s"]
-
-
-class Time(Strict):
-    """When a row was recorded: numbers with a ``unit``, or time stamps with a strftime ``format``.
-
-    Time stamps become seconds since the first row of the run.
-    """
-
-    column: Column
-    unit: Literal["s", "ms", "min", "h"] | None = None
-    format: str | None = None
-
-    @pydantic.model_validator(mode="after")
-    def _one_way(self) -> Self:
-        if (self.unit is None) == (self.format is None):
-            raise ValueError("a time has a `unit` (numbers) or a `format` (time stamps), one of the two")
-        if self.format is not None:
-            self._check_directives(self.format)
-        return self
-
-    @staticmethod
-    def _check_directives(style: str) -> None:
-        try:
-            datetime.strptime("", style)
-        except ValueError as error:
-            if "bad directive" in str(error) or "stray %" in str(error):
-                raise ValueError(f"`format` is written with the directives of strftime: {error}") from error
 
 
 class Scalar(Strict):

@@ -12,22 +12,21 @@ import pydantic
 from armscope.core.inputs import Strict, load, read_yaml
 from armscope.core.types import Array
 from armscope.recordings.columns import ABSOLUTE_ZERO_C
-from armscope.recordings.importing.conversion import Clock, named, required, scalar
-from armscope.recordings.importing.formats import Format, RowFilter, TextFormat
+from armscope.recordings.importing.conversion import Clock, as_columns, required, scalar
+from armscope.recordings.importing.formats import Format, RowFilter, TextFormat, Time
 from armscope.recordings.importing.mapping import (
     Groups,
     Mapping,
     PerMotor,
     RunFiles,
     Scalar,
-    Time,
     refuse_runs_of_one_name,
 )
 from armscope.recordings.importing.pieces import Piece
 from armscope.recordings.motions import SCALE, torque_columns
 
 
-class Positions(PerMotor):
+class MotorPositions(PerMotor):
     """Motor positions; m of joints that slide."""
 
     unit: Literal["rad", "deg", "m"]
@@ -52,7 +51,7 @@ class MotionColumns(Groups):
     """Where the columns of motions.csv come from."""
 
     time: Time | None = None
-    positions: Positions | None = None
+    positions: MotorPositions | None = None
     speeds: Velocities | None = None
     torque: Efforts | None = None
     current: Efforts | None = None
@@ -104,12 +103,12 @@ class MotionMapping(Strict):
         stated = [self.columns.with_own(run.columns) for run in self.runs] or [self.columns]
         names: dict[str, None] = {}
         for columns in stated:
-            names |= dict.fromkeys(columns_of(columns))
+            names |= dict.fromkeys(motion_columns(columns))
         last = ("payload_kg", "temperature_c")
         return [*(name for name in names if name not in last), *(name for name in last if name in names)]
 
 
-def columns_of(columns: MotionColumns) -> list[str]:
+def motion_columns(columns: MotionColumns) -> list[str]:
     """Names of the columns that a run's groups become."""
     assert columns.positions is not None
     motors, unit = range(1, len(columns.positions.columns) + 1), columns.positions.unit.replace("deg", "rad")
@@ -144,10 +143,12 @@ class MotionConverter:
         if columns.temperature is not None:
             rule = "no temperature is below absolute zero"
             values.append(scalar(piece, columns.temperature, ABSOLUTE_ZERO_C, rule)[:, None])
-        return pd.DataFrame({"run": [self.run] * len(piece)} | named(columns_of(columns)[1:], np.hstack(values)))
+        return pd.DataFrame(
+            {"run": [self.run] * len(piece)} | as_columns(motion_columns(columns)[1:], np.hstack(values))
+        )
 
 
-def _scaled(piece: Piece, group: Positions | Velocities) -> Array:
+def _scaled(piece: Piece, group: MotorPositions | Velocities) -> Array:
     return required(piece, group.columns) * SCALE[group.unit.removesuffix("/s")]
 
 
