@@ -112,7 +112,7 @@ def measure(held: Sequence[HeldOutTorque], what: str) -> HeldOutMotion:
 
 
 def _modelled(fold: Fold, hypothesis: Hypothesis) -> Array:
-    return fold.rows.modelled(coefficients_of(fold.problem, hypothesis))[fold.which]
+    return fold.rows.modelled(coefficients_of(fold.problem, hypothesis), fold.which)
 
 
 def waterfall(
