@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from datetime import datetime
 from typing import Annotated, Literal, Self
 
@@ -95,7 +96,7 @@ class RowFilter(Strict):
 
     @pydantic.model_validator(mode="after")
     def _one_rule(self) -> Self:
-        if len(self.model_fields_set) != 1:
+        if len(self.model_fields_set) != 1 or all(rule is None for _, rule in self):  # one that is empty is none
             raise ValueError("a row filter has one rule: `drop_missing`, `first_of`, `between` or `equal`")
         return self
 
@@ -122,6 +123,8 @@ class Time(Strict):
     def _check_directives(style: str) -> None:
         try:
             datetime.strptime("", style)
+        except re.error as error:
+            raise ValueError(f"`format` has each directive of strftime once: {error.msg}") from error
         except ValueError as error:
             if "bad directive" in str(error) or "stray %" in str(error):
                 raise ValueError(f"`format` is written with the directives of strftime: {error}") from error
