@@ -12,6 +12,8 @@ from armscope.compensation import load_error_model, load_identified, read_path
 from armscope.core.config import Config
 from armscope.core.inputs import read_yaml, validate
 from armscope.core.variants import read_variants
+from armscope.fleet.members import read_fleet
+from armscope.motion.predicting import predict_motions
 from armscope.physics.model import predict
 from armscope.physics.model_file import load_model
 from armscope.physics.registry import library
@@ -21,6 +23,7 @@ from armscope.recordings.importing.draft import draft_mapping
 from armscope.recordings.importing.fetching import load_source
 from armscope.recordings.importing.mapping import load_mapping
 from armscope.recordings.importing.tables import import_recordings
+from armscope.recordings.motions import read_motions
 from armscope.robot import chain, load_arm
 from armscope.robot.arm_type import read_arm_type
 from armscope.robot.dh_table import parse_dh_table
@@ -80,6 +83,11 @@ def _black_box(path: Path) -> None:
     angles = np.linspace(-1, 1, 3 * model.arm.n_motors).reshape(3, -1)
     model.as_measured(angles)
     model.domain.outside(np.zeros((1, len(model.domain.names))))
+
+
+def _played(path: Path) -> None:
+    motions = next(iter(_seeds("tests/fuzz/corpus/motions/*")))
+    assert np.isfinite(predict_motions(path, motions)[0].filter(like="tau").to_numpy()).all()
 
 
 def _converted(path: Path) -> None:
@@ -148,6 +156,9 @@ READERS = {
     "model.yaml": Reader(_predicted, _seeds("tests/fuzz/corpus/model/*")),
     "domain.json": Reader(load_identified, _seeds("tests/fuzz/corpus/domain/*")),
     "errormodel.json": Reader(_black_box, _seeds("tests/fuzz/corpus/errormodel/*")),
+    "motions.csv": Reader(read_motions, _seeds("tests/fuzz/corpus/motions/*")),
+    "motion model.yaml": Reader(_played, _seeds("tests/fuzz/corpus/motion-model/*")),
+    "fleet.csv": Reader(read_fleet, _seeds("tests/fuzz/corpus/fleet/*")),
     "verdict.json": Reader(read_verdict, _seeds("tests/fuzz/corpus/verdict/*")),
     "priors.yaml": Reader(_type_of_arm, _seeds("tests/fuzz/corpus/priors/*")),
     "sweep.csv": Reader(read_variants, _seeds("config/sweeps/*")),

@@ -15,7 +15,6 @@ STILL_LONG_FILES = {
     "physics/drivers.py",
     "physics/scene.py",
     "proof/rates.py",
-    "recordings/importing/mapping.py",
     "recordings/importing/rawfiles.py",
     "report/pages/real_arms.py",
     "swarm/compiled.py",

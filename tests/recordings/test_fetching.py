@@ -1,6 +1,7 @@
 """Public files arrive whole and as stated, or are kept aside and named."""
 
 import functools
+import gzip
 import hashlib
 import http.server
 import threading
@@ -103,6 +104,14 @@ def test_a_local_folder_stands_in_for_the_network(place, source_file, tmp_path):
     local.write_bytes(CONTENT)
     fetched = fetch_recordings(source_file, tmp_path / "raw", recordings_dir=tmp_path / "local")
     assert fetched.how == ("copied",)
+    assert fetched.paths[0].read_bytes() == CONTENT
+
+
+def test_a_local_copy_may_be_packed(source_file, tmp_path):
+    local = tmp_path / "local" / "my-set" / "raw" / "run one.csv.gz"
+    local.parent.mkdir(parents=True)
+    local.write_bytes(gzip.compress(CONTENT))
+    fetched = fetch_recordings(source_file, tmp_path / "raw", recordings_dir=tmp_path / "local")
     assert fetched.paths[0].read_bytes() == CONTENT
 
 

@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from armscope.core.inputs import InputError
 from armscope.recordings import read_recordings
 from armscope.recordings.importing.fetching import fetch_recordings
-from armscope.recordings.importing.mapping import TextFormat
+from armscope.recordings.importing.formats import TextFormat
 from armscope.recordings.importing.rawfiles import read_pieces
 from armscope.recordings.importing.tables import import_recordings
 

@@ -20,6 +20,7 @@ except InputError as error:
 
 RESULTS = CONFIG.results
 RECORDINGS = CONFIG.recordings_dir
+MOTIONS = Path(RECORDINGS).parent / "motions"
 
 
 def settings(step, **parts):
@@ -129,6 +130,20 @@ def raw_files(wildcards):
 
     source = load_source(f"config/recordings/{wildcards.public_set}/source.yaml")
     return [f"{RESULTS}/recordings/{wildcards.public_set}/raw/{file.name}" for file in source.files]
+
+
+def urdf_of(moving_set):
+    """The arm of a set: written beside its mapping, or in the local folder that stands in for the network."""
+    places = [Path("config/motions", moving_set, "robot.urdf"), MOTIONS / moving_set / "robot.urdf"]
+    return next((str(place) for place in places if place.is_file()), None)
+
+
+def raw_motions(wildcards):
+    """The raw files of a set of motions."""
+    from armscope.recordings.importing.fetching import load_source
+
+    source = load_source(f"config/motions/{wildcards.moving_set}/source.yaml")
+    return [f"{RESULTS}/motions/{wildcards.moving_set}/raw/{file.name}" for file in source.files]
 
 
 def proof_real_batches(pattern):

@@ -148,12 +148,16 @@ def _check_joint(path: str, joint: ET.Element) -> None:
         words = None if element is None else element.get(key)
         if words is None:
             continue
-        numbers = _three_numbers(path, f"{place}, {tag} {key}", words)
+        numbers = _numbers(path, f"{place}, {tag} {key}", words, 3)
         if key == "xyz" and np.abs(numbers).max() > LONGEST_MM / 1e3:
             rule = f"no joint stands further than {LONGEST_MM / 1e3:g} m from the one before"
             raise InputError(path, f"{place}, {tag} xyz", words, rule, "URDFs are in metres.")
         if tag == "axis" and kind not in ("fixed", "floating") and not numbers.any():
             raise InputError(path, f"{place}, axis", words, "an axis needs a direction")
+    for tag, keys in (("limit", ("lower", "upper", "effort", "velocity")), ("mimic", ("multiplier", "offset"))):
+        for key, words in () if (element := joint.find(tag)) is None else element.items():
+            if key in keys:
+                _numbers(path, f"{place}, {tag} {key}", words, 1)
     if kind in ("revolute", "prismatic"):
         limit = joint.find("limit")
         for key in ("effort", "velocity"):
@@ -177,13 +181,15 @@ def _check_mass(path: str, link: ET.Element) -> None:
         raise InputError(path, place, words, f"0 to {HEAVIEST_KG:g} kg: the heaviest arm that is sold weighs 11,000 kg")
 
 
-def _three_numbers(path: str, place: str, words: str) -> Array:
+def _numbers(path: str, place: str, words: str, count: int) -> Array:
+    """So many finite numbers; a single one, a limit, may be infinite."""
     try:
         numbers = np.array([float(word) for word in words.split()])
     except ValueError:
         numbers = np.array([])
-    if numbers.shape != (3,) or not np.isfinite(numbers).all():
-        raise InputError(path, place, words, "three finite numbers")
+    known = ~np.isnan(numbers) if count == 1 else np.isfinite(numbers)
+    if numbers.shape != (count,) or not known.all():
+        raise InputError(path, place, words, "a number" if count == 1 else "three finite numbers")
     return numbers
 
 

@@ -10,19 +10,48 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array
 from armscope.recordings.columns import ABSOLUTE_ZERO_C, LARGEST_ANGLE_RAD, LARGEST_POSITION_M, UNITS
-from armscope.recordings.importing.mapping import Column, Columns, Label, Orientation, Scalar, Time
+from armscope.recordings.importing.formats import Column, Time
+from armscope.recordings.importing.mapping import Columns, Label, Orientation, Scalar
 from armscope.recordings.importing.pieces import Piece
 from armscope.recordings.orientations import NotARotation, from_euler, from_matrices, from_quaternions
 
 TIME_UNITS = {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0}
 
 
+class Clock:
+    """Seconds from a column of times; remembers a run's first time stamp."""
+
+    def __init__(self) -> None:
+        self.start: pd.Timestamp | None = None
+
+    def time(self, piece: Piece, group: Time) -> Array:
+        """(N,) s of a piece's rows."""
+        if group.unit is not None:
+            return piece.numbers(group.column) * TIME_UNITS[group.unit]
+        words = pd.Series(piece.words(group.column), dtype=object)
+        stamps = self._stamps(piece, group, words)
+        if self.start is None:
+            if not stamps.notna().any():
+                return np.full(len(piece), np.nan)
+            self.start = stamps[stamps.first_valid_index()]
+        return np.asarray((stamps - self.start).dt.total_seconds(), dtype=float)
+
+    @staticmethod
+    def _stamps(piece: Piece, group: Time, words: pd.Series) -> pd.Series:
+        """Time stamps, one zone for all; NaT where there is none."""
+        stamps = pd.to_datetime(words, format=group.format, errors="coerce", utc=True)
+        wrong = np.flatnonzero(stamps.isna() & (words != ""))
+        if len(wrong):
+            rule, cure = f"a time stamp is written as {group.format}", "Correct `format`, or leave `time` out."
+            raise piece.error(int(wrong[0]), (group.column,), words[wrong[0]], rule, cure)
+        return stamps
+
+
 class Converter:
-    """The columns of the recordings table from those of a run; remembers its first time stamp and its ids."""
+    """The columns of the recordings table from those of a run; remembers its ids."""
 
     def __init__(self, columns: Columns, run: str) -> None:
-        self.columns, self.run = columns, run
-        self.start: pd.Timestamp | None = None
+        self.columns, self.run, self.clock = columns, run, Clock()
         self.ids: set[tuple[str, str]] = set()
 
     def table(self, piece: Piece) -> pd.DataFrame:
@@ -36,7 +65,7 @@ class Converter:
             self._check_ids(
                 piece, cast(list[str], table["id"]), cast(list[str], table.get("target", [""] * len(piece)))
             )
-        table |= _named([f"q{j + 1}_rad" for j in range(len(columns.angles.columns))], self._angles(piece))
+        table |= as_columns([f"q{j + 1}_rad" for j in range(len(columns.angles.columns))], self._angles(piece))
         table |= self._measured(piece)
         table |= self._context(piece)
         return pd.DataFrame(table)
@@ -63,7 +92,7 @@ class Converter:
     def _angles(self, piece: Piece) -> Array:
         group = self.columns.angles
         assert group is not None
-        angles = self._required(piece, group.columns) * UNITS[group.unit]
+        angles = required(piece, group.columns) * UNITS[group.unit]
         beyond = np.argwhere(np.abs(angles) > LARGEST_ANGLE_RAD)
         if len(beyond):
             row, motor = beyond[0]
@@ -72,19 +101,10 @@ class Converter:
             raise piece.error(int(row), (group.columns[motor],), found, "a joint angle lies within two turns", cure)
         return angles
 
-    def _required(self, piece: Piece, columns: tuple[Column, ...]) -> Array:
-        values = piece.stack(columns)
-        missing = np.argwhere(np.isnan(values))
-        if len(missing):
-            row, column = missing[0]
-            cure = f"Leave such rows out with `rows: [{{drop_missing: [{columns[column]}]}}]`."
-            raise piece.error(int(row), (columns[column],), "nothing", "this value is required in every row", cure)
-        return values
-
     def _measured(self, piece: Piece) -> dict[str, Array]:
         columns = self.columns
         if columns.pose is not None:
-            matrix = self._required(piece, columns.pose.matrix).reshape(len(piece), -1, 4)
+            matrix = required(piece, columns.pose.matrix).reshape(len(piece), -1, 4)
             self._check_last_row(piece, matrix)
             position = matrix[:, :3, 3] * UNITS[columns.pose.unit]
             orientation: Array | None = self._rotation(
@@ -93,11 +113,11 @@ class Converter:
             self._check_lengths(piece, tuple(columns.pose.matrix[k] for k in (3, 7, 11)), position, columns.pose.unit)
         else:
             assert columns.position is not None
-            position = self._required(piece, columns.position.columns) * UNITS[columns.position.unit]
+            position = required(piece, columns.position.columns) * UNITS[columns.position.unit]
             self._check_lengths(piece, columns.position.columns, position, columns.position.unit)
             orientation = None if columns.orientation is None else self._orientation(piece, columns.orientation)
-        measured = _named(["x_mm", "y_mm", "z_mm"], position * 1e3)
-        return measured if orientation is None else measured | _named(["qw", "qx", "qy", "qz"], orientation)
+        measured = as_columns(["x_mm", "y_mm", "z_mm"], position * 1e3)
+        return measured if orientation is None else measured | as_columns(["qw", "qx", "qy", "qz"], orientation)
 
     def _check_lengths(self, piece: Piece, columns: tuple[Column, ...], lengths: Array, unit: str) -> None:
         rule = f"a measured point lies within {LARGEST_POSITION_M / 1e3:g} km of its frame's origin"
@@ -143,55 +163,50 @@ class Converter:
         columns = self.columns
         context: dict[str, Array] = {}
         if columns.torque is not None:
-            context |= _named(
+            context |= as_columns(
                 [f"tau{j + 1}_nm" for j in range(len(columns.torque.columns))], piece.stack(columns.torque.columns)
             )
         if columns.speed is not None:
             speeds = piece.stack(columns.speed.columns) * UNITS[columns.speed.unit.removesuffix("/s")]
-            context |= _named([f"dq{j + 1}_rad_s" for j in range(speeds.shape[1])], speeds)
+            context |= as_columns([f"dq{j + 1}_rad_s" for j in range(speeds.shape[1])], speeds)
         if columns.approach is not None:
             sides = piece.stack(columns.approach.columns)
             wrong = ~np.isin(sides, [-1, 0, 1]) & ~np.isnan(sides)
             _refuse(piece, columns.approach.columns, sides, wrong, "the side of approach is -1 or +1")
-            context |= _named([f"approach{j + 1}" for j in range(sides.shape[1])], sides)
+            context |= as_columns([f"approach{j + 1}" for j in range(sides.shape[1])], sides)
         if columns.payload is not None:
-            context["payload_kg"] = _scalar(piece, columns.payload, 0.0, "a payload is not negative")
+            context["payload_kg"] = scalar(piece, columns.payload, 0.0, "a payload is not negative")
         if columns.time is not None:
-            context["time_s"] = self._time(piece, columns.time)
+            context["time_s"] = self.clock.time(piece, columns.time)
         if columns.temperature is not None:
             rule = "no temperature is below absolute zero"
-            context["temperature_c"] = _scalar(piece, columns.temperature, ABSOLUTE_ZERO_C, rule)
+            context["temperature_c"] = scalar(piece, columns.temperature, ABSOLUTE_ZERO_C, rule)
         if columns.sigma is not None:
             sigma = piece.stack(columns.sigma.columns) * UNITS[columns.sigma.unit] * 1e3
             rule = "an uncertainty is not negative"
             _refuse(piece, columns.sigma.columns, sigma, (sigma < 0) | (sigma > LARGEST_POSITION_M * 1e3), rule)
-            context |= _named([f"sigma_{axis}_mm" for axis in "xyz"], sigma)
+            context |= as_columns([f"sigma_{axis}_mm" for axis in "xyz"], sigma)
         return context
 
-    def _time(self, piece: Piece, group: Time) -> Array:
-        if group.unit is not None:
-            return piece.numbers(group.column) * TIME_UNITS[group.unit]
-        words = pd.Series(piece.words(group.column), dtype=object)
-        stamps = self._stamps(piece, group, words)
-        if self.start is None:
-            if not stamps.notna().any():
-                return np.full(len(piece), np.nan)
-            self.start = stamps[stamps.first_valid_index()]
-        return np.asarray((stamps - self.start).dt.total_seconds(), dtype=float)
 
-    @staticmethod
-    def _stamps(piece: Piece, group: Time, words: pd.Series) -> pd.Series:
-        """Time stamps, one zone for all; NaT where there is none."""
-        stamps = pd.to_datetime(words, format=group.format, errors="coerce", utc=True)
-        wrong = np.flatnonzero(stamps.isna() & (words != ""))
-        if len(wrong):
-            rule, cure = f"a time stamp is written as {group.format}", "Correct `format`, or leave `time` out."
-            raise piece.error(int(wrong[0]), (group.column,), words[wrong[0]], rule, cure)
-        return stamps
-
-
-def _named(names: list[str], values: Array) -> dict[str, Array]:
+def as_columns(names: list[str], values: Array) -> dict[str, Array]:
+    """Columns of a table by their names."""
     return {name: values[:, column] for column, name in enumerate(names)}
+
+
+def required(piece: Piece, columns: tuple[Column, ...]) -> Array:
+    """(N, columns) numbers that every row must have.
+
+    Raises:
+        InputError: a row has none.
+    """
+    values = piece.stack(columns)
+    missing = np.argwhere(np.isnan(values))
+    if len(missing):
+        row, column = missing[0]
+        cure = f"Leave such rows out with `rows: [{{drop_missing: [{columns[column]}]}}]`."
+        raise piece.error(int(row), (columns[column],), "nothing", "this value is required in every row", cure)
+    return values
 
 
 def _refuse(
@@ -214,7 +229,21 @@ def _whole(piece: Piece, columns: tuple[Column, ...]) -> Array:
     return values
 
 
-def _scalar(piece: Piece, group: Scalar, low: float, rule: str) -> Array:
+def scalar(piece: Piece, group: Scalar, low: float, rule: str) -> Array:
+    """A quantity that is a column, or the same in every row.
+
+    Args:
+        piece: N rows.
+        group: where it comes from.
+        low: least value that is allowed.
+        rule: why, for the error.
+
+    Returns:
+        (N,) numbers, NaN for none.
+
+    Raises:
+        InputError: a value below ``low``.
+    """
     constant = group.constant
     values = np.full(len(piece), constant, dtype=float) if group.column is None else piece.numbers(group.column)
     _refuse(piece, (group.column or "constant",), values[:, None], values[:, None] < low, rule)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import hashlib
 import shutil
 import urllib.error
@@ -109,7 +110,7 @@ def fetch_recordings(
         source_file: source.yaml; the name of its folder is the name of the set.
         folder: where the raw files go.
         recordings_dir: a local folder that stands in for the network; the files are looked for in its subfolder of
-            the set's name (by their path, or by their name there or under raw/).
+            the set's name (by their path, or by their name there or under raw/, where they may be gzipped).
         server: stands in for the repository's host, see `url_of`.
 
     Returns:
@@ -152,17 +153,20 @@ def _set_aside(path: Path, target: Path) -> Path:
 
 
 def _copy(stand_in: Path, file: SourceFile, target: Path) -> None:
-    looked = (stand_in / file.path, stand_in / "raw" / file.name, stand_in / file.name)
+    places = (file.path, f"raw/{file.name}", f"raw/{file.name}.gz", file.name)
+    looked = [stand_in / place for place in places]
     found = next((path for path in looked if path.is_file()), None)
     if found is None:
         cure = "Looked for " + ", ".join(str(path) for path in looked) + "."
         raise InputError(stand_in, file.name, "no such file", "recordings_dir must hold every file of the set", cure)
-    actual = _sha256(found)
-    if actual != file.sha256:
-        rule = f"its sha256 must be {file.sha256}"
-        raise InputError(found, "sha256", actual, rule, "It was left where it is and not used.")
     with replacing(target, at_once=True) as beside:
-        shutil.copyfile(found, beside)
+        packed = found.suffix == ".gz" and not file.name.endswith(".gz")
+        with gzip.open(found) if packed else found.open("rb") as stream, beside.open("wb") as copy:
+            shutil.copyfileobj(stream, copy)
+        actual = _sha256(beside)
+        if actual != file.sha256:
+            rule = f"its sha256 must be {file.sha256}"
+            raise InputError(found, "sha256", actual, rule, "It was left where it is and not used.")
 
 
 def _download(url: str, file: SourceFile, target: Path) -> None:

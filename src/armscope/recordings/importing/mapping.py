@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from datetime import datetime
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
@@ -16,53 +16,10 @@ import pydantic
 from pydantic import Field
 
 from armscope.core.inputs import Strict, load, nearest
+from armscope.recordings.importing.formats import Column, Format, RowFilter, TextFormat, Time
 
 AngleUnit = Literal["rad", "deg"]
 LengthUnit = Literal["mm", "m"]
-
-
-def _column(value: object) -> object:
-    if isinstance(value, bool) or not isinstance(value, int | str) or value == "":
-        raise ValueError("a column is a name from the header or a number counted from 1")
-    if isinstance(value, int) and value < 1:
-        raise ValueError("columns are counted from 1: the first column is 1")
-    return value
-
-
-Column = Annotated[int | str, pydantic.BeforeValidator(_column)]
-
-
-class TextFormat(Strict):
-    """Delimited text; ``decimal`` is the sign that every number uses, ``missing`` are words for no value."""
-
-    kind: Literal["text"] = "text"
-    delimiter: Literal[",", ";", "tab", "|", "whitespace"] = ","
-    decimal: Literal[".", ","] = "."
-    header: bool = True
-    skip_lines: int = Field(default=0, ge=0)
-    comment: str | None = Field(default=None, min_length=1)
-    missing: tuple[str, ...] = ("", "NaN", "nan", "NA")
-    encoding: str = "utf-8-sig"
-
-    @pydantic.model_validator(mode="after")
-    def _consistent(self) -> Self:
-        if self.delimiter == self.decimal:
-            raise ValueError("`delimiter` and `decimal` can't both be a comma")
-        return self
-
-
-class MatlabFormat(Strict):
-    """A real matrix in a MATLAB file (up to v7.2); ``variable`` may be left out where the file holds one only."""
-
-    kind: Literal["matlab"]
-    variable: str | None = None
-
-
-def _text_unless_said(value: object) -> object:
-    return {"kind": "text", **value} if isinstance(value, dict) and "kind" not in value else value
-
-
-Format = Annotated[TextFormat | MatlabFormat, Field(discriminator="kind"), pydantic.BeforeValidator(_text_unless_said)]
 
 
 class Angles(Strict):
@@ -133,33 +90,6 @@ class Speeds(PerMotor):
     unit: Literal["rad/s", "deg/s"]
 
 
-class Time(Strict):
-    """When a row was recorded: numbers with a ``unit``, or time stamps with a strftime ``format``.
-
-    Time stamps become seconds since the first row of the run.
-    """
-
-    column: Column
-    unit: Literal["s", "ms", "min", "h"] | None = None
-    format: str | None = None
-
-    @pydantic.model_validator(mode="after")
-    def _one_way(self) -> Self:
-        if (self.unit is None) == (self.format is None):
-            raise ValueError("a time has a `unit` (numbers) or a `format` (time stamps), one of the two")
-        if self.format is not None:
-            self._check_directives(self.format)
-        return self
-
-    @staticmethod
-    def _check_directives(style: str) -> None:
-        try:
-            datetime.strptime("", style)
-        except ValueError as error:
-            if "bad directive" in str(error) or "stray %" in str(error):
-                raise ValueError(f"`format` is written with the directives of strftime: {error}") from error
-
-
 class Scalar(Strict):
     """A number from a ``column``, or the same ``constant`` in every row."""
 
@@ -200,7 +130,16 @@ class Identity(Strict):
         return self
 
 
-class Columns(Strict):
+class Groups(Strict):
+    """Groups of columns, stated for all runs or for one."""
+
+    def with_own(self, own: Self) -> Self:
+        """These, except where ``own`` states a group."""
+        stated = {name: getattr(own, name) for name in own.model_fields_set}
+        return self.model_copy(update=stated)
+
+
+class Columns(Groups):
     """Where the columns of the recordings table come from."""
 
     angles: Angles | None = None
@@ -216,11 +155,6 @@ class Columns(Strict):
     payload: Scalar | None = None
     target: Label | None = None
     id: Identity | None = None
-
-    def with_own(self, own: Columns) -> Columns:
-        """These, except where ``own`` states a group."""
-        stated = {name: getattr(own, name) for name in own.model_fields_set}
-        return self.model_copy(update=stated)
 
     def measured(self) -> list[Column]:
         """The columns of which none can stand for two quantities: angles, position, orientation, torque and speed."""
@@ -245,44 +179,6 @@ class Columns(Strict):
             raise ValueError(f"no file beside is called {name!r}{of_run}. {cure}".rstrip("."))
 
 
-class Range(Strict):
-    """Numbers of a column from ``low`` to ``high``, both included; one of them may be left open."""
-
-    column: Column
-    low: float | None = None
-    high: float | None = None
-
-    @pydantic.model_validator(mode="after")
-    def _bounded(self) -> Self:
-        if self.low is None and self.high is None:
-            raise ValueError("`between` needs `low`, `high` or both")
-        if self.low is not None and self.high is not None and self.low > self.high:
-            raise ValueError("`low` is above `high`, so that no row would be left")
-        return self
-
-
-class Equal(Strict):
-    """Rows where a column says ``value``."""
-
-    column: Column
-    value: float | str
-
-
-class RowFilter(Strict):
-    """Which rows stay; exactly one rule. Every filter reports the source rows that it left out."""
-
-    drop_missing: tuple[Column, ...] | None = Field(default=None, min_length=1)
-    first_of: tuple[Column, ...] | None = Field(default=None, min_length=1)
-    between: Range | None = None
-    equal: Equal | None = None
-
-    @pydantic.model_validator(mode="after")
-    def _one_rule(self) -> Self:
-        if len(self.model_fields_set) != 1:
-            raise ValueError("a row filter has one rule: `drop_missing`, `first_of`, `between` or `equal`")
-        return self
-
-
 class Beside(Strict):
     """A second file whose rows stand beside the first one's; its columns are called "name:column".
 
@@ -295,20 +191,37 @@ class Beside(Strict):
     format: Format | None = None
 
 
-class Run(Strict):
-    """One run: a raw file, by its name, and what differs from the mapping's common part."""
+class RunFiles(Strict):
+    """One run: a raw file, by its name, and how it is read where that differs from the mapping's common part."""
 
     run: str
     file: str
     beside: tuple[Beside, ...] = ()
     format: Format | None = None
-    columns: Columns = Columns()
     rows: tuple[RowFilter, ...] | None = None
 
     @pydantic.field_validator("run", mode="before")
     @classmethod
     def _run_is_text(cls, value: object) -> object:
         return str(value) if isinstance(value, int | float) else value
+
+
+class Run(RunFiles):
+    """One run of a recordings table, with groups of its own."""
+
+    columns: Columns = Columns()
+
+
+def refuse_runs_of_one_name(runs: Sequence[RunFiles]) -> None:
+    """Make sure that runs have different names.
+
+    Raises:
+        ValueError: two have the same.
+    """
+    names = [run.run for run in runs]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise ValueError(f"the run {twice!r} stands twice; join its files with `beside`, or name them differently")
 
 
 class Mapping(Strict):
@@ -325,10 +238,7 @@ class Mapping(Strict):
         for run in self.runs or (Run(run="", file=""),):
             self._check_run(self.columns.with_own(run.columns), run)
         self._check_motors()
-        names = [run.run for run in self.runs]
-        twice = next((name for name in names if names.count(name) > 1), None)
-        if twice is not None:
-            raise ValueError(f"the run {twice!r} stands twice; join its files with `beside`, or name them differently")
+        refuse_runs_of_one_name(self.runs)
         return self
 
     def _check_motors(self) -> None:

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array
-from armscope.recordings.importing.mapping import Beside, Column, Format, Mapping, RowFilter, Run
+from armscope.recordings.importing.formats import Column, Format, RowFilter
+from armscope.recordings.importing.mapping import Beside, RunFiles
 from armscope.recordings.importing.rawfiles import RawRows, joined, read_pieces
 
 MOST_NAMED = 3
@@ -82,10 +83,9 @@ class BesideFile:
 class BesideFiles:
     """The files whose rows stand beside those of a run's first file, by their names."""
 
-    def __init__(self, mapping: Mapping, run: Run, paths: dict[str, Path], notes: Counter[str]) -> None:
+    def __init__(self, style: Format, run: RunFiles, paths: dict[str, Path], notes: Counter[str]) -> None:
         self.files = {
-            other.name: BesideFile(other, paths[other.file], other.format or run.format or mapping.format, notes)
-            for other in run.beside
+            other.name: BesideFile(other, paths[other.file], other.format or style, notes) for other in run.beside
         }
 
     def __getitem__(self, name: str) -> BesideFile:

@@ -18,7 +18,7 @@ from scipy.io.matlab import MatReadError
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array
 from armscope.recordings.columns import LARGEST_NUMBER
-from armscope.recordings.importing.mapping import Column, Format, MatlabFormat, TextFormat
+from armscope.recordings.importing.formats import Column, Format, MatlabFormat, TextFormat
 from armscope.recordings.opening import open_text, refuse_other_than_text, refuse_pickles, start_of, undecodable
 
 ROWS_PER_PIECE = 20_000
@@ -222,7 +222,7 @@ def _read_text(path: Path, style: TextFormat, notes: Counter[str]) -> Iterator[T
 
 
 def _split(path: Path, stream: IO[str], style: TextFormat) -> Iterator[tuple[int, list[str]]]:
-    """Line numbers and words of the lines that are neither skipped nor comments."""
+    """Line numbers and words of the rows that are neither skipped nor comments; of a flat list, of each row's lines."""
     for _ in range(style.skip_lines):
         next(stream, None)
     if style.delimiter == "whitespace":
@@ -230,9 +230,21 @@ def _split(path: Path, stream: IO[str], style: TextFormat) -> Iterator[tuple[int
         numbered: Iterator[tuple[int, list[str]]] = enumerate(rows, start=style.skip_lines + 1)
     else:
         numbered = _separated(path, stream, style)
+    held: list[str] = []
     for number, row in numbered:
-        if style.comment is None or not (row and row[0].startswith(style.comment)):
+        if style.last_line is not None and number > style.last_line:
+            break
+        if style.comment is not None and row and row[0].startswith(style.comment):
+            continue
+        if style.values_per_row is None:
             yield number, row
+            continue
+        held += row
+        if len(held) >= style.values_per_row:
+            yield number, held
+            held = []
+    if held:
+        yield number, held
 
 
 def _separated(path: Path, stream: IO[str], style: TextFormat) -> Iterator[tuple[int, list[str]]]:

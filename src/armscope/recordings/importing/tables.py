@@ -6,7 +6,7 @@ import contextlib
 import gzip
 import io
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO
@@ -16,13 +16,16 @@ import pandas as pd
 from armscope.core.files import replacing
 from armscope.core.inputs import InputError, nearest
 from armscope.recordings.importing.conversion import Converter
-from armscope.recordings.importing.mapping import Mapping, Run, load_mapping
+from armscope.recordings.importing.mapping import Mapping, Run
+from armscope.recordings.importing.motions import MotionConverter, MotionMapping, MotionRun, load_any_mapping
 from armscope.recordings.importing.pieces import BesideFiles, Filter, LeftOut, Piece
 from armscope.recordings.importing.rawfiles import read_pieces
 
 DIGITS = 10
 TIME_DIGITS = 15
 NAMED_ROWS = 8
+AnyMapping = Mapping | MotionMapping
+AnyRun = Run | MotionRun
 
 
 @dataclass
@@ -64,7 +67,7 @@ def _shortened(rows: list[int]) -> str:
 
 
 def import_recordings(raw_files: list[Path], mapping_file: Path | str, output: Path | str) -> ImportReport:
-    """Convert raw files to a recordings table (``.gz`` compresses), whole or not at all.
+    """Convert raw files to a table of recordings or of motions (``.gz`` compresses), whole or not at all.
 
     Args:
         raw_files: the files; the mapping names them without their folders.
@@ -78,9 +81,9 @@ def import_recordings(raw_files: list[Path], mapping_file: Path | str, output: P
         InputError: anything that can't be converted, with file, line, column, value, rule and cure.
     """
     _check_output(Path(output), [*raw_files, Path(mapping_file)])
-    mapping = load_mapping(mapping_file)
+    mapping = load_any_mapping(mapping_file)
     runs = runs_for(mapping, [Path(path) for path in raw_files], mapping_file)
-    columns = _table_columns(mapping, [run for run, _ in runs])
+    columns = _columns_of(mapping, [run for run, _ in runs])
     report = ImportReport(Path(output), tuple(columns), [])
     with replacing(output) as beside, _writing(beside, Path(output).suffix == ".gz") as stream:
         stream.write(",".join(columns) + "\n")
@@ -95,7 +98,7 @@ def import_recordings(raw_files: list[Path], mapping_file: Path | str, output: P
     return report
 
 
-def runs_for(mapping: Mapping, raw_files: list[Path], source: Path | str) -> list[tuple[Run, dict[str, Path]]]:
+def runs_for(mapping: AnyMapping, raw_files: list[Path], source: Path | str) -> list[tuple[AnyRun, dict[str, Path]]]:
     """Each run with the paths of its files, by the names that the mapping uses.
 
     Args:
@@ -122,7 +125,10 @@ def runs_for(mapping: Mapping, raw_files: list[Path], source: Path | str) -> lis
         if shared is not None:
             rule = "runs are named by their files' stems, and two files have this one"
             raise InputError(source, "raw files", shared, rule, "Name the runs in the mapping: `runs`.")
-        return [(Run(run=stem, file=path.name), {path.name: path}) for stem, path in zip(stems, raw_files, strict=True)]
+        kind = Run if isinstance(mapping, Mapping) else MotionRun
+        return [
+            (kind(run=stem, file=path.name), {path.name: path}) for stem, path in zip(stems, raw_files, strict=True)
+        ]
     wanted = [(run, [run.file, *(beside.file for beside in run.beside)]) for run in mapping.runs]
     for run, names in wanted:
         for name in names:
@@ -161,9 +167,13 @@ def _writing(path: Path, compressed: bool) -> Iterator[IO[str]]:
         text.flush()
 
 
-def _table_columns(mapping: Mapping, runs: list[Run]) -> list[str]:
+def _columns_of(mapping: AnyMapping, runs: Sequence[AnyRun]) -> list[str]:
+    return _table_columns(mapping, runs) if isinstance(mapping, Mapping) else mapping.table_columns()
+
+
+def _table_columns(mapping: Mapping, runs: Sequence[AnyRun]) -> list[str]:
     """The columns of the table, in the contract's order: those that any run has."""
-    stated = [mapping.columns.with_own(run.columns) for run in runs]
+    stated = [mapping.columns.with_own(run.columns) for run in runs if isinstance(run, Run)]
     motors = range(1, max(len(columns.angles.columns) for columns in stated if columns.angles is not None) + 1)
 
     def any_has(*groups: str) -> bool:
@@ -178,7 +188,7 @@ def _table_columns(mapping: Mapping, runs: list[Run]) -> list[str]:
     return names + [f"sigma_{axis}_mm" for axis in "xyz"] * any_has("sigma")
 
 
-def convert_run(mapping: Mapping, run: Run, paths: dict[str, Path], report: RunReport) -> Iterator[pd.DataFrame]:
+def convert_run(mapping: AnyMapping, run: AnyRun, paths: dict[str, Path], report: RunReport) -> Iterator[pd.DataFrame]:
     """The rows of one run as pieces of a recordings table; ``report`` counts along.
 
     Args:
@@ -193,10 +203,10 @@ def convert_run(mapping: Mapping, run: Run, paths: dict[str, Path], report: RunR
     Raises:
         InputError: a value that can't be converted, at its place in the raw file.
     """
-    beside = BesideFiles(mapping, run, paths, report.notes)
+    beside = BesideFiles(run.format or mapping.format, run, paths, report.notes)
     filters = [Filter(rule) for rule in (mapping.rows if run.rows is None else run.rows)]
     report.left_out = [each.left_out for each in filters]
-    converter = Converter(mapping.columns.with_own(run.columns), run.run)
+    converter = _converter(mapping, run)
     for rows in read_pieces(paths[run.file], run.format or mapping.format, report.notes):
         beside.forget_before(report.rows_read + 1)
         report.rows_read += len(rows)
@@ -211,6 +221,14 @@ def convert_run(mapping: Mapping, run: Run, paths: dict[str, Path], report: RunR
         raise InputError(
             paths[run.file], f"run {run.run}", "no row left", "at least one row is needed", _what_left_nothing(report)
         )
+
+
+def _converter(mapping: AnyMapping, run: AnyRun) -> Converter | MotionConverter:
+    if isinstance(mapping, Mapping) and isinstance(run, Run):
+        return Converter(mapping.columns.with_own(run.columns), run.run)
+    assert isinstance(mapping, MotionMapping)
+    assert isinstance(run, MotionRun)
+    return MotionConverter(mapping.columns.with_own(run.columns), run.run)
 
 
 def _what_left_nothing(report: RunReport) -> str:
