@@ -9,7 +9,7 @@ from scipy.signal import welch
 
 from armscope.core.types import Array
 from armscope.motion.first_look import FirstLook, first_look
-from armscope.motion.preparation import Preparation, preparation
+from armscope.motion.preparation import Preparation, preparation, thinned
 from armscope.motion.sampling_constants import CUTOFF
 from armscope.motion.timing import Stretch
 from armscope.robot.dynamics import MovingArm
@@ -29,6 +29,11 @@ def chosen_cutoff(arm: MovingArm, stretches: Sequence[Stretch], asked: float | N
     Returns:
         The filters and the decimation; what the fit tells besides.
     """
+    how, first = _chosen(arm, stretches, asked)
+    return thinned(how, sum(map(len, stretches))), first
+
+
+def _chosen(arm: MovingArm, stretches: Sequence[Stretch], asked: float | None) -> tuple[Preparation, FirstLook]:
     rate = stretches[0].rate
     longest = max(stretches, key=len)
     moving = _position_cutoff(longest)

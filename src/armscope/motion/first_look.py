@@ -67,7 +67,7 @@ def _waves(stretch: Stretch, how: Preparation, j: int, left: Array) -> tuple[tup
     made = []
     for signals in parts([stretch], how):
         turned = signals.q[:, j, None] * counts
-        made.append(how.low_passed(np.stack([np.sin(turned), np.cos(turned)], axis=2), signals.kept))
+        made.append(how.low_passed(np.stack([np.sin(turned), np.cos(turned)], axis=2), signals.kept, signals.stride))
     waves = np.concatenate(made)
     explained = np.zeros(len(counts))
     for number in range(len(counts)):

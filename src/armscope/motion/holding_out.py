@@ -76,6 +76,11 @@ class HeldOutTorque:
     background: Array
     model: Array
 
+    @property
+    def moving(self) -> Array:
+        """(K, m) 1 where a joint moves, 0 where it stands."""
+        return np.asarray(1.0 - self.rows.still[self.which], dtype=np.float64)
+
 
 def held_out_torques(parts: Sequence[Fold]) -> tuple[HeldOutTorque, ...]:
     """What was measured where nothing was fitted, and what models fitted to the rest say of it."""
@@ -99,20 +104,34 @@ def measure(held: Sequence[HeldOutTorque], what: str) -> HeldOutMotion:
         Errors relative to the torque.
     """
     whole = np.concatenate([part.measured for part in held])
+    moving = np.concatenate([part.moving for part in held])
     stated, background, model = (
-        whole - np.concatenate([getattr(part, name) for part in held]) for name in ("stated", "background", "model")
+        moving * (whole - np.concatenate([getattr(part, name) for part in held]))
+        for name in ("stated", "background", "model")
     )
+    whole = moving * whole
     return HeldOutMotion(
         stated=relative(stated, whole),
         background=relative(background, whole),
         model=relative(model, whole),
-        by_joint=tuple(float(v) for v in np.sqrt(np.mean(model**2, axis=0))),
+        by_joint=tuple(float(v) for v in np.sqrt(np.sum(model**2, axis=0) / np.maximum(moving.sum(axis=0), 1))),
         what=what,
     )
 
 
+def errors_by_run(held: Sequence[HeldOutTorque]) -> dict[str, float]:
+    """The model's error on each run, relative to its torque."""
+    errors = {}
+    for part in held:
+        run = part.rows.run[part.which]
+        for name in dict.fromkeys(run.tolist()):
+            there = part.moving * (run == name)[:, None]
+            errors[name] = relative(there * (part.measured - part.model), there * part.measured)
+    return errors
+
+
 def _modelled(fold: Fold, hypothesis: Hypothesis) -> Array:
-    return fold.rows.modelled(coefficients_of(fold.problem, hypothesis))[fold.which]
+    return fold.rows.modelled(coefficients_of(fold.problem, hypothesis), fold.which)
 
 
 def waterfall(
@@ -153,4 +172,5 @@ def waterfall(
 def _errors(fold: Fold, chosen: tuple[SelectedEffect, ...], background: BackgroundSizes) -> tuple[Array, Array]:
     """(residuals, torque) of the fold's rows with causes fitted on its sums."""
     fitted = evaluate(fold.problem, chosen, background, fold.found.noise)
-    return (fold.rows.torque - fold.rows.nominal)[fold.which] - _modelled(fold, fitted), fold.rows.torque[fold.which]
+    moving, torque = ~fold.rows.still[fold.which], fold.rows.torque[fold.which]
+    return moving * (torque - fold.rows.nominal[fold.which] - _modelled(fold, fitted)), moving * torque

@@ -105,16 +105,26 @@ def taken_along(values: Array, ways: tuple[float, ...]) -> Array:
 
     Sums of it approach any hysteresis that depends on the way since the last turn and not on time (Visintin 1994).
     """
-    steps = np.sign(np.diff(values))
-    steps = steps[np.flatnonzero(steps)] if not steps.all() else steps
-    found, state = np.empty((len(values), len(ways))), np.full(len(ways), steps[0] if len(steps) else 0.0)
-    turns = 1 + np.flatnonzero(np.diff(values)[1:] * np.diff(values)[:-1] < 0)
-    start = 0
-    for stop in [*turns, len(values) - 1]:
-        part = (values[start : stop + 1] - values[start])[:, None] / np.array(ways)
-        found[start : stop + 1] = np.clip(state + part, -1, 1)
-        start, state = stop, found[stop]
-    return found
+    steps = np.diff(values)
+    turning = steps[np.flatnonzero(steps)[:1]]
+    size = int(np.ceil(np.sqrt(len(values))))
+    moved = np.zeros((size * size, len(ways)))
+    moved[1 : len(values)] = steps[:, None] / np.array(ways)
+    blocks = moved.reshape(size, size, -1)
+    # each step cuts off what lies beyond -1 ... 1, and so does any number of them in a row: within all blocks at once,
+    # then from block to block
+    shift, low, high = np.zeros_like(blocks), np.full_like(blocks, -1.0), np.ones_like(blocks)
+    shift[:, 0] = blocks[:, 0]
+    for k in range(1, size):
+        shift[:, k] = shift[:, k - 1] + blocks[:, k]
+        low[:, k] = np.clip(low[:, k - 1] + blocks[:, k], -1, 1)
+        high[:, k] = np.clip(high[:, k - 1] + blocks[:, k], -1, 1)
+    entered = np.empty((size, 1, len(ways)))
+    state = np.full(len(ways), np.sign(turning[0]) if len(turning) else 0.0)
+    for k in range(size):
+        entered[k] = state
+        state = np.clip(state + shift[k, -1], low[k, -1], high[k, -1])
+    return np.clip(entered + shift, low, high).reshape(size * size, -1)[: len(values)]
 
 
 def _powers_of_torque(m: Moment, joints: tuple[int, ...], usual: float) -> Array:
@@ -128,6 +138,10 @@ def _wave(m: Moment, joints: tuple[int, ...], count: float) -> Array:
     return np.column_stack([np.sin(turned), np.cos(turned)])
 
 
+FOLLOWS_MODEL = frozenset(
+    {"load friction", "torque", "delayed torque", "powers of torque", "clinging over torques", "curve over load"}
+)
+"""Laws of what the model says so far; the others depend on the motion alone."""
 DRIVERS: dict[str, Callable[[Moment, int], Array]] = {
     "joint angle": lambda m, j: m.signals.q[:, j],
     "speed": lambda m, j: m.signals.dq[:, j],

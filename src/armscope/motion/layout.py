@@ -87,6 +87,32 @@ class TorqueLayout:
         return columns
 
     @functools.cached_property
+    def made_of_masses(self) -> tuple[Indices, Array]:
+        """(C,) columns that are combinations of inertial ones, and (10 n, C) their shares of these."""
+        made = [
+            (cause, index) for cause, index in zip(self.placed, self.columns, strict=True) if cause.inertial is not None
+        ]
+        if not made:
+            return np.empty(0, dtype=np.intp), np.empty((len(self.inertial), 0))
+        shares = np.hstack([np.asarray(cause.inertial) for cause, _ in made]) / self.inertial_scale[:, None]
+        return np.concatenate([index for _, index in made]), shares
+
+    @functools.cached_property
+    def made_in(self) -> list[tuple[str, ...]]:
+        """The only runs in which each of these is there; none: all."""
+        return [cause.runs for cause in self.placed if cause.inertial is not None for _ in range(cause.width)]
+
+    @property
+    def differs_by_run(self) -> bool:
+        """Whether some are there in some runs only."""
+        return any(self.made_in)
+
+    def shares_in(self, run: str) -> Array:
+        """(10 n, C) shares of `made_of_masses` in a run: none of what is not there."""
+        there = np.array([not runs or run in runs for runs in self.made_in], dtype=np.float64)
+        return self.made_of_masses[1] * there
+
+    @functools.cached_property
     def width(self) -> int:
         """Number of columns."""
         last = max((int(columns[-1]) for columns in self.columns), default=0)

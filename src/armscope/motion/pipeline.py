@@ -14,7 +14,16 @@ from armscope.core.types import Progress
 from armscope.motion.check import check_motions, check_rows
 from armscope.motion.constants import LIBRARY
 from armscope.motion.cutoff import chosen_cutoff
-from armscope.motion.holding_out import HeldOutTorque, folds, held_out_torques, measure, own_fold, waterfall
+from armscope.motion.holding_out import (
+    Fold,
+    HeldOutTorque,
+    errors_by_run,
+    folds,
+    held_out_torques,
+    measure,
+    own_fold,
+    waterfall,
+)
 from armscope.motion.judgement import (
     answer_of,
     covariance_of,
@@ -163,7 +172,10 @@ def _judged(
     else:
         parts, what = [own_fold(selected, test)], "runs " + ", ".join(settings.held_out)
     held = held_out_torques(parts)
-    held_out = measure(held, what)
+    by_run = errors_by_run(held)
+    parts, held, alone = _that_others_tell(selected, parts, held)
+    what += f", but for {', '.join(alone)}, of whose own load no other run knows" if alone else ""
+    held_out = replace(measure(held, what), by_run=by_run)
     numbered = found_causes(selected)
     found = [cause for _, cause in numbered]
     steps = waterfall(selected, parts, [number for number, _ in numbered], [cause.title for cause in found])
@@ -190,6 +202,20 @@ def _judged(
         runs=(),
     )
     return verdict, held
+
+
+def _that_others_tell(
+    selected: SelectedCauses, parts: list[Fold], held: tuple[HeldOutTorque, ...]
+) -> tuple[list[Fold], tuple[HeldOutTorque, ...], list[str]]:
+    """Without runs that have a cause of their own, unless all have; and these runs' names."""
+    placed = (selected.rows.layout.placed[number] for number in selected.best.candidates)
+    own = {run for cause in placed for run in cause.runs}
+    alone = [n for n, fold in enumerate(parts) if set(fold.rows.run[fold.which].tolist()) <= own]
+    if not alone or len(alone) == len(parts):
+        return parts, held, []
+    kept = [n for n in range(len(parts)) if n not in alone]
+    names = [str(parts[n].rows.run[parts[n].which][0]) for n in alone]
+    return [parts[n] for n in kept], tuple(held[n] for n in kept), names
 
 
 def _sizes(selected: SelectedCauses) -> list[float]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import make_interp_spline
@@ -40,6 +40,12 @@ class Preparation:
     cutoff_source: str
 
     @property
+    def stride(self) -> int:
+        """The model is formed at every so many samples: the motion, low-passed, holds nothing faster."""
+        most = max(int(self.rate / (FILTER.formed_per_cutoff * self.position_cutoff)), 1)
+        return max(step for step in range(1, min(most, self.every) + 1) if self.every % step == 0)
+
+    @property
     def edge(self) -> int:
         """Samples left out at both ends of a stretch."""
         return int(np.ceil(FILTER.edge_s * self.rate))
@@ -49,19 +55,20 @@ class Preparation:
         sections = _sections(self.position_cutoff, self.rate)
         return np.asarray(sosfiltfilt(sections, positions, axis=0, padlen=min(15 * self.every, len(positions) - 1)))
 
-    def low_passed(self, values: Array, kept: Indices) -> Array:
+    def low_passed(self, values: Array, kept: Indices, stride: int = 1) -> Array:
         """The rows that are kept of samples (N, ...) through the zero-phase low-pass of torque and model.
 
         The filter is applied as the weights of its impulse response, to kept rows only: as matrices, some rows at once.
 
         Args:
-            values: at full rate.
-            kept: (K,) which samples become rows, `every` apart.
+            values: at every ``stride``-th sample.
+            kept: (K,) which of them become rows, `every` samples apart.
+            stride: of the values.
 
         Returns:
             (K, ...).
         """
-        weights, reach = _weights(self.cutoff, self.rate, self.every)
+        weights, reach = _weights(self.cutoff, self.rate, self.every, stride)
         flat = _extended(values.reshape(len(values), -1), reach)
         found = np.empty((len(kept), flat.shape[1]))
         for first in range(0, len(kept), len(weights)):
@@ -87,14 +94,16 @@ def _sections(cutoff: float, rate: float) -> Array:
     return np.asarray(butter(FILTER.order, min(cutoff, 0.49 * rate), fs=rate, output="sos"))
 
 
-@functools.lru_cache(maxsize=4)
-def _weights(cutoff: float, rate: float, every: int) -> tuple[Array, int]:
-    """(B, n) weights of the samples in B rows `every` apart, and by how many samples they reach beyond a row."""
+@functools.lru_cache(maxsize=8)
+def _weights(cutoff: float, rate: float, every: int, stride: int) -> tuple[Array, int]:
+    """(B, n) weights of every ``stride``-th sample in B rows `every` apart, and by how many they reach beyond a row."""
     reach = int(np.ceil(FILTER.reach * rate / cutoff))
     impulse = np.zeros(6 * reach + 1)
     impulse[3 * reach] = 1.0
     response = sosfiltfilt(_sections(cutoff, rate), impulse, padlen=0)[2 * reach : 4 * reach + 1]
+    response = response[reach % stride :: stride]
     response /= response.sum()
+    reach, every = reach // stride, every // stride
     rows = np.zeros((FILTER.rows_at_once, (FILTER.rows_at_once - 1) * every + 2 * reach + 1))
     for number in range(len(rows)):
         rows[number, number * every : number * every + 2 * reach + 1] = response
@@ -103,11 +112,13 @@ def _weights(cutoff: float, rate: float, every: int) -> tuple[Array, int]:
 
 def _extended(values: Array, reach: int) -> Array:
     """Samples (N, c) with `reach` more at both ends, turned about the end points, as far as there are any."""
-    turned = min(reach, len(values) - 1)
-    before = 2 * values[0] - values[turned:0:-1]
-    after = 2 * values[-1] - values[-2 : -turned - 2 : -1]
-    lacking = ((reach - turned, reach - turned), (0, 0))
-    return np.pad(np.concatenate([before, values, after]), lacking, mode="edge")
+    turned, count = min(reach, len(values) - 1), len(values)
+    whole = np.empty((count + 2 * reach, values.shape[1]))
+    whole[reach : reach + count] = values
+    whole[reach - turned : reach] = 2 * values[0] - values[turned:0:-1]
+    whole[reach + count : reach + count + turned] = 2 * values[-1] - values[-2 : -turned - 2 : -1]
+    whole[: reach - turned], whole[reach + count + turned :] = whole[reach - turned], whole[reach + count + turned - 1]
+    return whole
 
 
 def preparation(rate: float, cutoff: float, source: str, position_cutoff: float = np.inf) -> Preparation:
@@ -125,21 +136,29 @@ def preparation(rate: float, cutoff: float, source: str, position_cutoff: float 
     cutoff = min(cutoff, FILTER.nyquist * rate / 2)
     every = max(int(rate / (FILTER.rows_per_cutoff * cutoff)), 1)
     smooth = min(position_cutoff, FILTER.position_band * cutoff, FILTER.nyquist * rate / 2)
-    return Preparation(rate, cutoff, smooth, every, source)
+    stride = max(int(rate / (FILTER.formed_per_cutoff * smooth)), 1)
+    return Preparation(rate, cutoff, smooth, max(every // stride, 1) * stride if every > stride else every, source)
+
+
+def thinned(how: Preparation, samples: int) -> Preparation:
+    """With fewer rows kept where there would be more than are needed: neighbours say the same."""
+    times = -(-samples // (how.every * FILTER.most_rows))
+    return replace(how, every=how.every * max(times, 1))
 
 
 @dataclass(frozen=True, eq=False)
 class Signals:
-    """Samples of one stretch, or a part of it, at full rate; every column of the model is a function of them.
+    """Samples of one stretch, or a part of it; every column of the model is a function of them.
 
     Attributes:
         run: its name.
         stretch: number of the stretch.
         time: (N,) s.
         q, dq, ddq: (N, m) filtered positions and their derivatives.
-        effort: (N, m) as recorded, N m (N) or A.
+        effort: (K, m) of the rows, low-passed, N m (N) or A; none where every sample is kept.
         payload: (N,) kg; temperature: (N, m) deg C; each or None.
         kept: (K,) which samples become rows.
+        stride: of the samples, to the recorded ones.
     """
 
     run: str
@@ -152,6 +171,7 @@ class Signals:
     payload: Array | None
     temperature: Array | None
     kept: Indices
+    stride: int = 1
 
     @property
     def period(self) -> float:
@@ -176,24 +196,27 @@ def parts(stretches: Sequence[Stretch], how: Preparation, every_sample: bool = F
             kept = np.arange(len(stretch))
         for rows in np.array_split(kept, max(-(-len(stretch) // FILTER.chunk), 1)):
             if len(rows):
-                yield _part(stretch, number, rows, how)
+                yield _part(stretch, number, rows, how, every_sample)
 
 
-def _part(stretch: Stretch, number: int, rows: Indices, how: Preparation) -> Signals:
-    low, high = max(rows[0] - 2 * how.edge, 0), min(rows[-1] + 2 * how.edge + 1, len(stretch))
+def _part(stretch: Stretch, number: int, rows: Indices, how: Preparation, every_sample: bool) -> Signals:
+    stride = 1 if every_sample else how.stride
+    low = rows[0] - min(int(rows[0]), 2 * how.edge) // stride * stride
+    high = min(rows[-1] + 2 * how.edge + 1, len(stretch))
     inside = slice(low, high)
     q = how.smoothed(stretch.q[inside])
     path = make_interp_spline(np.arange(len(q)) / stretch.rate, q, k=5)
-    times = path.t[0] + np.arange(len(q)) / stretch.rate
+    times = path.t[0] + np.arange(len(q))[::stride] / stretch.rate
     return Signals(
         stretch.run,
         number,
-        stretch.time[inside],
-        q,
+        stretch.time[inside][::stride],
+        q[::stride],
         path.derivative(1)(times),
         path.derivative(2)(times),
-        stretch.effort[inside],
-        None if stretch.payload is None else stretch.payload[inside],
-        None if stretch.temperature is None else stretch.temperature[inside],
-        rows - low,
+        q[:0] if every_sample else how.low_passed(stretch.effort[inside], rows - low),
+        None if stretch.payload is None else stretch.payload[inside][::stride],
+        None if stretch.temperature is None else stretch.temperature[inside][::stride],
+        (rows - low) // stride,
+        stride,
     )

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices, Progress
 from armscope.motion.causes import Moment, coulomb_width, sharp_width, side
+from armscope.motion.laws import FOLLOWS_MODEL, Law
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.preparation import Preparation, Signals, parts
 from armscope.motion.sampling_constants import FILTER
@@ -48,12 +48,29 @@ class MotionRows:
     def __len__(self) -> int:
         return len(self.time)
 
-    def modelled(self, coefficients: Array) -> Array:
-        """(K, m) torque that coefficients (p,) add to the nominal one."""
-        parts = [
-            columns @ coefficients[at].astype(np.float32) for columns, at in zip(self.columns, self.at, strict=True)
-        ]
-        return np.column_stack(parts).astype(np.float64)
+    def modelled(self, coefficients: Array, which: Indices | slice = slice(None)) -> Array:
+        """(K, m) torque that coefficients (p,) add to the nominal one, in all rows or some."""
+        index, shares = self.layout.made_of_masses
+        whole = coefficients.copy()
+        whole[self.layout.inertial] += shares @ coefficients[index]
+        found = np.column_stack([self._at(j, whole, which) for j in range(len(self.columns))])
+        if not self.layout.differs_by_run:
+            return found
+        run = self.run[which]
+        for name in np.unique(run):
+            there = np.flatnonzero(run == name)
+            lacking = np.zeros(len(coefficients))
+            lacking[self.layout.inertial] = (shares - self.layout.shares_in(str(name))) @ coefficients[index]
+            if np.any(lacking):
+                rows = np.arange(len(self))[which][there]
+                found[there] -= np.column_stack([self._at(j, lacking, rows) for j in range(len(self.columns))])
+        return found
+
+    def _at(self, joint: int, whole: Array, which: Indices | slice) -> Array:
+        """(K,) of one joint; ``whole``: coefficients (p,) with combinations of masses counted in."""
+        at = self.at[joint]
+        used = np.flatnonzero(whole[at])
+        return (self.columns[joint][which][:, used] @ whole[at[used]].astype(np.float32)).astype(np.float64)
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,6 +113,7 @@ def build_rows(
     how: Preparation,
     model: SoFar,
     progress: Progress = lambda t, s: None,
+    before: MotionRows | None = None,
 ) -> MotionRows:
     """All rows of a table.
 
@@ -105,87 +123,127 @@ def build_rows(
         how: filters and decimation.
         model: of which load, delay and gain are functions.
         progress: hears how far it is.
+        before: the same rows for another model, whose columns stay where they don't follow it; scanned numbers may
+            differ.
 
     Returns:
         The rows, in the order of the stretches.
     """
     pieces, done, total = [], 0, sum(len(stretch) for stretch in stretches)
+    fresh = range(len(layout.placed)) if before is None else _following(layout, before.layout)
     for signals in parts(stretches, how):
-        pieces.append(_piece(layout, signals, how, model))
+        piece = _Piece(layout, signals, how, model, before is None)
+        pieces.append(piece.rows(fresh))
         done += len(signals.kept) * how.every
         progress("forming the model's columns", min(done / total, 1.0))
-    return MotionRows(
-        layout=layout,
-        time=np.concatenate([piece.time for piece in pieces]),
-        run=np.concatenate([piece.run for piece in pieces]),
-        stretch=np.concatenate([piece.stretch for piece in pieces]),
-        q=np.concatenate([piece.q for piece in pieces]),
-        dq=np.concatenate([piece.dq for piece in pieces]),
-        torque=np.concatenate([piece.torque for piece in pieces]),
-        nominal=np.concatenate([piece.nominal for piece in pieces]),
-        still=np.concatenate([piece.still for piece in pieces]),
-        columns=tuple(np.concatenate(of_joint) for of_joint in zip(*(piece.columns for piece in pieces), strict=True)),
-        at=pieces[0].at,
-    )
+    return _joined(layout, pieces) if before is None else _renewed(layout, before, pieces)
 
 
-def _piece(layout: TorqueLayout, signals: Signals, how: Preparation, model: SoFar) -> MotionRows:
-    arm, kept = layout.arm, signals.kept
-    regressor = arm.regressor(signals.q, signals.dq, signals.ddq)
-    background = own_columns(arm, signals, model.delay)
-    rigid = regressor @ model.inertial
-    if signals.payload is not None:
-        rigid = rigid + signals.payload[:, None] * (regressor @ arm.point_load())
-    predicted = rigid + np.einsum("nmk,mk->nm", background[:, :, :CAUSES_OF_OWN], model.background)
-    gravity = None
-    if any(cause.cause.name == "gravity_direction" for cause in layout.placed):
-        gravity = np.stack([arm.gravity_torques(signals.q, axis) for axis in np.eye(3)], axis=2)
-    moment = Moment(signals, rigid, predicted, gravity, how.rate)
-    low = functools.partial(how.low_passed, kept=kept)
-    regressor = low(regressor)
-    stated = np.nan_to_num(arm.stated_background)
-    nominal = regressor @ arm.inertial
-    if np.any(stated):
-        nominal += low(np.einsum("nmk,mk->nm", background[:, :, :CAUSES_OF_OWN], stated))
-    if signals.payload is not None:
-        nominal += signals.payload[kept, None] * (regressor @ arm.point_load())
-    columns, at = [], []
-    own = _own_columns(layout, moment)
-    inertial = _made_of_masses(layout, regressor, signals.run)
-    rounded = bend(predicted, how.rate)
-    for j in range(arm.n_motors):
-        of_joint, where = own[j]
-        gain = [predicted[:, j]] if layout.with_gains else []
-        filtered = low(np.column_stack([background[:, j], *of_joint, *gain, rounded[:, j]]))
-        whole = np.column_stack(
-            [filtered, regressor[:, j] * layout.inertial_scale, *(made[:, j] for made, _ in inertial)]
+def _following(layout: TorqueLayout, before: TorqueLayout) -> list[int]:
+    """Numbers of the causes whose columns another model changes, or another scanned number."""
+    return [
+        number
+        for number, (cause, old) in enumerate(zip(layout.placed, before.placed, strict=True))
+        if cause is not old or (isinstance(cause.columns, Law) and cause.columns.kind in FOLLOWS_MODEL)
+    ]
+
+
+def _joined(layout: TorqueLayout, pieces: list[MotionRows]) -> MotionRows:
+    whole = {
+        name: np.concatenate([getattr(piece, name) for piece in pieces])
+        for name in ("time", "run", "stretch", "q", "dq", "torque", "nominal", "still")
+    }
+    at, columns = pieces[0].at, []
+    for j in range(len(at)):
+        columns.append(np.concatenate([piece.columns[j] for piece in pieces]))
+    return MotionRows(layout, columns=tuple(columns), at=at, **whole)
+
+
+def _renewed(layout: TorqueLayout, before: MotionRows, pieces: list[MotionRows]) -> MotionRows:
+    columns = []
+    for j, (old, at) in enumerate(zip(before.columns, before.at, strict=True)):
+        fresh, where = old.copy(), np.searchsorted(at, pieces[0].at[j])
+        fresh[:, where] = np.concatenate([piece.columns[j] for piece in pieces])
+        columns.append(fresh)
+    return replace(before, layout=layout, columns=tuple(columns))
+
+
+class _Piece:
+    """Some samples, with what the model says of them, on the way to rows."""
+
+    def __init__(self, layout: TorqueLayout, signals: Signals, how: Preparation, model: SoFar, first: bool) -> None:
+        self.layout, self.signals, self.how = layout, signals, how
+        arm = self.arm = layout.arm
+        motion = (signals.q, signals.dq, signals.ddq)
+        self.regressor = arm.regressor(*motion) if first else None
+        self.background = own_columns(arm, signals, model.delay)
+        rigid = arm.torques(*motion, model.inertial) if self.regressor is None else self.regressor @ model.inertial
+        self.carried: Array | float = 0.0
+        if signals.payload is not None:
+            self.carried = signals.payload[:, None] * arm.torques(*motion, arm.point_load())
+        rigid = rigid + self.carried
+        predicted = rigid + np.einsum("nmk,mk->nm", self.background[:, :, :CAUSES_OF_OWN], model.background)
+        gravity = None
+        if first and any(cause.cause.name == "gravity_direction" for cause in layout.placed):
+            gravity = np.stack([arm.gravity_torques(signals.q, axis) for axis in np.eye(3)], axis=2)
+        self.moment = Moment(signals, rigid, predicted, gravity, how.rate / signals.stride)
+
+    def low(self, values: Array) -> Array:
+        """The rows of samples."""
+        return self.how.low_passed(values, self.signals.kept, self.signals.stride)
+
+    def rows(self, causes: Iterable[int]) -> MotionRows:
+        """Rows with the columns of some causes; with the inertial ones where these were formed."""
+        layout, signals, kept = self.layout, self.signals, self.signals.kept
+        m = layout.arm.n_motors
+        own = self._own_columns(causes)
+        rounded = bend(self.moment.predicted, self.moment.rate)
+        columns, at = [], []
+        regressor = None if self.regressor is None else self.low(self.regressor)
+        for j in range(m):
+            of_joint, where = own[j]
+            gain = [self.moment.predicted[:, j]] if layout.with_gains else []
+            made = [self.low(np.column_stack([self.background[:, j], *of_joint, *gain, rounded[:, j]]))]
+            index = [OWN * j + np.arange(OWN), *where, layout.gains[j : j + 1] if gain else layout.gains]
+            index.append(layout.response)
+            if regressor is not None:
+                made.append(regressor[:, j] * layout.inertial_scale)
+                index.append(layout.inertial)
+            order = np.argsort(np.concatenate(index))
+            columns.append(np.hstack(made)[:, order].astype(np.float32))
+            at.append(np.concatenate(index)[order])
+        return MotionRows(
+            layout=layout,
+            time=signals.time[kept],
+            run=np.full(len(kept), signals.run),
+            stretch=np.full(len(kept), signals.stretch),
+            q=signals.q[kept],
+            dq=signals.dq[kept],
+            torque=signals.effort,
+            nominal=np.zeros((len(kept), m)) if regressor is None else self._nominal(regressor),
+            still=_still(layout.arm, signals, self.moment.rate)[kept],
+            columns=tuple(columns),
+            at=tuple(at),
         )
-        columns.append(whole.astype(np.float32))
-        at.append(
-            np.concatenate(
-                [
-                    OWN * j + np.arange(OWN),
-                    *where,
-                    *([layout.gains[j : j + 1]] if layout.with_gains else []),
-                    layout.response,
-                    layout.inertial,
-                    *(index for _, index in inertial),
-                ]
-            )
-        )
-    return MotionRows(
-        layout=layout,
-        time=signals.time[kept],
-        run=np.full(len(kept), signals.run),
-        stretch=np.full(len(kept), signals.stretch),
-        q=signals.q[kept],
-        dq=signals.dq[kept],
-        torque=low(signals.effort),
-        nominal=nominal,
-        still=_still(arm, signals, how)[kept],
-        columns=tuple(columns),
-        at=tuple(at),
-    )
+
+    def _nominal(self, regressor: Array) -> Array:
+        stated = np.nan_to_num(self.arm.stated_background)
+        nominal = regressor @ self.arm.inertial
+        if np.any(stated):
+            nominal += self.low(np.einsum("nmk,mk->nm", self.background[:, :, :CAUSES_OF_OWN], stated))
+        return nominal if self.signals.payload is None else nominal + self.low(np.asarray(self.carried))
+
+    def _own_columns(self, causes: Iterable[int]) -> list[tuple[list[Array], list[Indices]]]:
+        """By joint: columns (N, c) of causes, and where they stand."""
+        own: list[tuple[list[Array], list[Indices]]] = [([], []) for _ in range(self.arm.n_motors)]
+        for number in causes:
+            cause, index = self.layout.placed[number], self.layout.columns[number]
+            if cause.columns is not None:
+                values = cause.columns(self.moment)
+                for n, joint in enumerate(cause.joints):
+                    own[joint][0].append(values[:, n])
+                    own[joint][1].append(index)
+        return own
 
 
 def bend(torque: Array, rate: float) -> Array:
@@ -215,33 +273,11 @@ def own_columns(arm: MovingArm, signals: Signals, delay: Array) -> Array:
     return np.stack([np.ones_like(signals.q), turned, signals.dq, signals.ddq, blunter, later], axis=2)
 
 
-def _own_columns(layout: TorqueLayout, moment: Moment) -> list[tuple[list[Array], list[Indices]]]:
-    """By joint: columns (N, c) at full rate of its causes, and where they stand."""
-    own: list[tuple[list[Array], list[Indices]]] = [([], []) for _ in range(layout.arm.n_motors)]
-    for cause, index in zip(layout.placed, layout.columns, strict=True):
-        if cause.columns is not None:
-            values = cause.columns(moment)
-            for number, joint in enumerate(cause.joints):
-                own[joint][0].append(values[:, number])
-                own[joint][1].append(index)
-    return own
-
-
-def _made_of_masses(layout: TorqueLayout, regressor: Array, run: str) -> list[tuple[Array, Indices]]:
-    """Columns (K, m, c) of causes that are combinations of inertial parameters, and where they stand."""
-    made = []
-    for cause, index in zip(layout.placed, layout.columns, strict=True):
-        if cause.inertial is not None:
-            there = 0.0 if cause.runs and run not in cause.runs else 1.0
-            made.append((there * (regressor @ cause.inertial), index))
-    return made
-
-
-def _still(arm: MovingArm, signals: Signals, how: Preparation) -> NDArray[np.bool_]:
+def _still(arm: MovingArm, signals: Signals, rate: float) -> NDArray[np.bool_]:
     """Where a joint is slow for longer than it takes to turn back."""
     width = FILTER.still * np.where(arm.sliding, FILTER.coulomb_width_m_s, FILTER.coulomb_width_rad_s)
     slow = np.abs(signals.dq) < width
-    length = max(int(FILTER.still_s * how.rate), 1)
+    length = max(int(FILTER.still_s * rate), 1)
     total = np.cumsum(np.vstack([np.zeros(arm.n_motors), slow]), axis=0)
     stood = np.zeros_like(slow)
     if len(slow) > length:

@@ -66,6 +66,18 @@ class FilterRules(Constants):
         "rows kept, per cycle of the cut-off frequency",
         "derived: a fourth-order filter's noise is independent from about here; the rest is measured",
     )
+    formed_per_cutoff: float = constant(
+        8.0,
+        "at which the model is formed, per cycle of the positions' cut-off",
+        "derived: a fourth-order filter, run forward and back, leaves 2e-5 of what is beyond half of it",
+        unit="samples",
+    )
+    most_rows: int = constant(
+        30_000,
+        "kept of all runs",
+        "judgement: more neighbours say the same; memory and time",
+        unit="rows",
+    )
     coulomb_width_rad_s: float = constant(
         0.01, "speed within which friction changes sides", "convention: of the protocol", unit="rad/s"
     )

@@ -97,18 +97,19 @@ def select_causes(
     selected: SelectedCauses | None = None
     for number in range(NOISE.rounds):
         share = number / NOISE.rounds
-        rows = build_rows(layout, stretches, how, model, functools.partial(_within, progress, share))
+        before = None if selected is None else selected.rows
+        rows = build_rows(layout, stretches, how, model, functools.partial(_within, progress, share), before)
         block = blocks_of(rows, block_of)
         space = build_space(layout, np.sqrt(np.mean(rows.torque**2, axis=0)), how.rate)
         progress("weighing causes", share + 0.15)
         if selected is None:
             first = chosen(rows, _start(rows), block, space)
-            found, before = None, (first.best, first.best.chosen)
+            found, last = None, (first.best, first.best.chosen)
             weights = estimate_weights(rows, first.residuals)
         else:
-            found, before = selected.best.candidates, (selected.best, selected.best.chosen)
+            found, last = selected.best.candidates, (selected.best, selected.best.chosen)
             weights = estimate_weights(rows, selected.residuals)
-        selected = chosen(rows, weights, block, space, before)
+        selected = chosen(rows, weights, block, space, last)
         finer = refined(selected)
         if selected.best.candidates == found and finer is None:
             break

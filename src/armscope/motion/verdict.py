@@ -89,12 +89,15 @@ class Step:
 class HeldOutMotion:
     """Errors on motion that took no part, relative to its torque (0.05 is 5 %), and RMS by joint with the model.
 
+    Of joints while they move: a standing one's friction may be anything within its band, and no model says what.
+
     Attributes:
         stated: of the arm as stated, nothing fitted.
         background: with friction and rotor inertia of every joint fitted.
         model: with masses held near the stated ones, and the causes.
         by_joint: RMS of what the model leaves, N m or N.
         what: which motion was held out.
+        by_run: the model's error on each run that was held out, those too that the others leave out.
     """
 
     stated: float
@@ -102,6 +105,7 @@ class HeldOutMotion:
     model: float
     by_joint: tuple[float, ...]
     what: str
+    by_run: dict[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

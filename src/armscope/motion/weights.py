@@ -10,12 +10,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
 from armscope.inference.linear_algebra import lower_cholesky, solve_lower
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.measurement.robust import huber_weights
 from armscope.motion.constants import NOISE, PRIOR
+from armscope.motion.layout import TorqueLayout
 from armscope.motion.rows import MotionRows
 
 
@@ -85,22 +87,45 @@ def sums_by_block(rows: MotionRows, weights: TorqueWeights, block: Indices) -> l
     Returns:
         One sum for each block; a unit is `PRIOR.unit` of the noise.
     """
+    sums: list[NormalEquations | None] = [None] * (int(block.max()) + 1)
+    runs = np.unique(rows.run) if rows.layout.differs_by_run else rows.run[:1]
+    for number in range(len(sums)):
+        for run in runs:
+            which = block == number
+            if len(runs) > 1:
+                which &= rows.run == run
+            if which.any() or sums[number] is None:
+                part, so_far = _with_masses(_sums(rows, weights, which), rows.layout, str(run)), sums[number]
+                sums[number] = part if so_far is None else so_far + part
+    return [each for each in sums if each is not None]
+
+
+def _sums(rows: MotionRows, weights: TorqueWeights, among: NDArray[np.bool_]) -> NormalEquations:
+    """Over some rows, of the columns that rows hold."""
     response = rows.torque - rows.nominal
-    sums = []
-    for number in range(int(block.max()) + 1):
-        G = np.zeros((rows.layout.width,) * 2)
-        b, yy, n = np.zeros(rows.layout.width), 0.0, 0.0
-        for j, (columns, at) in enumerate(zip(rows.columns, rows.at, strict=True)):
-            which = np.flatnonzero((block == number) & (weights.row[:, j] > 0))
-            unit = PRIOR.unit / weights.sigma[j] * np.sqrt(weights.row[:, j])
-            counts = 1 / weights.correlated[j]
-            for some in np.array_split(which, max(-(-len(which) // NOISE.rows_at_once), 1)):
-                X, y = columns[some].astype(np.float64) * unit[some, None], response[some, j] * unit[some]
-                G[np.ix_(at, at)] += counts * (X.T @ X)
-                b[at] += counts * (X.T @ y)
-                yy += counts * float(y @ y)
-                n += counts * float(weights.row[some, j].sum())
-        sums.append(NormalEquations(G, b, yy, n))
+    G = np.zeros((rows.layout.width,) * 2)
+    b, yy, n = np.zeros(rows.layout.width), 0.0, 0.0
+    for j, (columns, at) in enumerate(zip(rows.columns, rows.at, strict=True)):
+        which = np.flatnonzero(among & (weights.row[:, j] > 0))
+        unit = PRIOR.unit / weights.sigma[j] * np.sqrt(weights.row[:, j])
+        counts = 1 / weights.correlated[j]
+        for some in np.array_split(which, max(-(-len(which) // NOISE.rows_at_once), 1)):
+            X, y = columns[some].astype(np.float64) * unit[some, None], response[some, j] * unit[some]
+            G[np.ix_(at, at)] += counts * (X.T @ X)
+            b[at] += counts * (X.T @ y)
+            yy += counts * float(y @ y)
+            n += counts * float(weights.row[some, j].sum())
+    return NormalEquations(G, b, yy, n)
+
+
+def _with_masses(sums: NormalEquations, layout: TorqueLayout, run: str) -> NormalEquations:
+    """With the columns that are combinations of inertial ones, which rows need not hold."""
+    made, _ = layout.made_of_masses
+    shares, inertial = layout.shares_in(run), layout.inertial
+    G, b = sums.G, sums.b
+    G[:, made] = G[:, inertial] @ shares
+    G[made] = shares.T @ G[inertial]
+    b[made] = shares.T @ b[inertial]
     return sums
 
 

@@ -105,6 +105,29 @@ class MovingArm:
             return torque
         return np.asarray(np.einsum("njp,jm->nmp", torque, self.actuation))
 
+    def torques(self, q: Array, dq: Array, ddq: Array, inertial: Array) -> Array:
+        """Torque of each motor by inverse dynamics with other inertial parameters than the stated ones.
+
+        Args:
+            q: (N, m) motor positions.
+            dq: (N, m) their velocities.
+            ddq: (N, m) their accelerations.
+            inertial: (10 n,) of each link, `PARAMETERS`.
+
+        Returns:
+            (N, m) N m.
+        """
+        links = inertial.reshape(-1, 10)
+        if not np.all(links[:, 0] > 0):  # no body has such parameters, but torque is linear in them
+            return self.regressor(q, dq, ddq) @ inertial
+        model = self.model.copy()
+        for joint, parameters in enumerate(links, start=1):
+            model.inertias[joint] = pin.Inertia.FromDynamicParameters(parameters)
+        data, configurations = model.createData(), self.configurations(q)
+        v, a = dq @ self.actuation.T, ddq @ self.actuation.T
+        moved = zip(configurations, v, a, strict=True)
+        return np.array([pin.rnea(model, data, *row).copy() for row in moved]).reshape(len(q), -1) @ self.actuation
+
     def gravity_torques(self, q: Array, gravity: Array) -> Array:
         """(N, m) N m that hold the stated masses at motor positions q (N, m) in gravity (3,), m/s^2."""
         model = self.model.copy()
