@@ -6,10 +6,11 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: help reproduce test benchmark proof fuzz campaign docs clean
+.PHONY: help reproduce test checked small-run test-long benchmark proof fuzz campaign docs clean
 help:
 	@echo "make reproduce   the paper, end to end: Table 2, Figs 1-11, claims, report"
 	@echo "make test        lint, types, unit tests, a small run of the whole workflow"
+	@echo "make test-long   what takes longer than ten seconds a test, real arms among it"
 	@echo "make benchmark   speed beside other packages, as ratios from one run"
 	@echo "make proof       the diagnosis on worlds with concealed effects"
 	@echo "make fuzz        an hour of bad files (SECONDS=60: a minute), and 3000 for every reader"
@@ -21,14 +22,23 @@ reproduce: .venv/installed
 	$(BIN)/snakemake -j2
 
 test: .venv/installed-test
+	$(MAKE) --no-print-directory -j2 checked small-run
+	# what a module sets up for its tests is set up once: in one process
+	$(BIN)/pytest -n 2 --dist loadscope -m "not long"
+
+checked:
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/python workflow/lint.py
+	$(BIN)/mypy
+
+small-run:
 	$(BIN)/snakemake -j2 all poses --configfile config/small.yaml --forceall
-	# what a module sets up for its tests is set up once: in one process
-	$(BIN)/pytest -n 2 --dist loadscope
+
+# takes more than ten seconds each; those of real arms need their recordings beside the project
+test-long: .venv/installed-test
+	$(BIN)/pytest -n 2 --dist loadscope -m long
 
 # the packages compared with need older versions of ours, so they live in environments of their own
 benchmark: .venv/installed .venv-peers/installed .venv-figaroh/installed

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-TARGETS = ("paper/table2.csv", "paper/figures/fig06.png")
+TARGETS = ("paper/table2.csv", "paper/figures/convergence.png")
 
 
 def snakemake(folder, *arguments, succeeds=True):
@@ -48,7 +48,7 @@ def test_a_finished_run_has_nothing_to_do(finished):
 def test_a_swarm_setting_refits_but_does_not_measure_again(finished):
     rerun = planned(finished, "--config", "paper={swarm: {iterations: 50}}")
     assert "measure" not in rerun
-    assert {"fit", "residuals", "table2", "figure"} <= rerun
+    assert {"fit", "residuals", "table2", "convergence_figure"} <= rerun
 
 
 def test_a_tolerance_measures_again(finished):
@@ -57,11 +57,11 @@ def test_a_tolerance_measures_again(finished):
 
 
 def test_a_deleted_figure_is_redrawn_without_refitting(finished):
-    figure = finished / "results/small/paper/figures/fig06.png"
+    figure = finished / "results/small/paper/figures/convergence.png"
     before = figure.read_bytes()
     figure.unlink()
-    assert planned(finished) == {"figure"}
-    snakemake(finished, "results/small/paper/figures/fig06.png")
+    assert planned(finished) == {"convergence_figure"}
+    snakemake(finished, "results/small/paper/figures/convergence.png")
     assert figure.read_bytes() == before
 
 

@@ -180,6 +180,7 @@ def test_the_model_keeps_how_the_tool_is_turned(tmp_path: Path) -> None:
     assert 1e3 * np.sqrt(np.mean(again["orientation"] ** 2)) == pytest.approx(TURN_MRAD, rel=0.1)
 
 
+@pytest.mark.long
 @pytest.mark.shared
 @pytest.mark.skipif(not IIWA.is_dir(), reason=f"no {IIWA}")
 def test_orientations_of_a_real_arm_show_that_its_marker_was_taken_off_between_runs() -> None:

@@ -82,6 +82,7 @@ def test_points_with_names_of_their_own_are_no_shift() -> None:
     assert {effect.effect for effect in diagnose(arm, table, QUICK).effects} == {"joint_compliance"}
 
 
+@pytest.mark.long
 @pytest.mark.shared
 @pytest.mark.skipif(not MA1400.is_dir(), reason=f"no {MA1400}")
 def test_a_real_set_up_that_changed_twice_is_found_with_its_rows_and_its_bad_shots() -> None:

@@ -26,6 +26,7 @@ from armscope.world.folder import build
 ROOT = Path(__file__).parents[2]
 REAL = ROOT.parent / "shared" / "recordings" / "iiwa7-payload"
 RUN_OF_REAL = "2016-11-18"
+LONG = "world-long"
 DIGEST = Path(__file__).with_name("golden.json")
 QUICK = Settings(resamples=0, cross_validation=False)
 
@@ -37,7 +38,7 @@ def chosen_worlds() -> list[WorldSpec]:
     for spec in fixed:
         first.setdefault(spec.category, spec)
     multiple = first["multiple"]
-    return [*first.values(), multiple.model_copy(update={"id": "world-long", "rows": 3300})]
+    return [*first.values(), multiple.model_copy(update={"id": LONG, "rows": 3300})]
 
 
 def verdicts(only: str = "") -> Iterator[tuple[str, Verdict]]:
@@ -45,9 +46,11 @@ def verdicts(only: str = "") -> Iterator[tuple[str, Verdict]]:
     for example in sorted(path.parent for path in (ROOT / "examples").glob("*/recordings.csv")):
         if only in ("", "examples"):
             yield example.name, diagnosed(example, Settings(resamples=2))
-    if only in ("", "worlds"):
+    if only in ("", "worlds", "long"):
         with tempfile.TemporaryDirectory() as made:
             for spec in chosen_worlds():
+                if only and (only == "long") != (spec.id == LONG):
+                    continue
                 home = build(spec, Path(made), ROOT / "config" / "robots")
                 yield f"{spec.id}-{spec.category}", diagnosed(home / "visible", QUICK)
     if only in ("", "real") and REAL.exists():

@@ -9,7 +9,7 @@ from armscope.diagnosis.model_space import build_model_space
 from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.fitting.registration import fit_frames
 from armscope.inference import linear_algebra
-from armscope.inference.additions import addition_scores, group_candidates
+from armscope.inference.additions import AskedAdditions, addition_scores, group_candidates
 from armscope.inference.conditioning import condition_on, low_rank_update
 from armscope.inference.constants import NUMERICS
 from armscope.inference.evidence import Hypothesis, evaluate
@@ -97,7 +97,7 @@ def test_only_what_is_asked_is_answered(setting: Problem) -> None:
     hypothesis, groups = whole(setting, (2, 0, 0, 0)), group_candidates(setting.space)
     asked = np.arange(len(setting.prior_costs)) % 3 == 0
     everything = addition_scores(setting, groups, hypothesis)
-    some = addition_scores(setting, groups, hypothesis, asked)
+    some = addition_scores(setting, groups, hypothesis, AskedAdditions(asked, len(asked), -np.inf))
     np.testing.assert_array_equal(some[:, asked], everything[:, asked])
     assert np.all(np.isneginf(some[:, ~asked]))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
 from armscope.inference.conditioning import ConditionedColumns, LowRankUpdate, condition_on
+from armscope.inference.constants import NUMERICS
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.linear_algebra import ColumnBlocks, profiled_gain, quadratic_and_logdet
 from armscope.inference.model_space import Candidate, ModelSpace, within
@@ -18,13 +19,15 @@ from armscope.inference.problem import Problem, SelectedEffect
 
 @dataclass(frozen=True, eq=False)
 class CandidateGroups:
-    """Candidates of equal numbers of columns, so that they are scored together.
+    """Candidates of about as many columns, so that they are scored together.
+
+    One of fewer columns than its group is filled up with columns that may not move.
 
     Attributes:
         competing: (q,) all their columns.
-        members: (m,) candidates of each group.
+        members: (m,) candidates of each group, those of fewest columns first.
         columns: (m, c) where their columns stand in ``competing``.
-        prior_scales: (m, c) relative sizes.
+        prior_scales: (m, c) relative sizes, 0 for what fills up.
         plausible: (m, c) sizes in the columns' own units that no coefficient is expected to exceed.
     """
 
@@ -34,22 +37,38 @@ class CandidateGroups:
     prior_scales: tuple[Array, ...]
     plausible: tuple[Array, ...]
 
+    def widths(self, problem: Problem) -> Iterator[Array]:
+        """(SIZES, m, c) prior standard deviations, mm, of each group."""
+        for columns, scales, plausible in zip(self.columns, self.prior_scales, self.plausible, strict=True):
+            expected = problem.sizes[:, None, None] * scales
+            yield within(expected, plausible, problem.scale[self.competing[columns]])
+
 
 def group_candidates(space: ModelSpace) -> CandidateGroups:
-    """Candidates that compete, by their number of columns."""
+    """Candidates that compete, by about how many columns they have."""
     by_size: dict[int, list[int]] = {}
     for number, candidate in enumerate(space.candidates):
         if candidate.competes:
-            by_size.setdefault(len(candidate.columns), []).append(number)
-    columns = {number: space.candidates[number].columns for members in by_size.values() for number in members}
-    competing = np.unique(np.concatenate(list(columns.values()))) if columns else np.empty(0, dtype=np.intp)
+            by_size.setdefault(_room(len(candidate.columns)), []).append(number)
+    groups = [(np.array(by_size[size]), [space.candidates[n] for n in by_size[size]], size) for size in sorted(by_size)]
+    columns = [np.array([_filled(c.columns, size, c.columns[0]) for c in group]) for _, group, size in groups]
+    competing = np.unique(np.concatenate([each.ravel() for each in columns])) if columns else np.empty(0, dtype=np.intp)
     return CandidateGroups(
         competing,
-        tuple(np.array(members) for members in by_size.values()),
-        tuple(np.searchsorted(competing, [columns[m] for m in members]) for members in by_size.values()),
-        tuple(np.array([space.candidates[m].prior_scale for m in members]) for members in by_size.values()),
-        tuple(np.array([_plausible(space.candidates[m]) for m in members]) for members in by_size.values()),
+        tuple(members for members, _, _ in groups),
+        tuple(np.searchsorted(competing, each) for each in columns),
+        tuple(np.array([_filled(c.prior_scale, size, 0.0) for c in group]) for _, group, size in groups),
+        tuple(np.array([_filled(_plausible(c), size, np.inf) for c in group]) for _, group, size in groups),
     )
+
+
+def _room(columns: int) -> int:
+    """For how many columns there is room in the group of a candidate with so many."""
+    return next((room for room in NUMERICS.rooms if columns <= room), columns)
+
+
+def _filled(values: Array | Indices, room: int, filling: float) -> Array:
+    return np.concatenate([values, np.full(room - len(values), filling, dtype=values.dtype)])
 
 
 def _plausible(candidate: Candidate) -> Array:
@@ -71,11 +90,32 @@ def best_additions(problem: Problem, groups: CandidateGroups, hypothesis: Hypoth
     return by_size.max(axis=0), by_size.argmax(axis=0)
 
 
+@dataclass(frozen=True)
+class AskedAdditions:
+    """Which scores are asked for: others need not be computed.
+
+    Attributes:
+        asked: (candidates,) about which the question is.
+        count: the best so many of them.
+        least: that gain more than this, nats.
+    """
+
+    asked: NDArray[np.bool_]
+    count: int
+    least: float
+
+    def bar(self, scores: Array) -> float:
+        """What a candidate must beat once some have scores, nats."""
+        if self.count >= len(scores):
+            return self.least
+        return max(self.least, float(-np.partition(-scores, self.count - 1)[self.count - 1]))
+
+
 def addition_scores(
     problem: Problem,
     groups: CandidateGroups,
     hypothesis: Hypothesis | LowRankUpdate,
-    asked: NDArray[np.bool_] | None = None,
+    wanted: AskedAdditions | None = None,
     rest: ConditionedColumns | None = None,
 ) -> Array:
     """(SIZES, candidates) what each candidate would add to a hypothesis' log posterior at each size, nats.
@@ -88,57 +128,56 @@ def addition_scores(
         problem: the normal equations and priors.
         groups: the candidates.
         hypothesis: to which they are added.
-        asked: (candidates,) about which the question is; -inf for others.
+        wanted: which scores are of use; all where not given.
         rest: what the hypothesis leaves of the columns that compete.
 
     Returns:
-        (SIZES, candidates) nats, their price taken off.
+        (SIZES, candidates) nats, their price taken off; -inf where not wanted.
     """
     if rest is None:
         assert isinstance(hypothesis, Hypothesis)
         rest = condition_on(problem, groups.competing, hypothesis)
-    noise, chi2 = hypothesis.noise, hypothesis.rss / hypothesis.noise**2
     by_size = np.full((len(problem.sizes), len(problem.prior_costs)), -np.inf)
-    for members, columns, scales, plausible in zip(
-        groups.members, groups.columns, groups.prior_scales, groups.plausible, strict=True
-    ):
-        inside = np.ones(len(members), dtype=np.bool_) if asked is None else asked[members]
-        if not np.any(inside):
+    paid = problem.prior_costs + np.log(len(problem.sizes))
+    for members, columns, widths in zip(groups.members, groups.columns, groups.widths(problem), strict=True):
+        inside = np.arange(len(members)) if wanted is None else np.flatnonzero(wanted.asked[members])
+        if not len(inside):
             continue
-        at = columns[inside]
-        largest = plausible[inside] * problem.scale[groups.competing[at]]
-        D, r = rest.own(problem, at) / noise**2, rest.b[at] / noise**2
-        quadratic, logdet = _by_size(D, r, problem.sizes, scales[inside], largest)
-        if hypothesis.settled:
-            likelier = profiled_gain(quadratic, chi2, problem.n, noise, problem.least_noise)
-        else:
-            likelier = 0.5 * quadratic
-        by_size[:, members[inside]] = likelier - 0.5 * logdet
-    # what can't be negative and would be is not worth looking at; the others' prior is twice as dense
-    half_line = np.flatnonzero(problem.space.nonnegative & np.isfinite(by_size[0]))
-    first = [int(problem.space.candidates[number].columns[0]) for number in half_line]
-    pushed = rest.b[np.searchsorted(groups.competing, first)] > 0
-    by_size[:, half_line] += np.where(pushed, np.log(2), -np.inf)
-    return np.asarray(by_size - problem.prior_costs - np.log(len(problem.sizes)))
+        columns, widths = columns[inside], widths[:, inside]
+        D, r = rest.own(problem, columns) / hypothesis.noise**2, rest.b[columns] / hypothesis.noise**2
+        if wanted is not None and columns.shape[1] > 1:
+            # a gain grows with the prior's width; what it costs in volume is left out
+            most = _likelier(problem, hypothesis, _widened(D, r, widths[-1:])[0])[0] - paid[members[inside]]
+            promising = np.flatnonzero(most > wanted.bar(by_size.max(axis=0)))
+            if not len(promising):
+                continue
+            inside, D, r, widths = inside[promising], D[promising], r[promising], widths[:, promising]
+        quadratic, logdet = _widened(D, r, widths)
+        scores = _likelier(problem, hypothesis, quadratic) - 0.5 * logdet
+        if columns.shape[1] == 1:
+            scores += _half_line(problem, members[inside], r[:, 0])
+        by_size[:, members[inside]] = scores - paid[members[inside]]
+    return by_size
 
 
-def _by_size(D: Array, r: Array, sizes: Array, scale: Array, largest: Array) -> tuple[Array, Array]:
-    """As `quadratic_and_logdet`, with prior sizes (m, c) sizes x scale, but no larger than ``largest``, mm."""
-    held = (largest < sizes[-1] * scale).any(axis=1)
-    if not held.any():
-        return quadratic_and_logdet(D * scale[:, :, None] * scale[:, None, :], r * scale, sizes**2)
-    quadratic, logdet = np.empty((len(sizes), len(D))), np.empty((len(sizes), len(D)))
-    free = ~held
-    if free.any():
-        own = scale[free]
-        inner = D[free] * own[:, :, None] * own[:, None, :]
-        quadratic[:, free], logdet[:, free] = quadratic_and_logdet(inner, r[free] * own, sizes**2)
-    # each size has a shape of its own: as many blocks
-    own = within(sizes[:, None, None] * scale[held], largest[held], np.ones(1))
-    inner = (D[held] * own[..., :, None] * own[..., None, :]).reshape(-1, *D.shape[1:])
-    (told,), (spread,) = quadratic_and_logdet(inner, (r[held] * own).reshape(-1, D.shape[1]), np.ones(1))
-    quadratic[:, held], logdet[:, held] = told.reshape(len(sizes), -1), spread.reshape(len(sizes), -1)
-    return quadratic, logdet
+def _half_line(problem: Problem, members: Indices, r: Array) -> Array:
+    """(m,) what can't be negative and would be is not worth looking at; else its prior is twice as dense; nats."""
+    return np.where(problem.space.nonnegative[members], np.where(r > 0, np.log(2), -np.inf), 0.0)
+
+
+def _likelier(problem: Problem, hypothesis: Hypothesis | LowRankUpdate, quadratic: Array) -> Array:
+    """What a smaller chi2 gains at the noise that then follows, or at one that stays, nats."""
+    if not hypothesis.settled:
+        return 0.5 * quadratic
+    noise = hypothesis.noise
+    return profiled_gain(quadratic, hypothesis.rss / noise**2, problem.n, noise, problem.least_noise)
+
+
+def _widened(D: Array, r: Array, widths: Array) -> tuple[Array, Array]:
+    """As `quadratic_and_logdet` with prior standard deviations (sizes, m, c), mm, of each block's coefficients."""
+    inner = (D * widths[..., :, None] * widths[..., None, :]).reshape(-1, *D.shape[1:])
+    (told,), (volume,) = quadratic_and_logdet(inner, (r * widths).reshape(-1, D.shape[1]), np.ones(1))
+    return told.reshape(len(widths), -1), volume.reshape(len(widths), -1)
 
 
 def joint_addition_scores(problem: Problem, rest: Hypothesis, sets: Sequence[tuple[SelectedEffect, ...]]) -> Array:

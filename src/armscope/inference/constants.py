@@ -142,6 +142,12 @@ class Numerics(Constants):
         "share of a direction that must be left for it to explain something",
         "derived: far above the rounding of sums over rows",
     )
+    rooms: tuple[int, ...] = constant(
+        (1, 4, 12),
+        "for how many of its columns there is room in a group of candidates scored together; larger ones go by size",
+        "judgement: time; the result is the same",
+        unit="columns",
+    )
     many_columns: int = constant(
         8,
         "from which a set is factorised size by size instead of by eigenvalues",

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeVar
 
 import numpy as np
 
-from armscope.inference.additions import CandidateGroups, addition_scores
+from armscope.inference.additions import AskedAdditions, CandidateGroups, addition_scores
 from armscope.inference.conditioning import ConditionedColumns, LowRankUpdate, approximate_removal_loss, low_rank_update
 from armscope.inference.constants import BUDGET, PRIORS
 from armscope.inference.evidence import Hypothesis, evaluate, removal_log_bayes_factors, savage_dickey
@@ -27,11 +27,13 @@ class Edits:
         problem: the normal equations and priors.
         groups: the candidates that compete.
         branches: how many of the most promising additions are evaluated.
+        resized: log posteriors of the hypotheses whose sizes were varied, by effects and background.
     """
 
     problem: Problem
     groups: CandidateGroups
     branches: int = BUDGET.branches
+    resized: dict[tuple[frozenset[SelectedEffect], BackgroundSizes], float] = field(default_factory=dict)
 
     @property
     def space(self) -> ModelSpace:
@@ -95,7 +97,8 @@ class Edits:
             asked[[c for c in self.candidate(member).excludes if not self._generalises(c, member)]] = False
         asked[list(without)] = False
         asked[[n for n, needed in self.space.requires.items() if not needed & parent.candidates]] = False
-        by_size = addition_scores(self.problem, self.groups, parent, asked, remaining)
+        wanted = AskedAdditions(asked, count, least)
+        by_size = addition_scores(self.problem, self.groups, parent, wanted, remaining)
         gain, size = by_size.max(axis=0), by_size.argmax(axis=0)
         order = np.argsort(-gain)[:count]
         return [self._with(parent, SelectedEffect(int(c), int(size[c]))) for c in order if gain[c] > least]
@@ -164,10 +167,15 @@ class Edits:
 
     def _better(self, best: Hypothesis, chosen: tuple[SelectedEffect, ...], background: BackgroundSizes) -> Hypothesis:
         """The better of a hypothesis and another one; a large one is evaluated only if it promises to be."""
+        form = frozenset(chosen), background
+        if self.resized.get(form, np.inf) <= best.log_posterior:
+            return best
         promised = low_rank_update(self.problem, best, chosen, background) if len(best.columns) > BUDGET.large else None
         if promised is not None and promised.log_posterior < best.log_posterior - BUDGET.slack_nats:
             return best
-        return max(best, self.evaluated(chosen, best, background), key=by_posterior)
+        other = self.evaluated(chosen, best, background)
+        self.resized[form] = other.log_posterior
+        return max(best, other, key=by_posterior)
 
     def transferred(self, hypothesis: Hypothesis, space: ModelSpace) -> Hypothesis:
         """A hypothesis on another space, with the effects that this problem's space has, too."""
