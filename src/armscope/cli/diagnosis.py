@@ -144,12 +144,14 @@ def _rows_from(table: Recordings, first_id: int) -> NDArray[np.bool_]:
 @contextlib.contextmanager
 def _progress(title: str) -> Iterator[Callable[[str, float], None]]:
     """A bar on a terminal's standard error; nothing where there is none."""
+    if not sys.stderr.isatty():
+        yield lambda text, share: None
+        return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
     columns = (BarColumn(), TextColumn("{task.description}"), TimeElapsedColumn())
-    console = Console(stderr=True)
-    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(title, total=1.0)
         yield lambda text, share: bar.update(task, description=text, completed=share)
 
