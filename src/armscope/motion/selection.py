@@ -62,14 +62,17 @@ def coefficients_of(problem: Problem, hypothesis: Hypothesis) -> Array:
 def model_so_far(layout: TorqueLayout, coefficients: Array) -> SoFar:
     """What load, delay and gain follow: inertial parameters with all that was added to them, and the background."""
     inertial = layout.arm.inertial + layout.inertial_scale * coefficients[layout.inertial]
-    delay = np.zeros(layout.arm.n_motors)
+    delay, of_runs = np.zeros(layout.arm.n_motors), dict[str, Array]()
     for cause, columns in zip(layout.placed, layout.columns, strict=True):
         if cause.inertial is not None and not cause.runs:
             inertial = inertial + cause.inertial @ coefficients[columns]
+        elif cause.inertial is not None and np.any(coefficients[columns]):
+            for run in cause.runs:
+                of_runs[run] = of_runs.get(run, 0.0) + cause.inertial @ coefficients[columns]
         if cause.cause is catalogue.DELAY:
             delay[cause.joints[0]] += coefficients[columns[0]]
     own = coefficients[layout.own].reshape(-1, OWN)[:, :CAUSES_OF_OWN]
-    return SoFar(inertial, np.nan_to_num(layout.arm.stated_background) + own, delay)
+    return SoFar(inertial, np.nan_to_num(layout.arm.stated_background) + own, delay, of_runs)
 
 
 def select_causes(
@@ -171,7 +174,7 @@ def chosen(
         best = search.best()
     else:
         found, effects = before
-        best = search.best((found.background,), also=search.evaluated(effects, found))
+        best = search.best((), also=search.evaluated(effects, found))
     return SelectedCauses(rows, weights, block, blocks, space, problem, _settled(search, named_first(search, best)))
 
 
