@@ -75,5 +75,5 @@ def test_expectations_fall_from_task_to_task_and_stand_on_the_page(verdict, tmp_
 def test_a_gear_that_turns_too_far_has_fewer_motor_turns_per_joint_turn() -> None:
     ratio = verdicts.found("gear_ratio", "joint 2", Parameter("ratio", "rad/rad", 2e-3, 1e-5))
     case = verdicts.case(effects=(ratio,))
-    (cause,) = contributions(case.verdict).causes
-    assert "0.998004" in task_of(case.verdict, cause, ratio).instruction
+    model, (cause,) = case.verdict.model, contributions(case.verdict).causes
+    assert "0.998004" in task_of(model.scene(case.recordings), cause, ratio).instruction

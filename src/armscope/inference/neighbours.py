@@ -80,13 +80,23 @@ def _exchanges(edits: Edits, hypothesis: Hypothesis) -> Iterator[Hypothesis]:
 
 
 def _split(edits: Edits, hypothesis: Hypothesis, curve: SelectedEffect) -> list[Hypothesis]:
-    """A curve taken apart into two or three of the special cases that it contains, each as large as the curve."""
+    """A curve taken apart into special cases that it contains, or into one and something that it took the place of."""
     special = edits.candidate(curve.candidate).special_cases
-    if len(special) < 2:
+    if not special:
         return []
     rest = edits.without(hypothesis, [curve.candidate])
-    gain, _ = best_additions(edits.problem, edits.groups, rest)
+    gain, size = best_additions(edits.problem, edits.groups, rest)
     likely = sorted(special, key=lambda c: -gain[c])[: BUDGET.special_cases]
+    one = edits.evaluated((*rest.chosen, SelectedEffect(likely[0], int(size[likely[0]]))), rest)
+    least = hypothesis.log_posterior - one.log_posterior - BUDGET.slack_nats
+    others = edits.additions(one, edits.branches, [curve.candidate], least)
+    return [*others, *_special_cases(edits, hypothesis, rest, curve, likely)]
+
+
+def _special_cases(
+    edits: Edits, hypothesis: Hypothesis, rest: Hypothesis, curve: SelectedEffect, likely: Sequence[int]
+) -> list[Hypothesis]:
+    """Two or three of a curve's special cases in its place, each as large as the curve."""
     sets = [
         tuple(SelectedEffect(c, curve.size) for c in members)
         for count in (2, 3)

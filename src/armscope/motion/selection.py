@@ -22,7 +22,7 @@ from armscope.motion.preparation import Preparation
 from armscope.motion.rows import MotionRows, SoFar, build_rows, stated_model
 from armscope.motion.space import build_space
 from armscope.motion.timing import Stretch
-from armscope.motion.weights import TorqueWeights, estimate_weights, left_apart, sums_by_block
+from armscope.motion.weights import JointSums, TorqueWeights, estimate_weights, left_apart, sums_by_joint, weighed
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +31,7 @@ class SelectedCauses:
 
     Attributes:
         rows, weights: the rows, and how much they count.
-        block: (K,) number of each row's block; blocks: their sums.
+        block: (K,) number of each row's block; blocks: their sums; by_joint: the same by joint, whatever its noise.
         space, problem, best: what competed, on which sums, and what won.
     """
 
@@ -39,6 +39,7 @@ class SelectedCauses:
     weights: TorqueWeights
     block: Indices
     blocks: list[NormalEquations]
+    by_joint: list[list[JointSums]]
     space: ModelSpace
     problem: Problem
     best: Hypothesis
@@ -167,7 +168,8 @@ def chosen(
     Returns:
         What won.
     """
-    blocks = sums_by_block(rows, weights, block)
+    by_joint = sums_by_joint(rows, weights.row, block)
+    blocks = [weighed(rows.layout, parts, weights) for parts in by_joint]
     problem = build_problem(space, total(blocks), least_noise=0.5 * PRIOR.unit)
     search = Search.on(problem)
     if before is None:
@@ -175,7 +177,8 @@ def chosen(
     else:
         found, effects = before
         best = search.best((), also=search.evaluated(effects, found))
-    return SelectedCauses(rows, weights, block, blocks, space, problem, _settled(search, named_first(search, best)))
+    best = _settled(search, named_first(search, best))
+    return SelectedCauses(rows, weights, block, blocks, by_joint, space, problem, best)
 
 
 def _start(rows: MotionRows) -> TorqueWeights:
@@ -185,7 +188,7 @@ def _start(rows: MotionRows) -> TorqueWeights:
     have no noise left, and without them a slow cause would count as noise that lasts.
     """
     ordinary = np.concatenate([rows.layout.own, rows.layout.inertial, rows.layout.response])
-    left = np.stack([left_apart(rows, among) for among in (ordinary, np.arange(rows.layout.width))])
+    left = left_apart(rows, (ordinary, np.arange(rows.layout.width)))
     less = np.argmin(np.median(np.abs(left), axis=1), axis=0)
     return estimate_weights(rows, np.take_along_axis(left, less[None, None], axis=0)[0])
 

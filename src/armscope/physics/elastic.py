@@ -90,10 +90,10 @@ def _unknown_masses(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     """Compliance with unknown mass moments: linear in compliance x mass moment; a payload keeps it absolute."""
     scene = Scene(arm, recordings)
     for j in range(1, arm.n_motors + 1):
-        terms = list(_mass_moment_terms(scene, j))
-        if not terms:
+        loads = list(_mass_moment_terms(scene, j))
+        if not loads:
             continue
-        shape = [1.0] * len(terms)
+        terms, shape = [term for term, _ in loads], [share for _, share in loads]
         if varies(recordings.payload, 1e-6):
             terms.append(drive(scene, j, Driver("payload torque", (j,))))
             shape.append(1.0)
@@ -108,17 +108,22 @@ def _unknown_masses(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
         )
 
 
-def _mass_moment_terms(scene: Scene, j: int) -> Iterator[Term]:
-    """Combinations of mass moments that load motor j independently, strongest first (singular vectors)."""
+def _mass_moment_terms(scene: Scene, j: int) -> Iterator[tuple[Term, float]]:
+    """Combinations of mass moments that load motor j independently (singular vectors), and what each is expected to do.
+
+    All are equally likely in kg m; the strongest, which comes first, does most to the motor.
+    """
     regressor = scene.remember("regressor", lambda: _regressor(scene))[:, j - 1]
     spread = regressor - regressor.mean(axis=0)
     _, size, directions = np.linalg.svd(spread, full_matrices=False)
     if size[0] < 1e-6:
         return
-    for number, direction in enumerate(directions[size > MASS_DIRECTIONS_SHARE * size[0]], start=1):
+    strong = size > MASS_DIRECTIONS_SHARE * size[0]
+    for number, (direction, share) in enumerate(zip(directions[strong], size[strong] / size[0], strict=True), start=1):
         load = Driver("regressor", (j, *(float(w) for w in direction)))
         give = plausible_give(PLAUSIBLE.drive_rad, scene.driver(load))
-        yield term(f"compliance_times_moment_{number}", "rad/(m/s^2)", (motor(j), load), plausible=give)
+        name = f"compliance_times_moment_{number}"
+        yield term(name, "rad/(m/s^2)", (motor(j), load), plausible=give), float(share)
 
 
 def _regressor(scene: Scene) -> Array:

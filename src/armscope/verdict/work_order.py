@@ -12,7 +12,7 @@ import pandas as pd
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics.backgrounds import DRIFT, ELASTIC, GEOMETRIC, TRANSMISSION
-from armscope.physics.scene import Part
+from armscope.physics.scene import Part, Scene
 from armscope.verdict.contributions import Contributions, Repair, rms
 from armscope.verdict.schema import INTERVAL, Diagnosis, FoundEffect
 from armscope.verdict.sentences import cure_of_family, phrase
@@ -103,7 +103,8 @@ class WorkOrder:
 
 def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
     """The work order of a verdict: tasks for major effects, and for small errors that make up a cause."""
-    repairs = [(task_of(verdict, cause, effect), cause.moved) for cause in worth.causes for effect in cause.effects[:1]]
+    scene = verdict.model.posture(verdict.model.scene(verdict.recordings)).scene
+    repairs = [(task_of(scene, cause, effect), cause.moved) for cause in worth.causes for effect in cause.effects[:1]]
     share = {family.family: family.share for family in verdict.background_families}
     small = [(_everywhere(family), moved) for family, moved in worth.small.items() if share.get(family, 0) > WORTH_ALL]
     first, left, unpaid = _by_gain(repairs, worth.before)
@@ -144,11 +145,11 @@ def _everywhere(family: str) -> Task:
     )
 
 
-def task_of(verdict: Diagnosis, cause: Repair, effect: FoundEffect) -> Task:
+def task_of(scene: Scene, cause: Repair, effect: FoundEffect) -> Task:
     """What is done about a cause; what it is worth stands open.
 
     Args:
-        verdict: whose cause it is.
+        scene: the fitted model's, of the recorded rows.
         cause: with its parts of the fitted model.
         effect: the effect that it is cured as.
 
@@ -157,7 +158,7 @@ def task_of(verdict: Diagnosis, cause: Repair, effect: FoundEffect) -> Task:
     """
     change, how = CHANGES.get(effect.effect, ("", ""))
     words = {"location": effect.location, "zero": "–", "ratio": "–", "row": "–", "size": ""}
-    words["opposite"] = motion(verdict, cause.parts, -1) or "its opposite"
+    words["opposite"] = motion(scene, cause.parts, -1) or "its opposite"
     told = {p.name: p for p in effect.parameters if not implausible(p, effect)}
     if "offset" in told:
         words["zero"] = f"where the controller shows 0°, the joint stands at {angle(told['offset'].value)}"
@@ -172,7 +173,7 @@ def task_of(verdict: Diagnosis, cause: Repair, effect: FoundEffect) -> Task:
         what=capitalised(phrase(effect)),
         place=effect.location,
         change=change,
-        motion=motion(verdict, cause.parts),
+        motion=motion(scene, cause.parts),
         instruction=how.format(**words),
         cure=effect.cure.replace("`", ""),
         confirm=effect.confirm,
@@ -192,11 +193,11 @@ def _row(effect: FoundEffect) -> Iterator[str]:
         yield f"{p.name} = stated {p.name} {size}"
 
 
-def motion(verdict: Diagnosis, parts: tuple[Part, ...], sign: int = 1) -> str:
+def motion(scene: Scene, parts: tuple[Part, ...], sign: int = 1) -> str:
     """The largest turn and the largest shift of parts over the recorded rows.
 
     Args:
-        verdict: whose parts they are.
+        scene: the fitted model's, of the recorded rows.
         parts: of the fitted model.
         sign: -1 for what undoes them.
 
@@ -204,8 +205,7 @@ def motion(verdict: Diagnosis, parts: tuple[Part, ...], sign: int = 1) -> str:
         In words, with signs; "" for none.
     """
     amounts: dict[str, list[tuple[str, Array]]] = {"turns": [], "moves": []}
-    posture = verdict.model.posture(verdict.model.scene(verdict.recordings))
-    for direction, amount in posture.scene.amounts(parts).items():
+    for direction, amount in scene.amounts(parts).items():
         place = Location.of(direction.location)
         if place.kind in ("instrument", "payload"):
             continue
