@@ -1,0 +1,101 @@
+"""What a diagnosis of an arm in motion costs, by samples: CPU time, memory, and what it says of what was planted.
+
+Motions are generated: six joints on random Fourier paths of 50 s, inverse dynamics of the stated masses, ordinary
+friction and rotors, 2 % of noise, and two causes: friction that grows with load at joint 2, torque 20 ms late at
+joint 4. Each command runs in a process of its own, on one thread, reading of the table included.
+
+    python -m benchmarks.motion [--samples 20000 1000000]
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import yaml
+from benchmarks.scale import cost
+
+from armscope.design.fourier import Limits, random_path
+from armscope.robot.dynamics import MovingArm, load_moving_arm
+
+ARM = Path(__file__).parents[1] / "config" / "motion" / "six-axis.yaml"
+SECONDS, HARMONICS, NOISE, LATE_S, PER_LOAD = 50.0, 12, 0.02, 0.02, 0.08
+RATES = {20_000: 100.0, 1_000_000: 1000.0}
+"""Samples per second by samples: four paths of 50 s, twenty paths of 50 s."""
+PLANTED = {("load_friction", "joint 2"), ("torque_delay", "joint 4")}
+
+
+def robot(folder: Path) -> Path:
+    """robot.yaml of the arm without its friction and rotors, which the diagnosis is to fit."""
+    content = yaml.safe_load(ARM.read_text())
+    for drive in content["drives"]:
+        for stated in ("rotor_inertia_kg_m2", "coulomb_nm", "viscous_nm_s_rad"):
+            del drive[stated]
+    (folder / "robot.yaml").write_text(yaml.safe_dump(content))
+    return folder / "robot.yaml"
+
+
+def motions(samples: int, rate: float, path: Path) -> None:
+    """Write motions.csv with so many samples."""
+    arm, rng = load_moving_arm(ARM), np.random.default_rng(samples)
+    drives = arm.description.drives or ()
+    limits = Limits(
+        np.radians(np.array(arm.description.joint_limits_deg)),
+        np.radians([drive.speed_deg_s for drive in drives]),
+        np.radians([drive.acceleration_deg_s2 for drive in drives]),
+    )
+    each = int(SECONDS * rate)
+    for run in range(samples // each):
+        time = np.arange(each) / rate
+        q, dq, ddq = random_path(limits, HARMONICS, SECONDS, rng).at(time)
+        torque = _torque(arm, q, dq, ddq, time)
+        torque += NOISE * torque.std(axis=0) * rng.normal(size=torque.shape)
+        columns = {"run": f"path {run + 1}", "time_s": time}
+        columns |= {f"q{j + 1}_rad": q[:, j] + 1e-5 * rng.normal(size=each) for j in range(arm.n_motors)}
+        columns |= {f"tau{j + 1}_nm": torque[:, j] for j in range(arm.n_motors)}
+        pd.DataFrame(columns).to_csv(path, mode="a", index=False, header=run == 0, float_format="%.9g")
+
+
+def _torque(arm: MovingArm, q: np.ndarray, dq: np.ndarray, ddq: np.ndarray, time: np.ndarray) -> np.ndarray:
+    _, coulomb, viscous, rotor = arm.stated_background.T
+    rigid = arm.torques(q, dq, ddq, arm.inertial)
+    torque = rigid + coulomb * np.sign(dq) + viscous * dq + rotor * ddq
+    torque[:, 1] += PER_LOAD * np.abs(rigid[:, 1]) * np.sign(dq[:, 1])
+    torque[:, 3] = np.interp(time - LATE_S, time, torque[:, 3])
+    return np.asarray(torque)
+
+
+def main() -> None:
+    """See the module's docstring."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--samples", type=int, nargs="+", default=[20_000, 1_000_000])
+    asked = parser.parse_args()
+    with tempfile.TemporaryDirectory() as made:
+        home, first = Path(made), None
+        for samples in sorted(asked.samples):
+            folder = home / str(samples)
+            folder.mkdir()
+            motions(samples, RATES.get(samples, 1000.0), folder / "motions.csv")
+            command = [sys.executable, "-m", "armscope", "diagnose", str(folder / "motions.csv"), "--no-report"]
+            taken = cost([*command, "-r", str(robot(folder)), "-o", str(folder / "out")])
+            first = first or taken
+            ratios = " and ".join(f"{ratio:.1f} x" for ratio in np.divide(taken, first))
+            print(f"{samples:10,} samples{taken[0]:8.1f} s CPU{taken[1]:8.0f} MB ({ratios} the shortest)")
+            _tell(json.loads((folder / "out" / "verdict.json").read_text()))
+
+
+def _tell(verdict: dict) -> None:
+    named = {(each["effect"], each["location"]) for each in verdict["effects"] if not each["minor"]}
+    found = f"planted causes named: {len(named & PLANTED)} of {len(PLANTED)}, others: {len(named - PLANTED)}"
+    print(f"{'':10} {verdict['rows']:,} rows kept; {found}")
+    before, after = (f"{100 * verdict['held_out'][name]:.2f} %" for name in ("background", "model"))
+    print(f"{'':10} held out: {before} with friction and rotors, {after} with causes")
+
+
+if __name__ == "__main__":
+    main()
