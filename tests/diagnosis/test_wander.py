@@ -91,7 +91,7 @@ def test_a_wander_belongs_to_its_session(tmp_path) -> None:
     moved = wandering(table, 0.02)
     save_model(tmp_path / "model.yaml", diagnose(arm, moved, QUICK).model)
     model = load_model(tmp_path / "model.yaml")
-    assert {part.placed.name for part in model.background} == {"base_wander"}
+    assert {part.placed.name for part in model.background} == {"base_wander", "link_wander"}
     left = predict(model, moved) - moved.positions
     unknown = predict(model, replace(moved, time=None)) - moved.positions
     assert np.sqrt(np.mean(left**2)) < 0.021e-3 < np.sqrt(np.mean(unknown**2)) < 0.03e-3
