@@ -4,27 +4,44 @@ Motions are generated: six joints on random Fourier paths of 50 s, inverse dynam
 friction and rotors, 2 % of noise, and two causes: friction that grows with load at joint 2, torque 20 ms late at
 joint 4. Each command runs in a process of its own, on one thread, reading of the table included.
 
-    python -m benchmarks.motion [--samples 20000 1000000]
+With --figaroh, the shortest motion is also fitted by figaroh (an environment with
+benchmarks/peers/requirements-figaroh.txt), which takes all base parameters, friction, rotors and offsets: its last path
+is held out for both, the other paths are low-passed and derived for both alike. Beside it the same parameters are
+fitted here, without a diagnosis.
+
+    python -m benchmarks.motion [--samples 20000 1000000] [--figaroh PYTHON]
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import os
+import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from time import process_time
 
 import numpy as np
 import pandas as pd
 import yaml
+from benchmarks.diagnosis import ONE_THREAD
 from benchmarks.scale import cost
 
 from armscope.design.fourier import Limits, random_path
+from armscope.motion.layout import TorqueLayout
+from armscope.motion.preparation import parts, preparation
+from armscope.motion.rows import build_rows, stated_model
+from armscope.motion.timing import stretches
+from armscope.motion.verdict import relative
+from armscope.motion.weights import fitted_together
+from armscope.recordings.motions import read_motions
 from armscope.robot.dynamics import MovingArm, load_moving_arm
 
 ARM = Path(__file__).parents[1] / "config" / "motion" / "six-axis.yaml"
 SECONDS, HARMONICS, NOISE, LATE_S, PER_LOAD = 50.0, 12, 0.02, 0.02, 0.08
+CUTOFF_HZ = 10.0
 RATES = {20_000: 100.0, 1_000_000: 1000.0}
 """Samples per second by samples: four paths of 50 s, twenty paths of 50 s."""
 PLANTED = {("load_friction", "joint 2"), ("torque_delay", "joint 4")}
@@ -74,6 +91,7 @@ def main() -> None:
     """See the module's docstring."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--samples", type=int, nargs="+", default=[20_000, 1_000_000])
+    parser.add_argument("--figaroh", help="interpreter of its environment")
     asked = parser.parse_args()
     with tempfile.TemporaryDirectory() as made:
         home, first = Path(made), None
@@ -87,6 +105,36 @@ def main() -> None:
             ratios = " and ".join(f"{ratio:.1f} x" for ratio in np.divide(taken, first))
             print(f"{samples:10,} samples{taken[0]:8.1f} s CPU{taken[1]:8.0f} MB ({ratios} the shortest)")
             _tell(json.loads((folder / "out" / "verdict.json").read_text()))
+            if asked.figaroh and samples == min(asked.samples):
+                beside_figaroh(folder, asked.figaroh)
+
+
+def beside_figaroh(folder: Path, python: str) -> None:
+    """Fit all but the last path, here and by figaroh, and compare errors on it."""
+    arm, table = load_moving_arm(folder / "robot.yaml"), read_motions(folder / "motions.csv")
+    *train, test = stretches(table)
+    how = preparation(train[0].rate, CUTOFF_HZ, "given")
+    layout = TorqueLayout(arm, (), False)
+    started = process_time()
+    rows = build_rows(layout, train, how, stated_model(arm))
+    found = fitted_together(rows, np.arange(layout.width))
+    seconds = process_time() - started
+    apart = build_rows(layout, [test], how, stated_model(arm))
+    missed = apart.torque - apart.nominal - apart.modelled(found)
+    print(f"{'':10} same parameters, here: {seconds:.2f} s CPU, held out {100 * relative(missed, apart.torque):.2f} %")
+    laid: dict[str, np.ndarray] = {"every": np.array(how.every)}
+    for part, some in (("train", train), ("test", [test])):
+        smooth = [each for stretch in some for each in parts([stretch], how, every_sample=True)]
+        for name in ("q", "dq", "ddq"):
+            laid[f"{name}_{part}"] = np.concatenate([getattr(each, name)[each.kept] for each in smooth])
+        laid[f"tau_{part}"] = np.concatenate([stretch.effort for stretch in some])
+    np.savez(folder / "motion.npz", **laid)
+    peer = Path(__file__).parent / "peers" / "motion_with_figaroh.py"
+    command = [python, str(peer), str(folder / "out" / "corrected.urdf"), str(folder / "motion.npz")]
+    told = subprocess.run(command, capture_output=True, text=True, check=True, env=os.environ | ONE_THREAD).stdout
+    theirs = json.loads(told.splitlines()[-1])
+    error, count = 100 * theirs["held_out"], theirs["parameters"]
+    print(f"{'':10} figaroh: {theirs['cpu_s']:.2f} s CPU, held out {error:.2f} % with {count} parameters")
 
 
 def _tell(verdict: dict) -> None:
