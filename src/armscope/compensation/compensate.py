@@ -378,7 +378,7 @@ def _named(model: FittedModel, rows: Recordings) -> tuple[Recordings, NDArray[np
     if "" not in model.bases and (run == "").any():
         last = list(model.bases)[-1]
         run[run == ""] = last
-        notes.append(f"rows without a run are taken as of run {last!r}")
+        notes += [f"rows without a run are taken as of run {last!r}"] if len(model.bases) > 1 else []
     for name in sorted(set(run) - set(model.bases)):
         _refuse(refused, np.flatnonzero(run == name), f"run {name!r} is not in the model")
     targets = sorted({str(part.placed.variant) for part in model.tools})
