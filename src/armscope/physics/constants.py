@@ -137,7 +137,7 @@ class PlausibleSizes(Constants):
     )
     mass_share: float = constant(
         0.1,
-        "error of a link's stated mass as a share of it",
+        "error of a link's or a payload's stated mass as a share of it",
         "judgement: identified masses differ from the makers' by 10-30 %: cables, grease and covers are not in the "
         "drawing; at 0.2 a factor common to all masses passes for a payload's",
     )
