@@ -14,6 +14,8 @@ import time
 from pathlib import Path
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "five-effects"
+ROOT = EXAMPLE.parents[1]
+MODEL, URDF = ROOT / "tests/fuzz/corpus/model/five-effects.yaml", ROOT / "tests/robot/torso_arm.urdf"
 ROUNDS = 5
 AIM_S = 0.7
 LINES = (
@@ -23,8 +25,14 @@ LINES = (
     "check BAD.csv -r ROBOT",
     "calibrate BAD.csv -r ROBOT -o OUT",
     "predict BAD.yaml RECORDINGS -o OUT.csv",
-    "compensate BAD.yaml RECORDINGS -o OUT.csv",
     "poses -r BAD.yaml -o OUT.csv",
+    "compensate BAD.yaml RECORDINGS -o OUT.csv",
+    "compensate MODEL BAD.csv -o OUT.csv",
+    "predict MODEL BAD.csv -o OUT.csv",
+    "fit-error-model BAD.csv -r ROBOT -o OUT.json",
+    "diagnose CELL.csv -r ROBOT -o OUT",
+    "check CELL.csv -r ROBOT",
+    "diagnose BAD.csv -r URDF -o OUT",
     "compare BAD.csv BAD.csv -r ROBOT",
     "init nowhere.urdf",
 )
@@ -49,6 +57,11 @@ def main() -> None:
         places = {"BAD": Path(folder) / "bad", "OUT": Path(folder) / "out"}
         Path(f"{places['BAD']}.yaml").write_text("name: arm\n")
         Path(f"{places['BAD']}.csv").write_text("a,b\n1,2\n")
+        rows = (EXAMPLE / "recordings.csv").read_text().splitlines()
+        rows[40] = rows[40].replace(".", ",", 1).replace(",", ";", 1)
+        places["CELL"] = Path(folder) / "cell"
+        Path(f"{places['CELL']}.csv").write_text("\n".join(rows) + "\n")
+        places |= {"MODEL": MODEL, "URDF": URDF}
         places |= {"ROBOT": EXAMPLE / "robot.yaml", "RECORDINGS": EXAMPLE / "recordings.csv"}
         print(f"{'armscope ...':45s} wall s  CPU s  (aim: {AIM_S} s)")
         for line in LINES:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from armscope.inference.additions import addition_scores
+from armscope.inference.additions import AskedAdditions, addition_scores
 from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.model_space import Candidate, Exchange, ModelSpace, ToleranceFamily
 from armscope.inference.neighbours import block_removals, neighbours
@@ -126,6 +126,32 @@ def with_curve() -> list[Candidate]:
 def test_a_curve_takes_the_place_of_many_special_cases_and_one_that_of_a_curve() -> None:
     assert search_on(space_of(with_curve()), {0: 0.3, 1: -0.2, 2: 0.25, 3: 0.2}).best().candidates == {SINGLE}
     assert search_on(space_of(with_curve()), {2: 0.3}).best().candidates == {2}
+
+
+def test_a_curve_that_stood_for_one_of_its_special_cases_and_something_else_is_left() -> None:
+    """Neither of the two alone is better than the curve that imitates their sum."""
+    rng = np.random.default_rng(5)
+    X = rng.normal(size=(ROWS, FRAMES + SINGLE))
+    X[:, FRAMES + 6] = X[:, FRAMES + 1 : FRAMES + 4] @ np.array([0.6, -0.5, 0.6]) + 0.12 * rng.normal(size=ROWS)
+    y = 0.5 * X[:, FRAMES] + 0.4 * X[:, FRAMES + 6] + rng.normal(0, NOISE, ROWS)
+    equations = NormalEquations(X.T @ X, X.T @ y, float(y @ y), float(ROWS))
+    search = Search.on(build_problem(space_of(with_curve()), equations, 0.5 * NOISE))
+    curve = search.evaluated((SelectedEffect(SINGLE, 3),), search.perfect())
+    better = {h.candidates for h in neighbours(search, curve) if h.log_posterior > curve.log_posterior}
+    assert {0, 6} in better
+
+
+@pytest.mark.parametrize("truth", [{}, {2: 0.3}, {0: 0.2, 3: 0.3, 5: 0.5}])
+def test_what_is_not_scored_at_every_size_is_not_among_the_best(truth: dict[int, float]) -> None:
+    search = search_on(space_of(with_curve()), truth)
+    everything = addition_scores(search.problem, search.groups, search.perfect())
+    best = np.sort(everything.max(axis=0))[::-1]
+    for count in (1, 3):
+        for least in (-np.inf, 0.0, float(best[count])):
+            asked = AskedAdditions(np.ones(SINGLE + 1, dtype=bool), count, least)
+            some = addition_scores(search.problem, search.groups, search.perfect(), asked).max(axis=0)
+            expected = [gain for gain in best[:count] if gain > least]
+            np.testing.assert_allclose(np.sort(some)[::-1][: len(expected)], expected)
 
 
 def test_special_cases_beyond_what_is_common_cost_more() -> None:

@@ -30,7 +30,7 @@ from armscope.motion.selection import select_causes
 from armscope.motion.space import build_space
 from armscope.motion.timing import Stretch, mended, stretches
 from armscope.motion.verdict import UnexplainedTorque, relative
-from armscope.motion.weights import estimate_weights, fitted_together
+from armscope.motion.weights import estimate_weights, fitted_together, weighed
 from armscope.recordings.motions import Motions
 from tests.motion.moving import COULOMB, moved, robot
 
@@ -175,7 +175,15 @@ def test_one_run_in_turn_is_held_out() -> None:
     selected = select_causes(layout, list(stretches(motions)), how, ("path 1", "path 2"), lambda text, share: None)
     held = folds(selected)
     assert [set(fold.rows.run[fold.which]) for fold in held] == [{"path 1"}, {"path 2"}]
-    assert held[0].problem.n + held[1].problem.n == pytest.approx(selected.problem.n)
+    # each path counts by its own noise, so that their numbers of independent rows need not add up
+    assert held[0].problem.n + held[1].problem.n == pytest.approx(selected.problem.n, rel=0.2)
+    for number, fold in enumerate(held):
+        (other,) = (k for k in range(2) if k != number)
+        as_all = weighed(selected.rows.layout, selected.by_joint[other], selected.weights)
+        assert as_all.n == pytest.approx(selected.blocks[other].n)
+        own, common = (np.diag(p.equations.G) for p in (fold.problem, fold.problem.with_equations(as_all)))
+        ratio = common[own > 0] / own[own > 0]
+        assert 0.5 < ratio.min() <= ratio.max() < 2  # the sums of the other path, each joint by its own noise
 
 
 def test_sizes_that_differ_from_path_to_path_are_no_physics() -> None:

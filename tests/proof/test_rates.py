@@ -5,8 +5,9 @@ from __future__ import annotations
 import pandas as pd
 import pytest
 
+from armscope.proof.binomial import rate
 from armscope.proof.definitions import judged
-from armscope.proof.rates import detection_table, evidence_table, rate
+from armscope.proof.rates import detection_table, evidence_table
 
 
 def test_intervals_are_those_of_clopper_and_pearson():

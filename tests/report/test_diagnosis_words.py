@@ -99,7 +99,7 @@ def test_the_first_sentence_names_cause_size_and_share():
     case = verdicts.single()
     assert headline(case.verdict) == (
         "Joint 2 gives way by 0.21 µrad per N m under gravity – 55 % of the squared error. "
-        "Small errors of shape in all its joints and links, as any arm has: 2.0 %. The 0.0276 mm left are noise."
+        "Small errors of shape in all its joints and links, as any arm has: 2.0 %; the 0.0276 mm left are noise."
     )
 
 

@@ -12,7 +12,7 @@ from armscope.report.pages.diagnosis import write_report
 from armscope.robot.arm import build_arm
 from armscope.verdict.contributions import contributions
 from armscope.verdict.schema import Parameter
-from armscope.verdict.work_order import CHANGES, angle, corrected_rows, tasks, zero_offsets
+from armscope.verdict.work_order import CHANGES, angle, corrected_rows, task_of, work_order, zero_offsets
 from tests.physics.test_cure import World
 from tests.report import verdicts
 from tests.verdict.test_contributions import missed, verdict, world  # noqa: F401  (fixtures)
@@ -33,7 +33,7 @@ def degrees(words: str) -> list[float]:
 
 def test_a_zero_set_as_worded_takes_its_error_away(world: World, verdict) -> None:  # noqa: F811
     worth = contributions(verdict)
-    (task,) = [task for task in tasks(verdict, worth) if task.change == "mastering"]
+    (task,) = [task for task in work_order(verdict, worth).tasks if task.change == "mastering"]
     assert task.place == "joint 3"
     (stands_at,) = degrees(task.instruction)
     # a controller that shows 0 there will show what the joint stands at: the same command then turns it less
@@ -48,7 +48,7 @@ def test_a_zero_set_as_worded_takes_its_error_away(world: World, verdict) -> Non
 def test_a_corrected_row_in_the_controllers_model_explains_what_is_predicted(world: World, verdict) -> None:  # noqa: F811
     rows, worth = corrected_rows(verdict), contributions(verdict)
     assert rows is not None
-    (task,) = [task for task in tasks(verdict, worth) if task.change == "D-H row"]
+    (task,) = [task for task in work_order(verdict, worth).tasks if task.change == "D-H row"]
     content = world.arm.description.model_dump()
     for stated, row in zip(content["dh"]["joints"], rows.to_dict("records"), strict=True):
         for name in ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg"):
@@ -62,8 +62,9 @@ def test_a_corrected_row_in_the_controllers_model_explains_what_is_predicted(wor
 
 
 def test_expectations_fall_from_task_to_task_and_stand_on_the_page(verdict, tmp_path: Path) -> None:  # noqa: F811
-    done = tasks(verdict, contributions(verdict))
+    done = work_order(verdict, contributions(verdict)).tasks
     then = [task.then_mm for task in done]
+    assert then == sorted(then, reverse=True)
     assert then[0] == pytest.approx(done[0].alone_mm)
     assert then[-1] < 0.1 * verdict.residual_before_mm
     page = write_report(verdict, tmp_path).with_name("work-order.html").read_text()
@@ -74,5 +75,5 @@ def test_expectations_fall_from_task_to_task_and_stand_on_the_page(verdict, tmp_
 def test_a_gear_that_turns_too_far_has_fewer_motor_turns_per_joint_turn() -> None:
     ratio = verdicts.found("gear_ratio", "joint 2", Parameter("ratio", "rad/rad", 2e-3, 1e-5))
     case = verdicts.case(effects=(ratio,))
-    (task,) = tasks(case.verdict, contributions(case.verdict))
-    assert "0.998004" in task.instruction
+    model, (cause,) = case.verdict.model, contributions(case.verdict).causes
+    assert "0.998004" in task_of(model.scene(case.recordings), cause, ratio).instruction

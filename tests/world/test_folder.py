@@ -173,7 +173,7 @@ def test_an_effect_outside_the_library_is_called_unknown_with_its_driver_and_sha
 
 
 def test_a_real_arm_has_a_story_and_a_background(tmp_path):
-    world = next(s for s in catalogue(3) if s.category == "real").model_copy(update={"rows": 60})
+    world = next(s for s in catalogue(3, "full") if s.category == "real").model_copy(update={"rows": 60})
     truth, *_ = read(build(world, tmp_path, ROBOTS))
     story = [effect for effect in truth["effects"] if not effect["minor"]]
     background = [effect for effect in truth["effects"] if effect["minor"]]

@@ -1,6 +1,6 @@
 # The diagnosis on worlds with concealed effects. Who diagnoses sees the recordings only; the truth is in an archive elsewhere.
 PROOF_TABLES = (
-    "worlds effects names intervals pairs aims per_effect evidence power strength detection thresholds outcomes effect_outcomes "
+    "worlds effects names intervals pairs aims rough per_effect evidence power strength detection thresholds outcomes effect_outcomes "
     "outside held_out confusion false_alarms wrong_worlds"
 ).split()
 PROOF_FIGURES = "aims power confusion per_effect outcomes outside held_out".split()

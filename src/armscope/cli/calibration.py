@@ -34,8 +34,8 @@ def check(
         if check_motions_table(recordings, robot, json):
             raise typer.Exit(1)
         return
-    arm = None if robot is None else robot_of(robot)
     table = table_of(recordings)
+    arm = None if robot is None else robot_of(robot)
 
     from armscope.check import check as check_table
 
@@ -79,10 +79,9 @@ def calibrate(
     """Calibrate the arm's geometry and export it as robot.yaml and URDF."""
     from dataclasses import replace
 
-    from armscope.cli.robots import robot_of, table_of
+    from armscope.cli.robots import arm_and_tables
 
-    arm = robot_of(robot)
-    table = table_of(recordings, arm.n_motors)
+    arm, (table,) = arm_and_tables(robot, [recordings])
 
     from armscope.calibration import calibrate as calibrated
     from armscope.calibration.export import FILES, export

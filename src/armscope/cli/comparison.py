@@ -35,11 +35,11 @@ def compare(
     Causes that came, went, grew or shrank, each with a 95 % interval of the difference, and one joint test that nothing
     changed. Base and tool may differ.
     """
-    from armscope.cli.robots import print_json, robot_of, table_of
+    from armscope.cli.robots import arm_and_tables, print_json
 
-    arm = robot_of(robot or _inside(recordings[0], ROBOT))
     files = [_inside(each, RECORDINGS) for each in recordings]
-    tables = {name: table_of(file, arm.n_motors) for name, file in zip(_names(recordings), files, strict=True)}
+    arm, read = arm_and_tables(robot or _inside(recordings[0], ROBOT), files)
+    tables = dict(zip(_names(recordings), read, strict=True))
 
     from armscope.comparison import compare as compare_recordings
 

@@ -49,7 +49,6 @@ def compensate(
     """Commands that make the real arm reach the wanted points; exit code 3 where some rows have none."""
     from armscope.cli.cost import COMPENSATE, announce
     from armscope.compensation.output import FORMATS, write_commands
-    from armscope.compensation.path import read_path
     from armscope.core.streams import is_stream
 
     if not str(output).endswith(FORMATS) and not is_stream(output):
@@ -57,6 +56,9 @@ def compensate(
     fitted = _load(model)
     _check_robot(robot, fitted.arm)
     announce(path, COMPENSATE, threads)
+
+    from armscope.compensation.path import read_path
+
     wanted = read_path(path, fitted.arm)
 
     import numpy as np
@@ -95,7 +97,7 @@ def fit_error_model(
     orientation: Annotated[bool, typer.Option(help="fit measured orientations (qw, qx, qy, qz), too")] = True,
 ) -> None:
     """Fit one of the paper's error models to recordings, ready for `armscope compensate`: three axes, or all six."""
-    from armscope.cli.robots import robot_of, table_of
+    from armscope.cli.robots import arm_and_tables
     from armscope.core.inputs import nearest
 
     methods = {"least-squares": "least squares", "swarm": "swarm"}
@@ -105,8 +107,7 @@ def fit_error_model(
         raise InputError("--regions", "", regions, "auto or 1, 2, 4, ...; more than one by least squares only")
     if products and (method != "least-squares" or regions != "1"):
         raise InputError("--products", "", f"--method {method} --regions {regions}", "least squares, one region")
-    arm = robot_of(robot)
-    table = table_of(recordings, arm.n_motors)
+    arm, (table,) = arm_and_tables(robot, [recordings])
 
     from armscope.compensation import fit_error_model as fit
     from armscope.compensation import save_error_model

@@ -63,7 +63,7 @@ def diagnose(
     """
     from armscope.cli.cost import DIAGNOSE, announce
     from armscope.cli.motion import Asked, diagnose_motions
-    from armscope.cli.robots import print_json, robot_of, table_of
+    from armscope.cli.robots import arm_and_tables, print_json
     from armscope.core.inputs import InputError
     from armscope.recordings.first_lines import is_motion_table
 
@@ -78,9 +78,8 @@ def diagnose(
         if exit_code and mismatch is not False:
             raise typer.Exit(MISMATCH if mismatch else UNUSABLE)
         return
-    arm = robot_of(robot, priors, arm_type)
     announce(recordings, DIAGNOSE, threads)
-    table = table_of(recordings, arm.n_motors)
+    arm, (table,) = arm_and_tables(robot, [recordings], priors, arm_type)
 
     from armscope.check.preconditions import refuse_unusable
     from armscope.compensation.physical import FILE as DOMAIN
@@ -145,12 +144,14 @@ def _rows_from(table: Recordings, first_id: int) -> NDArray[np.bool_]:
 @contextlib.contextmanager
 def _progress(title: str) -> Iterator[Callable[[str, float], None]]:
     """A bar on a terminal's standard error; nothing where there is none."""
+    if not sys.stderr.isatty():
+        yield lambda text, share: None
+        return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
     columns = (BarColumn(), TextColumn("{task.description}"), TimeElapsedColumn())
-    console = Console(stderr=True)
-    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(title, total=1.0)
         yield lambda text, share: bar.update(task, description=text, completed=share)
 

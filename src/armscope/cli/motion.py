@@ -100,10 +100,13 @@ def predicted_motions(model: Path, motions: Path) -> tuple[pd.DataFrame, list[st
 
     if model.suffix == ".json" or is_xml(model):
         return None
+    content = read_yaml(model)
+    if not (isinstance(content, dict) and "motion" in str(content.get("format"))):
+        return None  # what reads models of motions is slow to import
     from armscope.motion.model_file import is_motion_model
     from armscope.motion.predicting import predict_motions
 
-    return predict_motions(model, motions) if is_motion_model(read_yaml(model)) else None
+    return predict_motions(model, motions) if is_motion_model(content) else None
 
 
 def check_motions_table(table: Path, robot: Path | None, as_json: bool) -> bool:

@@ -12,33 +12,53 @@ if TYPE_CHECKING:
     from armscope.robot import Arm
 
 
-def robot_of(path: Path, priors: Path | None = None, arm_type: str | None = None) -> Arm:
+def robot_of(path: Path) -> Arm:
     """The arm of a robot.yaml or a URDF; guesses about a URDF are said.
 
+    Raises:
+        InputError: it can't be used.
+    """
+    return arm_and_tables(path, [])[0]
+
+
+def arm_and_tables(
+    robot: Path, paths: list[Path], priors: Path | None = None, arm_type: str | None = None
+) -> tuple[Arm, list[Recordings]]:
+    """The arm and recordings of it; tables are read before kinematics are imported, so that a bad one is told at once.
+
     Args:
-        path: of the arm.
+        robot: robot.yaml or a URDF, whose guesses are said.
+        paths: of the tables.
         priors: priors.yaml of a fleet, and
         arm_type: which of its types the arm is.
 
     Returns:
-        The arm.
+        The arm, and the recordings of each table.
 
     Raises:
         InputError: a file can't be used.
     """
     from armscope.core.inputs import InputError
-    from armscope.robot.arm import build_arm
-    from armscope.robot.arm_type import ArmType, read_arm_type
     from armscope.robot.description_file import guesses, load_description
     from armscope.robot.urdf_file import is_xml
 
-    description = load_description(path)
-    for guess in guesses(description) if is_xml(path) else ():
-        print(f"note: {path}: {guess}; `armscope init {path}` writes a robot.yaml to mend it", file=sys.stderr)
+    description = load_description(robot)
+    for guess in guesses(description) if is_xml(robot) else ():
+        print(f"note: {robot}: {guess}; `armscope init {robot}` writes a robot.yaml to mend it", file=sys.stderr)
     if priors is None and arm_type is not None:
         raise InputError("--arm-type", "", arm_type, "a type of --priors, which is not given")
+    motors = None if description.dh is None else description.n_motors(len(description.dh.joints))
+    tables = [table_of(path, motors) for path in paths]
+
+    from armscope.robot.arm import build_arm
+    from armscope.robot.arm_type import ArmType, read_arm_type
+
     known = ArmType() if priors is None else read_arm_type(priors, arm_type)
-    return replace(build_arm(description), type=known)
+    arm = replace(build_arm(description), type=known)
+    for table, path in zip(tables, paths, strict=True):
+        if table.n_motors != arm.n_motors:  # how many motors a URDF has, only its arm tells
+            table_of(path, arm.n_motors)
+    return arm, tables
 
 
 def table_of(path: Path, n_motors: int | None = None) -> Recordings:

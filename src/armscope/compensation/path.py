@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-import pandas as pd
 
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
@@ -15,6 +15,9 @@ from armscope.recordings import Recordings
 from armscope.recordings.table import as_recordings
 from armscope.recordings.textfile import read_text_table
 from armscope.robot import Arm
+
+if TYPE_CHECKING:
+    import pandas as pd  # slow to import
 
 Frame = Literal["base", "measurement"]
 
@@ -45,7 +48,7 @@ def read_path(path: Path | str, arm: Arm) -> WantedPath:
     Raises:
         InputError: names file, row, column, the value found, the rule and the cure.
     """
-    return as_path(read_text_table(Path(path)), path, arm)
+    return as_path(read_text_table(Path(path), lambda header: _given(header, path)), path, arm)
 
 
 def as_path(table: pd.DataFrame, source: Path | str, arm: Arm) -> WantedPath:
@@ -62,20 +65,22 @@ def as_path(table: pd.DataFrame, source: Path | str, arm: Arm) -> WantedPath:
     Raises:
         InputError: as `read_path`.
     """
-    has_angles = any(f"q{motor}_{unit}" in table for motor in range(1, 10) for unit in ("rad", "deg"))
-    has_points = any(f"{axis}_{unit}" in table for axis in "xyz" for unit in ("mm", "m"))
-    if not has_angles and not has_points:
-        raise InputError(
-            source,
-            "line 1",
-            ", ".join(map(str, table.columns[:6])),
-            "a path has x_mm, y_mm, z_mm (or _m), or q1_rad, q2_rad, ... (or _deg)",
-            "The unit is part of the column's name.",
-        )
+    has_angles, has_points = _given(table.columns, source)
     if not has_angles:
         table = table.assign(**{f"q{motor}_rad": 0.0 for motor in range(1, arm.n_motors + 1)})
     rows = as_recordings(table, source, arm.n_motors, measured=has_points)
     return WantedPath(rows, rows.positions if has_points else None, has_angles)
+
+
+def _given(columns: Iterable[str], source: Path | str) -> tuple[bool, bool]:
+    """Whether a table has motor angles, and whether it has points."""
+    names = list(map(str, columns))
+    has_angles = any(f"q{motor}_{unit}" in names for motor in range(1, 10) for unit in ("rad", "deg"))
+    has_points = any(f"{axis}_{unit}" in names for axis in "xyz" for unit in ("mm", "m"))
+    if not has_angles and not has_points:
+        rule = "a path has x_mm, y_mm, z_mm (or _m), or q1_rad, q2_rad, ... (or _deg)"
+        raise InputError(source, "line 1", ", ".join(names[:6]), rule, "The unit is part of the column's name.")
+    return has_angles, has_points
 
 
 def unit_doubt(points: Array, reach: float) -> str:

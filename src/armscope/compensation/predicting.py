@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from armscope.core.inputs import InputError, read_yaml
 from armscope.core.types import Array
@@ -15,6 +15,9 @@ from armscope.physics.model_file import load_model
 from armscope.recordings import Recordings, read_recordings
 from armscope.robot import load_arm, tool_frames
 from armscope.robot.urdf_file import is_xml
+
+if TYPE_CHECKING:
+    import pandas as pd  # slow to import, and many a model is refused
 
 Found = tuple[Array, Array | None, Recordings, list[str]]
 """Points (N, 3), m, orientations (N, 3, 3), the rows they are of, and what a user should know."""
@@ -55,6 +58,7 @@ def points_table(points: Array, rotations: Array | None, rows: Recordings) -> pd
     Returns:
         Columns id, run, x_mm, y_mm, z_mm and, where there are rotations, qw, qx, qy, qz.
     """
+    import pandas as pd
     from scipy.spatial.transform import Rotation
 
     table = pd.DataFrame({"id": rows.id, "run": rows.run})

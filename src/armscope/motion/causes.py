@@ -110,6 +110,7 @@ class Seen:
     Attributes:
         arm: the arm.
         q, dq: (m, 2) least and largest position and velocity.
+        speeds: (m, K) speeds without their sign, evenly spaced among all.
         load: (m,) largest torque that the stated masses ask for, N m.
         effort: (m,) RMS of the recorded torque.
         time: (2,) s, first and last, of the longest run.
@@ -123,6 +124,7 @@ class Seen:
     arm: MovingArm
     q: Array
     dq: Array
+    speeds: Array
     load: Array
     effort: Array
     time: Array

@@ -199,7 +199,7 @@ class MotionTelling(Constants):
 
     minor_share: float = constant(
         0.01,
-        "of what friction and masses leave, below which a cause is apart from the story",
+        "of what friction and rotors leave, below which a cause is apart from the story",
         "judgement: nobody would repair it first",
     )
     looked_at: int = constant(40, "rivals of a cause", "judgement: time", unit="causes")
@@ -207,7 +207,7 @@ class MotionTelling(Constants):
         20.0, "by which a rival that is listed may fall short", "judgement: told, not hidden", unit="nats"
     )
     listed: int = constant(4, "rivals of a cause", "judgement: nobody reads more", unit="causes")
-    in_headline: int = constant(3, "causes", "judgement: a sentence holds no more", unit="causes")
+    in_headline: int = constant(4, "causes", "judgement: a sentence holds no more", unit="causes")
 
 
 @dataclass(frozen=True)

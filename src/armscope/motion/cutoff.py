@@ -8,6 +8,7 @@ import numpy as np
 from scipy.signal import welch
 
 from armscope.core.types import Array
+from armscope.motion.constants import LIBRARY
 from armscope.motion.first_look import FirstLook, first_look
 from armscope.motion.preparation import Preparation, preparation, thinned
 from armscope.motion.sampling_constants import CUTOFF
@@ -18,8 +19,9 @@ from armscope.robot.dynamics import MovingArm
 def chosen_cutoff(arm: MovingArm, stretches: Sequence[Stretch], asked: float | None) -> tuple[Preparation, FirstLook]:
     """How samples become rows, with the cut-off that was asked for or the one that the spectra give.
 
-    Friction, rotors, masses and ripple are fitted at a generous cut-off; of their torque and of what it leaves, the
-    spectra are taken. Above the frequency where what is left is as large, samples hold noise.
+    Of the longest motion of all joints, friction, rotors, masses and ripple are fitted at a generous cut-off; of their
+    torque and of what it leaves, the spectra are taken. Above the frequency where what is left is as large, samples
+    hold noise.
 
     Args:
         arm: the arm.
@@ -35,7 +37,7 @@ def chosen_cutoff(arm: MovingArm, stretches: Sequence[Stretch], asked: float | N
 
 def _chosen(arm: MovingArm, stretches: Sequence[Stretch], asked: float | None) -> tuple[Preparation, FirstLook]:
     rate = stretches[0].rate
-    longest = max(stretches, key=len)
+    longest = max(stretches, key=lambda stretch: (np.sum(np.ptp(stretch.q, axis=0) > LIBRARY.still_rad), len(stretch)))
     moving = _position_cutoff(longest)
     generous = preparation(rate, min(CUTOFF.widest * rate, CUTOFF.widest_hz), "generous", moving)
     first = first_look(arm, longest, generous)

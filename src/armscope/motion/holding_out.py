@@ -17,6 +17,7 @@ from armscope.motion.constants import NOISE
 from armscope.motion.rows import MotionRows
 from armscope.motion.selection import SelectedCauses, coefficients_of
 from armscope.motion.verdict import HeldOutMotion, Step, relative
+from armscope.motion.weights import noise_of, weighed
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,14 +43,25 @@ def folds(selected: SelectedCauses) -> list[Fold]:
     parts = [tuple(range(3, NOISE.blocks_of_time))] if single else [(k,) for k in range(count)]
     made = []
     for held in parts:
-        rest = [block for number, block in enumerate(selected.blocks) if number not in held]
-        problem = selected.problem.with_equations(total(rest))
+        problem = _of_the_rest(selected, held)
         search = Search.on(problem)
         also = search.evaluated(selected.best.chosen, selected.best)
         found = search.best((selected.best.background,), also=also, local=False)
         which = np.flatnonzero(np.isin(selected.block, held))
         made.append(Fold(selected.rows, which, problem, found))
     return made
+
+
+def _of_the_rest(selected: SelectedCauses, held: tuple[int, ...]) -> Problem:
+    """The sums of what is not held out, by its own noise: what one path leaves is not what all of them leave."""
+    rest = [number for number in range(len(selected.blocks)) if number not in held]
+    problem = selected.problem.with_equations(total([selected.blocks[number] for number in rest]))
+    fitted = Search.on(problem).evaluated(selected.best.chosen, selected.best)
+    rows = selected.rows
+    left = rows.torque - rows.nominal - rows.modelled(coefficients_of(problem, fitted))
+    among = selected.weights.row * np.isin(selected.block, rest)[:, None]
+    parts = [part for number in rest for part in selected.by_joint[number]]
+    return problem.with_equations(weighed(rows.layout, parts, noise_of(rows, left, among)))
 
 
 def own_fold(selected: SelectedCauses, rows: MotionRows) -> Fold:

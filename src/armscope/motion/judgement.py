@@ -96,20 +96,19 @@ def covariance_of(selected: SelectedCauses, number: int) -> Array:
 
 
 def _shares(selected: SelectedCauses) -> list[float]:
-    """Share of what friction and masses leave, of each chosen cause."""
+    """Share of what friction and rotors leave, of each chosen cause.
+
+    Masses that are off unnamed come in like a cause: what a name and they explain alike, they share.
+    """
     best, problem = selected.best, selected.problem
     ridge = np.full(len(problem.scale), 1e12)
     ridge[best.columns] = best.noise**2 / best.variance
-    base = np.concatenate([problem.space.frames, *_background_columns(selected)])
     members = [selected.space.candidates[effect.candidate].columns for effect in best.chosen]
-    base = np.setdiff1d(base, np.concatenate(members)) if members else base
-    return [float(share) for share in shares(problem.equations, ridge, base, members)]
-
-
-def _background_columns(selected: SelectedCauses) -> list[Array]:
-    families = zip(selected.space.families, selected.best.background, strict=True)
-    inside = set(selected.best.columns.tolist())
-    return [np.array([c for c in family.columns if c in inside], dtype=np.intp) for family, size in families if size]
+    inertial = selected.rows.layout.inertial
+    masses = np.intersect1d(inertial, best.columns)
+    base = np.setdiff1d(best.columns, np.concatenate([masses, *members]))
+    both = [*members, masses] if len(masses) else members
+    return [float(share) for share in shares(problem.equations, ridge, base, both)][: len(members)]
 
 
 def _alternatives(selected: SelectedCauses, search: Search, number: int) -> tuple[Alternative, ...]:
@@ -138,12 +137,12 @@ def joint_backgrounds(selected: SelectedCauses, names: Sequence[str]) -> tuple[J
     for j, name in enumerate(names):
         slides = layout.arm.sliding[j]
         torque, unit = ("N", "m") if slides else ("N m", "rad")
-        units = ("", torque, f"{torque} s/{unit}", "kg" if slides else "kg m^2")
+        units = (torque, torque, f"{torque} s/{unit}", "kg" if slides else "kg m^2")
         moving = ~selected.rows.still[:, j]
         made = []
         for k, what in enumerate(("offset", "coulomb", "viscous", "inertia")):
             column = OWN * j + k
-            if k and column in best.columns and moving.any():
+            if column in best.columns and moving.any():
                 error = np.sqrt(best.variances(np.array([column]))[0]) / problem.scale[column]
                 made.append(
                     Parameter(what, units[k], float(selected.coefficients[column] + stated[j, k]), float(error))
@@ -181,9 +180,16 @@ def headline(found: Sequence[FoundCause], held_out: tuple[float, float]) -> str:
     if not found:
         return f"Nothing is missing beyond friction and rotors of the joints: {better}."
     told = "; ".join(f"{cause.title} ({_first(cause)})" for cause in (main or found)[: TELLING.in_headline])
-    more = len(main) - TELLING.in_headline
-    rest = f"; and {more} more" if more > 0 else ""
-    return f"{told[:1].upper()}{told[1:]}{rest}; {better}."
+    return f"{told[:1].upper()}{told[1:]}{_further(main[TELLING.in_headline :])}; {better}."
+
+
+def _further(causes: Sequence[FoundCause]) -> str:
+    """What a headline doesn't name, by family: where there is more of it."""
+    places: dict[str, list[str]] = {}
+    for cause in causes:
+        places.setdefault(cause.family, []).append(cause.location)
+    told = [f"{family} ({', '.join(dict.fromkeys(where))})" for family, where in places.items()]
+    return f"; besides, {', '.join(told)}" if told else ""
 
 
 def _first(cause: FoundCause) -> str:

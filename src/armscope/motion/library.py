@@ -13,7 +13,7 @@ from armscope.core.types import Array
 from armscope.motion import catalogue
 from armscope.motion.causes import Cause, PlacedCause, Seen, coulomb_width, sharp_width
 from armscope.motion.constants import LIBRARY
-from armscope.motion.laws import Law
+from armscope.motion.laws import Law, nearest_to_powers
 from armscope.motion.masses import place_masses
 
 
@@ -57,7 +57,7 @@ def _at_joint(seen: Seen, j: int) -> Iterator[PlacedCause]:
     yield from _springs(at)
     yield at.curve(catalogue.CURVE, "time", seen.time, LIBRARY.knots_of_time, variant="time")
     for driver, limits in (("speed", seen.dq[j]), ("load", np.array([-1.0, 1.0]) * seen.load[j])):
-        if np.ptp(limits) > 0:
+        if np.ptp(limits) > (LIBRARY.least_shown * seen.effort[j] if driver == "load" else 0):
             yield at.curve(catalogue.CURVE, driver, limits, LIBRARY.knots_of_others, variant=driver)
 
 
@@ -85,6 +85,12 @@ class _Joint:
     def sharp(self) -> float:
         """The least of it."""
         return float(sharp_width(self.seen.arm)[self.number])
+
+    @property
+    def nearest(self) -> tuple[float, ...]:
+        """Viscous and dry friction nearest to powers of the speeds at which it moves."""
+        speeds = self.seen.speeds[self.number]
+        return nearest_to_powers(speeds[speeds > self.width])
 
     @property
     def both_ways(self) -> bool:
@@ -119,7 +125,7 @@ def _friction(at: _Joint) -> Iterator[PlacedCause]:
         yield at.cause(catalogue.STRIBECK, "speed", names, "stribeck", at.sharp, v, multiplicity=len(widths), **more)
     yield at.cause(catalogue.LOAD_FRICTION, "load", (("per_load", ""),), "load friction", at.sharp)
     powers = (("square", f"{torque} s^2/{unit}^2"), ("cube", f"{torque} s^3/{unit}^3"))
-    yield at.cause(catalogue.VISCOUS_CURVE, "speed", powers, "powers of speed", at.sharp, fastest)
+    yield at.cause(catalogue.VISCOUS_CURVE, "speed", powers, "powers of speed", at.sharp, *at.nearest)
 
 
 def _warmth(at: _Joint, limits: Array) -> Iterator[PlacedCause]:

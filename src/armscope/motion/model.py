@@ -62,7 +62,10 @@ class MotionModel:
         for cause in self.causes:
             if cause.placed.cause is catalogue.DELAY:
                 delay[cause.placed.joints[0]] = cause.values[0]
-        return SoFar(self.inertial + self._added(None), self.joints[:, :CAUSES_OF_OWN], delay)
+        runs = {run for cause in self.causes for run in cause.placed.runs}
+        everywhere = self._added(None)
+        of_runs = {run: self._added(run) - everywhere for run in runs}
+        return SoFar(self.inertial + everywhere, self.joints[:, :CAUSES_OF_OWN], delay, of_runs)
 
     def _added(self, run: str | None) -> Array:
         """(10 n,) inertial parameters that causes add: those of every run, or those in one run."""
@@ -86,7 +89,7 @@ class MotionModel:
             carried = signals.payload[:, None] * (regressor @ self.arm.point_load())
         followed = self.followed()
         own = own_columns(self.arm, signals, followed.delay)
-        rigid = regressor @ followed.inertial + carried
+        rigid = regressor @ followed.inertial_in(signals.run) + carried
         predicted = rigid + np.einsum("nmk,mk->nm", own[:, :, :CAUSES_OF_OWN], followed.background)
         moment = Moment(signals, rigid, predicted, self._gravity(signals.q), rate)
         total = regressor @ (self.inertial + self._added(signals.run)) + carried

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -81,11 +81,17 @@ class SoFar:
         inertial: (10 n,) inertial parameters.
         background: (m, 4) offset, dry and viscous friction, rotor inertia, with what is stated.
         delay: (m,) s by which torques are late: where friction changes sides is then seen later, too.
+        of_runs: (10 n,) inertial parameters that are added in some runs: a load that only these carry.
     """
 
     inertial: Array
     background: Array
     delay: Array
+    of_runs: Mapping[str, Array] = field(default_factory=dict)
+
+    def inertial_in(self, run: str) -> Array:
+        """(10 n,) inertial parameters in a run."""
+        return self.inertial + self.of_runs.get(run, 0.0)
 
 
 def stated_model(arm: MovingArm) -> SoFar:
@@ -177,10 +183,13 @@ class _Piece:
         motion = (signals.q, signals.dq, signals.ddq)
         self.regressor = arm.regressor(*motion) if first else None
         self.background = own_columns(arm, signals, model.delay)
-        rigid = arm.torques(*motion, model.inertial) if self.regressor is None else self.regressor @ model.inertial
+        inertial = model.inertial_in(signals.run)
+        rigid = arm.torques(*motion, inertial) if self.regressor is None else self.regressor @ inertial
         self.carried: Array | float = 0.0
         if signals.payload is not None:
-            self.carried = signals.payload[:, None] * arm.torques(*motion, arm.point_load())
+            load = arm.point_load()
+            of_load = arm.torques(*motion, inertial + load) - rigid if self.regressor is None else self.regressor @ load
+            self.carried = signals.payload[:, None] * of_load
         rigid = rigid + self.carried
         predicted = rigid + np.einsum("nmk,mk->nm", self.background[:, :, :CAUSES_OF_OWN], model.background)
         gravity = None

@@ -35,6 +35,7 @@ def seen_in(arm: MovingArm, stretches: Sequence[Stretch], still: float) -> Seen:
         arm=arm,
         q=np.percentile(q, [0.1, 99.9], axis=0).T,
         dq=np.percentile(dq, [1, 99], axis=0).T,
+        speeds=np.percentile(np.abs(dq), np.arange(0.5, 100), axis=0).T,
         load=np.maximum(load, 1e-9),
         effort=np.maximum(np.sqrt(np.mean(np.concatenate([s.effort for s in stretches]) ** 2, axis=0)), 1e-9),
         time=np.array([min(s.time[0] for s in stretches), max(s.time[-1] for s in stretches)]),

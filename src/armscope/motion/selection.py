@@ -22,7 +22,7 @@ from armscope.motion.preparation import Preparation
 from armscope.motion.rows import MotionRows, SoFar, build_rows, stated_model
 from armscope.motion.space import build_space
 from armscope.motion.timing import Stretch
-from armscope.motion.weights import TorqueWeights, estimate_weights, left_apart, sums_by_block
+from armscope.motion.weights import JointSums, TorqueWeights, estimate_weights, left_apart, sums_by_joint, weighed
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +31,7 @@ class SelectedCauses:
 
     Attributes:
         rows, weights: the rows, and how much they count.
-        block: (K,) number of each row's block; blocks: their sums.
+        block: (K,) number of each row's block; blocks: their sums; by_joint: the same by joint, whatever its noise.
         space, problem, best: what competed, on which sums, and what won.
     """
 
@@ -39,6 +39,7 @@ class SelectedCauses:
     weights: TorqueWeights
     block: Indices
     blocks: list[NormalEquations]
+    by_joint: list[list[JointSums]]
     space: ModelSpace
     problem: Problem
     best: Hypothesis
@@ -62,14 +63,17 @@ def coefficients_of(problem: Problem, hypothesis: Hypothesis) -> Array:
 def model_so_far(layout: TorqueLayout, coefficients: Array) -> SoFar:
     """What load, delay and gain follow: inertial parameters with all that was added to them, and the background."""
     inertial = layout.arm.inertial + layout.inertial_scale * coefficients[layout.inertial]
-    delay = np.zeros(layout.arm.n_motors)
+    delay, of_runs = np.zeros(layout.arm.n_motors), dict[str, Array]()
     for cause, columns in zip(layout.placed, layout.columns, strict=True):
         if cause.inertial is not None and not cause.runs:
             inertial = inertial + cause.inertial @ coefficients[columns]
+        elif cause.inertial is not None and np.any(coefficients[columns]):
+            for run in cause.runs:
+                of_runs[run] = of_runs.get(run, 0.0) + cause.inertial @ coefficients[columns]
         if cause.cause is catalogue.DELAY:
             delay[cause.joints[0]] += coefficients[columns[0]]
     own = coefficients[layout.own].reshape(-1, OWN)[:, :CAUSES_OF_OWN]
-    return SoFar(inertial, np.nan_to_num(layout.arm.stated_background) + own, delay)
+    return SoFar(inertial, np.nan_to_num(layout.arm.stated_background) + own, delay, of_runs)
 
 
 def select_causes(
@@ -164,15 +168,17 @@ def chosen(
     Returns:
         What won.
     """
-    blocks = sums_by_block(rows, weights, block)
+    by_joint = sums_by_joint(rows, weights.row, block)
+    blocks = [weighed(rows.layout, parts, weights) for parts in by_joint]
     problem = build_problem(space, total(blocks), least_noise=0.5 * PRIOR.unit)
     search = Search.on(problem)
     if before is None:
         best = search.best()
     else:
         found, effects = before
-        best = search.best((found.background,), also=search.evaluated(effects, found))
-    return SelectedCauses(rows, weights, block, blocks, space, problem, _settled(search, named_first(search, best)))
+        best = search.best((), also=search.evaluated(effects, found))
+    best = _settled(search, named_first(search, best))
+    return SelectedCauses(rows, weights, block, blocks, by_joint, space, problem, best)
 
 
 def _start(rows: MotionRows) -> TorqueWeights:
@@ -182,7 +188,7 @@ def _start(rows: MotionRows) -> TorqueWeights:
     have no noise left, and without them a slow cause would count as noise that lasts.
     """
     ordinary = np.concatenate([rows.layout.own, rows.layout.inertial, rows.layout.response])
-    left = np.stack([left_apart(rows, among) for among in (ordinary, np.arange(rows.layout.width))])
+    left = left_apart(rows, (ordinary, np.arange(rows.layout.width)))
     less = np.argmin(np.median(np.abs(left), axis=1), axis=0)
     return estimate_weights(rows, np.take_along_axis(left, less[None, None], axis=0)[0])
 

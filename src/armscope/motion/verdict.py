@@ -30,7 +30,7 @@ class FoundCause:
         minor: worth little of the mismatch.
         parameters: with standard errors.
         rms: of its torque at the joint where it is largest, `unit` (N m or N) at `joint`.
-        share: of what friction and masses leave, averaged over the orders in which causes come in.
+        share: of what friction and rotors leave, averaged over the orders in which causes come in.
         evidence_nats: what is lost by leaving it out.
         alternatives: what could stand in its place, nearest first.
         carries_over: what other paths say of it; `consistent`: whether they agree on it (None: not tested).
@@ -64,7 +64,8 @@ class JointBackground:
 
     Attributes:
         joint: its name.
-        coulomb, viscous, inertia: with standard errors; of a joint that stands still none.
+        parameters: coulomb, viscous, inertia, and an offset where the evidence asks for one, with standard errors; of a
+            joint that stands still none.
         noise: what the model leaves, RMS while it moves; `unit`: N m or N.
         independent_rows: of how many independent rows its torque tells.
     """

@@ -7,6 +7,7 @@ through the sums.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -44,18 +45,32 @@ def estimate_weights(rows: MotionRows, residuals: Array) -> TorqueWeights:
     Returns:
         The weights.
     """
-    sigma, correlated, row = [], [], []
-    for j in range(residuals.shape[1]):
+    row = np.zeros(residuals.shape)
+    for j, least in enumerate(_least(rows)):
         moving, left = ~rows.still[:, j], residuals[:, j]
-        least = max(NOISE.least_share * float(np.std(rows.torque[:, j])), 1e-9)
-        weights = np.zeros(len(left))
         if moving.any():
-            weights[moving] = huber_weights(left[moving, None], np.ones(int(moving.sum())), least)
-        scale = float(np.sqrt(np.sum(weights * left**2) / max(weights.sum(), 1.0)))
-        sigma.append(max(scale, least))
-        correlated.append(_autocorrelation_time(rows, np.sqrt(weights) * left))
-        row.append(weights)
-    return TorqueWeights(np.array(sigma), np.array(correlated), np.column_stack(row))
+            row[moving, j] = huber_weights(left[moving, None], np.ones(int(moving.sum())), least)
+    return noise_of(rows, residuals, row)
+
+
+def noise_of(rows: MotionRows, residuals: Array, row: Array) -> TorqueWeights:
+    """Noise and autocorrelation time of each joint, from what a model leaves.
+
+    Args:
+        rows: K rows.
+        residuals: (K, m) N m.
+        row: (K, m) how much each counts; none where 0.
+
+    Returns:
+        The weights.
+    """
+    power = np.sum(row * residuals**2, axis=0) / np.maximum(row.sum(axis=0), 1.0)
+    correlated = [_autocorrelation_time(rows, column) for column in (np.sqrt(row) * residuals).T]
+    return TorqueWeights(np.maximum(np.sqrt(power), _least(rows)), np.array(correlated), row)
+
+
+def _least(rows: MotionRows) -> Array:
+    return np.asarray(np.maximum(NOISE.least_share * np.std(rows.torque, axis=0), 1e-9))
 
 
 def _autocorrelation_time(rows: MotionRows, left: Array) -> float:
@@ -76,46 +91,81 @@ def _autocorrelation_time(rows: MotionRows, left: Array) -> float:
     return float(max(times[enough[0]] if len(enough) else times[-1] if len(times) else 1.0, 1.0))
 
 
-def sums_by_block(rows: MotionRows, weights: TorqueWeights, block: Indices) -> list[NormalEquations]:
-    """Sums over the rows of each block; the response is the measured torque less the nominal one, in units of noise.
+@dataclass(frozen=True, eq=False)
+class JointSums:
+    """Sums over the rows of one joint's torque in one run and block, each row by its weight; N m.
+
+    Attributes:
+        joint: from 0.
+        run: its name.
+        at: (p_j,) which columns.
+        sums: of these columns.
+    """
+
+    joint: int
+    run: str
+    at: Indices
+    sums: NormalEquations
+
+
+def sums_by_joint(rows: MotionRows, row: Array, block: Indices) -> list[list[JointSums]]:
+    """Sums over the rows of each block, by joint; the response is the measured torque less the nominal one.
 
     Args:
         rows: K rows.
-        weights: of each joint.
+        row: (K, m) how much each counts.
         block: (K,) number of each row's block, from 0.
 
     Returns:
-        One sum for each block; a unit is `PRIOR.unit` of the noise.
+        Of each block those of its joints, and of its runs where causes differ by run.
     """
-    sums: list[NormalEquations | None] = [None] * (int(block.max()) + 1)
     runs = np.unique(rows.run) if rows.layout.differs_by_run else rows.run[:1]
-    for number in range(len(sums)):
-        for run in runs:
-            which = block == number
-            if len(runs) > 1:
-                which &= rows.run == run
-            if which.any() or sums[number] is None:
-                part, so_far = _with_masses(_sums(rows, weights, which), rows.layout, str(run)), sums[number]
-                sums[number] = part if so_far is None else so_far + part
-    return [each for each in sums if each is not None]
+    found = []
+    for number in range(int(block.max()) + 1):
+        inside = block == number
+        there = [(str(run), inside & (rows.run == run) if len(runs) > 1 else inside) for run in runs]
+        pairs = [(run, which, j) for run, which in there if which.any() for j in range(row.shape[1])]
+        found.append([JointSums(j, run, rows.at[j], _sums(rows, row[:, j], which, j)) for run, which, j in pairs])
+    return found
 
 
-def _sums(rows: MotionRows, weights: TorqueWeights, among: NDArray[np.bool_]) -> NormalEquations:
-    """Over some rows, of the columns that rows hold."""
-    response = rows.torque - rows.nominal
-    G = np.zeros((rows.layout.width,) * 2)
-    b, yy, n = np.zeros(rows.layout.width), 0.0, 0.0
-    for j, (columns, at) in enumerate(zip(rows.columns, rows.at, strict=True)):
-        which = np.flatnonzero(among & (weights.row[:, j] > 0))
-        unit = PRIOR.unit / weights.sigma[j] * np.sqrt(weights.row[:, j])
-        counts = 1 / weights.correlated[j]
-        for some in np.array_split(which, max(-(-len(which) // NOISE.rows_at_once), 1)):
-            X, y = columns[some].astype(np.float64) * unit[some, None], response[some, j] * unit[some]
-            G[np.ix_(at, at)] += counts * (X.T @ X)
-            b[at] += counts * (X.T @ y)
-            yy += counts * float(y @ y)
-            n += counts * float(weights.row[some, j].sum())
-    return NormalEquations(G, b, yy, n)
+def _sums(rows: MotionRows, row: Array, among: NDArray[np.bool_], joint: int) -> NormalEquations:
+    columns, response = rows.columns[joint], rows.torque[:, joint] - rows.nominal[:, joint]
+    G, b, yy = np.zeros((columns.shape[1],) * 2), np.zeros(columns.shape[1]), 0.0
+    which = np.flatnonzero(among & (row > 0))
+    for some in np.array_split(which, max(-(-len(which) // NOISE.rows_at_once), 1)):
+        root = np.sqrt(row[some])
+        X, y = columns[some].astype(np.float64) * root[:, None], response[some] * root
+        G += X.T @ X
+        b += X.T @ y
+        yy += float(y @ y)
+    return NormalEquations(G, b, yy, float(row[which].sum()))
+
+
+def weighed(layout: TorqueLayout, parts: Iterable[JointSums], weights: TorqueWeights) -> NormalEquations:
+    """Sums of all joints together, in units of `PRIOR.unit` of the noise, as many rows as are independent.
+
+    Args:
+        layout: of the columns.
+        parts: of the joints.
+        weights: their noise.
+
+    Returns:
+        The sums, with the columns that are combinations of inertial ones.
+    """
+    by_run: dict[str, NormalEquations] = {}
+    counts = 1 / weights.correlated
+    unit = counts * (PRIOR.unit / weights.sigma) ** 2
+    for part in parts:
+        if part.run not in by_run:
+            by_run[part.run] = NormalEquations(np.zeros((layout.width,) * 2), np.zeros(layout.width), 0.0, 0.0)
+        so_far, own, j = by_run[part.run], part.sums, part.joint
+        so_far.G[np.ix_(part.at, part.at)] += unit[j] * own.G
+        so_far.b[part.at] += unit[j] * own.b
+        by_run[part.run] = NormalEquations(
+            so_far.G, so_far.b, so_far.yy + unit[j] * own.yy, so_far.n + counts[j] * own.n
+        )
+    return total([_with_masses(sums, layout, run) for run, sums in by_run.items()])
 
 
 def _with_masses(sums: NormalEquations, layout: TorqueLayout, run: str) -> NormalEquations:
@@ -131,19 +181,30 @@ def _with_masses(sums: NormalEquations, layout: TorqueLayout, run: str) -> Norma
 
 def fitted_together(rows: MotionRows, among: Indices) -> Array:
     """(p,) coefficients of some columns at once, each as free as the others, joints in units of their own torque."""
-    sums = sums_by_block(rows, _plain(rows), np.zeros(len(rows), dtype=np.intp))[0]
-    return _solved(sums, among)
+    plain = _plain(rows)
+    parts = sums_by_joint(rows, plain.row, np.zeros(len(rows), dtype=np.intp))[0]
+    return _solved(weighed(rows.layout, parts, plain), among)
 
 
-def left_apart(rows: MotionRows, among: Indices) -> Array:
-    """(K, m) what some columns, fitted to the rest of the motion, leave of each part of it, N m."""
-    part = np.arange(len(rows)) * NOISE.parts // len(rows) % NOISE.blocks_of_time
-    sums = sums_by_block(rows, _plain(rows), part)
-    left = np.empty_like(rows.torque)
+def left_apart(rows: MotionRows, choices: Sequence[Indices]) -> Array:
+    """What some columns, fitted to the rest of the motion, leave of each part of it.
+
+    Args:
+        rows: K rows.
+        choices: which columns, more than once.
+
+    Returns:
+        (choices, K, m) N m.
+    """
+    part, plain = np.arange(len(rows)) * NOISE.parts // len(rows) % NOISE.blocks_of_time, _plain(rows)
+    sums = [weighed(rows.layout, parts, plain) for parts in sums_by_joint(rows, plain.row, part)]
+    left = np.empty((len(choices), *rows.torque.shape))
     for number in range(len(sums)):
         rest = total([other for k, other in enumerate(sums) if k != number])
-        modelled = rows.nominal + rows.modelled(_solved(rest, among))
-        left[part == number] = (rows.torque - modelled)[part == number]
+        which = np.flatnonzero(part == number)
+        for choice, among in enumerate(choices):
+            modelled = rows.nominal[which] + rows.modelled(_solved(rest, among), which)
+            left[choice, which] = rows.torque[which] - modelled
     return left
 
 

@@ -16,6 +16,15 @@ same without the wrong minor ones. Arms as real ones are have small effects ever
 naming one of those is right, leaving it out is right, too; their set is exact if the effect that dominates is named
 and nothing that isn't concealed.
 
+**Rough arms** have small errors of every kind, all of them true names (`minor`), and break what a diagnosis assumes;
+upon that, no to three causes stand out. The answer is right if every cause is named, the largest name (constant
+geometry competes with its like only) is a cause's or of something as large, and nothing is named that isn't there;
+where there is no cause: nothing that isn't there, and no name that claims more than a third of the squared error that
+frames and D-H values leave, or 1.5 times its own size. An `unknown` is never wrong there. A value is absurd if it is a
+D-H error above 20 mm or 50 mrad, or a compliance, amplitude or play 50 times the true one. The oracle of such an arm
+knows every effect, where it is and about how large, of a gear's waves their numbers and how they fall; it fits frames
+and sizes to the recorded rows. The diagnosis is near it if its held-out RMS is at most 10 % larger.
+
 **Outcome** of a concealed effect: `named` (its own name), `acceptable` (a sealed alternative), `listed` (only among
 the alternatives of another name), `located` (another name, or `unknown`, at its place), `missed`.
 
@@ -64,7 +73,13 @@ Name = tuple[str, str]
 CLEAR_STRENGTH = 2.95
 """What counts as three times the noise: strengths are reached to within a per cent."""
 HELD_OUT_TOLERANCE = 1.05
+NEAR_ORACLE = 1.10
 FALSE_ALARMS_OF_ORACLE = 0.01
+ROUGH = ("rough", "rough_misleading")
+LARGEST_SMALL = 0.35
+"""Share of the squared error left after frames and D-H values that no name may claim where nothing stands out."""
+MOST_MAJOR = 4
+ABSURD_MM, ABSURD_RAD, ABSURD_TIMES = 20.0, 0.05, 50.0
 RELIABLE = 0.9
 """Share of cases in which an effect of threshold size is found."""
 RIGHT_INPUTS = ("single", "multiple", "bad_shots", "faint", "inseparable", "real")
@@ -106,7 +121,28 @@ def _clear(name: str) -> Callable[[pd.DataFrame], pd.Series]:
     return lambda rows: (rows["category"] == name) & (rows["weakest"] >= CLEAR_STRENGTH)
 
 
+def _rough_cause(rows: pd.DataFrame) -> pd.Series:
+    return rows["category"].isin(ROUGH) & ~rows["minor"].astype(bool)
+
+
 AIMS: tuple[Aim, ...] = (
+    Aim(
+        "rough arms: every cause named, the largest first, nothing false", "worlds", "right", (0.90, 1.0),
+        _category("rough"),
+    ),
+    Aim(
+        "the same where times, temperatures or poses mislead", "worlds", "right", (0.90, 1.0),
+        _category("rough_misleading"),
+    ),
+    Aim("causes that stand out of rough arms: named", "effects", "right", (0.95, 1.0), _rough_cause),
+    Aim(
+        "rough arms: held-out RMS within 10 % of the oracle's", "worlds", "near_oracle", (0.90, 1.0),
+        lambda rows: rows["category"].isin(ROUGH),
+    ),
+    Aim(
+        "rough arms: 95 % intervals of causes hold the true number", "intervals", "covered", (0.93, 0.97),
+        lambda rows: _rough_cause(rows) & rows["covered"].notna(),
+    ),
     Aim("no name on clean arms", "worlds", "silent", (0.99, 1.0), _category("clean")),
     Aim(
         "exact set of names, single effects at 3x the noise and above", "worlds", "exact", (0.95, 1.0), _clear("single")

@@ -3,27 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from scipy.stats import binomtest
 
+from armscope.proof.binomial import RATE, Rate, Row, of_seeds, rate
 from armscope.proof.definitions import (
     AIMS,
     CLEAR_STRENGTH,
     HELD_OUT_TOLERANCE,
     RELIABLE,
     RIGHT_INPUTS,
+    ROUGH,
     SEEDS,
     THRESHOLD_AIM,
     judged,
 )
 from armscope.proof.matching import UNKNOWN
 from armscope.proof.oracle import Threshold, threshold
+from armscope.proof.rough_rates import rough_table
 from armscope.proof.scoring import Cases
 
-Row = dict[str, object]
 THRESHOLD_TEXT = "detection threshold (90 %) in multiples of the oracle's"
 POWER_BINS = (0.0, 0.6, 0.9, 1.15, 1.45, 1.9, 2.6, 5.0, 12.0, 40.0, np.inf)
 EVIDENCE_BINS = (-np.inf, 1.0, 3.0, 10.0, 30.0, np.inf)
@@ -31,34 +31,6 @@ NEAR_THRESHOLD = (1.0, 2.6)
 """Sizes, in multiples of the oracle's 90 % threshold, at which an oracle finds nearly all and a diagnosis may not."""
 POWER_CATEGORIES = ("single", "faint")
 OUTCOMES = ("exact", "exact_story", "silent", "held_out_close")
-
-
-RATE = ("cases", "right", "estimate", "low", "high")
-
-
-@dataclass(frozen=True)
-class Rate:
-    """Cases, how many of them right, the share, and its 95 % interval; NaN without cases."""
-
-    cases: int
-    right: int | None
-    estimate: float
-    low: float
-    high: float
-
-
-def rate(right: pd.Series) -> Rate:
-    """The rate of a column of right and wrong, with its exact binomial interval."""
-    cases, hits = len(right), int(right.astype(bool).sum())
-    if cases == 0:
-        return Rate(0, 0, np.nan, np.nan, np.nan)
-    interval = binomtest(hits, cases).proportion_ci(0.95)
-    return Rate(cases, hits, hits / cases, float(interval.low), float(interval.high))
-
-
-def of_seeds(rows: pd.DataFrame, seeds: str) -> pd.DataFrame:
-    """The rows of fixed, fresh or all worlds."""
-    return rows if seeds == "all" else rows[rows["fresh"] == (seeds == "fresh")]
 
 
 def aims_table(cases: Cases, rng: np.random.Generator) -> pd.DataFrame:
@@ -285,7 +257,8 @@ def wrong_worlds(cases: Cases) -> pd.DataFrame:
     worlds = cases.worlds
     # a faint effect that nobody names is no failure
     silent = (worlds["category"] == "faint") & (worlds["wrong_names"] == 0) & (worlds["failed"] == "")
-    wrong = worlds[~worlds["exact"].astype(bool) & ~silent]
+    good = worlds["exact"].where(~worlds["category"].isin(ROUGH), worlds["right"])
+    wrong = worlds[~good.astype(bool) & ~silent]
     columns = [
         "world",
         "category",
@@ -294,6 +267,7 @@ def wrong_worlds(cases: Cases) -> pd.DataFrame:
         "rows",
         "weakest",
         "left_out",
+        "rough",
         "concealed",
         "said",
         "answer",
@@ -313,6 +287,7 @@ def tables(cases: Cases, seed: int = 0) -> dict[str, pd.DataFrame]:
     rng = np.random.default_rng(seed)
     return cases.tables() | {
         "aims": aims_table(cases, rng),
+        "rough": rough_table(cases.worlds, cases.effects, cases.intervals),
         "per_effect": per_effect_table(cases),
         "evidence": evidence_table(cases.names),
         "power": power_table(cases.effects),

@@ -9,10 +9,11 @@ import numpy as np
 import pandas as pd
 
 from armscope.proof.answers import Answer, NamedEffect
-from armscope.proof.definitions import AXES_MM, HELD_OUT_TOLERANCE, Name, place
+from armscope.proof.definitions import AXES_MM, HELD_OUT_TOLERANCE, NEAR_ORACLE, ROUGH, Name, place
 from armscope.proof.intervals import compare_numbers
 from armscope.proof.matching import UNKNOWN, Match, among_all, distinct, match
 from armscope.proof.oracle import power, size_in_thresholds
+from armscope.proof.rough import marks
 from armscope.proof.truth import Concealed, Truth
 
 CANNOT_TELL, NOTHING = "cannot tell", "nothing"
@@ -21,7 +22,8 @@ COLUMNS: dict[str, tuple[str, ...]] = {
     "worlds": (
         *_COMMON, "arm", "rows", "sigma_mm", "masses", "noise", "left_out", "shape", "concealed", "said", "answer",
         "mismatch", "silent", "exact", "exact_story", "missed", "wrong_names", "outside", "outside_right",
-        "held_out_ratio", "price_of_fitting", "held_out_close", "noise_ratio", "failed",
+        "held_out_ratio", "price_of_fitting", "held_out_close", "to_oracle", "near_oracle", "noise_ratio", "failed",
+        "rough", "causes", "first", "overclaimed", "major_names", "absurd", "right",
     ),
     "effects": (
         *_COMMON, "effect", "location", "shape", "driver", "minor", "strength", "noncentrality", "columns",
@@ -103,11 +105,12 @@ def _world(
 ) -> dict[str, object]:
     truth, answer = world.truth, world.answer
     story = [m for m in matches if not m.truth.minor]
-    wrong = [claim for claim in left if truth.category != REAL or claim.effect != UNKNOWN]
+    left = [claim for claim in left if claim.name not in truth.also_allowed]
+    wrong = [claim for claim in left if truth.category not in (REAL, *ROUGH) or claim.effect != UNKNOWN]
     all_right = not answer.failed and all(m.right for m in story)
     ratio = held_out_ratio(truth, answer)
     outside = outside_outcome(truth, answer, claims) if truth.outside else ""
-    return {
+    return marks(truth, answer, matches, wrong) | {
         "arm": truth.arm,
         "rows": truth.rows,
         "sigma_mm": truth.sigma_mm,
@@ -129,8 +132,11 @@ def _world(
         "held_out_ratio": ratio,
         "price_of_fitting": world.price_of_fitting,
         "held_out_close": bool(ratio <= HELD_OUT_TOLERANCE),
+        "to_oracle": ratio * truth.true_rms_mm / truth.oracle_mm,
+        "near_oracle": bool(ratio * truth.true_rms_mm <= NEAR_ORACLE * truth.oracle_mm),
         "noise_ratio": answer.noise_mm / truth.noise_rms_mm,
         "failed": answer.failed,
+        "rough": " ".join(truth.rough),
     }
 
 

@@ -54,7 +54,12 @@ class Concealed:
 
 @dataclass(frozen=True, eq=False)
 class Truth:
-    """What a world conceals and how it came about; ``test`` holds the readings that nobody has seen."""
+    """What a world conceals and how it came about; ``test`` holds the readings that nobody has seen.
+
+    Of rough arms: ``rough`` says what is everywhere in it, ``also_allowed`` which names aren't wrong besides those of
+    the effects, ``left_mm`` what frames and D-H values leave of the recorded rows, ``oracle_mm`` the held-out RMS of
+    one who knows what there is.
+    """
 
     world: str
     category: str
@@ -70,6 +75,10 @@ class Truth:
     true_rms_mm: float
     effects: tuple[Concealed, ...]
     test: pd.DataFrame
+    rough: tuple[str, ...] = ()
+    also_allowed: tuple[Name, ...] = ()
+    left_mm: float = 0.0
+    oracle_mm: float = float("nan")
 
     @property
     def story(self) -> list[Concealed]:
@@ -138,6 +147,10 @@ def _truth(world: str, content: dict[str, Any], test: pd.DataFrame) -> Truth:
         true_rms_mm=content["rms_on_test_mm"]["true_model"],
         effects=tuple(_effect(effect) for effect in content["effects"]),
         test=test,
+        rough=tuple(about.get("rough", ())),
+        also_allowed=tuple((effect, location) for effect, location in about.get("also_allowed", ())),
+        left_mm=about.get("left_mm", 0.0),
+        oracle_mm=about.get("oracle_on_test_mm", float("nan")),
     )
 
 

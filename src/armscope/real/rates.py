@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from armscope.proof.rates import rate
+from armscope.proof.binomial import rate
 from armscope.real.scoring import Scores
 
 GROUPS = {"all": [], "effect": ["effect"], "arm": ["set"]}

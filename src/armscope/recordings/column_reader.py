@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
-from armscope.core.inputs import InputError, nearest
+from armscope.core.inputs import InputError
 from armscope.core.types import Array
-from armscope.recordings.columns import LARGEST_ANGLE_RAD, LARGEST_NUMBER, LARGEST_POSITION_M, UNITS, column_named
+from armscope.recordings.columns import (
+    LARGEST_ANGLE_RAD,
+    LARGEST_NUMBER,
+    LARGEST_POSITION_M,
+    UNITS,
+    Names,
+    column_named,
+)
 from armscope.recordings.textfile import WORDS
+
+if TYPE_CHECKING:
+    import pandas as pd  # slow to import, and many a table is refused by its first line
 
 
 class ColumnReader:
@@ -20,11 +29,14 @@ class ColumnReader:
 
     def __init__(self, table: pd.DataFrame, source: Path | str) -> None:
         self.table, self.source = table, source
+        self.names = Names([str(name) for name in table.columns], source)
 
     def _error(self, row: int, column: str, found: object, rule: str, cure: str = "") -> InputError:
         return InputError(self.source, f"row {row + 2}, column {column}", found, rule, cure)
 
     def _numbers(self, column: str, required: bool) -> Array:
+        import pandas as pd
+
         values = self.table[column]
         if not pd.api.types.is_numeric_dtype(values) or pd.api.types.is_bool_dtype(values):
             words = values.where(values.isna(), values.astype(str))  # whole numbers of any length would not fit a float
@@ -100,48 +112,7 @@ class ColumnReader:
 
     def motor_angles(self, n_motors: int | None) -> Array:
         """(N, m) commanded angles, rad, of ``n_motors`` motors, or of as many as there are."""
-        found = {
-            int(m[1]): m[0]
-            for m in (re.fullmatch(r"q([1-9]\d*)_(?:rad|deg)", name) for name in self.table.columns)
-            if m
-        }
-        count = n_motors if n_motors is not None else max(found, default=0)
-        if count == 0:
-            raise InputError(
-                self.source,
-                "line 1",
-                "no column q1_rad",
-                "motor angles stand in q1_rad, q2_rad, ... (or _deg)",
-                nearest("q1_rad", self.table.columns),
-            )
-        for motor in range(1, count + 1):
-            self._check_one_unit(f"q{motor}_rad", f"q{motor}_deg")
-            if motor not in found:
-                fewer = sorted(found) == list(range(1, motor))
-                cure = f"The table has {motor - 1} motor angles: is this the right robot for the recordings?"
-                raise InputError(
-                    self.source,
-                    "line 1",
-                    f"no column q{motor}_rad",
-                    f"the arm has motors q1 ... q{count}",
-                    cure if fewer and motor > 1 else nearest(f"q{motor}_rad", self.table.columns),
-                )
-        if max(found) > count:
-            raise InputError(
-                self.source,
-                "line 1",
-                found[max(found)],
-                f"the arm has {count} motors",
-                "Is this the right robot for the recordings?",
-            )
-        columns = [self._angles(found[motor]) for motor in range(1, count + 1)]
-        return np.column_stack(columns)
-
-    def _check_one_unit(self, one: str, other: str) -> None:
-        if one in self.table and other in self.table:
-            raise InputError(
-                self.source, "line 1", f"{one} and {other}", "one column per quantity", "Remove one of them."
-            )
+        return np.column_stack([self._angles(name) for name in self.names.motor_angles(n_motors)])
 
     def _angles(self, column: str) -> Array:
         values = self._numbers(column, required=True) * UNITS[column.rsplit("_", 1)[1]]
@@ -160,31 +131,10 @@ class ColumnReader:
 
     def positions(self, measured: bool) -> Array:
         """(N, 3) measured points, m; where they need not be ``measured``, NaN without."""
-        for axis in "xyz":
-            self._check_one_unit(f"{axis}_mm", f"{axis}_m")
-        for unit in ("mm", "m"):
-            columns = [f"{axis}_{unit}" for axis in "xyz"]
-            present = [name for name in columns if name in self.table]
-            if len(present) == 3:
-                return np.column_stack([self._lengths(name, measured) for name in columns])
-            if present:
-                missing = next(name for name in columns if name not in present)
-                raise InputError(
-                    self.source,
-                    "line 1",
-                    f"no column {missing}",
-                    "x, y and z come together, in one unit",
-                    nearest(missing, self.table.columns),
-                )
-        if measured:
-            raise InputError(
-                self.source,
-                "line 1",
-                "no column x_mm",
-                "measured positions stand in x_mm, y_mm, z_mm (or _m)",
-                nearest("x_mm", self.table.columns),
-            )
-        return np.full((len(self.table), 3), np.nan)
+        columns = self.names.positions(measured)
+        if not columns:
+            return np.full((len(self.table), 3), np.nan)
+        return np.column_stack([self._lengths(name, measured) for name in columns])
 
     def _lengths(self, column: str, required: bool) -> Array:
         values = self._numbers(column, required) * UNITS[column.rsplit("_", 1)[1]]
@@ -232,7 +182,7 @@ class ColumnReader:
 
     def sigma(self) -> Array | None:
         """(N, 3) stated uncertainty per axis, m, or None."""
-        self._check_one_unit("sigma_mm", "sigma_x_mm")
+        self.names.check_one_unit("sigma_mm", "sigma_x_mm")
         isotropic = self.optional(["sigma_mm"], UNITS["mm"])
         sigma = self.optional([f"sigma_{axis}_mm" for axis in "xyz"], UNITS["mm"])
         if sigma is None and isotropic is not None:

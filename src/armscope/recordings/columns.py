@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
+
+from armscope.core.inputs import InputError, nearest
 
 LARGEST_ANGLE_RAD = 4 * np.pi
 """Beyond two turns either way no arm's joint stands, so a larger number is not in radians."""
@@ -131,3 +134,73 @@ def as_in_contract(headers: Iterable[str]) -> Mapping[str, str]:
             renamed[header] = plain
             there.add(plain)
     return renamed
+
+
+class Names:
+    """The columns that a table has, by its first line.
+
+    Args:
+        columns: their names, in the words of the contract.
+        source: the file, for errors.
+    """
+
+    def __init__(self, columns: Sequence[str], source: Path | str) -> None:
+        self.columns, self.source = columns, source
+
+    def _error(self, found: str, rule: str, cure: str = "") -> InputError:
+        return InputError(self.source, "line 1", found, rule, cure)
+
+    def check_one_unit(self, one: str, other: str) -> None:
+        """Refuse a quantity that stands there twice.
+
+        Raises:
+            InputError: both columns are there.
+        """
+        if one in self.columns and other in self.columns:
+            raise self._error(f"{one} and {other}", "one column per quantity", "Remove one of them.")
+
+    def motor_angles(self, n_motors: int | None) -> list[str]:
+        """The columns of ``n_motors`` motors' angles, or of as many as there are.
+
+        Raises:
+            InputError: there are none, or others.
+        """
+        matches = (re.fullmatch(r"q([1-9]\d*)_(?:rad|deg)", name) for name in self.columns)
+        found = {int(m[1]): m[0] for m in matches if m}
+        count = n_motors if n_motors is not None else max(found, default=0)
+        if count == 0:
+            cure = nearest("q1_rad", self.columns)
+            raise self._error("no column q1_rad", "motor angles stand in q1_rad, q2_rad, ... (or _deg)", cure)
+        for motor in range(1, count + 1):
+            self.check_one_unit(f"q{motor}_rad", f"q{motor}_deg")
+            if motor not in found:
+                fewer = sorted(found) == list(range(1, motor))
+                cure = f"The table has {motor - 1} motor angles: is this the right robot for the recordings?"
+                cure = cure if fewer and motor > 1 else nearest(f"q{motor}_rad", self.columns)
+                raise self._error(f"no column q{motor}_rad", f"the arm has motors q1 ... q{count}", cure)
+        if max(found) > count:
+            cure = "Is this the right robot for the recordings?"
+            raise self._error(found[max(found)], f"the arm has {count} motors", cure)
+        return [found[motor] for motor in range(1, count + 1)]
+
+    def positions(self, measured: bool) -> list[str]:
+        """The columns of measured points; none where there are none and they need not be ``measured``.
+
+        Raises:
+            InputError: some are missing, or they stand there twice.
+        """
+        for axis in "xyz":
+            self.check_one_unit(f"{axis}_mm", f"{axis}_m")
+        for unit in ("mm", "m"):
+            columns = [f"{axis}_{unit}" for axis in "xyz"]
+            present = [name for name in columns if name in self.columns]
+            if len(present) == 3:
+                return columns
+            if present:
+                missing = next(name for name in columns if name not in present)
+                cure = nearest(missing, self.columns)
+                raise self._error(f"no column {missing}", "x, y and z come together, in one unit", cure)
+        if measured:
+            cure = nearest("x_mm", self.columns)
+            raise self._error("no column x_mm", "measured positions stand in x_mm, y_mm, z_mm (or _m)", cure)
+        return []

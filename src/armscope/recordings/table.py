@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
 from armscope.recordings.column_reader import ColumnReader
-from armscope.recordings.columns import as_in_contract, column_named
+from armscope.recordings.columns import Names, as_in_contract, column_named
 from armscope.recordings.textfile import read_text_table
+
+if TYPE_CHECKING:
+    import pandas as pd  # slow to import
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +97,14 @@ def read_recordings(path: Path | str, n_motors: int | None = None, measured: boo
         InputError: names file, row (line of the file), column, the value found, the rule and the cure.
     """
     path = Path(path)
-    return as_recordings(read_text_table(path), path, n_motors, measured)
+
+    def check(header: list[str]) -> None:
+        renamed = as_in_contract(header)
+        names = Names([renamed.get(name, name) for name in header], path)
+        names.motor_angles(n_motors)
+        names.positions(measured)
+
+    return as_recordings(read_text_table(path, check), path, n_motors, measured)
 
 
 def as_recordings(

@@ -5,13 +5,16 @@ from __future__ import annotations
 import csv
 import re
 import zlib
+from collections.abc import Callable
 from pathlib import Path
-
-import pandas as pd
+from typing import TYPE_CHECKING
 
 from armscope.core.inputs import InputError
 from armscope.core.plainyaml import CONTROL
 from armscope.recordings.opening import open_text, refuse_other_than_text, start_of, undecodable
+
+if TYPE_CHECKING:
+    import pandas as pd  # slow to import
 
 WORDS = ("id", "run", "target")
 """Columns that are words, even where they look like numbers or like a name for no value."""
@@ -23,8 +26,15 @@ NO_VALUE = ("", "NaN", "nan", "NA", "N/A", "n/a", "#N/A", "null", "NULL", "None"
 """What stands for no value in a column of numbers."""
 
 
-def read_text_table(path: Path) -> pd.DataFrame:
+def read_text_table(path: Path, check: Callable[[list[str]], object] = lambda header: None) -> pd.DataFrame:
     """A CSV file (gzipped or not) with a header and equally long rows; id, run and target stay text.
+
+    Args:
+        path: of the file.
+        check: refuses a header that can't be used, before the rest is read.
+
+    Returns:
+        The table.
 
     Raises:
         InputError: it is no such table.
@@ -35,6 +45,7 @@ def read_text_table(path: Path) -> pd.DataFrame:
         raise InputError(path, "line 1", "nothing", "the first line names the columns", "Is the file empty?")
     _check_header(path, header)
     _check_lengths(path, header, counts)
+    check(header)
     try:
         table = _read(path, header)
     except (ValueError, OverflowError) as error:  # pandas' words for it
@@ -47,6 +58,8 @@ def read_text_table(path: Path) -> pd.DataFrame:
 
 
 def _read(path: Path, header: list[str]) -> pd.DataFrame:
+    import pandas as pd
+
     with open_text(path, "utf-8") as stream:
         pieces = pd.read_csv(
             stream,

@@ -10,7 +10,7 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.verdict.contributions import Contributions, contributions
 from armscope.verdict.schema import Diagnosis
-from armscope.verdict.work_order import Task, tasks
+from armscope.verdict.work_order import WorkOrder, work_order
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,9 +35,9 @@ class Subject:
         return contributions(self.verdict)
 
     @cached_property
-    def tasks(self) -> list[Task]:
+    def order(self) -> WorkOrder:
         """The work order."""
-        return tasks(self.verdict, self.worth)
+        return work_order(self.verdict, self.worth)
 
     @cached_property
     def references(self) -> list[tuple[str, float]]:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import html
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
@@ -129,7 +129,7 @@ class Drawing:
         self.add(
             f'<text x="{at[0]:.1f}" y="{at[1] + 0.35 * size:.1f}" font-size="{size:g}" '
             f'text-anchor="{look.get("anchor", "start")}" font-weight="{look.get("weight", "normal")}" '
-            f'fill="{look.get("fill", INK)}"{turn}>{escape(words)}</text>',
+            f'fill="{look.get("fill", INK)}"{turn}>{html.escape(words, quote=False)}</text>',
             order,
         )
 
@@ -137,10 +137,10 @@ class Drawing:
         """The picture, to be embedded in a page, or, on white paper of its own, saved."""
         shapes = "".join(shape for _, shape in sorted(self._shapes, key=lambda pair: pair[0]))
         white = ' style="background: #fff"' if paper else ""
-        box, alt = f"0 0 {self.width:.0f} {self.height:.0f}", quoteattr(self.alt)
+        box, alt = f"0 0 {self.width:.0f} {self.height:.0f}", html.escape(self.alt)
         return (
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" width="{self.width:.0f}" '
-            f'height="{self.height:.0f}" role="img" aria-label={alt} font-family="{FONT}"{white}>{shapes}</svg>'
+            f'height="{self.height:.0f}" role="img" aria-label="{alt}" font-family="{FONT}"{white}>{shapes}</svg>'
         )
 
     def _repr_svg_(self) -> str:

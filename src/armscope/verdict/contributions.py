@@ -15,16 +15,19 @@ import numpy as np
 
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
+from armscope.physics.backgrounds import GEOMETRIC
 from armscope.physics.effect import AXES, Direction
 from armscope.physics.posture import Posture
 from armscope.physics.scene import Part
 from armscope.verdict.schema import Diagnosis, FoundEffect
-from armscope.verdict.wording import main_and_minor
+from armscope.verdict.wording import SMALL, main_and_minor
 
 MOST_ROWS = 1500
 """Rows that contributions are calculated on, spread evenly."""
 TRUSTED = 0.5
 """Rows that kept less of their weight look like bad shots, and take no part."""
+SEEN = 0.01
+"""Share of the error from which small errors of a family have a switch."""
 MOST_CAUSES = 6
 """More major effects than this are taken together with the minor ones."""
 
@@ -48,14 +51,14 @@ class Contributions:
         left: (n, 3) with everything cured.
         causes: the major ones, most important first.
         smaller: minor effects, and major ones beyond `MOST_CAUSES`, together; None where there are none.
-        everywhere: (n, 3) the small errors without a name.
+        small: by family, (n, 3) of the small errors without a name.
     """
 
     rows: Indices
     left: Array
     causes: tuple[Repair, ...]
     smaller: Repair | None
-    everywhere: Array
+    small: dict[str, Array]
 
     @property
     def switches(self) -> list[tuple[str, Array]]:
@@ -63,9 +66,13 @@ class Contributions:
         named = [(cause.name, cause.moved) for cause in self.causes]
         if self.smaller is not None:
             named.append((self.smaller.name, self.smaller.moved))
-        if rms(self.everywhere) > 0.01 * rms(self.before):
-            named.append(("small errors in all joints and links", self.everywhere))
-        return named
+        least = SEEN * rms(self.before)
+        return [*named, *((SMALL[family], moved) for family, moved in self.small.items() if rms(moved) > least)]
+
+    @property
+    def everywhere(self) -> Array:
+        """(n, 3) the small errors of all families."""
+        return sum(self.small.values(), np.zeros_like(self.left))
 
     @property
     def before(self) -> Array:
@@ -93,7 +100,8 @@ def contributions(verdict: Diagnosis) -> Contributions:
 
     def moved_by(parts: Sequence[Part]) -> Array:
         out = {id(part) for part in parts}
-        others = replace(model, parts=tuple(part for part in model.parts if id(part) not in out))
+        kept, small = (tuple(p for p in some if id(p) not in out) for some in (model.parts, model.background))
+        others = replace(model, parts=kept, background=small)
         return free(1e3 * (posture.tool - others.posture(scene).tool)) if parts else np.zeros((len(rows), 3))
 
     main, minor = main_and_minor(verdict.effects)
@@ -103,13 +111,23 @@ def contributions(verdict: Diagnosis) -> Contributions:
     )
     rest = [effect for effect in (*main[MOST_CAUSES:], *minor) if parts[id(effect)]]
     together = tuple(part for effect in rest for part in parts[id(effect)])
-    name = f"{len(rest)} smaller causes together" if len(rest) > 1 else "one smaller cause"
+    name = f"{len(rest)} minor effects together" if len(rest) > 1 else "one minor effect"
     smaller = Repair(name, tuple(rest), together, moved_by(together)) if rest else None
     left, before = free(verdict.residuals.after[rows]), free(verdict.residuals.before[rows])
     explained = sum((cause.moved for cause in (*causes, *([smaller] if smaller else []))), np.zeros_like(left))
     if not verdict.background.present:  # tiny, and without a line of its own
         left = before - explained
-    return Contributions(rows, left, causes, smaller, before - left - explained)
+    families: dict[str, list[Part]] = {}
+    for part in model.background:
+        families.setdefault(part.placed.family, []).append(part)
+    largest, *others = sorted(families, key=lambda family: -_share(verdict, family)) or [GEOMETRIC]
+    small = {family: moved_by(families[family]) for family in others}
+    rest_of_small = before - left - explained - sum(small.values(), np.zeros_like(left))
+    return Contributions(rows, left, causes, smaller, {largest: rest_of_small, **small})
+
+
+def _share(verdict: Diagnosis, family: str) -> float:
+    return next((each.share for each in verdict.background_families if each.family == family), 0.0)
 
 
 def rms(errors: Array) -> float:

@@ -10,6 +10,7 @@ from armscope.physics.clause import Number, Told, say
 from armscope.physics.registry import effect_named
 from armscope.verdict.schema import Cause, Diagnosis, FoundEffect, Verdict
 from armscope.verdict.wording import (
+    SMALL,
     capitalised,
     implausible,
     main_and_minor,
@@ -32,7 +33,9 @@ _EVERYWHERE = {
     "transmission": "all drives err a little, as in any arm",
     "drift": "base and instrument wander a little, as in any session",
 }
-_WANDER = "a slow wander of the set-up"
+_BESIDE = {"transmission": "all drives a little", "drift": "and a slow wander"}
+"""Small errors of a family beside one that stands out; of others: `_OTHERS`."""
+_OTHERS = "all others a little"
 _CURES = {
     "geometric": "Calibrate the geometry: put the fitted zeros and D-H rows (`armscope calibrate`, or model.yaml) into "
     "the controller, or command what their inverse kinematics asks for (`armscope compensate`).",
@@ -70,10 +73,10 @@ def headline(verdict: Diagnosis) -> str:
             f"{millimetres(verdict.residual_after_mm)} per axis, which is noise."
         )
     if not main and not verdict.causes:
-        return " ".join([_no_cause(verdict, minor), *_remainder(verdict)])
+        return f"{_no_cause(verdict, minor)} {capitalised(_remainder(verdict))}."
     told, rest = _told_and_rest(verdict.causes or _one_by_one(verdict))
     causes = "; ".join(f"{cause.text} – {percent(cause.share)}{_of_what(n)}" for n, cause in enumerate(told))
-    return " ".join([f"{capitalised(causes)}.", *_others(rest), *_remainder(verdict)])
+    return f"{capitalised(causes)}. {capitalised('; '.join([*_others(rest), _remainder(verdict)]))}."
 
 
 def _told_and_rest(causes: Sequence[Cause]) -> tuple[list[Cause], list[Cause]]:
@@ -100,8 +103,9 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], everywhere: bool
     if not told:
         return small
     more = len(members) - len(told)
-    count = f" (and {spelled(more)} more of its kind)" if more else ""
-    return f"{phrase(told[0])}{count}" + (f", and {small}" if everywhere else "")
+    beside = [f"{spelled(more)} more of its kind"] if more else []
+    beside += [_BESIDE.get(family, _OTHERS)] if everywhere else []
+    return f"{phrase(told[0])} ({', '.join(beside)})" if beside else phrase(told[0])
 
 
 def cure_of_family(family: str, members: Sequence[FoundEffect], everywhere: bool) -> str:
@@ -138,7 +142,7 @@ def more_than_noise(verdict: Verdict) -> bool:
 def background_in_words(verdict: Verdict) -> str:
     """ "small errors of shape and stiffness in all its joints and links, as any arm has"."""
     families = [family.family for family in verdict.background_families if family.present] or ["geometric"]
-    wander = _WANDER if "drift" in families else ""
+    wander = SMALL["drift"] if "drift" in families else ""
     of_arm = [_KINDS.get(family, family) for family in families if family != "drift"]
     if not of_arm:
         return wander
@@ -152,7 +156,7 @@ def _no_cause(verdict: Diagnosis, rest: Sequence[FoundEffect]) -> str:
     if verdict.background.present:
         share = percent(verdict.background.share)
         told = background_in_words(verdict)
-        verb = "is" if told == _WANDER else "are"
+        verb = "is" if told == SMALL["drift"] else "are"
         return f"No single part stands out: {told}, {verb} {share} of the squared error."
     return f"Only minor causes were found ({spelled(len(rest))})."
 
@@ -181,18 +185,17 @@ def _others(rest: Sequence[Cause]) -> Iterator[str]:
         kinds = f"{', '.join(first)} and {last}" if first else last
         parts.append(f"small errors of {kinds} in all its joints and links, as any arm has")
     if any(cause.family == "drift" and not cause.members for cause in rest):
-        parts.append(_WANDER)
+        parts.append(SMALL["drift"])
     if parts:
-        yield f"{capitalised(', and '.join(parts))}: {percent(sum(cause.share for cause in rest))}."
+        yield f"{', and '.join(parts)}: {percent(sum(cause.share for cause in rest))}"
 
 
-def _remainder(verdict: Diagnosis) -> Iterator[str]:
+def _remainder(verdict: Diagnosis) -> str:
     """What the model leaves."""
     left = millimetres(verdict.residual_after_mm)
     if more_than_noise(verdict):
-        yield f"The {left} left are more than noise: something is still without a cause."
-    else:
-        yield f"The {left} left are noise."
+        return f"the {left} left are more than noise, and still without a cause"
+    return f"the {left} left are noise"
 
 
 def phrase(effect: FoundEffect) -> str:

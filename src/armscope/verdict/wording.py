@@ -23,6 +23,14 @@ LABELS = {
 }
 """What parameters of several effects are called; an effect has labels of its own (`armscope.physics.effect`)."""
 
+SMALL = {
+    "geometric": "small errors of shape in all joints and links",
+    "elastic": "a little give in all joints and links",
+    "transmission": "small errors of all drives",
+    "drift": "a slow wander of the set-up",
+}
+"""What every arm and set-up has a little of, by family."""
+
 
 @dataclass(frozen=True)
 class Reading:
@@ -132,7 +140,7 @@ def millimetres(value: float | None) -> str:
     """A length in mm with three significant digits; a dash where there is none."""
     if value is None or not math.isfinite(value):
         return "–"
-    return f"{value:.3g} mm"
+    return f"{value:.0f} mm" if abs(value) >= 1000 else f"{value:.3g} mm"
 
 
 def reach(curve: Curve) -> Parameter:

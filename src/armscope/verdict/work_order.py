@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
 
 from armscope.core.location import Location
 from armscope.core.types import Array
-from armscope.physics.backgrounds import GEOMETRIC
-from armscope.physics.scene import Part
+from armscope.physics.backgrounds import DRIFT, ELASTIC, GEOMETRIC, TRANSMISSION
+from armscope.physics.scene import Part, Scene
 from armscope.verdict.contributions import Contributions, Repair, rms
-from armscope.verdict.schema import INTERVAL, Cause, Diagnosis, FoundEffect
+from armscope.verdict.schema import INTERVAL, Diagnosis, FoundEffect
 from armscope.verdict.sentences import cure_of_family, phrase
-from armscope.verdict.wording import capitalised, implausible, read_parameter
+from armscope.verdict.wording import SMALL, capitalised, implausible, read_parameter
 
 CHANGES = {
     "joint_offset": ("mastering", "Set the zero of {location} anew: {zero}."),
@@ -50,8 +50,15 @@ CHANGES = {
 """By effect: what is changed, in two words, and how. The rest of the cure stands in the effect's own words."""
 NUMBERS = ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg")
 """Of a D-H row, as robot.yaml calls them."""
-WORTH_ALL = 0.1
-"""Share of the squared error from which the small errors in all joints and links are a task of their own."""
+ALL_AT_ONCE = {
+    GEOMETRIC: "calibration", ELASTIC: "elastic model", TRANSMISSION: "correction table", DRIFT: "fastening"
+}  # fmt: skip
+"""What is changed for the small errors of a family in all joints and links."""
+WORTH_ALL = 0.05
+"""Share of the squared error from which these are a task of their own."""
+LEAST_GAIN = 0.01
+"""Share of the error that a task must take away in its turn."""
+NO_GAIN = "To cure it does not lower the error in its turn: confirm it before anything is changed."
 STEADY = 0.02
 """A motion whose range is below this share of its size is told as one number."""
 
@@ -61,60 +68,97 @@ class Task:
     """One line of a work order, in words.
 
     Attributes:
-        number: from 1, the most important first.
         what: who does what, by how much.
         place, change: where, and what is changed there, in two words.
         motion: how far and which way it goes in these recordings: mm, mrad and degrees, with signs.
         instruction, cure: what to do; and the rule by which it is commanded away.
-        alone_mm, then_mm: RMS per axis expected once this alone, or this and all before it, is cured.
         confirm: how to confirm it first.
+        alone_mm, then_mm: RMS per axis expected once this alone, or this and all before it, is cured.
     """
 
-    number: int
     what: str
     place: str
     change: str
     motion: str
     instruction: str
     cure: str
-    alone_mm: float
-    then_mm: float
     confirm: str
+    alone_mm: float = math.nan
+    then_mm: float = math.nan
 
 
-def tasks(verdict: Diagnosis, worth: Contributions) -> list[Task]:
-    """The work order of a verdict: one task per major effect, and one for small errors that make up a cause."""
-    single = [
-        _task(verdict, worth, number, cause, effect)
-        for number, cause in enumerate(worth.causes, start=1)
-        for effect in cause.effects[:1]
-    ]
-    everywhere = [cause for cause in verdict.causes if cause.everywhere and verdict.background.share > WORTH_ALL]
-    everywhere.sort(key=lambda cause: cause.family != GEOMETRIC)  # what a calibration takes out comes first
-    return [*single, *(_calibration(worth, len(single) + 1, cause) for cause in everywhere[:1])]
+@dataclass(frozen=True)
+class WorkOrder:
+    """What to do, and what was found besides.
+
+    Attributes:
+        tasks: in the order in which they pay: repairs, then what takes out small errors everywhere, then repairs that
+            pay only after that.
+        besides: in words, causes that leave the error as it is in their turn, and what to do about them.
+    """
+
+    tasks: tuple[Task, ...]
+    besides: tuple[str, ...]
 
 
-def _calibration(worth: Contributions, number: int, cause: Cause) -> Task:
-    """What takes out the small errors of all joints and links at once."""
-    named = sum((each.moved for each in worth.causes), np.zeros_like(worth.left))
+def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
+    """The work order of a verdict: tasks for major effects, and for small errors that make up a cause."""
+    scene = verdict.model.posture(verdict.model.scene(verdict.recordings)).scene
+    repairs = [(task_of(scene, cause, effect), cause.moved) for cause in worth.causes for effect in cause.effects[:1]]
+    share = {family.family: family.share for family in verdict.background_families}
+    small = [(_everywhere(family), moved) for family, moved in worth.small.items() if share.get(family, 0) > WORTH_ALL]
+    first, left, unpaid = _by_gain(repairs, worth.before)
+    then, left, _ = _by_gain(small, left)
+    last, left, unpaid = _by_gain(unpaid, left)
+    alone = {id(task): rms(worth.before - moved) for task, moved in (*repairs, *small)}
+    done = tuple(replace(task, alone_mm=alone[id(task)], then_mm=then_mm) for task, then_mm in (*first, *then, *last))
+    return WorkOrder(done, tuple(f"{task.what}. {task.cure if rms(moved) == 0 else NO_GAIN}" for task, moved in unpaid))
+
+
+Job = tuple[Task, Array]
+"""A task, and what the tool moves by what it cures."""
+
+
+def _by_gain(waiting: Sequence[Job], left: Array) -> tuple[list[tuple[Task, float]], Array, list[Job]]:
+    """Tasks in the order in which they pay, with the error after each; what is left then; and those that don't pay."""
+    done, waiting = [], list(waiting)
+    while waiting:
+        best = min(waiting, key=lambda job: rms(left - job[1]))
+        if rms(left - best[1]) > (1 - LEAST_GAIN) * rms(left):
+            break
+        left = left - best[1]
+        done.append((best[0], rms(left)))
+        waiting = [job for job in waiting if job is not best]
+    return done, left, waiting
+
+
+def _everywhere(family: str) -> Task:
+    """What takes out the small errors of a family in all joints and links at once."""
     return Task(
-        number=number,
-        what="Small errors in all joints and links, as any arm has",
-        place="whole arm",
-        change="calibration",
+        what=f"{capitalised(SMALL[family])}, as {'in any session' if family == DRIFT else 'any arm has'}",
+        place="set-up" if family == DRIFT else "whole arm",
+        change=ALL_AT_ONCE[family],
         motion="",
-        instruction=cure_of_family(cause.family, (), True).replace("`", ""),
+        instruction=cure_of_family(family, (), True).replace("`", ""),
         cure="",
-        alone_mm=rms(worth.before - worth.everywhere),
-        then_mm=rms(worth.before - worth.everywhere - named),
-        confirm="Diagnose again after the repairs above: what is left of it is for a calibration.",
+        confirm="Diagnose again after the repairs above: this is for what they leave.",
     )
 
 
-def _task(verdict: Diagnosis, worth: Contributions, number: int, cause: Repair, effect: FoundEffect) -> Task:
+def task_of(scene: Scene, cause: Repair, effect: FoundEffect) -> Task:
+    """What is done about a cause; what it is worth stands open.
+
+    Args:
+        scene: the fitted model's, of the recorded rows.
+        cause: with its parts of the fitted model.
+        effect: the effect that it is cured as.
+
+    Returns:
+        The task.
+    """
     change, how = CHANGES.get(effect.effect, ("", ""))
     words = {"location": effect.location, "zero": "–", "ratio": "–", "row": "–", "size": ""}
-    words["opposite"] = motion(verdict, cause.parts, -1) or "its opposite"
+    words["opposite"] = motion(scene, cause.parts, -1) or "its opposite"
     told = {p.name: p for p in effect.parameters if not implausible(p, effect)}
     if "offset" in told:
         words["zero"] = f"where the controller shows 0°, the joint stands at {angle(told['offset'].value)}"
@@ -126,15 +170,12 @@ def _task(verdict: Diagnosis, worth: Contributions, number: int, cause: Repair, 
     if effect.effect == "link_geometry":
         words["row"] = "; ".join(_row(effect)) or "its errors can't be told apart in these poses"
     return Task(
-        number=number,
         what=capitalised(phrase(effect)),
         place=effect.location,
         change=change,
-        motion=motion(verdict, cause.parts),
+        motion=motion(scene, cause.parts),
         instruction=how.format(**words),
         cure=effect.cure.replace("`", ""),
-        alone_mm=worth.cured([number - 1]),
-        then_mm=worth.cured(range(number)),
         confirm=effect.confirm,
     )
 
@@ -152,11 +193,11 @@ def _row(effect: FoundEffect) -> Iterator[str]:
         yield f"{p.name} = stated {p.name} {size}"
 
 
-def motion(verdict: Diagnosis, parts: tuple[Part, ...], sign: int = 1) -> str:
+def motion(scene: Scene, parts: tuple[Part, ...], sign: int = 1) -> str:
     """The largest turn and the largest shift of parts over the recorded rows.
 
     Args:
-        verdict: whose parts they are.
+        scene: the fitted model's, of the recorded rows.
         parts: of the fitted model.
         sign: -1 for what undoes them.
 
@@ -164,8 +205,7 @@ def motion(verdict: Diagnosis, parts: tuple[Part, ...], sign: int = 1) -> str:
         In words, with signs; "" for none.
     """
     amounts: dict[str, list[tuple[str, Array]]] = {"turns": [], "moves": []}
-    posture = verdict.model.posture(verdict.model.scene(verdict.recordings))
-    for direction, amount in posture.scene.amounts(parts).items():
+    for direction, amount in scene.amounts(parts).items():
         place = Location.of(direction.location)
         if place.kind in ("instrument", "payload"):
             continue

@@ -16,6 +16,7 @@ from armscope.core.inputs import Strict
 from armscope.world.effects import LIBRARY
 from armscope.world.kinds import Kind
 from armscope.world.outside import OUTSIDE
+from armscope.world.rough import draw_broken
 from armscope.world.session import PoseRule
 
 KINDS: dict[str, Kind] = {kind.name: kind for kind in LIBRARY + OUTSIDE}
@@ -27,6 +28,8 @@ STRENGTHS = (0.5, 1.0, 2.0, 3.0, 5.0, 10.0)
 FAINT = (2.0, 3.0, 4.0, 5.0, 6.5, 9.0)
 """Sizes of faint effects: in noise of a single reading, summed over all readings (square root of the noncentrality)."""
 FIXED_SEED = 20061103
+CAUSES = (3.0, 10.0)
+"""Sizes of what stands out of a rough arm, in noise of a single reading."""
 COMMON_KINDS = (
     "joint_compliance", "joint_compliance", "joint_offset", "joint_offset", "link_geometry", "link_geometry",
     "gear_eccentricity", "gear_eccentricity", "backlash", "bearing_compliance", "gear_ratio", "thermal_expansion",
@@ -34,7 +37,19 @@ COMMON_KINDS = (
 )  # fmt: skip
 """What real arms have together, the usual suspects twice."""
 
-Category = Literal["clean", "single", "multiple", "outside", "misleading", "inseparable", "real", "bad_shots", "faint"]
+Category = Literal[
+    "clean",
+    "single",
+    "multiple",
+    "outside",
+    "misleading",
+    "inseparable",
+    "real",
+    "bad_shots",
+    "faint",
+    "rough",
+    "rough_misleading",
+]
 
 
 class Wish(Strict):
@@ -69,7 +84,9 @@ class WorldSpec(Strict):
         columns: context in recordings.csv: `some` (all that is needed, others at random), `missing` (what the effects
             need is left out), `irrelevant` (everything, and columns that mean nothing).
         masses: what robot.yaml says about the links' masses.
-        noise: `gaussian`, `outliers` (2 % bad shots), `heavy_tails` (Student's t with 3 degrees of freedom).
+        noise: `gaussian`, `outliers` (2 % bad shots), `heavy_tails` (Student's t with 3 degrees of freedom), `rough`
+            (see `armscope.world.rough.rough_noise`).
+        rough: what the arm has everywhere, names of `armscope.world.rough.BLEMISHES`.
         noise_stated: whether robot.yaml states the instrument's sigma.
     """
 
@@ -84,7 +101,8 @@ class WorldSpec(Strict):
     poses: PoseRule = "free"
     columns: Literal["some", "missing", "irrelevant"] = "some"
     masses: Literal["right", "wrong", "absent"] = "right"
-    noise: Literal["gaussian", "outliers", "heavy_tails"] = "gaussian"
+    noise: Literal["gaussian", "outliers", "heavy_tails", "rough"] = "gaussian"
+    rough: tuple[str, ...] = ()
     noise_stated: bool = True
 
 
@@ -93,7 +111,7 @@ Recipe = Callable[[np.random.Generator], Details]
 
 
 def catalogue(proof_seed: int, size: Literal["small", "full"] = "small") -> list[WorldSpec]:
-    """The worlds of a proof: 24 in the small one, over 300 in the full one.
+    """The worlds of a proof: 24 in the small one, some 500 in the full one.
 
     Args:
         proof_seed: from which the seeds of every second world are derived.
@@ -149,6 +167,10 @@ def _full() -> Iterator[tuple[Category, Recipe]]:
         if kind.effect != "payload_error":  # it never stands alone
             for size in FAINT:
                 yield "faint", _faint(kind.name, size)
+    for number in range(48):
+        yield "rough", _rough(number % 4)
+    for number in range(12):
+        yield "rough_misleading", _rough(number % 2, ("in_order", "warming_in_step", "few")[number % 3])
 
 
 def _small() -> Iterator[tuple[Category, Recipe]]:
@@ -167,7 +189,7 @@ def _small() -> Iterator[tuple[Category, Recipe]]:
     yield "misleading", MISLEADING[0]
     yield "misleading", MISLEADING[3]
     yield "inseparable", INSEPARABLE[0]
-    yield "real", _real_arm
+    yield "rough", _rough(1, rows=100)
     yield "bad_shots", _bad_shots("outliers", 1)
 
 
@@ -291,6 +313,20 @@ def _real_arm(rng: np.random.Generator) -> Details:
     )
     wishes.insert(0, {"kind": dominant, "strength": float(rng.choice([10.0, 15.0, 20.0]))})
     return {"arm": arm, "rows": int(rng.choice([150, 200, 250, 300])), "wishes": wishes, "masses": "wrong"}
+
+
+def _rough(causes: int, poses: str = "free", rows: int | None = None) -> Recipe:
+    """Any assumption broken, each on its own; upon that, causes that stand out of what the arm has everywhere."""
+
+    def recipe(rng: np.random.Generator) -> Details:
+        broken = draw_broken(rng)
+        kinds = list(dict.fromkeys(rng.permutation([*COMMON_KINDS, "payload_error"])))[:causes]
+        wishes = [{"kind": str(kind), "strength": float(np.exp(rng.uniform(*np.log(CAUSES))))} for kind in kinds]
+        noise = "rough" if "instrument" in broken else "gaussian"
+        count = rows or int(rng.choice([200, 250, 300]))
+        return {"rough": broken, "wishes": wishes, "poses": poses, "noise": noise, "rows": count}
+
+    return recipe
 
 
 def _bad_shots(noise: str, count: int) -> Recipe:

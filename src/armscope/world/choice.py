@@ -10,32 +10,31 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.location import Location
-from armscope.world.catalogue import KINDS, Wish
-from armscope.world.kinds import LOAD, Concealed, Kind, Scene, number
+from armscope.world.catalogue import KINDS, Wish, WorldSpec
+from armscope.world.kinds import CONSTANT, LOAD, Concealed, Kind, Scene, number
 from armscope.world.rivals import Judge, Visibility
 from armscope.world.strength import Sized, carried, sized
 
 LARGEST_FACTOR = 15.0
 """An effect sits where no more than this multiple of its natural size is needed, if there is such a place."""
-LEAST_TORQUE = 0.02
-"""Share of the arm's largest torque below which a joint counts as unloaded."""
 LEAST_LEFT = 0.05
 """Share of an effect's squared size that the effects already chosen must leave to see."""
+STANDS_OUT = 2.5
+"""A cause is at least so many times as large at the tool as what is rough everywhere usually is of its kind."""
 TRIES = 4
 TRIES_FOR_AMBIGUITY = 12
 
 
 def choose(
-    scene: Scene, judge: Judge, wishes: tuple[Wish, ...], sigma: float, ambiguous: bool, rng: np.random.Generator
+    scene: Scene, judge: Judge, spec: WorldSpec, rough: Sequence[Sized], rng: np.random.Generator
 ) -> list[Sized]:
     """One concealed effect per wish, sized in multiples of the noise; background that can't be seen is left out.
 
     Args:
         scene: the recorded rows.
         judge: of what can be told apart there.
-        wishes: what is to be concealed.
-        sigma: noise per axis, m.
-        ambiguous: take what can't be told apart; otherwise, what can.
+        spec: what is to be concealed; among inseparable worlds what can't be told apart, otherwise what can.
+        rough: what the arm has everywhere; of it, the story's effects stand out, each in the place of its like.
         rng: draws places and numbers.
 
     Returns:
@@ -44,13 +43,16 @@ def choose(
     Raises:
         RuntimeError: the first wish of the story can't be had anywhere in this arm.
     """
-    chosen: list[Sized] = []
-    for wish in wishes:
+    chosen: list[Sized] = list(rough)
+    sigma = spec.sigma_mm * 1e-3
+    for wish in spec.wishes:
         if wish.minor:
             chosen += _background(scene, wish, chosen, sigma, rng)
         else:
-            chosen += _of_the_story(scene, judge, wish, chosen, sigma, ambiguous, rng)
-    return chosen
+            chosen += _of_the_story(scene, judge, wish, chosen, sigma, spec.category == "inseparable", rng)
+    story = [size for size in chosen if not size.minor]
+    small = [size for size in chosen if size.minor]
+    return story + [size for size in small if not _taken(size.effect.kind, size.effect.location, story)]
 
 
 def _background(scene: Scene, wish: Wish, chosen: list[Sized], sigma: float, rng: np.random.Generator) -> list[Sized]:
@@ -73,19 +75,21 @@ def _of_the_story(
     """
     kind = KINDS[wish.kind]
     places = [wish.location] if wish.location else kind.places(scene.description)
-    places = [place for place in places if not _taken(kind, place, chosen) and _loaded(scene, kind, place)]
+    story = [size for size in chosen if not size.minor]
+    places = [place for place in places if not _taken(kind, place, story) and _loaded(scene, kind, place)]
+    wanted = max(wish.strength * sigma, STANDS_OUT * _usual(kind, chosen))
     if kind.effect == "payload_error":
-        return _payload_error(scene, kind, wish.strength * sigma, rng)
+        return _payload_error(scene, kind, wanted, rng)
     tries = TRIES_FOR_AMBIGUITY if ambiguous else TRIES
     for largest_factor in (LARGEST_FACTOR, np.inf):
         found: list[Sized] = []
         order = itertools.islice(itertools.cycle(rng.permutation(places).tolist()), max(2 * tries, len(places)))
         for place in order:
             effect = Concealed(kind, place, kind.draw(rng, scene, place))
-            size = sized(scene, effect, wish.strength * sigma, largest_factor=largest_factor)
+            size = sized(scene, effect, wanted, largest_factor=largest_factor)
             if size is None:
                 continue
-            visibility = judge.visibility(size, chosen, sigma)
+            visibility = judge.visibility(size, _others(size, chosen), sigma)
             if visibility.noncentrality < LEAST_LEFT * size.pattern.size * (size.rms / sigma) ** 2:
                 continue
             found.append(size)
@@ -121,21 +125,28 @@ def _loaded(scene: Scene, kind: Kind, place: str) -> bool:
     """Whether gravity turns the motor that an effect of load is to sit at."""
     if kind.driver != LOAD or Location.of(place).kind != "joint" or kind.effect == "bearing_compliance":
         return True
-    return bool(scene.torque_scale[number(place)] > LEAST_TORQUE * scene.torque_scale.max())
+    return scene.loads(number(place))
 
 
-def visibilities(judge: Judge, chosen: list[Sized], sigma: float) -> list[Visibility]:
-    """How well each of the concealed effects can be found beside the others.
+def _usual(kind: Kind, chosen: list[Sized]) -> float:
+    """Median size at the tool of what the arm has of a kind everywhere, m."""
+    sizes = [size.rms for size in chosen if size.minor and size.effect.kind.effect == kind.effect]
+    return float(np.median(sizes)) if sizes else 0.0
+
+
+def visibilities(judge: Judge, sizes: Sequence[Sized], chosen: Sequence[Sized], sigma: float) -> list[Visibility]:
+    """How well some of the concealed effects can be found beside the others.
 
     Args:
         judge: of what can be told apart.
+        sizes: which.
         chosen: the concealed effects.
         sigma: noise per axis, m.
 
     Returns:
-        One per effect.
+        One per effect of ``sizes``.
     """
-    return [judge.visibility(size, _others(size, chosen), sigma) for size in chosen]
+    return [judge.visibility(size, _others(size, chosen), sigma) for size in sizes]
 
 
 def visibilities_in_runs(
@@ -159,5 +170,8 @@ def visibilities_in_runs(
     ]
 
 
-def _others(size: Sized, chosen: list[Sized]) -> list[Sized]:
-    return [other for other in chosen if other is not size]
+def _others(size: Sized, chosen: Sequence[Sized]) -> list[Sized]:
+    """The story's other effects, and errors of D-H rows that an arm has everywhere, unless it is one itself."""
+    constant = size.effect.kind.driver == CONSTANT
+    free = [other for other in chosen if not other.minor or (other.effect.kind.driver == CONSTANT and not constant)]
+    return [other for other in free if other is not size]

@@ -21,9 +21,12 @@ import yaml
 
 from armscope.core.files import write_table, write_yaml
 from armscope.world.catalogue import WorldSpec
+from armscope.world.choice import visibilities
 from armscope.world.effects import linear_numbers
 from armscope.world.kinds import LOAD
+from armscope.world.oracle import oracle_rms
 from armscope.world.rivals import Visibility
+from armscope.world.rough import as_stated
 from armscope.world.strength import Sized, fit_frames, rms
 from armscope.world.virtual_arm import Measured, VirtualArm, conceal, measure_session, seen_in_runs
 
@@ -69,14 +72,15 @@ def _rms_on_test(arm: VirtualArm, measured: Measured) -> dict[str, float]:
 def _columns(arm: VirtualArm, rng: np.random.Generator) -> tuple[list[str], list[str]]:
     """Context columns of the table, and those that the concealed effects would need but don't get."""
     spec, chosen = arm.spec, arm.chosen
-    needed = {column for size in chosen for column in size.effect.kind.needs}
+    needed = {column for size in chosen if not size.minor for column in size.effect.kind.needs}
     drawn = {column: bool(rng.random() < SHOWN[column]) for column in CONTEXT}
     if spec.columns == "irrelevant":
         drawn = dict.fromkeys(CONTEXT, True)
     shown = [column for column in CONTEXT if drawn[column] or column in needed]
-    if any(size.effect.location == "base" and size.effect.kind.driver == "time" for size in chosen):
+    moves = [size for size in chosen if size.effect.location == "base" and size.effect.kind.driver == "time"]
+    if any(not size.minor for size in moves):
         shown = [column for column in shown if column != "run"]  # free base frames per run would hide it
-    if any(size.effect.kind.effect == "payload_error" for size in chosen):
+    if any(size.effect.kind.effect == "payload_error" and not size.minor for size in chosen):
         shown = [column for column in shown if column != "torque"]  # recorded torques hold the true payload already
     left_out = sorted(needed) if spec.columns == "missing" else []
     return [column for column in shown if column not in left_out], left_out
@@ -118,6 +122,7 @@ def _visible_robot(source: Path, spec: WorldSpec, rng: np.random.Generator) -> d
             ]
     if spec.masses == "absent":
         del content["links"]
+    content = as_stated(content, spec.rough, rng)
     if spec.noise_stated:
         content["instrument"] = {"sigma_mm": spec.sigma_mm}
     return content
@@ -127,7 +132,7 @@ def _truth(arm: VirtualArm, measured: Measured, columns: list[str], left_out: li
     spec, frames, chosen = arm.spec, arm.frames, arm.chosen
     story = [size for size in chosen if not size.minor]
     seen = seen_in_runs(arm) if "run" in columns else arm.seen
-    known = dict(zip(map(id, story), seen, strict=True))
+    known = dict(zip(map(id, story), seen, strict=True)) | (_seen_beside(arm) if spec.rough else {})
     ordered = sorted(chosen, key=lambda size: -size.rms)
     return {
         "sigma_mm": spec.sigma_mm,
@@ -153,7 +158,34 @@ def _truth(arm: VirtualArm, measured: Measured, columns: list[str], left_out: li
             "masses": spec.masses,
             "columns_left_out": left_out,
             "mismatch": bool(chosen),
+            **(_roughness(arm, measured, "run" in columns) if spec.rough else {}),
         },
+    }
+
+
+def _seen_beside(arm: VirtualArm) -> dict[int, Visibility]:
+    """What could stand in the place of the larger ones among small errors everywhere, by their id."""
+    sigma = arm.spec.sigma_mm * 1e-3
+    large = [size for size in arm.chosen if size.minor and size.rms > sigma]
+    return dict(zip(map(id, large), visibilities(arm.judge, large, arm.chosen, sigma), strict=True))
+
+
+def _roughness(arm: VirtualArm, measured: Measured, runs: bool) -> dict[str, Any]:
+    """What is rough, what naming it isn't wrong, what frames and D-H values leave, and what an oracle on test rows."""
+    # who carries what weighs more than is stated may blame the payload
+    carried = [["payload_error", "payload"]] if "masses" in arm.spec.rough else []
+    placed = arm.frames.place(arm.nominal, arm.scene.tool_turn)[arm.recorded]
+    free = np.concatenate(
+        [arm.judge.frames, *(r.columns for r in arm.judge.rivals if r.effect in ("joint_offset", "link_geometry"))],
+        axis=1,
+    )
+    missing = (measured.readings[arm.recorded] - placed).reshape(-1)
+    left = missing - free @ np.linalg.lstsq(free, missing, rcond=1e-9)[0]
+    return {
+        "rough": list(arm.spec.rough),
+        "also_allowed": carried,
+        "left_mm": round(rms(left) * 1e3, 5),
+        "oracle_on_test_mm": round(oracle_rms(arm, measured, runs) * 1e3, 5),
     }
 
 
@@ -166,8 +198,9 @@ def _effect(size: Sized, spec: WorldSpec, visibility: Visibility | None) -> dict
         "rms_at_tool_mm": round(size.rms * 1e3, 5),
         "strength": round(size.rms * 1e3 / spec.sigma_mm, 3),
         "driver": kind.driver,
-        "minor": visibility is None,
-        "values_comparable": spec.masses == "right" or kind.driver != LOAD,
+        "minor": size.minor,
+        # of what a rough arm has everywhere, few numbers are those of one column
+        "values_comparable": (spec.masses == "right" or kind.driver != LOAD) and not (spec.rough and size.minor),
     }
     parts = linear_numbers(size.effect)
     if parts:

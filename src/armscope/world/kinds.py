@@ -15,6 +15,8 @@ from armscope.world.mechanism import Geometry
 from armscope.world.statics import Hidden, Session
 
 Values = Mapping[str, float]
+LEAST_TORQUE = 0.02
+"""Share of the arm's largest torque below which a joint counts as unloaded."""
 
 ANGLE, LOAD, APPROACH = "joint angle", "gravity load", "side of approach"
 TEMPERATURE, TIME, PAYLOAD, SPEED, CONSTANT = "temperature", "time", "payload", "speed", "constant"
@@ -46,6 +48,10 @@ class Scene:
     def largest_torque(self, motor: int) -> float:
         """Largest gravity torque on a motor (0-based) in the session, N m."""
         return float(self.torque_scale[motor])
+
+    def loads(self, motor: int) -> bool:
+        """Whether gravity turns a motor (0-based) by more than a trace."""
+        return bool(self.torque_scale[motor] > LEAST_TORQUE * self.torque_scale.max())
 
     def rows(self, which: NDArray[np.intp]) -> Scene:
         """The scene's rows ``which``; the torque scale stays that of the whole session."""

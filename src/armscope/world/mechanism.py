@@ -25,6 +25,8 @@ SEGMENTS = 8
 """Segments of a bending link: the tip's deflection under an end load is 1 / (4 SEGMENTS^2) = 0.4 % below the beam's."""
 
 BASE_FREEDOMS = ("base x", "base y", "base z", "base rx", "base ry", "base rz")
+PEDESTAL = ("pedestal u", "pedestal v")
+"""Hinges under the arm, level and square to each other, turned about z against the base's axes."""
 
 
 @dataclass(frozen=True)
@@ -52,6 +54,7 @@ class Layout:
         stiffness: N m/rad of the freedoms that are springs.
         motor_stiffness: N m/rad by motor (0-based), of motors that give way.
         flexibility: 1/(N m^2) by link (0-based): 1 / (E I) of links that bend.
+        pedestal_turn: from the base's x axis to the pedestal's u axis, rad.
     """
 
     row_errors: Array
@@ -61,6 +64,7 @@ class Layout:
     stiffness: Mapping[str, float] = field(default_factory=dict)
     motor_stiffness: Mapping[int, float] = field(default_factory=dict)
     flexibility: Mapping[int, float] = field(default_factory=dict)
+    pedestal_turn: float = 0.0
 
 
 class Geometry:
@@ -196,8 +200,9 @@ def _mjcf(geometry: Geometry, layout: Layout, rows: Array) -> str:
 
 def _chain(geometry: Geometry, layout: Layout, rows: Array) -> str:
     """Nested bodies from base to tool; opened on the way out, closed at the end."""
-    parts = ['<body name="base">', *(_freedom(layout, name) for name in BASE_FREEDOMS)]
-    depth = 1
+    parts = ['<body name="pedestal">', *(_freedom(layout, name) for name in PEDESTAL)]
+    parts += ['<body name="base">', *(_freedom(layout, name) for name in BASE_FREEDOMS)]
+    depth = 2
     springs = _sprung_hinges(geometry, layout)
     for j in range(geometry.n_joints):
         opened = 0
@@ -240,8 +245,10 @@ def _freedom(layout: Layout, name: str) -> str:
     if name not in layout.freedoms:
         return ""
     axis = name.rsplit(" ", 1)[1]
-    turns = name.startswith("tilt") or len(axis) == 2
-    direction = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}[axis[-1]]
+    turns = name.startswith(("tilt", "pedestal")) or len(axis) == 2
+    c, s = np.cos(layout.pedestal_turn), np.sin(layout.pedestal_turn)
+    ways = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1), "u": (c, s, 0), "v": (-s, c, 0)}
+    direction = _numbers(ways[axis[-1]])
     spring = f' stiffness="{float(layout.stiffness[name])!r}"' if name in layout.stiffness else ""
     return f'<joint name="{name}" type="{"hinge" if turns else "slide"}" axis="{direction}"{spring}/>'
 

@@ -16,7 +16,7 @@ from armscope.robot.description import RobotDescription
 from armscope.world.mechanism import Geometry, Layout, Mechanism
 from armscope.world.statics import Session
 
-PoseRule = Literal["free", "lockstep", "narrow", "no_payload", "constant_speed", "warming_in_step"]
+PoseRule = Literal["free", "lockstep", "narrow", "no_payload", "constant_speed", "warming_in_step", "in_order", "few"]
 POSE_RULES: dict[str, str] = {
     "free": "random over the joints' ranges, all context varies",
     "lockstep": "joint 3 follows joint 2 to within 0.003 rad",
@@ -24,9 +24,12 @@ POSE_RULES: dict[str, str] = {
     "no_payload": "never a payload",
     "constant_speed": "each joint's speed is proportional to its angle",
     "warming_in_step": "the temperature rises in step with time",
+    "in_order": "joint 2 goes from one end of its range to the other in the course of the session, and it gets warmer",
+    "few": "two dozen poses, again and again",
 }
 
 LOWEST_TOOL_M = 0.05
+FEW_POSES = 24
 SLACK_OF_PARALLELOGRAM_RAD = 1.2
 """Elbow angles of a parallelogram arm stay this close to square, so that the linkage never comes near collinear."""
 
@@ -52,7 +55,11 @@ def random_session(
     Returns:
         Commanded angles, rad, and the context of every row.
     """
-    commanded = reachable_poses(description, rng, count, rule)
+    commanded = reachable_poses(description, rng, FEW_POSES if rule == "few" else count, rule)
+    if rule == "few":
+        commanded = commanded[rng.integers(0, FEW_POSES, count)]
+    if rule == "in_order":
+        commanded = commanded[np.argsort(commanded[:, 1])]
     motors = commanded.shape[1]
     run, time = _runs(rng, count)
     payload = rng.integers(0, 4, count) * (largest_payload / 3)
@@ -63,7 +70,7 @@ def random_session(
         payload = np.zeros(count)
     if rule == "constant_speed":
         speed = 0.3 * commanded
-    if rule == "warming_in_step":
+    if rule in ("warming_in_step", "in_order"):
         temperature = (20.5 + warming * time / time[-1] + rng.normal(0, 0.01 * warming, count)).round(2)
     return Session(commanded, np.asarray(payload.round(3), dtype=float), time, temperature, run, approach, speed)
 

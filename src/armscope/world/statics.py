@@ -64,6 +64,7 @@ class Hidden:
         small: small slides (m) and hinges (rad) by name, (N,) each.
         curves: angle of a motor (0-based) as a function of gravity's torque on it, N m to rad.
         payload_mass: added to the stated payload, kg.
+        payload_share: added to the stated payload, as a share of it.
         scale: the instrument's length is (1 + scale) times the true one.
     """
 
@@ -73,6 +74,7 @@ class Hidden:
     small: dict[str, Array] = field(default_factory=dict)
     curves: list[tuple[int, LoadCurve]] = field(default_factory=list)
     payload_mass: float = 0.0
+    payload_share: float = 0.0
     scale: float = 0.0
 
     @classmethod
@@ -152,7 +154,7 @@ def balance(geometry: Geometry, session: Session, hidden: Hidden) -> Balance:
     torque = np.zeros((len(session), geometry.n_motors))
     residual = largest = 0.0
     needs_load = springs.count > 0 or bool(hidden.curves)
-    payload = session.payload + hidden.payload_mass
+    payload = session.payload * (1 + hidden.payload_share) + hidden.payload_mass
     for mass in np.unique(payload):
         mechanism.set_payload(float(mass))
         for row in np.flatnonzero(payload == mass):

@@ -13,8 +13,10 @@ from armscope.core.types import Array
 from armscope.robot.description_file import load_description
 from armscope.world.catalogue import LARGEST_PAYLOAD_KG, WorldSpec
 from armscope.world.choice import choose, visibilities, visibilities_in_runs
+from armscope.world.constants import ROUGH
 from armscope.world.kinds import Scene
 from armscope.world.rivals import Judge, Visibility
+from armscope.world.rough import blemishes, rough_description, rough_noise
 from armscope.world.session import random_session
 from armscope.world.statics import Hidden, Session, balance
 from armscope.world.strength import Frames, Sized, make_scene
@@ -59,10 +61,11 @@ def conceal(spec: WorldSpec, robots: Path) -> VirtualArm:
         spec: what to make.
         robots: folder of the arms' descriptions.
     """
-    poses, effects, noise = (np.random.default_rng(seed) for seed in np.random.SeedSequence(spec.seed).spawn(3))
-    description = load_description(robots / f"{spec.arm}.yaml")
+    poses, effects, noise, rough = (np.random.default_rng(seed) for seed in np.random.SeedSequence(spec.seed).spawn(4))
+    description = rough_description(load_description(robots / f"{spec.arm}.yaml"), spec.rough, rough)
     # thermal growth needs a hall that warms up
-    warming = 8.0 if any(wish.kind == "thermal_expansion" for wish in spec.wishes) else 2.0
+    grows = any(wish.kind == "thermal_expansion" for wish in spec.wishes)
+    warming = 8.0 if grows else ROUGH.day_k if "day" in spec.rough else 2.0
     warming *= float(poses.uniform(1, 2))
     payload = LARGEST_PAYLOAD_KG[spec.arm]
     session = random_session(description, poses, spec.rows + TEST_ROWS, spec.poses, payload, warming)
@@ -72,8 +75,9 @@ def conceal(spec: WorldSpec, robots: Path) -> VirtualArm:
     seen_by_all = scene.rows(recorded)
     judge = Judge(seen_by_all, nominal[recorded])
     sigma = spec.sigma_mm * 1e-3
-    chosen = choose(seen_by_all, judge, spec.wishes, sigma, spec.category == "inseparable", effects)
-    seen = visibilities(judge, [size for size in chosen if not size.minor], sigma)
+    chosen = choose(seen_by_all, judge, spec, blemishes(seen_by_all, spec.rough, rough), effects)
+    story = [size for size in chosen if not size.minor]
+    seen = visibilities(judge, story, chosen if spec.rough else story, sigma)
     return VirtualArm(
         spec, scene, nominal, recorded, held_out, tuple(chosen), tuple(seen), judge, _random_frames(effects), noise
     )
@@ -129,8 +133,10 @@ def measure_session(arm: VirtualArm) -> Measured:
     """The arm measured in the session it was made for; bad shots only among the recorded rows."""
     points, torque = true_points(arm, arm.scene)
     rng, sigma = arm.noise, arm.spec.sigma_mm * 1e-3
-    heavy = arm.spec.noise == "heavy_tails"
-    noise = sigma * (rng.standard_t(3, points.shape) if heavy else rng.normal(size=points.shape))
+    if arm.spec.noise == "heavy_tails":
+        noise = sigma * rng.standard_t(3, points.shape)
+    else:
+        noise = sigma * (rough_noise(points, rng) if arm.spec.noise == "rough" else rng.normal(size=points.shape))
     bad = np.zeros(len(points), dtype=bool)
     if arm.spec.noise == "outliers":
         struck = rng.choice(arm.recorded, max(1, round(BAD_SHARE * len(arm.recorded))), replace=False)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from armscope.proof.binomial import RATE, of_seeds, rate
 from armscope.proof.definitions import SEEDS, judged
 from armscope.proof.motion.scoring import AIMS, Row
-from armscope.proof.rates import RATE, of_seeds, rate
 
 HELD_OUT = "held-out error over the truth's own, median world (clean, single, multiple)"
 HELD_OUT_AIM = (0.0, 1.05)

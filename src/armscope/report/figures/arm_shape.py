@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
@@ -170,7 +169,8 @@ def _disc_centres(origins: Array, axes: Array, lines: list[Array]) -> Array:
     """(n, 3) a place for each joint's disc: its origin, or half-way along a piece of the arm that lies on its axis."""
     corners = np.vstack(lines)
     size = float(np.linalg.norm(np.ptp(corners, axis=0)))
-    options = [_places_on_axis(origin, axis, lines, size) for origin, axis in zip(origins, axes, strict=True)]
+    starts, ends = (np.vstack([line[some] for line in lines]) for some in (slice(None, -1), slice(1, None)))
+    options = [_places_on_axis(origin, axis, starts, ends, size) for origin, axis in zip(origins, axes, strict=True)]
     centres = origins.copy()
     placed = [np.zeros(3)]
     for joint in sorted(range(len(origins)), key=lambda joint: (len(options[joint]), joint)):
@@ -181,17 +181,12 @@ def _disc_centres(origins: Array, axes: Array, lines: list[Array]) -> Array:
     return centres
 
 
-def _places_on_axis(origin: Array, axis: Array, lines: list[Array], size: float) -> list[Array]:
-    places = [origin]
-    for line in lines:
-        for start, end in pairwise(line):
-            length = np.linalg.norm(end - start)
-            across = end - start - (end - start) @ axis * axis
-            if length < 0.02 * size or np.linalg.norm(across) > 1e-6 * length:
-                continue
-            if min(np.linalg.norm(start - origin), np.linalg.norm(end - origin)) < 1e-6 * size:
-                places.append((start + end) / 2)
-    return places
+def _places_on_axis(origin: Array, axis: Array, starts: Array, ends: Array, size: float) -> list[Array]:
+    along = ends - starts
+    length, across = (np.linalg.norm(each, axis=1) for each in (along, along - np.outer(along @ axis, axis)))
+    near = np.minimum(*(np.linalg.norm(each - origin, axis=1) for each in (starts, ends)))
+    held = (length >= 0.02 * size) & (across <= 1e-6 * length) & (near < 1e-6 * size)
+    return [origin, *((starts + ends)[held] / 2)]
 
 
 def _linkage(arm: Arm, frames: Chain) -> Array | None:

@@ -58,7 +58,8 @@ def aims(tables: dict[str, pd.DataFrame]) -> Figure:
     """Each aim's estimate with its 95 % interval, fixed and fresh seeds, over the range that the aim asks for."""
     table = tables["aims"]
     rates, limit = table[table["most"] <= 1], table[table["most"] > 1]
-    figure, (left, right) = plt.subplots(1, 2, figsize=(9.6, 4.4), width_ratios=[4, 1], layout="constrained")
+    height = 1.0 + 0.42 * rates["aim"].nunique()
+    figure, (left, right) = plt.subplots(1, 2, figsize=(9.6, height), width_ratios=[4, 1], layout="constrained")
     _aim_rows(left, rates)
     left.set(xlim=(-2, 102), xlabel="share of cases, %")
     _aim_rows(right, limit, percent=1.0, name="detected at\n90 %")

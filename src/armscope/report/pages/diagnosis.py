@@ -66,9 +66,9 @@ def write_work_order(subject: Subject, folder: Path) -> None:
     dh = verdict.model.arm.description.dh
     content = {
         **_about(verdict),
-        "tasks": subject.tasks,
+        "order": subject.order,
         "before": rms(subject.worth.before),
-        "left": min((task.then_mm for task in subject.tasks), default=rms(subject.worth.before)),
+        "left": min((task.then_mm for task in subject.order.tasks), default=rms(subject.worth.before)),
         "mm": millimetres,
         "background": percent(verdict.background.share),
         "dh": None if rows is None else rows.to_dict("records"),

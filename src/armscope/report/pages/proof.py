@@ -43,6 +43,7 @@ def write_proof_page(path: Path, tables: Path, figures: Path, seed: dict[str, An
         summary=_summary(read["aims"]),
         definitions=_paragraphs(definitions.__doc__ or ""),
         per_effect=_wide(read["per_effect"], "effect"),
+        rough=_rough(read["rough"]),
         outcomes=_wide(read["outcomes"], "category"),
         thresholds=read["thresholds"],
         detection=_detection(read["detection"]),
@@ -111,6 +112,19 @@ def _wide(table: pd.DataFrame, index: str) -> pd.DataFrame:
         pieces.append(wide.assign(seeds=seeds).reset_index())
     both = pd.concat(pieces).sort_values([index, "seeds"], kind="stable")
     return both[[index, "seeds", *[column for column in both.columns if column not in (index, "seeds")]]]
+
+
+def _rough(table: pd.DataFrame) -> pd.DataFrame:
+    """One row per family and score: fresh and fixed seeds and both, each with cases and interval."""
+    counted = (table[name] for name in ("estimate", "right", "cases", "low", "high"))
+    shown = table.assign(
+        cell=[
+            f"{100 * share:.0f} % ({right:.0f}/{cases:.0f}; {100 * low:.0f}–{100 * high:.0f} %)"
+            for share, right, cases, low, high in zip(*counted, strict=True)
+        ]
+    )
+    wide = shown.pivot_table(index=["family", "score"], columns="seeds", values="cell", aggfunc="first", sort=False)
+    return wide.reindex(columns=["fresh", "fixed", "all"]).fillna("–").reset_index()
 
 
 def _detection(table: pd.DataFrame) -> pd.DataFrame:

@@ -26,11 +26,7 @@ def findings(verdict: Diagnosis) -> dict[str, Any]:
         "cards": [as_card(effect) for effect in main],
         "minor": [as_card(effect) for effect in minor],
         "minor_share": percent(sum(effect.share for effect in minor)),
-        "background": [
-            (family.family, percent(family.share), f"{100 * min(max(family.share, 0.0), 1.0):.1f}")
-            for family in verdict.background_families
-            if family.present
-        ],
+        "background": verdict.background.present,
         "background_share": percent(verdict.background.share),
         "open_question": _concerns(verdict.next_poses, main),
     }

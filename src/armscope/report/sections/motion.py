@@ -143,7 +143,7 @@ def _better(subject: MotionSubject) -> dict[str, Any]:
 
 
 def _friction(subject: MotionSubject) -> dict[str, Any]:
-    names = ("coulomb", "viscous", "inertia")
+    names = ("offset", "coulomb", "viscous", "inertia")
     return {"joints": [(each, _told(each, names)) for each in subject.verdict.background]}
 
 

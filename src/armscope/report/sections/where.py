@@ -2,16 +2,56 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 from armscope.report.figures.arm import arm_figure
+from armscope.report.figures.arm_picture import NAMED_SHARE
 from armscope.report.sectioning import Section
 from armscope.report.sections.effects import findings
 from armscope.report.subject import Subject
+from armscope.verdict.schema import Diagnosis
+from armscope.verdict.wording import SMALL, capitalised, main_and_minor, percent
+
+
+@dataclass(frozen=True)
+class Place:
+    """A line of the ranking; a cause has a link to its card, what stands apart from the story is quiet."""
+
+    name: str
+    link: str
+    share: float
+    quiet: bool = False
+
+    @property
+    def told(self) -> str:
+        """The share in words."""
+        return percent(self.share)
+
+    @property
+    def width(self) -> float:
+        """Of its bar, per cent."""
+        return 100 * min(1.0, max(0.0, self.share))
 
 
 def _context(subject: Subject) -> dict[str, Any]:
-    return {**findings(subject.verdict), "arm": subject.arm}
+    return {"ranking": _ranking(subject.verdict), "arm": subject.arm}
+
+
+def _ranking(verdict: Diagnosis) -> list[Place]:
+    """Causes, minor effects together, and small errors by family, the largest share first."""
+    found = findings(verdict)
+    main, minor = main_and_minor(verdict.effects)
+    places = [Place(card.title, f"#{card.anchor}", e.share) for card, e in zip(found["cards"], main, strict=True)]
+    if minor:
+        name = f"{len(minor)} minor effect{'s' if len(minor) > 1 else ''}"
+        places.append(Place(name, "#minor", sum(effect.share for effect in minor), quiet=True))
+    places += [
+        Place(capitalised(SMALL[family.family]), "", family.share, quiet=True)
+        for family in verdict.background_families
+        if family.family in SMALL and family.share >= NAMED_SHARE
+    ]
+    return sorted(places, key=lambda place: -place.share)
 
 
 WHERE = Section("where", "Where", "Where the trouble is", _context, (arm_figure,))

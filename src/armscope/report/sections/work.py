@@ -6,11 +6,16 @@ from typing import Any
 
 from armscope.report.sectioning import Section
 from armscope.report.subject import Subject
+from armscope.verdict.schema import Diagnosis
 from armscope.verdict.wording import millimetres
 
 
 def _context(subject: Subject) -> dict[str, Any]:
-    return {"tasks": subject.tasks, "before": millimetres(subject.verdict.residual_before_mm), "mm": millimetres}
+    return {"order": subject.order, "mm": millimetres}
 
 
-WORK = Section("work", "Work order", "What to do", _context, applies=lambda verdict: bool(verdict.effects))
+def _something_to_do(verdict: Diagnosis) -> bool:
+    return bool(verdict.effects or (verdict.mismatch and verdict.background.present))
+
+
+WORK = Section("work", "Work order", "What to do", _context, applies=_something_to_do)

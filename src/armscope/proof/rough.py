@@ -1,0 +1,83 @@
+"""What is counted on rough arms: causes that stand out among small errors everywhere; `definitions` has it in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from armscope.proof.answers import Answer, NamedEffect
+from armscope.proof.definitions import (
+    ABSURD_MM,
+    ABSURD_RAD,
+    ABSURD_TIMES,
+    LARGEST_SMALL,
+    Name,
+    place,
+)
+from armscope.proof.matching import UNKNOWN, Match, distinct
+from armscope.proof.truth import Concealed, Truth
+
+CONSTANT = ("joint_offset", "link_geometry")
+OWN_SIZE = ("compliance", "amplitude", "flexibility", "gap")
+
+
+def marks(truth: Truth, answer: Answer, matches: Sequence[Match], wrong: Sequence[NamedEffect]) -> dict[str, object]:
+    """How a verdict fares on an arm that has small errors everywhere.
+
+    Args:
+        truth: of the arm.
+        answer: the verdict.
+        matches: concealed effects with the claims that stand for them.
+        wrong: claims that stand for nothing concealed.
+
+    Returns:
+        causes, first (None without a cause), overclaimed, major_names, absurd, and right, all by the definitions.
+    """
+    claims = distinct(answer.claims)
+    found = {m.claim.name: m.truth for m in matches if m.right and m.claim}
+    story = truth.story
+    first = _largest_is_true(claims, found, story) if story else None
+    overclaimed = 0 if story else sum(_overclaims(truth, claim, found.get(claim.name)) for claim in claims)
+    all_found = all(m.right for m in matches if not m.truth.minor)
+    return {
+        "causes": len(story),
+        "first": first,
+        "overclaimed": overclaimed,
+        "major_names": sum(not claim.minor for claim in claims),
+        "absurd": sum(_absurd(claim, found.get(claim.name)) for claim in claims),
+        "right": not answer.failed and all_found and not wrong and (bool(first) if story else not overclaimed),
+    }
+
+
+def _largest_is_true(claims: Sequence[NamedEffect], found: dict[Name, Concealed], story: Sequence[Concealed]) -> bool:
+    """Whether the largest name is a cause's, or of something as large; D-H values compete with their like only."""
+    constant = any(cause.effect in CONSTANT for cause in story)
+    ranked = [claim for claim in claims if constant or claim.effect not in CONSTANT]
+    if not ranked:
+        return False
+    stands_for = found.get(max(ranked, key=lambda claim: claim.rms_mm).name)
+    return stands_for is not None and (
+        not stands_for.minor or stands_for.strength >= max(cause.strength for cause in story)
+    )
+
+
+def _overclaims(truth: Truth, claim: NamedEffect, stands_for: Concealed | None) -> bool:
+    """Whether a name claims much of what is left after frames and D-H values where nothing stands out."""
+    own = stands_for.strength if stands_for else 0.0
+    if claim.effect == UNKNOWN:  # it may stand for all that there is at its place
+        own = float(np.linalg.norm([e.strength for e in truth.effects if place(e.location) == place(claim.location)]))
+    most = max(LARGEST_SMALL * truth.left_mm**2, (1.5 * own * truth.sigma_mm) ** 2)
+    return claim.effect not in CONSTANT and claim.rms_mm**2 > most
+
+
+def _absurd(claim: NamedEffect, stands_for: Concealed | None) -> bool:
+    """Whether one of its numbers is none that an arm could have."""
+    true = {name: abs(value) for name, (value, _) in stands_for.parameters.items()} if stands_for else {}
+    for name, (value, _, unit) in claim.parameters.items():
+        most = {"mm": ABSURD_MM, "rad": ABSURD_RAD}.get(unit, float("inf"))
+        if claim.effect in CONSTANT and abs(value) > max(most, 2 * true.get(name, 0.0)):
+            return True
+        if name in OWN_SIZE and abs(value) > ABSURD_TIMES * true.get(name, float("inf")):
+            return True
+    return False
