@@ -6,7 +6,7 @@ link, and one for the payload: the change of all loads per share of its mass tim
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -61,17 +61,14 @@ def mass_errors(arm: Arm, recordings: Recordings, parts: Sequence[Part]) -> list
     known = list(givings(parts, recordings.torque is not None))
     if not known:
         return []
-    errors = [
-        _mass_error(f"link {link}", known, lambda load, link=link: Driver("heavier link", (load, link)))
-        for link in range(1, arm.n_joints + 1)
-        if arm.masses[link - 1] > 0
-    ]
+    links = (link for link in range(1, arm.n_joints + 1) if arm.masses[link - 1] > 0)
+    errors = [_mass_error(f"link {link}", known, PLAUSIBLE.mass_share, "heavier link", link) for link in links]
     if recordings.payload is not None and np.any(np.nan_to_num(recordings.payload) > 0):
-        errors.append(_mass_error("payload", known, lambda load: Driver("heavier by share", (load,))))
+        errors.append(_mass_error("payload", known, PLAUSIBLE.weighed_share, "heavier by share"))
     return errors
 
 
-def _mass_error(location: str, known: Sequence[Product], heavier: Callable[[Driver], Driver]) -> Placed:
-    products = (Product(g.direction, heavier(g.driver), g.factor) for g in known)
-    share = Term("share", "of its mass", 1.0, tuple(products), PLAUSIBLE.mass_share)
-    return Placed(STATED_MASSES, location, (share,), (PLAUSIBLE.mass_share,), "loads")
+def _mass_error(location: str, known: Sequence[Product], usual: float, heavier: str, *which: int) -> Placed:
+    products = (Product(g.direction, Driver(heavier, (g.driver, *which)), g.factor) for g in known)
+    share = Term("share", "of its mass", 1.0, tuple(products), usual)
+    return Placed(STATED_MASSES, location, (share,), (usual,), "loads")
