@@ -44,6 +44,7 @@ test-long: .venv/installed-test
 benchmark: .venv/installed .venv-peers/installed .venv-figaroh/installed
 	$(BIN)/python -m benchmarks.kinematics
 	$(BIN)/python -m benchmarks.diagnosis
+	$(BIN)/python -m benchmarks.motion --figaroh .venv-figaroh/bin/python
 	$(BIN)/python -m benchmarks.poses
 	$(BIN)/python -m benchmarks.compensation
 	.venv-peers/bin/python -m benchmarks.swarm

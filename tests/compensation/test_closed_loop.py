@@ -75,7 +75,7 @@ def test_a_concealed_arm_follows_the_commands_to_within_its_noise(name, tmp_path
     after = loop.miss(result.commands)
     frames_only = loop.miss(loop.commands(replace(loop.model, parts=(), background=())).commands)
     assert after < 1.3 * loop.sigma
-    assert loop.miss(result.nominal) > 5 * after
+    assert loop.miss(result.nominal) > 4 * after  # of the arm alone: where on the tool one measures is no error of it
     assert frames_only > 2 * after  # the negative control: frames, but none of the physics
 
 

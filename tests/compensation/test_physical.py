@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from armscope.compensation import Options, as_path, compensate_black_box, compensate_physical, identified_on
@@ -62,6 +63,18 @@ def test_ten_thousand_points_are_reached_every_one():
     ours = as_path(table_of(wanted_points(10_000)), "path", sk120())
     assert compensate_physical(model, identified, path, Options(start=middle)).reached.all()
     assert compensate_black_box(black_box(), ours, Options(start=MIDDLE)).reached.all()
+
+
+def test_where_on_the_tool_one_measured_is_no_error_of_the_arm():
+    """A robot.yaml without tool_mm, a reflector 0.2 m beside the flange: an arm without errors keeps its commands."""
+    model, identified = physical()
+    (tool,) = model.tools
+    without = replace(model, parts=(), tools=(replace(tool, values=np.array([0.15, -0.1, 0.1])),))
+    angles = identified.domain.mean[:6] + np.linspace(-0.05, 0.05, 9)[:, None]
+    table = pd.DataFrame({f"q{j}_rad": angle for j, angle in enumerate(angles.T, start=1)}).assign(**CONTEXT)
+    result = compensate_physical(without, identified, as_path(table, "path", model.arm), Options())
+    np.testing.assert_allclose(result.commands, angles, atol=1e-8)
+    np.testing.assert_allclose(result.false_targets, chain(model.arm, angles).tool, atol=1e-8)
 
 
 def test_context_that_no_row_holds_was_never_recorded():

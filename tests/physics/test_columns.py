@@ -62,7 +62,13 @@ def test_columns_are_the_slope_of_the_exact_model(name: str) -> None:
             slope = (ahead - behind) / (2 * step[n])
             # metres near 1 with 1e-16 rounding over a displacement of 2e-6
             assert np.abs(slope - column).max() < 3e-6 * size, (str(placed), term.name)
-    expected = {effect.name for effect in EFFECTS} | {"base_frame", "tool_frame", "tool_turn", "base_wander"}
+    expected = {effect.name for effect in EFFECTS} | {
+        "base_frame",
+        "tool_frame",
+        "tool_turn",
+        "base_wander",
+        "link_wander",
+    }
     expected -= {"parallelogram_geometry"} if arm.description.parallelogram is None else set()
     assert seen == expected
 

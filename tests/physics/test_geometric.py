@@ -37,6 +37,22 @@ def test_shares_of_the_rocker_turn_the_forearm_as_the_closed_loop_does(rod: floa
         np.testing.assert_allclose(turn, expected, atol=0.01 * np.abs(expected).max() / LEAST_OPENING)
 
 
+def test_directions_of_the_rocker_are_tried_so_densely_that_little_is_left_between_them() -> None:
+    """A twentieth of the bars' effect is a slope that would pass for a gear's ratio or a coupling."""
+    arm = unstated()
+    table = full_table(arm, 60, 3)
+    scene = Scene(arm, table)
+    true = Linkage(crank=0.35, rocker=0.35, rod=1.1, upper_arm=1.1, crank_angle=float(np.radians(94.6)))
+    wrong = replace(true, rod=true.rod - 4e-4, rocker=true.rocker - 4e-4)
+    turn = forearm_deviation(wrong, scene.elbow_angle) - forearm_deviation(true, scene.elbow_angle)
+    left = []
+    for placed in PARALLELOGRAM_GEOMETRY.place(arm, table):
+        shares = np.column_stack([scene.driver(term.products[0].driver) for term in placed.terms])
+        columns = np.column_stack([np.ones(len(turn)), shares])
+        left.append(np.std(turn - columns @ np.linalg.lstsq(columns, turn)[0]))
+    assert min(left) < 0.02 * np.std(turn)
+
+
 def test_a_serial_arm_has_no_linkage() -> None:
     assert is_parallelogram(unstated())
     assert not is_parallelogram(arm_named("six-axis"))

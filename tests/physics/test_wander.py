@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.physics.constants import PLAUSIBLE
-from armscope.physics.wander import WANDER_WAVES, is_of_rows, wander
+from armscope.physics.wander import GROWTH_WAVES, WANDER_WAVES, is_of_rows, link_wander, wander
 
 from .scenes import arm_named, full_table
 
@@ -23,6 +23,17 @@ def test_all_waves_together_are_as_large_as_is_plausible():
     sizes = np.array([wave.prior_scale for wave in waves])
     assert np.allclose(np.sqrt(np.sum(sizes**2, axis=0)), [PLAUSIBLE.wander_m] * 3 + [PLAUSIBLE.wander_rad] * 3)
     assert np.all(np.diff(sizes[:, 0]) < 0)
+
+
+def test_long_links_grow_as_much_as_is_plausible_the_last_one_moving_the_tool_along_its_axis():
+    waves = link_wander(arm_named("six-axis"), timed(np.linspace(0.0, 3600.0, 90)))
+    assert {wave.location for wave in waves} == {f"link {j}" for j in (1, 2, 3, 4, 6)}
+    for place in ("link 2", "link 6"):
+        sizes = [wave.prior_scale for wave in waves if wave.location == place]
+        assert len(sizes) == GROWTH_WAVES
+        assert np.isclose(np.sqrt(np.sum(np.square(sizes))), PLAUSIBLE.growth)
+    (along,) = next(wave for wave in waves if wave.location == "link 6").terms[0].products
+    assert (str(along.direction.axis), along.factor) == ("tz", 0.153)
 
 
 def test_without_a_clock_it_follows_the_order_of_rows():

@@ -16,7 +16,14 @@ from armscope.compensation.domain import ALLOWED, Domain
 from armscope.compensation.forward import BlackBoxArm, Forward, NominalArm, PhysicalArm
 from armscope.compensation.newton import Solution, Wanted, row_pieces, solve_commands
 from armscope.compensation.path import Frame, WantedPath, unit_doubt
-from armscope.compensation.physical import Identified, beyond_time, missing_context, with_empty_context, with_torques
+from armscope.compensation.physical import (
+    Identified,
+    beyond_time,
+    missing_context,
+    with_empty_context,
+    with_measured_tool,
+    with_torques,
+)
 from armscope.compensation.result import Compensated
 from armscope.core.inputs import InputError
 from armscope.core.parallel import each_piece
@@ -73,6 +80,7 @@ def compensate_black_box(model: ErrorModel, path: WantedPath, options: Options |
         rotation, translation = model.base.rotation, model.base.translation
     task = _Task(
         model.arm,
+        model.arm,
         path,
         options,
         model.domain,
@@ -128,6 +136,7 @@ def compensate_physical(
         return PhysicalArm(model, with_load, measured), note
 
     task = _Task(
+        with_measured_tool(model, rows),
         model.arm,
         replace(path, table=rows),
         options,
@@ -147,6 +156,8 @@ class _Task:
     """A path, the arm that shall follow it, and where its model holds.
 
     Attributes:
+        arm: the nominal arm with the tool point that is led along the path.
+        stated: the controller's arm, whose tool point may be another one.
         forward: the real arm near given nominal postures, and a note about it.
         domain_inputs: the domain's inputs at motor angles of all rows.
         to_base, to_frame: points from the path's frame to the base frame and back.
@@ -154,6 +165,7 @@ class _Task:
     """
 
     arm: Arm
+    stated: Arm
     path: WantedPath
     options: Options
     domain: Domain
@@ -197,9 +209,9 @@ class _Task:
         ok = np.flatnonzero(reasons == "")
         points, turns = np.full((len(rows), 3), np.nan), np.full((len(rows), 3, 3), np.nan)
         if len(ok):
-            points[ok], turns[ok] = tool_frames(self.arm, commands[ok])
+            points[ok], turns[ok] = tool_frames(self.stated, commands[ok])
         return Compensated(
-            self.arm,
+            self.stated,
             self.path.table.id,
             self.path.table.run,
             reasons,
@@ -366,7 +378,7 @@ def _named(model: FittedModel, rows: Recordings) -> tuple[Recordings, NDArray[np
     if "" not in model.bases and (run == "").any():
         last = list(model.bases)[-1]
         run[run == ""] = last
-        notes.append(f"rows without a run are taken as of run {last!r}")
+        notes += [f"rows without a run are taken as of run {last!r}"] if len(model.bases) > 1 else []
     for name in sorted(set(run) - set(model.bases)):
         _refuse(refused, np.flatnonzero(run == name), f"run {name!r} is not in the model")
     targets = sorted({str(part.placed.variant) for part in model.tools})

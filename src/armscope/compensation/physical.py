@@ -15,6 +15,7 @@ from armscope.core.files import read_json, write_json
 from armscope.core.inputs import InputError, mapping, validate
 from armscope.core.types import Array
 from armscope.physics.drivers import COLUMNS, KINDS, kinds_in
+from armscope.physics.frames import TOOL_FRAME, tool_key
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain
@@ -239,3 +240,21 @@ def _torques(arm: Arm, angles: Array, payload: Array, weights: Array) -> Array:
 
 def _payload(rows: Recordings) -> Array:
     return np.zeros(len(rows)) if rows.payload is None else np.nan_to_num(rows.payload)
+
+
+def with_measured_tool(model: FittedModel, rows: Recordings) -> Arm:
+    """The nominal arm with the measured tool point: where on the tool one measured is no error of the arm.
+
+    Raises:
+        InputError: the rows are of several points.
+    """
+    shift = np.zeros((len(rows), 3))
+    for part in model.tools:
+        if part.placed.name == TOOL_FRAME.name:
+            target, run = tool_key(part.placed.terms[0].products[0].driver)
+            shift[(rows.target == target) & ((rows.run == run) if run is not None else True)] = part.values[:3]
+    other = np.flatnonzero(np.abs(shift - shift[:1]).max(axis=1, initial=0.0) > 0)
+    if len(other):
+        place, rule = f"row {other[0] + 2}, column target", "a path is of one measured point of the tool"
+        raise InputError(rows.source, place, str(rows.target[other[0]]), rule, "Split it by target and run.")
+    return replace(model.arm, tool=model.arm.tool + (shift[0] if len(rows) else 0.0))

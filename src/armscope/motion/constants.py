@@ -127,6 +127,11 @@ class PriorRules(Constants):
         "by which a drive gain is off where no uncertainty is stated",
         "measured: two published sets of the UR10e's gains differ by 13 to 49 %",
     )
+    unsure_gain: float = constant(
+        0.3,
+        "by which gains may be off where they stand in the place of a load",
+        "measured: the middle of what two published sets of the UR10e's gains differ by",
+    )
     unit: float = constant(
         0.01,
         "that one standard deviation of a row's noise is scaled to",
@@ -205,6 +210,11 @@ class MotionTelling(Constants):
     looked_at: int = constant(40, "rivals of a cause", "judgement: time", unit="causes")
     listed_nats: float = constant(
         20.0, "by which a rival that is listed may fall short", "judgement: told, not hidden", unit="nats"
+    )
+    listed_share: float = constant(
+        0.01,
+        "of a cause's own evidence by which a rival that is listed may fall short",
+        "judgement: models are a little wrong, and among thousands of nats that costs tens",
     )
     listed: int = constant(4, "rivals of a cause", "judgement: nobody reads more", unit="causes")
     in_headline: int = constant(4, "causes", "judgement: a sentence holds no more", unit="causes")

@@ -12,6 +12,7 @@ from armscope.inference.normal_equations import total
 from armscope.inference.search import Search
 from armscope.inference.shapley import shares
 from armscope.motion.causes import PlacedCause
+from armscope.motion.confounding import gains_instead
 from armscope.motion.consistency import PathAgreement, agreement
 from armscope.motion.constants import TELLING
 from armscope.motion.layout import OWN
@@ -117,16 +118,20 @@ def _alternatives(selected: SelectedCauses, search: Search, number: int) -> tupl
     candidate = selected.space.candidates[number]
     rest = search.without(best, [number])
     taken = {selected.space.candidates[c].key for c in best.candidates}
+    limit = max(TELLING.listed_nats, TELLING.listed_share * (best.log_posterior - rest.log_posterior))
     nearest: dict[tuple[str, str], tuple[float, Candidate]] = {}
     for other in search.additions(rest, TELLING.looked_at, [number]):
         rival = selected.space.candidates[other.chosen[-1].candidate]
         gap = best.log_posterior - other.log_posterior
-        if rival.key in taken or rival.key == candidate.key or gap > TELLING.listed_nats:
+        if rival.key in taken or rival.key == candidate.key or gap > limit:
             continue
         if rival.key not in nearest or gap < nearest[rival.key][0]:
             nearest[rival.key] = (float(gap), rival)
-    ordered = sorted(nearest.values(), key=lambda pair: pair[0])[: TELLING.listed]
-    return tuple(Alternative(c.kind, c.location, c.family, gap, c.driver, gap) for gap, c in ordered)
+    listed = [Alternative(c.kind, c.location, c.family, gap, c.driver, gap) for gap, c in nearest.values()]
+    gains = gains_instead(selected, number)
+    if gains is not None and gains.evidence_gap_nats < limit:
+        listed.append(gains)
+    return tuple(sorted(listed, key=lambda each: each.evidence_gap_nats)[: TELLING.listed])
 
 
 def joint_backgrounds(selected: SelectedCauses, names: Sequence[str]) -> tuple[JointBackground, ...]:

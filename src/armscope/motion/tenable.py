@@ -18,6 +18,7 @@ from armscope.inference.problem import Problem, SelectedEffect
 from armscope.motion import catalogue
 from armscope.motion.consistency import agreement
 from armscope.motion.constants import CONSISTENCY
+from armscope.motion.layout import OWN
 from armscope.motion.selection import SelectedCauses, chosen
 from armscope.motion.space import build_space
 
@@ -59,6 +60,20 @@ def _impossible(selected: SelectedCauses) -> Iterator[int]:
             least[0] = 0.0
         error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
         if np.any(selected.coefficients[columns] < least - CONSISTENCY.below * error):
+            yield number
+    yield from _in_place_of_friction(selected)
+
+
+def _in_place_of_friction(selected: SelectedCauses) -> Iterator[int]:
+    """Laws of a joint's own torque beside which its dry friction would have to be below zero: it is that friction."""
+    layout, best = selected.rows.layout, selected.best
+    for number in best.candidates:
+        placed, column = layout.placed[number], np.array([OWN * layout.placed[number].joints[0] + 1])
+        if placed.driver not in (catalogue.SCALE, catalogue.PLAY) or column[0] not in best.columns:
+            continue
+        error = float(np.sqrt(best.variances(column)[0])) / selected.problem.scale[column[0]]
+        stated = np.nan_to_num(layout.arm.stated_background[placed.joints[0], 1])
+        if selected.coefficients[column[0]] + stated < -CONSISTENCY.below * error:
             yield number
 
 

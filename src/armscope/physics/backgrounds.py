@@ -15,7 +15,7 @@ from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.effect import Placed
 from armscope.physics.placing import moving_joints
 from armscope.physics.set_ups import SetUps
-from armscope.physics.wander import wander
+from armscope.physics.wander import link_wander, wander
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -47,7 +47,7 @@ def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[
         GEOMETRIC: constant,
         ELASTIC: give,
         TRANSMISSION: gear_waves(recordings, PLAUSIBLE.waves),
-        DRIFT: wander(recordings, set_ups),
+        DRIFT: [*wander(recordings, set_ups), *link_wander(arm, recordings)],
     }
 
 

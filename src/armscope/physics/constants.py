@@ -117,6 +117,12 @@ class PlausibleSizes(Constants):
         "convention: steel 11-12, aluminium 23-24 millionths per kelvin",
         unit="1/K",
     )
+    growth: float = constant(
+        1.0e-4,
+        "by which links grow or shrink in a session, as a share of their length",
+        "derived: steel or aluminium, 12 to 24 millionths per K, some 4 to 8 K between morning and noon",
+        unit="m/m",
+    )
     scale: float = constant(
         1e-3,
         "error of the instrument's lengths",

@@ -17,7 +17,7 @@ from armscope.physics.geometric import BACKGROUND, is_parallelogram
 from armscope.physics.loads import STATED_MASSES
 from armscope.physics.registry import effects
 from armscope.physics.scene import Part
-from armscope.physics.wander import BASE_WANDER
+from armscope.physics.wander import BASE_WANDER, LINK_WANDER
 from armscope.robot import Arm
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ class Reader:
         self.arm, self.source = arm, source
         self._definitions: dict[str, Effect] = {
             effect.name: effect
-            for effect in (BASE_FRAME, TOOL_FRAME, BACKGROUND, STATED_MASSES, BASE_WANDER, *effects())
+            for effect in (BASE_FRAME, TOOL_FRAME, BACKGROUND, STATED_MASSES, BASE_WANDER, LINK_WANDER, *effects())
         }
 
     def parts(self, contents: Sequence[PartFile], place: str) -> tuple[Part, ...]:

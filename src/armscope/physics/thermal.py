@@ -18,12 +18,17 @@ SHORTEST_M = 0.02
 def _place_links(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     if not varies(recordings.temperature, LEAST_SPAN_K):
         return
-    warmth = Driver("warmth")
+    for place, products in growing_links(arm, Driver("warmth")):
+        coefficient = term("coefficient", "1/K", *products, plausible=PLAUSIBLE.expansion_per_k)
+        yield Placed(THERMAL_EXPANSION, place, (coefficient,), (1.0,), "temperature")
+
+
+def growing_links(arm: Arm, driver: Driver) -> Iterator[tuple[str, tuple[Product, ...]]]:
+    """Links long enough to be seen growing, and how they do, in shares of their length per unit of a driver."""
     for j in range(1, arm.n_joints + 1):
-        products = tuple(Product(direction, warmth, length) for direction, length in _lengths(arm, j) if length)
+        products = tuple(Product(direction, driver, length) for direction, length in _lengths(arm, j) if length)
         if sum(abs(product.factor) for product in products) > SHORTEST_M:
-            coefficient = term("coefficient", "1/K", *products, plausible=PLAUSIBLE.expansion_per_k)
-            yield Placed(THERMAL_EXPANSION, f"link {j}", (coefficient,), (1.0,), "temperature")
+            yield f"link {j}", products
 
 
 def _lengths(arm: Arm, j: int) -> list[tuple[Direction, float]]:

@@ -1,6 +1,8 @@
-"""Wander: a base or instrument that moves a little and slowly in every session, allowed for without a name."""
+"""Wander: set-ups that move and links that warm up a little and slowly, as in every session, allowed for, not named."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -8,15 +10,19 @@ from armscope.core.types import Array
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import Cure
 from armscope.physics.drift import LEAST_SPAN_S, six_terms
-from armscope.physics.effect import Driver, Effect, Placed
+from armscope.physics.effect import Driver, Effect, Placed, term
 from armscope.physics.placing import varies
 from armscope.physics.scene import numbers_of_rows
 from armscope.physics.set_ups import SetUps
+from armscope.physics.thermal import growing_links
 from armscope.recordings import Recordings
+from armscope.robot import Arm
 
 WAVE_OF_ROWS = "slow wave of rows"
 WANDER_WAVES, ROWS_PER_WAVE = 6, 12
 """Half waves of a set-up's slow wander at most, and rows for each of them: what is faster is hardly a set-up's."""
+GROWTH_WAVES = 3
+"""The same of a link's length: castings follow a hall in hours."""
 
 BASE_WANDER = Effect(
     "base_wander",
@@ -27,6 +33,16 @@ BASE_WANDER = Effect(
     Cure("Nothing to cure."),
 )
 """Allowed for, never named: what stands out of it is a drift or a jump."""
+
+LINK_WANDER = Effect(
+    "link_wander",
+    "drift",
+    lambda arm, recordings: iter(()),
+    "Links warm up and cool down a little in the course of the recording, whatever a thermometer in the hall says.",
+    "Measure one pose now and then.",
+    Cure("Let the arm warm up before measuring."),
+)
+"""Allowed for, never named: what follows the recorded temperature is thermal expansion."""
 
 
 def wander(recordings: Recordings, set_ups: SetUps) -> list[Placed]:
@@ -42,14 +58,7 @@ def wander(recordings: Recordings, set_ups: SetUps) -> list[Placed]:
     Returns:
         Waves, then runs, in place.
     """
-    count = min(WANDER_WAVES, len(recordings) // ROWS_PER_WAVE)
-    along, kind = _clock(recordings)
-    if not np.ptp(along) > 0:
-        count = 0
-    falling = 1 / np.arange(1, count + 1)
-    falling /= np.sqrt(np.sum(falling**2))
-    ends = float(along.min()), float(along.max())
-    waves = [_wandering(Driver(kind, (k, *ends)), share, f"wave {k}") for k, share in enumerate(falling.tolist(), 1)]
+    waves = [_wandering(driver, share, f"wave {k}") for k, driver, share in _waves(recordings, WANDER_WAVES)]
     together = [run for runs in set_ups if len(runs) > 1 for run in runs]
     return [*waves, *(_wandering(Driver("during run", (run,)), 1.0, f"run {run}") for run in together)]
 
@@ -58,6 +67,35 @@ def _wandering(driver: Driver, share: float, variant: str) -> Placed:
     sizes = (PLAUSIBLE.wander_m,) * 3 + (PLAUSIBLE.wander_rad,) * 3
     terms = six_terms("base", driver)
     return Placed(BASE_WANDER, "base", terms, tuple(share * size for size in sizes), "time", variant=variant)
+
+
+def link_wander(arm: Arm, recordings: Recordings) -> list[Placed]:
+    """Links whose lengths change slowly in the order of time: a hall's day, and links that follow it late."""
+    return [
+        Placed(
+            LINK_WANDER,
+            place,
+            (term("growth", "m/m", *products),),
+            (share * PLAUSIBLE.growth,),
+            "time",
+            variant=f"wave {k}",
+        )
+        for k, driver, share in _waves(recordings, GROWTH_WAVES)
+        for place, products in growing_links(arm, driver)
+    ]
+
+
+def _waves(recordings: Recordings, most: int) -> Iterator[tuple[int, Driver, float]]:
+    """Numbers of slow waves, from 1, what they follow, and their shares, whose squares add up to one."""
+    count = min(most, len(recordings) // ROWS_PER_WAVE)
+    along, kind = _clock(recordings)
+    if not np.ptp(along) > 0:
+        return
+    falling = 1 / np.arange(1, count + 1)
+    falling /= np.sqrt(np.sum(falling**2))
+    ends = float(along.min()), float(along.max())
+    for k, share in enumerate(falling.tolist(), 1):
+        yield k, Driver(kind, (k, *ends)), share
 
 
 def is_of_rows(placed: Placed) -> bool:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from armscope.proof.answers import Answer, NamedEffect
 from armscope.proof.definitions import (
     ABSURD_MM,
@@ -38,7 +36,7 @@ def marks(truth: Truth, answer: Answer, matches: Sequence[Match], wrong: Sequenc
     found = {m.claim.name: m.truth for m in matches if m.right and m.claim}
     story = truth.story
     first = _largest_is_true(claims, found, story) if story else None
-    overclaimed = 0 if story else sum(_overclaims(truth, claim, found.get(claim.name)) for claim in claims)
+    overclaimed = 0 if story else sum(_overclaims(truth, claim) for claim in claims)
     all_found = all(m.right for m in matches if not m.truth.minor)
     return {
         "causes": len(story),
@@ -62,13 +60,16 @@ def _largest_is_true(claims: Sequence[NamedEffect], found: dict[Name, Concealed]
     )
 
 
-def _overclaims(truth: Truth, claim: NamedEffect, stands_for: Concealed | None) -> bool:
+def _overclaims(truth: Truth, claim: NamedEffect) -> bool:
     """Whether a name claims much of what is left after frames and D-H values where nothing stands out."""
-    own = stands_for.strength if stands_for else 0.0
-    if claim.effect == UNKNOWN:  # it may stand for all that there is at its place
-        own = float(np.linalg.norm([e.strength for e in truth.effects if place(e.location) == place(claim.location)]))
+    # a name may stand for all that is the same, an unknown for all that there is at its place
+    alike = [e for e in truth.effects if claim.name in (e.name, *e.alternatives)]
+    if claim.effect == UNKNOWN:
+        alike = [e for e in truth.effects if place(e.location) == place(claim.location)]
+    own = sum(effect.strength for effect in alike)
     most = max(LARGEST_SMALL * truth.left_mm**2, (1.5 * own * truth.sigma_mm) ** 2)
-    return claim.effect not in CONSTANT and claim.rms_mm**2 > most
+    exempt = claim.effect in CONSTANT or claim.name in truth.also_allowed
+    return not exempt and claim.rms_mm**2 > most
 
 
 def _absurd(claim: NamedEffect, stands_for: Concealed | None) -> bool:

@@ -19,8 +19,9 @@ LARGEST_FACTOR = 15.0
 """An effect sits where no more than this multiple of its natural size is needed, if there is such a place."""
 LEAST_LEFT = 0.05
 """Share of an effect's squared size that the effects already chosen must leave to see."""
-STANDS_OUT = 2.5
-"""A cause is at least so many times as large at the tool as what is rough everywhere usually is of its kind."""
+STANDS_OUT, ABOVE_LARGEST = 2.5, 1.5
+"""A cause is at least so many times as large at the tool as what is rough everywhere usually, and at most, is of its
+kind; errors of D-H rows and zeros are one kind."""
 TRIES = 4
 TRIES_FOR_AMBIGUITY = 12
 
@@ -77,7 +78,7 @@ def _of_the_story(
     places = [wish.location] if wish.location else kind.places(scene.description)
     story = [size for size in chosen if not size.minor]
     places = [place for place in places if not _taken(kind, place, story) and _loaded(scene, kind, place)]
-    wanted = max(wish.strength * sigma, STANDS_OUT * _usual(kind, chosen))
+    wanted = max(wish.strength * sigma, _standing_out(kind, chosen))
     if kind.effect == "payload_error":
         return _payload_error(scene, kind, wanted, rng)
     tries = TRIES_FOR_AMBIGUITY if ambiguous else TRIES
@@ -128,10 +129,15 @@ def _loaded(scene: Scene, kind: Kind, place: str) -> bool:
     return scene.loads(number(place))
 
 
-def _usual(kind: Kind, chosen: list[Sized]) -> float:
-    """Median size at the tool of what the arm has of a kind everywhere, m."""
-    sizes = [size.rms for size in chosen if size.minor and size.effect.kind.effect == kind.effect]
-    return float(np.median(sizes)) if sizes else 0.0
+def _standing_out(kind: Kind, chosen: list[Sized]) -> float:
+    """The least size at the tool, m, at which an effect stands out of what the arm has of its kind everywhere."""
+    constant = kind.driver == CONSTANT
+    alike = [
+        size.rms
+        for size in chosen
+        if size.minor and (size.effect.kind.effect == kind.effect or (constant and size.effect.kind.driver == CONSTANT))
+    ]
+    return max(STANDS_OUT * float(np.median(alike)), ABOVE_LARGEST * max(alike)) if alike else 0.0
 
 
 def visibilities(judge: Judge, sizes: Sequence[Sized], chosen: Sequence[Sized], sigma: float) -> list[Visibility]:

@@ -158,7 +158,7 @@ def _truth(arm: VirtualArm, measured: Measured, columns: list[str], left_out: li
             "masses": spec.masses,
             "columns_left_out": left_out,
             "mismatch": bool(chosen),
-            **(_roughness(arm, measured, "run" in columns) if spec.rough else {}),
+            **(_roughness(arm, measured, columns) if spec.rough else {}),
         },
     }
 
@@ -166,14 +166,15 @@ def _truth(arm: VirtualArm, measured: Measured, columns: list[str], left_out: li
 def _seen_beside(arm: VirtualArm) -> dict[int, Visibility]:
     """What could stand in the place of the larger ones among small errors everywhere, by their id."""
     sigma = arm.spec.sigma_mm * 1e-3
-    large = [size for size in arm.chosen if size.minor and size.rms > sigma]
+    large = [size for size in arm.chosen if size.minor and size.rms > sigma / 2]
     return dict(zip(map(id, large), visibilities(arm.judge, large, arm.chosen, sigma), strict=True))
 
 
-def _roughness(arm: VirtualArm, measured: Measured, runs: bool) -> dict[str, Any]:
+def _roughness(arm: VirtualArm, measured: Measured, columns: list[str]) -> dict[str, Any]:
     """What is rough, what naming it isn't wrong, what frames and D-H values leave, and what an oracle on test rows."""
-    # who carries what weighs more than is stated may blame the payload
-    carried = [["payload_error", "payload"]] if "masses" in arm.spec.rough else []
+    # who carries what weighs more than is stated may blame the payload; an arm that is warm all over is a scale
+    allowed = [["payload_error", "payload"]] if "masses" in arm.spec.rough else []
+    allowed += [["instrument_scale", "instrument"]] if "day" in arm.spec.rough else []
     placed = arm.frames.place(arm.nominal, arm.scene.tool_turn)[arm.recorded]
     free = np.concatenate(
         [arm.judge.frames, *(r.columns for r in arm.judge.rivals if r.effect in ("joint_offset", "link_geometry"))],
@@ -183,10 +184,23 @@ def _roughness(arm: VirtualArm, measured: Measured, runs: bool) -> dict[str, Any
     left = missing - free @ np.linalg.lstsq(free, missing, rcond=1e-9)[0]
     return {
         "rough": list(arm.spec.rough),
-        "also_allowed": carried,
+        "also_allowed": allowed,
         "left_mm": round(rms(left) * 1e3, 5),
-        "oracle_on_test_mm": round(oracle_rms(arm, measured, runs) * 1e3, 5),
+        "oracle_on_test_mm": round(oracle_rms(arm, measured, columns) * 1e3, 5),
     }
+
+
+def _comparable(size: Sized, spec: WorldSpec, visibility: Visibility | None) -> bool:
+    """Whether a fit's numbers are those of the effect alone.
+
+    Not those of what a rough arm has everywhere, nor of what is the same as that; bars that aren't stated are told in
+    shares.
+    """
+    kind = size.effect.kind
+    if not spec.rough:
+        return spec.masses == "right" or kind.driver != LOAD
+    twins = kind.driver == LOAD and visibility is not None and bool(visibility.alternatives)
+    return not (size.minor or twins or ("bars" in spec.rough and kind.effect == "parallelogram_geometry"))
 
 
 def _effect(size: Sized, spec: WorldSpec, visibility: Visibility | None) -> dict[str, Any]:
@@ -199,8 +213,7 @@ def _effect(size: Sized, spec: WorldSpec, visibility: Visibility | None) -> dict
         "strength": round(size.rms * 1e3 / spec.sigma_mm, 3),
         "driver": kind.driver,
         "minor": size.minor,
-        # of what a rough arm has everywhere, few numbers are those of one column
-        "values_comparable": (spec.masses == "right" or kind.driver != LOAD) and not (spec.rough and size.minor),
+        "values_comparable": _comparable(size, spec, visibility),
     }
     parts = linear_numbers(size.effect)
     if parts:

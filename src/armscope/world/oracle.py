@@ -8,46 +8,50 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.world.blemishes import FINE_WAVES, LOW_WAVES
-from armscope.world.kinds import LOAD, PAYLOAD, Concealed, Scene, number
+from armscope.world.kinds import APPROACH, LOAD, PAYLOAD, SPEED, TEMPERATURE, Concealed, Scene, number
 from armscope.world.rivals import Patterns
 from armscope.world.strength import free_frames, rms, stand
 from armscope.world.virtual_arm import Measured, VirtualArm
 
+DRIVERS = {APPROACH: "approach", TEMPERATURE: "temperature_c", SPEED: "speed"}
+"""Columns without which nobody can know how an effect went; time is in the order of rows, too."""
 
-def oracle_rms(arm: VirtualArm, measured: Measured, runs: bool) -> float:
+
+def oracle_rms(arm: VirtualArm, measured: Measured, columns: list[str]) -> float:
     """Held-out RMS per axis of the oracle, m.
 
     It fits free frames, and to every concealed effect its own displacement, of a size that it believes to be the true
     one give or take all of it; of a gear's many waves it knows the numbers and how their sizes fall, not the phases.
+    What follows a column that the table doesn't show it can't foretell either.
 
     Args:
         arm: the virtual arm.
         measured: its session.
-        runs: whether the table tells runs apart, each with a base of its own.
+        columns: context of the table; where it tells runs apart, each has a base of its own.
 
     Returns:
         Over the held-out rows' readings.
     """
     scene, turn = arm.scene, arm.scene.tool_turn
-    frames = free_frames(arm.nominal, turn, scene.session.run if runs else None)
-    columns = np.concatenate([frames / np.linalg.norm(frames, axis=0), *_known(arm, scene)], axis=1)
+    frames = free_frames(arm.nominal, turn, scene.session.run if "run" in columns else None)
+    known = [size.effect for size in arm.chosen if DRIVERS.get(size.effect.kind.driver, "time") in (*columns, "time")]
+    matrix = np.concatenate([frames / np.linalg.norm(frames, axis=0), *_displacements(known, scene)], axis=1)
     missing = (measured.readings - arm.frames.place(arm.nominal, turn)).reshape(-1)
     axes = np.arange(len(missing)).reshape(-1, 3)
     seen, unseen = axes[arm.recorded].ravel(), axes[arm.held_out].ravel()
     variance = (arm.spec.sigma_mm * 1e-3) ** 2
     # the frames' columns have a length of one, so a size of one of theirs, too, is as good as anywhere
-    precision = columns[seen].T @ columns[seen] / variance + np.eye(columns.shape[1])
-    values = np.linalg.solve(precision, columns[seen].T @ missing[seen] / variance)
-    return rms(missing[unseen] - columns[unseen] @ values)
+    precision = matrix[seen].T @ matrix[seen] / variance + np.eye(matrix.shape[1])
+    values = np.linalg.solve(precision, matrix[seen].T @ missing[seen] / variance)
+    return rms(missing[unseen] - matrix[unseen] @ values)
 
 
-def _known(arm: VirtualArm, scene: Scene) -> Iterator[Array]:
-    """(3 N, k) displacement by each concealed effect, m, per unit of what the oracle takes to be of a size of one."""
+def _displacements(known: list[Concealed], scene: Scene) -> Iterator[Array]:
+    """(3 N, k) displacement by each effect, m, per unit of what the oracle takes to be of a size of one."""
     rigid = stand(scene, []).tool
     patterns = Patterns(scene)
-    springs = [size.effect for size in arm.chosen if size.effect.kind.driver == LOAD]
-    for size in arm.chosen:
-        effect = size.effect
+    springs = [effect for effect in known if effect.kind.driver == LOAD]
+    for effect in known:
         if effect.kind in (LOW_WAVES, FINE_WAVES):
             yield _waves(patterns, effect)
         elif effect.kind.driver == PAYLOAD:
