@@ -209,3 +209,11 @@ def test_tables_that_show_nothing_are_refused_and_doubts_are_told() -> None:
     kinds = {notice.kind for notice in check_motions(robot(), dataclasses.replace(motions, q=one_way))}
     assert "one way only" in kinds
     assert json.dumps(sorted(kinds))
+
+
+def test_what_is_wrong_with_the_time_of_many_runs_is_said_once() -> None:
+    motions = moved(robot(), 2, seconds=2.0)
+    jitter = np.where(np.arange(len(motions)) % 2, 0.001, 0.0)
+    _, notices = mended(motions.at_times(motions.time + jitter))
+    (told,) = (notice for notice in notices if notice.kind == "uneven time")
+    assert told.text.startswith("2 runs, such as run path 1: ")

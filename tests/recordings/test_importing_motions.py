@@ -16,6 +16,8 @@ from armscope.recordings.motions import read_motions
 ROOT = Path(__file__).parents[2]
 SETS = sorted(path for path in (ROOT / "config" / "motions").iterdir())
 SHARED = ROOT.parent / "shared" / "motions"
+MOST_RUNS = slice(0, 4, 3)
+"""The first, and of the longest set the one whose file holds broken rows."""
 
 MAPPING = {
     "table": "motions",
@@ -84,7 +86,12 @@ def test_a_real_set_converts_to_the_reference_table_within_its_rounding(folder: 
     if not SHARED.is_dir():
         pytest.skip("../shared/motions is not here, so there is nothing to compare with")
     fetched = fetch_recordings(folder / "source.yaml", tmp_path / "raw", recordings_dir=SHARED)
-    import_recordings(list(fetched.paths), folder / "mapping.yaml", tmp_path / "motions.csv")
+    mapping = yaml.safe_load((folder / "mapping.yaml").read_text())
+    mapping["runs"] = mapping["runs"][MOST_RUNS]
+    (tmp_path / "mapping.yaml").write_text(yaml.safe_dump(mapping))
+    wanted = {name["file"] for run in mapping["runs"] for name in (run, *run.get("beside", []))}
+    files = [path for path in fetched.paths if path.name in wanted]
+    import_recordings(files, tmp_path / "mapping.yaml", tmp_path / "motions.csv")
     ours, theirs = pd.read_csv(tmp_path / "motions.csv"), pd.read_csv(SHARED / folder.name / "motions.csv.gz")
     for run, rows in ours.groupby("run", sort=False):
         whole = theirs[theirs["run"] == run]

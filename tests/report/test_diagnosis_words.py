@@ -288,7 +288,7 @@ def test_a_number_that_the_poses_leave_open_gets_no_digits():
     """d of a row between parallel axes: 40 mm of uncertainty in an effect of 0.2 mm is no measurement."""
     effect = found("link_geometry", "link 3", Parameter("a", "mm", 0.6, 0.02), Parameter("d", "mm", -0.01, 40.0))
     told = {reading.label: reading for reading in card(effect, 1).readings}
-    assert told["length a"].value == "0.600 mm"
+    assert told["length a"].value == "+0.600 mm"
     assert told["length d"].value == "undetermined"
 
 

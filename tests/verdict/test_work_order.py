@@ -1,6 +1,7 @@
 """A work order done to the letter must leave what it says: its numbers are read from its words and put to work."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ from armscope.fitting.registration import fit_frames
 from armscope.physics.registry import EFFECTS
 from armscope.report.pages.diagnosis import write_report
 from armscope.robot.arm import build_arm
-from armscope.verdict.contributions import contributions
+from armscope.verdict.contributions import contributions, rms
 from armscope.verdict.schema import Parameter
 from armscope.verdict.work_order import CHANGES, angle, corrected_rows, task_of, work_order, zero_offsets
 from tests.physics.test_cure import World
@@ -77,3 +78,20 @@ def test_a_gear_that_turns_too_far_has_fewer_motor_turns_per_joint_turn() -> Non
     case = verdicts.case(effects=(ratio,))
     model, (cause,) = case.verdict.model, contributions(case.verdict).causes
     assert "0.998004" in task_of(model.scene(case.recordings), cause, ratio).instruction
+
+
+def test_causes_that_work_against_each_other_are_commanded_away_together() -> None:
+    """Each alone would make it worse; together they are all of the error."""
+    against = [verdicts.found("joint_offset", f"joint {n}", Parameter("offset", "rad", 1e-3, 1e-5)) for n in (2, 3)]
+    case = verdicts.case(effects=tuple(against))
+    worth = contributions(case.verdict)
+    large, error = np.random.default_rng(0).normal(0, 1, (2, *worth.left.shape))
+    first, second = worth.causes
+    moved = (replace(first, moved=large), replace(second, moved=0.2 * error - large))
+    worth = replace(worth, causes=moved, small={}, left=0.02 * worth.left)
+    order = work_order(case.verdict, worth)
+    assert [task.change for task in order.tasks] == ["corrected commands"]
+    assert "joint 2" in order.tasks[0].instruction
+    assert "joint 3" in order.tasks[0].instruction
+    assert order.tasks[0].then_mm == pytest.approx(rms(worth.left))
+    assert not order.besides

@@ -52,7 +52,18 @@ def mended_rows(motions: Motions) -> tuple[Indices, Array, list[Notice]]:
         piece, told = _mended_run(motions, rows)
         pieces.append(piece)
         notices += told
-    return np.concatenate([rows for rows, _ in pieces]), np.concatenate([time for _, time in pieces]), notices
+    return np.concatenate([rows for rows, _ in pieces]), np.concatenate([time for _, time in pieces]), _once(notices)
+
+
+def _once(notices: list[Notice]) -> list[Notice]:
+    """What is said of many runs is said once, of the first."""
+    kinds: dict[str, list[Notice]] = {}
+    for notice in notices:
+        kinds.setdefault(notice.kind, []).append(notice)
+    return [
+        alike[0] if len(alike) == 1 else Notice(kind, f"{len(alike)} runs, such as {alike[0].text}")
+        for kind, alike in kinds.items()
+    ]
 
 
 def _mended_run(motions: Motions, rows: np.ndarray) -> tuple[tuple[np.ndarray, Array], list[Notice]]:

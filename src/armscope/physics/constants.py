@@ -147,6 +147,11 @@ class PlausibleSizes(Constants):
         "judgement: identified masses differ from the makers' by 10-30 %: cables, grease and covers are not in the "
         "drawing; at 0.2 a factor common to all masses passes for a payload's",
     )
+    weighed_share: float = constant(
+        0.05,
+        "error of a payload's stated mass that deserves no name, as a share of it",
+        "judgement: a gripper is weighed once, cables and grease are not",
+    )
     payload_share: float = constant(
         0.5, "error of a payload's mass as a share of the largest stated", "judgement: a gripper that was forgotten"
     )

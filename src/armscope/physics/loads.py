@@ -1,12 +1,14 @@
-"""Loads are known, but not exactly: every link's stated mass may be off by some share, for all that gives way at once.
+"""Loads are known, but not exactly: every stated mass may be off by some share, for all that gives way at once.
 
 A load times a compliance is bilinear; around the stated masses and a model's present compliances it is a column per
-link, the change of all loads per share of its mass times what gives way under them.
+link, and one for the payload: the change of all loads per share of its mass times what gives way under them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+
+import numpy as np
 
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import Cure
@@ -20,8 +22,8 @@ STATED_MASSES = Effect(
     "stated_masses",
     "elastic",
     lambda arm, recordings: iter(()),  # it needs a model that gives way
-    "The link's mass is other than stated, so everything that gives way under it is loaded differently.",
-    "Weigh the link, or record the motors' torques at rest and compare them with gravity by the stated masses.",
+    "The mass is other than stated, so everything that gives way under it is loaded differently.",
+    "Weigh it, or record the motors' torques at rest and compare them with gravity by the stated masses.",
     Cure("Correct the link's mass in robot.yaml: mass = stated mass x (1 + share)."),
     atlas="gravity load",
 )
@@ -46,7 +48,7 @@ def givings(parts: Sequence[Part], torques_recorded: bool) -> Iterator[Product]:
 
 
 def mass_errors(arm: Arm, recordings: Recordings, parts: Sequence[Part]) -> list[Placed]:
-    """The relative error of each link's stated mass, first-order in the model's present values.
+    """The relative error of each link's and of the payload's stated mass, first-order in the model's present values.
 
     Args:
         arm: whose masses are stated, or not.
@@ -54,15 +56,19 @@ def mass_errors(arm: Arm, recordings: Recordings, parts: Sequence[Part]) -> list
         parts: of the model.
 
     Returns:
-        One per link that weighs something; none where nothing gives way.
+        One per link that weighs something, and one of a payload that does; none where nothing gives way.
     """
     known = list(givings(parts, recordings.torque is not None))
     if not known:
         return []
-    return [_mass_error(link, known) for link in range(1, arm.n_joints + 1) if arm.masses[link - 1] > 0]
+    links = (link for link in range(1, arm.n_joints + 1) if arm.masses[link - 1] > 0)
+    errors = [_mass_error(f"link {link}", known, PLAUSIBLE.mass_share, "heavier link", link) for link in links]
+    if recordings.payload is not None and np.any(np.nan_to_num(recordings.payload) > 0):
+        errors.append(_mass_error("payload", known, PLAUSIBLE.weighed_share, "heavier by share"))
+    return errors
 
 
-def _mass_error(link: int, known: Sequence[Product]) -> Placed:
-    products = (Product(g.direction, Driver("heavier link", (g.driver, link)), g.factor) for g in known)
-    share = Term("share", "of its mass", 1.0, tuple(products), PLAUSIBLE.mass_share)
-    return Placed(STATED_MASSES, f"link {link}", (share,), (PLAUSIBLE.mass_share,), "loads")
+def _mass_error(location: str, known: Sequence[Product], usual: float, heavier: str, *which: int) -> Placed:
+    products = (Product(g.direction, Driver(heavier, (g.driver, *which)), g.factor) for g in known)
+    share = Term("share", "of its mass", 1.0, tuple(products), usual)
+    return Placed(STATED_MASSES, location, (share,), (usual,), "loads")

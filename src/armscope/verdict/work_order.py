@@ -58,6 +58,8 @@ WORTH_ALL = 0.05
 """Share of the squared error from which these are a task of their own."""
 LEAST_GAIN = 0.01
 """Share of the error that a task must take away in its turn."""
+WORTH_TOGETHER = 0.1
+"""Share of the error from which all that is left in the fitted model is commanded away together."""
 NO_GAIN = "To cure it does not lower the error in its turn: confirm it before anything is changed."
 STEADY = 0.02
 """A motion whose range is below this share of its size is told as one number."""
@@ -93,7 +95,7 @@ class WorkOrder:
 
     Attributes:
         tasks: in the order in which they pay: repairs, then what takes out small errors everywhere, then repairs that
-            pay only after that.
+            pay only after that, and corrected commands for what pays only together.
         besides: in words, causes that leave the error as it is in their turn, and what to do about them.
     """
 
@@ -111,8 +113,29 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
     then, left, _ = _by_gain(small, left)
     last, left, unpaid = _by_gain(unpaid, left)
     alone = {id(task): rms(worth.before - moved) for task, moved in (*repairs, *small)}
-    done = tuple(replace(task, alone_mm=alone[id(task)], then_mm=then_mm) for task, then_mm in (*first, *then, *last))
-    return WorkOrder(done, tuple(f"{task.what}. {task.cure if rms(moved) == 0 else NO_GAIN}" for task, moved in unpaid))
+    done = [replace(task, alone_mm=alone[id(task)], then_mm=then_mm) for task, then_mm in (*first, *then, *last)]
+    moving = [task.what for task, moved in unpaid if rms(moved) > 0]
+    if rms(worth.left) < (1 - WORTH_TOGETHER) * rms(left):
+        done.append(_together([what[:1].lower() + what[1:] for what in moving], rms(worth.left)))
+        moving = []
+    lost = [f"{what}. {NO_GAIN}" for what in moving]
+    return WorkOrder(tuple(done), (*lost, *(f"{task.what}. {task.cure}" for task, moved in unpaid if rms(moved) == 0)))
+
+
+def _together(names: Sequence[str], left_mm: float) -> Task:
+    """What pays only with all the rest: causes that work against each other, and those too small for a repair."""
+    of_it = f" One by one these do not pay: {'; '.join(names)}." if names else ""
+    return Task(
+        what="What is left: causes that work against each other, or are small",
+        place="whole arm",
+        change="corrected commands",
+        motion="",
+        instruction=f"Command the whole fitted model away (armscope compensate).{of_it}",
+        cure="",
+        confirm="Measure a few poses under corrected commands.",
+        alone_mm=left_mm,
+        then_mm=left_mm,
+    )
 
 
 Job = tuple[Task, Array]

@@ -16,7 +16,6 @@ from armscope.inference.normal_equations import NormalEquations, projected_rms
 from armscope.inference.problem import background_sizes
 from armscope.measurement.constants import WEIGHTS
 from armscope.physics.backgrounds import FAMILIES
-from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.loads import STATED_MASSES
 from armscope.verdict.schema import Background, FoundEffect, Notice, Unexplained
 
@@ -81,7 +80,7 @@ def masses_in_error(
     known = [
         f"{part.placed.location} {100 * value:+.0f} +- {196 * error:.0f} %"
         for part, value, error in zip(parts, off, stderr, strict=True)
-        if error < TELLING.determined * PLAUSIBLE.mass_share and abs(value) > 1.96 * error
+        if error < TELLING.determined * part.placed.prior_scale[0] and abs(value) > 1.96 * error
     ]
     text = "Stated masses are off, as all that gives way shows"
     return [found], [Notice("stated masses", f"{text}: {', '.join(known)}." if known else f"{text}; which, is open.")]

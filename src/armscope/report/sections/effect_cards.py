@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from armscope.verdict.schema import INDISTINGUISHABLE_NATS, FoundEffect, Parameter
 from armscope.verdict.schema import Alternative as FoundAlternative
@@ -23,6 +23,8 @@ from armscope.verdict.wording import (
 )
 
 MOST_PARAMETERS = 8
+EITHER_WAY = ("joint_offset", "link_geometry", "parallelogram_geometry", "gear_ratio", "joint_coupling")
+"""Their values are departures from what is stated, which carry their sign."""
 UNKNOWN_MASSES = "compliance_times_moment"
 LEFT_OPEN = 10.0
 """A parameter whose standard error would move the tool so many times as far as its effect does is left open."""
@@ -133,6 +135,9 @@ def reading_of(parameter: Parameter, effect: FoundEffect) -> Reading:
     cancelled by others in these poses (d of neighbouring parallel axes, for instance).
     """
     reading = read_parameter(parameter, effect.effect)
+    if effect.effect in EITHER_WAY and parameter.value > 0:
+        also = f"+{reading.also}" if reading.also else ""
+        reading = replace(reading, value=f"+{reading.value}", also=also)
     if implausible(parameter, effect):
         return Reading(reading.label, "undetermined", "beyond what arms have: it stands in for others")
     lever_mm = {"mm": 1.0, "rad": 1e3}.get(parameter.unit)  # an angle acts at about a metre

@@ -159,7 +159,9 @@ def _several(count: int) -> Recipe:
 def _unseparated(kind: str, rule: PathRule, joint: int, arm: str, strength: float = 5.0) -> Recipe:
     def recipe(rng: np.random.Generator) -> Details:
         wish = {"kind": kind, "strength": strength, "location": f"joint {joint + 1}"}
-        return {"wishes": [wish], "arm": arm, "rule": rule, "joint": joint, **_circumstances([kind], rng)}
+        details = {"wishes": [wish], "arm": arm, "rule": rule, "joint": joint, **_circumstances([kind], rng)}
+        # where a joint turns one way only, friction that nobody stated would take all of it
+        return details | {"stated": True} if rule == "one_way" else details
 
     return recipe
 
