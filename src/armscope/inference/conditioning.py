@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from scipy.linalg.lapack import dtrtrs
+from scipy.linalg.blas import dtrmm
 
 from armscope.core.types import Array, Indices
 from armscope.inference.constants import NUMERICS
@@ -60,7 +60,7 @@ def condition_on(problem: Problem, columns: Indices, hypothesis: Hypothesis) -> 
         Products of the columns with what the hypothesis leaves, and what it takes of them.
     """
     G, b, inside = problem.equations.G, problem.equations.b, hypothesis.columns
-    taken = np.asarray(dtrtrs(hypothesis.cholesky, G[np.ix_(columns, inside)].T, lower=1, overwrite_b=1)[0]).T
+    taken = np.asarray(dtrmm(1.0, hypothesis.inverse, G[columns][:, inside].T, lower=1)).T
     return ConditionedColumns(columns, b[columns] - taken @ solve_lower(hypothesis.cholesky, b[inside]), taken)
 
 

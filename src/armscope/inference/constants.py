@@ -148,6 +148,12 @@ class Numerics(Constants):
         "judgement: time; the result is the same",
         unit="columns",
     )
+    inverted_at_once: int = constant(
+        64,
+        "up to which a triangular matrix is inverted in one piece",
+        "judgement: time; the result is the same",
+        unit="columns",
+    )
     many_columns: int = constant(
         8,
         "from which a set is factorised size by size instead of by eigenvalues",

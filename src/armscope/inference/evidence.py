@@ -12,12 +12,12 @@ from dataclasses import dataclass, field
 from typing import ClassVar
 
 import numpy as np
-from scipy.linalg.lapack import dtrtri, dtrtrs
+from scipy.linalg.lapack import dtrtrs
 from scipy.special import log_ndtr
 
 from armscope.core.types import Array, Indices
 from armscope.inference.constants import NUMERICS, PRIORS
-from armscope.inference.linear_algebra import lower_cholesky, solve_lower
+from armscope.inference.linear_algebra import lower_cholesky, lower_inverse, solve_lower
 from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.problem import Problem, SelectedEffect, prior_variances
 
@@ -57,7 +57,7 @@ class Hypothesis:
     @functools.cached_property
     def inverse(self) -> Array:
         """The inverse of the factor."""
-        return np.asarray(dtrtri(self.cholesky, lower=1)[0]) if self.known_inverse is None else self.known_inverse
+        return lower_inverse(self.cholesky) if self.known_inverse is None else self.known_inverse
 
     @functools.cached_property
     def candidates(self) -> frozenset[int]:
@@ -105,10 +105,10 @@ def evaluate(
     prior = prior_variances(problem, chosen, background)
     columns = np.flatnonzero(prior > 0)
     variance = prior[columns]
-    G, b = problem.equations.G[np.ix_(columns, columns)], problem.equations.b[columns]
+    G, b = problem.equations.G[columns][:, columns], problem.equations.b[columns]
     factor = first = lower_cholesky(G, noise**2 / variance)
     # how many values the data determine hardly changes with the noise: one inverse is enough
-    inverse = np.asarray(dtrtri(first, lower=1)[0])
+    inverse = lower_inverse(first)
     effective_dof = len(columns) - noise**2 * float(np.sum(np.einsum("ij,ij->j", inverse, inverse) / variance))
     for step in range(NUMERICS.noise_steps):
         whitened_rhs = solve_lower(factor, b)

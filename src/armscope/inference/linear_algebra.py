@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg.lapack import dpotrf, dtrtrs
+from scipy.linalg.blas import dtrmm
+from scipy.linalg.lapack import dpotrf, dtrtri, dtrtrs
 
 from armscope.core.types import Array, Indices
 from armscope.inference.constants import NUMERICS
@@ -24,6 +25,20 @@ def lower_cholesky(G: Array, ridge: Array) -> Array:
     if failed:
         raise np.linalg.LinAlgError(f"the normal equations are not positive definite at column {failed}")
     return np.asarray(factor)
+
+
+def lower_inverse(factor: Array) -> Array:
+    """The inverse of a lower triangular matrix, by halves: products of blocks are twice as fast as LAPACK's columns."""
+    k = len(factor)
+    if k <= NUMERICS.inverted_at_once:
+        return np.asarray(dtrtri(factor, lower=1)[0])
+    half = k // 2
+    inverse = np.zeros((k, k), order="F")
+    inverse[:half, :half] = above = lower_inverse(factor[:half, :half])
+    inverse[half:, half:] = below = lower_inverse(factor[half:, half:])
+    beside = dtrmm(1.0, above, factor[half:, :half], side=1, lower=1)
+    inverse[half:, :half] = dtrmm(-1.0, below, beside, lower=1)
+    return inverse
 
 
 def solve_lower(factor: Array, right: Array) -> Array:
