@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.physics.constants import PLAUSIBLE
+from armscope.physics.scene import Scene
 from armscope.physics.wander import GROWTH_WAVES, WANDER_WAVES, is_of_rows, link_wander, wander
 
 from .scenes import arm_named, full_table
@@ -48,3 +49,19 @@ def test_few_rows_have_few_waves():
 def test_runs_of_one_set_up_stand_a_little_elsewhere():
     placed = wander(timed(None), (("a", "b"), ("c",)))
     assert [each.variant for each in placed[WANDER_WAVES:]] == ["run a", "run b"]
+
+
+def test_a_wave_of_rows_leaves_each_runs_mean_to_the_run():
+    """Other rows of a run are as far from home as the run is, though nobody knows where they stand in its order."""
+    arm = arm_named("six-axis")
+    runs = replace(timed(None), run=np.repeat(["a", "b", "c"], 30))
+    scene = Scene(arm, runs)
+    for placed in (*wander(runs, (("a", "b", "c"),)), *link_wander(arm, runs)):
+        if placed.variant.startswith("wave"):
+            term = placed.terms[0]
+            first = term.products[0]
+            along = [p for p in term.products if p.direction == first.direction]
+            course = np.sum([p.factor / first.factor * scene.driver(p.driver) for p in along], axis=0)
+            assert np.abs(course.reshape(3, 30).mean(axis=1)).max() < 1e-12
+            assert np.std(course) > 0.1
+    assert {each.variant for each in link_wander(arm, runs)} >= {"run a", "run b", "run c", "wave 1"}

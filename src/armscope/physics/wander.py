@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from armscope.core.types import Array
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import Cure
 from armscope.physics.drift import LEAST_SPAN_S, six_terms
-from armscope.physics.effect import Driver, Effect, Placed, term
+from armscope.physics.effect import Driver, Effect, Placed, Product, Term, term
 from armscope.physics.placing import varies
 from armscope.physics.scene import numbers_of_rows
 from armscope.physics.set_ups import SetUps
@@ -59,6 +60,8 @@ def wander(recordings: Recordings, set_ups: SetUps) -> list[Placed]:
         Waves, then runs, in place.
     """
     waves = [_wandering(driver, share, f"wave {k}") for k, driver, share in _waves(recordings, WANDER_WAVES)]
+    if any(map(is_of_rows, waves)):
+        waves = [_about_runs(wave, recordings) for wave in waves]
     together = [run for runs in set_ups if len(runs) > 1 for run in runs]
     return [*waves, *(_wandering(Driver("during run", (run,)), 1.0, f"run {run}") for run in together)]
 
@@ -71,18 +74,25 @@ def _wandering(driver: Driver, share: float, variant: str) -> Placed:
 
 def link_wander(arm: Arm, recordings: Recordings) -> list[Placed]:
     """Links whose lengths change slowly in the order of time: a hall's day, and links that follow it late."""
-    return [
-        Placed(
-            LINK_WANDER,
-            place,
-            (term("growth", "m/m", *products),),
-            (share * PLAUSIBLE.growth,),
-            "time",
-            variant=f"wave {k}",
-        )
+    waves = [
+        _growing(place, products, share, f"wave {k}")
         for k, driver, share in _waves(recordings, GROWTH_WAVES)
         for place, products in growing_links(arm, driver)
     ]
+    runs = [str(run) for run in np.unique(recordings.run)]
+    if len(runs) == 1 or not any(map(is_of_rows, waves)):
+        return waves
+    of_runs = [
+        _growing(place, products, 1.0, f"run {run}")
+        for run in runs
+        for place, products in growing_links(arm, Driver("during run", (run,)))
+    ]
+    return [*(_about_runs(wave, recordings) for wave in waves), *of_runs]
+
+
+def _growing(place: str, products: tuple[Product, ...], share: float, variant: str) -> Placed:
+    growth = term("growth", "m/m", *products)
+    return Placed(LINK_WANDER, place, (growth,), (share * PLAUSIBLE.growth,), "time", variant=variant)
 
 
 def _waves(recordings: Recordings, most: int) -> Iterator[tuple[int, Driver, float]]:
@@ -96,6 +106,23 @@ def _waves(recordings: Recordings, most: int) -> Iterator[tuple[int, Driver, flo
     ends = float(along.min()), float(along.max())
     for k, share in enumerate(falling.tolist(), 1):
         yield k, Driver(kind, (k, *ends)), share
+
+
+def _about_runs(wave: Placed, recordings: Recordings) -> Placed:
+    """A wave in the order of rows without its mean in each run, which is the run's: that holds for its other rows."""
+    count, first, last = (wave.terms[0].products[0].driver.number(n) for n in range(3))
+    course = np.cos(np.pi * count * (numbers_of_rows(recordings) - first) / (last - first))
+    means = {str(run): float(course[recordings.run == run].mean()) for run in np.unique(recordings.run)}
+
+    def about(each: Term) -> Term:
+        less = [
+            replace(product, driver=Driver("during run", (run,)), factor=-mean * product.factor)
+            for product in each.products
+            for run, mean in means.items()
+        ]
+        return replace(each, products=(*each.products, *less))
+
+    return wave if len(means) == 1 else replace(wave, terms=tuple(map(about, wave.terms)))
 
 
 def is_of_rows(placed: Placed) -> bool:

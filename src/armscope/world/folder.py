@@ -23,7 +23,7 @@ from armscope.core.files import write_table, write_yaml
 from armscope.world.catalogue import WorldSpec
 from armscope.world.choice import visibilities
 from armscope.world.effects import linear_numbers
-from armscope.world.kinds import LOAD
+from armscope.world.kinds import CONSTANT, LOAD
 from armscope.world.oracle import oracle_rms
 from armscope.world.rivals import Visibility
 from armscope.world.rough import as_stated
@@ -194,13 +194,15 @@ def _comparable(size: Sized, spec: WorldSpec, visibility: Visibility | None) -> 
     """Whether a fit's numbers are those of the effect alone.
 
     Not those of what a rough arm has everywhere, nor of what is the same as that; bars that aren't stated are told in
-    shares.
+    shares; and an axis that leans about y is as well told by the neighbours' D-H values.
     """
     kind = size.effect.kind
     if not spec.rough:
         return spec.masses == "right" or kind.driver != LOAD
     twins = kind.driver == LOAD and visibility is not None and bool(visibility.alternatives)
-    return not (size.minor or twins or ("bars" in spec.rough and kind.effect == "parallelogram_geometry"))
+    in_shares = kind.effect == "parallelogram_geometry" and "bars" in spec.rough
+    leaning = kind.driver == CONSTANT and "geometry" in spec.rough
+    return not (size.minor or twins or in_shares or leaning)
 
 
 def _effect(size: Sized, spec: WorldSpec, visibility: Visibility | None) -> dict[str, Any]:

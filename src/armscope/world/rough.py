@@ -120,8 +120,8 @@ def _geometry(rng: np.random.Generator, scene: Scene) -> Drawn:
 
 
 def _row(rng: np.random.Generator, scene: Scene) -> Drawn:
-    """An offset that belongs to one D-H row and is stated on the next."""
-    row = int(rng.integers(1, len(joints(scene.description))))
+    """An offset that belongs to one D-H row and is stated on the next; the first row's may be the base's."""
+    row = int(rng.integers(2, len(joints(scene.description))))
     size = between(rng, ROUGH.row_m)
     return [Concealed(ROW, f"link {row + after}", {"a": size if after == 0 else -size}) for after in (0, 1)]
 
