@@ -221,9 +221,10 @@ def test_a_long_table_is_sampled_and_then_weighed_whole(monkeypatch: pytest.Monk
     (found,) = verdict.effects
     assert (found.effect, found.location) == ("joint_compliance", "joint 2")
     assert verdict.rows == 400
-    # stated masses are known to a tenth each, and so is what gives way under them, less where several share the error
+    # stated masses are known to a tenth each, the payload to a twentieth, and so is what gives way under them, less
+    # where several share the error
     (compliance,) = found.parameters
-    assert compliance.stderr < 0.03 * 5e-7
+    assert compliance.stderr < 0.04 * 5e-7
     assert abs(compliance.value - 5e-7) < 3 * compliance.stderr
     assert len(verdict.residuals.after) == 400
 

@@ -101,7 +101,8 @@ def judge(
     masses, weights_told = masses_in_error(state, weighed.equations, of_families[-1])
     background = (*background, *masses)
     waterfall = _with_weights(waterfall, named)
-    scattered = [s for s in scattered_effects(state, variance) if not rest_of_a_curve(s, named)]
+    left = max(1.0 - sum(effect.share for effect in named) - sum(family.share for family in background), 0.0)
+    scattered = [s for s in scattered_effects(state, variance, left) if not rest_of_a_curve(s, named)]
     over = subset_consistency(state)
     named = [replace(e, carries_over=over.get(c, "")) for c, e in zip(order, named, strict=True)]
     effects = tuple(sorted([*named, *scattered], key=lambda effect: -effect.share))

@@ -111,7 +111,8 @@ def _unknown_masses(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
 def _mass_moment_terms(scene: Scene, j: int) -> Iterator[tuple[Term, float]]:
     """Combinations of mass moments that load motor j independently (singular vectors), and what each is expected to do.
 
-    All are equally likely in kg m; the strongest, which comes first, does most to the motor.
+    All are equally likely in kg m: the strongest, which comes first, does most to the motor. Beside stated masses,
+    which hold that one, none is likelier than another.
     """
     regressor = scene.remember("regressor", lambda: _regressor(scene))[:, j - 1]
     spread = regressor - regressor.mean(axis=0)
@@ -123,7 +124,7 @@ def _mass_moment_terms(scene: Scene, j: int) -> Iterator[tuple[Term, float]]:
         load = Driver("regressor", (j, *(float(w) for w in direction)))
         give = plausible_give(PLAUSIBLE.drive_rad, scene.driver(load))
         name = f"compliance_times_moment_{number}"
-        yield term(name, "rad/(m/s^2)", (motor(j), load), plausible=give), float(share)
+        yield term(name, "rad/(m/s^2)", (motor(j), load), plausible=give), 1.0 if has_load(scene.arm) else float(share)
 
 
 def _regressor(scene: Scene) -> Array:

@@ -166,11 +166,21 @@ def with_weight(found: FoundEffect, background: Sequence[Background]) -> FoundEf
     return replace(found, minor=of < (NAMING.minor_share if ordinary else NAMING.minor_share_of_perfect_arm))
 
 
-def scattered_effects(state: DiagnosisState, variance: float) -> Iterator[FoundEffect]:
-    """Scatter that has a place but follows nothing in the table."""
+def scattered_effects(state: DiagnosisState, variance: float, left: float) -> Iterator[FoundEffect]:
+    """Scatter that has a place but follows nothing in the table.
+
+    Args:
+        state: the finished selection.
+        variance: of the mismatch per axis, mm^2.
+        left: share of it that nothing else explains: scatter is no more, though bad shots may make it look larger.
+
+    Yields:
+        One effect per motor that scatters.
+    """
     moved = motor_jacobians(state.fit.model, state.recordings) if state.scatter else np.empty(0)
-    for scattered in state.scatter:
-        rms = scattered.size * float(np.sqrt(np.mean(moved[scattered.motor - 1] ** 2)))
+    sizes = [s.size * float(np.sqrt(np.mean(moved[s.motor - 1] ** 2))) for s in state.scatter]
+    together = sum(rms**2 for rms in sizes)
+    for scattered, rms in zip(state.scatter, sizes, strict=True):
         location = f"joint {scattered.motor}"
         yield FoundEffect(
             effect="unknown",
@@ -182,7 +192,7 @@ def scattered_effects(state: DiagnosisState, variance: float) -> Iterator[FoundE
             minor=False,
             parameters=(Parameter("scatter", "rad", scattered.size, scattered.size / np.sqrt(2 * len(moved[0]))),),
             rms_at_tool_mm=rms,
-            share=min(rms**2 / variance, 1.0) if variance > 0 else 0.0,
+            share=rms**2 / max(variance, together / max(left, 1e-9)) if variance > 0 else 0.0,
             evidence_nats=scattered.evidence,
             alternatives=(),
             inclusion=None,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 from scipy.special import chdtri
@@ -85,7 +86,11 @@ def _agreements(
     """Whether the parts' own posteriors under the chosen hypothesis scatter no more than they do by this chance."""
     # a line alone, without what is left of its curve: that could be another's line in each part
     lines = tuple(c for c in best.chosen if problem.space.candidates[c.candidate].variant != REST_OF_LOAD)
-    alone = [evaluate(problem.with_equations(part), lines, best.background, best.noise) for part in parts]
+    shared = replace(problem, space=replace(problem.space, companions=()))
+    alone = [
+        evaluate(_without_companions(shared.with_equations(part), problem, best), lines, best.background, best.noise)
+        for part in parts
+    ]
     agree = {}
     for candidate in asked:
         columns = problem.space.candidates[candidate].columns
@@ -95,6 +100,17 @@ def _agreements(
         misfit = float(np.sum((values - mean) ** 2 / variances))
         agree[candidate] = misfit < chdtri(values.size - values.shape[1], chance)
     return agree
+
+
+def _without_companions(part: Problem, problem: Problem, best: Hypothesis) -> Problem:
+    """A part's sums less what companions explain on all rows: masses that are off are so in every part."""
+    joined = [c.family.columns for c in problem.space.companions if c.joins(best.candidates, best.background)]
+    found = np.zeros(len(problem.scale))
+    for columns in joined:
+        found[columns] = best.means(columns)
+    sums = part.equations
+    left = NormalEquations(sums.G, sums.b - sums.G @ found, sums.rss(found), sums.n)
+    return replace(part, equations=left)
 
 
 def _sentence(count: int, kind: str, agrees: bool) -> str:
