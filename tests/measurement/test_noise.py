@@ -108,6 +108,7 @@ def test_constant_noise_stays_silent(seed: int) -> None:
         assert all(notice.kind != "noise by distance" for notice in verdict.notices)
 
 
+@pytest.mark.long
 def test_standard_errors_are_right_where_noise_grows() -> None:
     """Errors over worlds in units of their standard errors: their mean square is that of chi2, 99.8 % of the time."""
     squares = []

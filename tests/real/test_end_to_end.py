@@ -25,7 +25,13 @@ def call(*words):
     assert result.exception is None, (words, result.exception, result.stdout)
 
 
-@pytest.fixture(scope="module", params=[(None, EFFECTS), (1e-4, EFFECTS[:1])], ids=["points", "orientations too"])
+@pytest.fixture(
+    scope="module",
+    params=[
+        pytest.param((None, EFFECTS[:2]), id="points"),
+        pytest.param((1e-4, EFFECTS), id="orientations too", marks=pytest.mark.long),
+    ],
+)
 def folder(request, tmp_path_factory):
     turn_noise, effects = request.param
     home = tmp_path_factory.mktemp("concealed")

@@ -40,6 +40,7 @@ def limited():
     resource.setrlimit(resource.RLIMIT_DATA, (MOST_BYTES, MOST_BYTES))
 
 
+@pytest.mark.long
 def test_a_long_file_is_imported_and_checked_within_its_memory(long_file):
     for arguments, code in (
         (["import", "raw.csv", "--mapping", "mapping.yaml", "-o", "recordings.csv"], 0),
