@@ -64,7 +64,7 @@ fuzz: .venv/installed-test
 	$(PYTHON) -m venv .venv
 
 # what is installed must be, byte by byte, what was pinned (tools/lock.py), wherever it comes from
-PIP_INSTALL := pip install --quiet --disable-pip-version-check --no-compile
+PIP_INSTALL := pip install --quiet --disable-pip-version-check
 .venv/installed: .venv/bin/python requirements.lock pyproject.toml
 	$(BIN)/$(PIP_INSTALL) --require-hashes -r requirements.lock
 	$(BIN)/$(PIP_INSTALL) --no-deps --editable .

@@ -173,6 +173,7 @@ def test_a_torque_ripple_is_found_by_torques_and_not_by_positions() -> None:
     assert amplitude.stderr == pytest.approx(TORQUE_NM * np.sqrt(2 / ROWS), rel=0.2)
 
 
+@pytest.mark.long
 def test_a_payload_error_is_told_more_narrowly_with_torques() -> None:
     arm = arm_named("six-axis")
     stated = one_run(arm, ROWS, 5)
