@@ -8,10 +8,11 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
-from armscope.calibration.fit import placed, rms_distance
+from armscope.calibration.fit import placed
 from armscope.calibration.model import SetUp
 from armscope.calibration.splits import foretold, split
 from armscope.calibration.state import State
+from armscope.core.averages import rms_distance
 from armscope.recordings import Recordings
 
 ALL = "all"

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.calibration.by_run import misses_by_run
-from armscope.calibration.fit import rms_distance
 from armscope.calibration.geometry import nominal_values
 from armscope.calibration.imitation import Imitation, imitations
 from armscope.calibration.model import Level, SetUp, set_up
@@ -22,6 +21,7 @@ from armscope.calibration.solve import Priors, Redundancy, Solved, scales_of, so
 from armscope.calibration.splits import foretold, split
 from armscope.calibration.state import State
 from armscope.calibration.words import in_words
+from armscope.core.averages import rms_distance
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.measurement.robust import scale_of

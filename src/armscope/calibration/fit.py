@@ -77,7 +77,6 @@ def least_squares(
     free: NDArray[np.bool_],
     stiffness: Array | None = None,
     rule: Rule = all_alike,
-    most_steps: int = LARGEST_STEPS,
 ) -> Fitted:
     """Minimise sum of weights * squared residuals + sum of stiffness * squared change, from ``state``.
 
@@ -87,13 +86,12 @@ def least_squares(
         free: (P,) which parameters move.
         stiffness: (P,) m^2 per squared unit, holds parameters near zero (a prior); None holds none.
         rule: weights of the rows by what is left of them; all count alike where not given.
-        most_steps: after so many steps the fit stops where it is.
 
     Returns:
         The state, weights, steps, and why it stopped.
     """
     problem = _Calibration(set_up, free, np.zeros(len(free)) if stiffness is None else stiffness, rule)
-    found = gauss_newton(problem, state, most_steps)
+    found = gauss_newton(problem, state, LARGEST_STEPS)
     return Fitted(found.state, problem.weights, found.steps, found.reason)
 
 
@@ -124,11 +122,6 @@ def robust_least_squares(
         fitted = least_squares(set_up, state, free, stiffness, rule)
         state, steps = fitted.state, steps + fitted.steps
     return replace(fitted, steps=steps)
-
-
-def rms_distance(residuals: Array) -> float:
-    """Root mean square of the 3D distance of residuals (N, 3)."""
-    return float(np.sqrt(np.mean(np.sum(residuals**2, axis=1))))
 
 
 def _huber(left: Array) -> Array:

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from armscope.calibration.fit import placed, rms_distance
+from armscope.calibration.fit import placed
 from armscope.calibration.model import LEVELS, Level, set_up
 from armscope.calibration.solve import Priors, solve
 from armscope.calibration.splits import foretold, split
+from armscope.core.averages import rms_distance
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 

@@ -18,7 +18,6 @@ from armscope.physics.model import FittedModel, predict
 from armscope.recordings.table import as_recordings
 from armscope.robot import Arm, chain
 
-STAGES = ("fit", "prediction", "closed loop")
 ERROR_COLUMNS = ["dx_mm", "dy_mm", "dz_mm"]
 NO_MODEL = "Uncompensated"
 """The negative control: the nominal commands."""

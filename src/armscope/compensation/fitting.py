@@ -8,6 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from armscope.compensation.black_box import ErrorModel, Turning, domain_of
+from armscope.core.averages import rms, rms_distance
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.errormodels import FeatureSet, FitProblem, ModelSpec, fit_least_squares, fit_swarms
@@ -73,12 +74,12 @@ def fit_error_model(
         arm, base = register_frames(arm, recordings)
     frames = chain(arm, recordings.motor_angles)
     errors = ((recordings.positions - base.translation) @ base.rotation - frames.tool) * 1e3
-    rms = float(np.sqrt(np.mean(errors**2)))
-    if not register and rms > LARGEST_PLAIN_ERROR_MM:
+    off = rms(errors)
+    if not register and off > LARGEST_PLAIN_ERROR_MM:
         raise InputError(
             recordings.source,
             "x_mm, y_mm, z_mm",
-            f"{rms:.0f} mm RMS from the nominal arm",
+            f"{off:.0f} mm RMS from the nominal arm",
             f"errors are differences in the arm's base frame, below {LARGEST_PLAIN_ERROR_MM:.0f} mm",
             "Use --register to fit the measurement frame and the tool offset first.",
         )
@@ -187,12 +188,12 @@ def turning_errors(arm: Arm, rows: Recordings, base: Base, register: bool) -> tu
     if register:
         tool = Rotation.from_matrix(np.swapaxes(nominal, 1, 2) @ in_base).mean().as_matrix()
     turns = Rotation.from_matrix(in_base @ tool.T @ np.swapaxes(nominal, 1, 2)).as_rotvec()
-    rms = float(np.sqrt(np.mean(np.sum(turns**2, axis=1))))
-    if rms > LARGEST_PLAIN_TURN_RAD:
+    off = rms_distance(turns)
+    if off > LARGEST_PLAIN_TURN_RAD:
         raise InputError(
             rows.source,
             "qw, qx, qy, qz",
-            f"{np.degrees(rms):.0f} degrees RMS from the nominal arm",
+            f"{np.degrees(off):.0f} degrees RMS from the nominal arm",
             f"errors of the orientation are below {np.degrees(LARGEST_PLAIN_TURN_RAD):.0f} degrees",
             "Is it the order wxyz, measurement frame from tool frame? "
             + ("--no-orientation leaves them out." if register else "--register fits the tool's own turn."),

@@ -124,10 +124,6 @@ class FittedModel:
         """The predictions of all seeds in mm, S x N x A."""
         return np.asarray(np.matmul(self.features.matrix(inputs), self.coefficients.transpose(0, 2, 1)))
 
-    def predict_least_squares(self, inputs: ArrayLike) -> Array:
-        """The predictions of the least-squares coefficients in mm, N x A."""
-        return self.features.matrix(inputs) @ self.least_squares.T
-
     def to_dict(self, history: bool = False) -> dict[str, Any]:
         """Plain values for YAML or JSON; the histories, which are long, only if asked for."""
         content = {

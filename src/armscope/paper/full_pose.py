@@ -26,6 +26,7 @@ from armscope.compensation.closed_loop import NO_MODEL
 from armscope.compensation.path import WantedPath
 from armscope.compensation.physical import identified_on
 from armscope.compensation.result import Compensated
+from armscope.core.averages import rms_distance
 from armscope.core.types import Array
 from armscope.diagnosis import Settings, diagnose
 from armscope.errormodels.extended import ModelSet
@@ -196,7 +197,7 @@ def _rows(
     model: str, trajectory: str, stage: str, displacement: Array, turn: Array, refused: int = 0
 ) -> list[Mapping[str, object]]:
     def rms(vectors: Array) -> float:
-        return float(np.sqrt(np.mean(np.sum(vectors**2, axis=1)))) * 1e3 if len(vectors) else float("nan")
+        return rms_distance(vectors) * 1e3 if len(vectors) else float("nan")
 
     keys = {"model": model, "trajectory": trajectory, "stage": stage, "points": len(turn), "refused": refused}
     return [keys | {"rms_mm": rms(displacement), "rms_mrad": rms(turn)}]

@@ -73,18 +73,17 @@ def _rows(
     }
 
 
-def typical(residuals: pd.DataFrame, method: str = "swarm", value: str = "rms_mm") -> pd.DataFrame:
-    """The median over seeds: one row per robot, columns (model, trajectory, axis); robots in their first order.
+def typical(residuals: pd.DataFrame, value: str = "rms_mm") -> pd.DataFrame:
+    """The swarms' median over seeds: one row per robot, columns (model, trajectory, axis); robots in their first order.
 
     Args:
         residuals: see `residual_table`.
-        method: whose fits; the uncompensated errors are always in.
         value: "rms_mm" or "rss_mm".
 
     Returns:
         The table of medians, mm.
     """
-    chosen = residuals[residuals["method"].isin(["none", method])]
+    chosen = residuals[residuals["method"].isin(["none", "swarm"])]
     medians = chosen.groupby(["robot", "model", "trajectory", "axis"], sort=False)[value].median()
     return medians.unstack(["model", "trajectory", "axis"]).reindex(residuals["robot"].unique())
 

@@ -16,8 +16,8 @@ import numpy as np
 import pandas as pd
 
 from armscope.calibration import held_out
-from armscope.calibration.fit import rms_distance
 from armscope.calibration.splits import split
+from armscope.core.averages import rms_distance
 from armscope.core.types import Array
 from armscope.diagnosis import Diagnosis, Settings, diagnose
 from armscope.errormodels import PAPER_MODELS, fit_least_squares
@@ -127,18 +127,17 @@ def effects_named(verdict: Diagnosis) -> list[dict[str, object]]:
     ]
 
 
-def paper_models(arm: Arm, table: Recordings, seed: int = 0) -> list[dict[str, object]]:
+def paper_models(arm: Arm, table: Recordings) -> list[dict[str, object]]:
     """The paper's models at 85 identification rows, by least squares: rows of model, split, train, test, rms_mm.
 
     Args:
         arm: the nominal arm.
         table: rows of one run.
-        seed: of the split.
 
     Returns:
         One dictionary per model and split.
     """
-    sets = {each.name: each for each in real_measurements(arm, table, seed, PAPER_ROWS).measurements.sets}
+    sets = {each.name: each for each in real_measurements(arm, table, 0, PAPER_ROWS).measurements.sets}
     train, test = sets.pop(IDENTIFICATION), next(iter(sets.values()))
     found: list[tuple[str, Array]] = [(UNCORRECTED, test.errors_mm[0])]
     for spec in PAPER_MODELS:
