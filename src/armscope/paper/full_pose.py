@@ -14,16 +14,11 @@ import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation
 
-from armscope.compensation import (
-    ErrorModel,
-    Options,
-    as_path,
-    compensate_black_box,
-    compensate_physical,
-    fit_error_model,
-)
+from armscope.compensation.black_box import ErrorModel
 from armscope.compensation.closed_loop import NO_MODEL
-from armscope.compensation.path import WantedPath
+from armscope.compensation.compensate import Options, compensate_black_box, compensate_physical
+from armscope.compensation.fitting import fit_error_model
+from armscope.compensation.path import WantedPath, as_path
 from armscope.compensation.physical import identified_on
 from armscope.compensation.result import Compensated
 from armscope.core.averages import rms_distance
