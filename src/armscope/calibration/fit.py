@@ -13,7 +13,7 @@ from armscope.calibration.model import SetUp
 from armscope.calibration.state import Posed, State
 from armscope.core.types import Array
 from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic, Reason, gauss_newton
-from armscope.fitting.placement import FlangePoses, place_frames
+from armscope.fitting.placement import FlangePoses, all_alike, place_frames
 from armscope.measurement import robust
 
 LARGEST_STEPS = 60
@@ -32,11 +32,6 @@ class Fitted:
     weights: Array
     steps: int
     reason: Reason
-
-
-def all_alike(left: Array) -> Array:
-    """(N,) ones."""
-    return np.ones(len(left))
 
 
 class _Calibration(NonlinearProblem[State, Posed]):

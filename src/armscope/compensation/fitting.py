@@ -22,6 +22,8 @@ from armscope.errormodels.regions import (
     fit_regions,
     halvings_of,
 )
+from armscope.fitting.constants import STEPS
+from armscope.fitting.placement import FlangePoses, all_alike, place_frames
 from armscope.physics.model import Base
 from armscope.recordings import Recordings
 from armscope.robot import Arm, chain
@@ -207,25 +209,12 @@ def register_frames(arm: Arm, recordings: Recordings) -> tuple[Arm, Base]:
     Returns:
         The arm with that tool offset, and measurement frame from base frame.
     """
-    frames = chain(arm, recordings.motor_angles)
-    last = frames.tool - frames.tool_rotation @ arm.tool
-    tool, measured = arm.tool.copy(), recordings.positions
-    rotation = _aligned(measured, frames.tool)
-    translation = np.zeros(3)
-    for _ in range(100):
-        points = last + frames.tool_rotation @ tool
-        turned = points @ rotation.T
-        turning = np.swapaxes(np.cross(np.eye(3)[None], turned[:, None, :]), 1, 2)
-        shifting = np.broadcast_to(np.eye(3), turning.shape)
-        columns = np.concatenate([turning, shifting, rotation @ frames.tool_rotation], axis=2)
-        gap = measured - turned - translation
-        step = np.linalg.lstsq(columns.reshape(-1, 9), gap.reshape(-1), rcond=1e-10)[0]
-        rotation = Rotation.from_rotvec(step[:3]).as_matrix() @ rotation
-        translation, tool = translation + step[3:6], tool + step[6:]
-        if np.abs(step).max() < 1e-12:
-            break
-    description = arm.description.model_copy(update={"tool_mm": tuple(float(value) for value in tool * 1e3)})
-    return build_arm(description), Base(rotation, translation)
+    frames, one = chain(arm, recordings.motor_angles), np.zeros(len(recordings), dtype=np.intp)
+    flange = frames.tool - frames.tool_rotation @ arm.tool
+    poses = FlangePoses(flange, frames.tool_rotation, recordings.positions, base=one, tool=one)
+    placed = place_frames(poses, poses.start(arm.tool[None], 1), STEPS.registration, all_alike).state
+    description = arm.description.model_copy(update={"tool_mm": tuple((placed.tools[0] * 1e3).tolist())})
+    return build_arm(description), Base(placed.rotations[0], placed.translations[0])
 
 
 def _inputs(arm: Arm, spec: ModelSpec, angles: Array) -> Array:
@@ -251,10 +240,3 @@ def _check_one_setup(recordings: Recordings) -> None:
                 f"a black-box model is fitted to one {column}: it has one set of frames",
                 f"Choose one with --{column}.",
             )
-
-
-def _aligned(measured: Array, points: Array) -> Array:
-    """The rotation that turns points into measured ones best, both about their middle."""
-    turn, _ = Rotation.align_vectors(measured - measured.mean(axis=0), points - points.mean(axis=0))
-    matrix: Array = turn.as_matrix()
-    return matrix

@@ -30,7 +30,7 @@ def table2(residuals: pd.DataFrame) -> pd.DataFrame:
         the one shown among them, 1 the smallest error).
     """
     robots = residuals["robot"].unique()
-    shown = robots[0]
+    shown: str = robots[0]
     keys = ["model", "trajectory", "axis"]
     mine = residuals[residuals["robot"] == shown]
     fitted = mine[mine["method"] != "least squares"].groupby(keys, sort=False)

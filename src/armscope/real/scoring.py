@@ -250,7 +250,7 @@ def _held_out(world: Sealed, original: Sealed) -> dict[str, float]:
     if world.answer.predicted is None or original.answer.predicted is None:
         return {}
     own, left = _missed(original), world.readings[LEFT_MM].to_numpy()
-    floor, without, found = rms_distance(own)(own + left), rms_distance(_missed(world))
+    floor, without, found = rms_distance(own), rms_distance(own + left), rms_distance(_missed(world))
     share = (without**2 - found**2) / rms_distance(left) ** 2
     return {"floor_mm": floor, "without_mm": without, "with_mm": found, "recovered": share}
 
