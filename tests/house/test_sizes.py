@@ -16,7 +16,6 @@ STILL_LONG_FILES = {
     "physics/scene.py",
     "proof/rates.py",
     "recordings/importing/rawfiles.py",
-    "report/pages/real_arms.py",
     "swarm/compiled.py",
     "verdict/schema.py",
     "world/catalogue.py",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from armscope.core.markdown import table_lines
 from armscope.proof.binomial import RATE, of_seeds, rate
 from armscope.proof.definitions import SEEDS, judged
 from armscope.proof.motion.scoring import AIMS, Row
@@ -69,10 +70,8 @@ def _with_shape(effects: pd.DataFrame) -> pd.Series:
 
 def in_words(table: pd.DataFrame) -> str:
     """The summary of all worlds as a Markdown table."""
-    lines = ["| aim | cases | rate | 95 % interval | aimed at | |", "|---|---|---|---|---|---|"]
+    rows = []
     for _, row in table[table["seeds"] == "all"].iterrows():
-        spans = [f"{row['low']:.3g} - {row['high']:.3g}", f"{row['least']:g} - {row['most']:g}"]
-        lines.append(
-            f"| {row['aim']} | {row['cases']} | {row['estimate']:.3g} | {' | '.join(spans)} | {row['verdict']} |"
-        )
-    return "\n".join(lines) + "\n"
+        spans = (f"{row['low']:.3g} - {row['high']:.3g}", f"{row['least']:g} - {row['most']:g}")
+        rows.append((row["aim"], row["cases"], f"{row['estimate']:.3g}", *spans, row["verdict"]))
+    return "\n".join(table_lines(("aim", "cases", "rate", "95 % interval", "aimed at", ""), rows)) + "\n"
