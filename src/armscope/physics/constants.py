@@ -120,8 +120,8 @@ class PlausibleSizes(Constants):
     growth: float = constant(
         1.0e-4,
         "by which links grow or shrink in a session, as a share of their length",
-        "derived: steel or aluminium, 12 to 24 millionths per K, some 4 to 8 K between morning and noon; chosen with rough "
-        "worlds in view",
+        "derived: steel or aluminium, 12 to 24 millionths per K, some 4 to 8 K between morning and noon; chosen with "
+        "rough worlds in view",
         unit="m/m",
     )
     scale: float = constant(
