@@ -16,7 +16,7 @@ from armscope.physics.backgrounds import DRIFT, ELASTIC, GEOMETRIC, TRANSMISSION
 from armscope.physics.scene import Part, Scene
 from armscope.verdict.contributions import Contributions, Repair
 from armscope.verdict.schema import INTERVAL, Diagnosis, FoundEffect
-from armscope.verdict.sentences import cure_of_family, phrase
+from armscope.verdict.sentences import cure_of_family, exact_phrase, phrase
 from armscope.verdict.wording import SMALL, capitalised, implausible, read_parameter
 
 CHANGES = {
@@ -198,10 +198,17 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect) -> Task:
         place=effect.location,
         change=change,
         motion=motion(scene, cause.parts),
-        instruction=how.format(**words),
+        instruction=_settled(effect) + how.format(**words),
         cure=effect.cure.replace("`", ""),
         confirm=effect.confirm,
     )
+
+
+def _settled(effect: FoundEffect) -> str:
+    """What comes before the cure of a cause that these rows don't tell from others."""
+    if effect.named_as == "effect":
+        return ""
+    return f"First find out which it is: {effect.title} (see what to measure next). If {exact_phrase(effect)}: "
 
 
 def angle(radians: float) -> str:
