@@ -27,7 +27,8 @@ from armscope.robot import chain, load_arm
 from armscope.world import folder
 from armscope.world.catalogue import catalogue
 from armscope.world.tolerances import geometric_errors
-from armscope.world.virtual_arm import conceal, measure_at
+from armscope.world.virtual_arm import conceal
+from tests.world.measuring import measure_at
 
 from .arms import identification_angles, sk120, wanted_points
 

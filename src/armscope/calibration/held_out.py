@@ -17,7 +17,7 @@ from armscope.robot import Arm
 
 
 @dataclass(frozen=True)
-class HeldOut:
+class HeldOutLevel:
     """Test RMS of the 3D distance per split, m."""
 
     level: Level
@@ -39,7 +39,7 @@ class HeldOut:
         return float(np.median(self.per_split))
 
 
-def held_out(
+def held_out_levels(
     arm: Arm,
     recordings: Recordings,
     levels: Iterable[Level] = LEVELS,
@@ -47,7 +47,7 @@ def held_out(
     *,
     priors: Priors | None = None,
     most_rows: int | None = None,
-) -> list[HeldOut]:
+) -> list[HeldOutLevel]:
     """Fit each level on 70 % of the configurations and test it on the rest, for several splits; a base for every run.
 
     Args:
@@ -73,4 +73,4 @@ def held_out(
         for level in levels:
             solved = solve(training, level, "priors", priors or Priors(), robust=False, start=start)
             found[level].append(rms_distance(testing.residuals(solved.fitted.state)))
-    return [HeldOut(level, tuple(values)) for level, values in found.items()]
+    return [HeldOutLevel(level, tuple(values)) for level, values in found.items()]

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from armscope.calibration.geometry import Constant, constants_of, corrected, turn_columns
-from armscope.calibration.geometry import columns as constant_columns
+from armscope.calibration.geometry import Constant, constant_columns, constants_of, corrected, turn_columns
 from armscope.calibration.state import Posed, State
 from armscope.core.grouping import by_label
 from armscope.core.inputs import InputError

@@ -15,7 +15,7 @@ from armscope.core.inputs import InputError, Model, folder_of, validate
 if TYPE_CHECKING:
     import pandas as pd
 
-    from armscope.errormodels import FittedModel, ModelSpec
+    from armscope.errormodels import ModelSpec, SwarmFit
     from armscope.paper.measurements import Measurements
 
 Settings = Annotated[
@@ -135,7 +135,7 @@ def read_residuals(paths: Sequence[Path]) -> pd.DataFrame:
     return read_tables(paths, COLUMNS, "the table residuals.csv of a study")
 
 
-def write_fits(path: Path, fits: Sequence[FittedModel]) -> None:
+def write_fits(path: Path, fits: Sequence[SwarmFit]) -> None:
     """Fitted models as compressed JSON, the same bytes for the same fits."""
     from armscope.core.files import replacing
 
@@ -145,15 +145,15 @@ def write_fits(path: Path, fits: Sequence[FittedModel]) -> None:
         beside.write_bytes(gzip.compress(content, compresslevel=1, mtime=0))
 
 
-def read_fits(*paths: Path) -> list[FittedModel]:
+def read_fits(*paths: Path) -> list[SwarmFit]:
     """Fitted models that `write_fits` wrote, file by file."""
     from armscope.core.files import read_json
-    from armscope.errormodels import FittedModel
+    from armscope.errormodels import SwarmFit
 
     fits = []
     for path in paths:
         try:
-            fits += [FittedModel.from_dict(content) for content in read_json(path, "the file fits.json.gz of a study")]
+            fits += [SwarmFit.from_dict(content) for content in read_json(path, "the file fits.json.gz of a study")]
         except (KeyError, TypeError) as error:
             raise InputError(path, "", f"no {error}", "`armscope paper fit` writes the fits of a study") from error
     return fits

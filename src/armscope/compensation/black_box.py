@@ -9,8 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from armscope.compensation.domain import Domain
 from armscope.core.types import Array
-from armscope.errormodels import FeatureSet, ModelSpec
-from armscope.errormodels import FittedModel as Fit
+from armscope.errormodels import FeatureSet, ModelSpec, SwarmFit
 from armscope.errormodels.products import ProductFeatures
 from armscope.errormodels.regions import Cut, weights
 from armscope.physics.model import Base
@@ -126,7 +125,7 @@ def _blend(
     return values, slopes
 
 
-def error_model(arm: Arm, fit: Fit, angles: Array, seed: int | None = None) -> ErrorModel:
+def error_model(arm: Arm, fit: SwarmFit, angles: Array, seed: int | None = None) -> ErrorModel:
     """A fit of `armscope.errormodels` as a model to compensate with.
 
     Args:

@@ -24,7 +24,7 @@ class Layout(StrEnum):
 
 
 @dataclass(frozen=True)
-class FittedModel:
+class SwarmFit:
     """One model fitted to one set of rows, by swarms of several seeds; S seeds, A axes, n terms.
 
     Attributes:
@@ -150,14 +150,14 @@ class FittedModel:
         return content
 
     @staticmethod
-    def from_dict(content: dict[str, Any]) -> FittedModel:
+    def from_dict(content: dict[str, Any]) -> SwarmFit:
         """The inverse of `to_dict`; histories that were not kept come back as their first axes with no columns."""
         fitness = np.array(content["fitness_mm"], dtype=float)
         iterations = np.array(content["iterations"], dtype=np.int64)
         shape = iterations.shape
         reasons = np.empty(shape, dtype=object)
         reasons[:] = [[StopReason(sentence) for sentence in of_seed] for of_seed in content["reasons"]]
-        return FittedModel(
+        return SwarmFit(
             label=content["label"],
             features=FeatureSet.from_dict(content["features"]),
             basis=BasisKind(content["basis"]),

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pandas as pd
 
-from armscope.errormodels import FDP_CI, FitProblem, FittedModel, ModelSpec, fit_random_search, fit_swarms
+from armscope.errormodels import FDP_CI, FitProblem, ModelSpec, SwarmFit, fit_random_search, fit_swarms
 from armscope.paper.anchoring import ANCHORED
 from armscope.paper.claims import AS_PRINTED, IMPROVED, Evidence, judge_claims
 from armscope.paper.enough_poses import enough_poses
@@ -76,7 +76,7 @@ def judge_scenario(scenario: Scenario, fitting: Fitting) -> pd.DataFrame:
     ]
 
 
-def _blind(problems: list[FitProblem], fitting: Fitting, basis: str, layout: str) -> list[FittedModel]:
+def _blind(problems: list[FitProblem], fitting: Fitting, basis: str, layout: str) -> list[SwarmFit]:
     if not fitting.everything:
         return []
     return fit_random_search(problems, fitting.seeds, fitting.settings, basis, layout)

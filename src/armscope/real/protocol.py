@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from armscope.calibration import held_out
-from armscope.calibration.splits import split
+from armscope.calibration import held_out_levels
+from armscope.calibration.splits import random_split
 from armscope.core.averages import rms_distance
 from armscope.core.types import Array
 from armscope.diagnosis import Diagnosis, Settings, diagnose
@@ -74,14 +74,14 @@ def measure_run(
     tell(f"{reference.name}: {len(table)} rows, {len(seeds)} splits")
     rows = [
         {"run": reference.name, "model": level.level, "split": seed, "rms_mm": 1e3 * value}
-        for level in held_out(arm, table, seeds=seeds, most_rows=reference.most_rows)
+        for level in held_out_levels(arm, table, seeds=seeds, most_rows=reference.most_rows)
         for seed, value in zip(seeds, level.per_split, strict=True)
     ]
     names: list[dict[str, object]] = []
     diagnosed = list(seeds)[:diagnosed_splits]
     models = {ARMSCOPE: diagnosed} | ({} if not table.oriented.any() else {ORIENTED: diagnosed[:oriented_splits]})
     for model, seed in ((model, seed) for model, chosen in models.items() for seed in chosen):
-        train, test = split(table, seed)
+        train, test = random_split(table, seed)
         settings = Settings(seed=seed, resamples=0, cross_validation=False, orientation=model == ORIENTED)
         verdict = diagnose(arm, table.rows(train), settings)
         left = {
