@@ -279,7 +279,7 @@ def _matrices(quaternions: Array | None) -> Array | None:
         return None
     known = np.isfinite(quaternions).all(axis=1)
     matrices = np.full((len(quaternions), 3, 3), np.nan)
-    matrices[known] = Rotation.from_quat(quaternions[known][:, [1, 2, 3, 0]]).as_matrix()
+    matrices[known] = Rotation.from_quat(quaternions[known], scalar_first=True).as_matrix()
     return matrices
 
 

@@ -254,10 +254,10 @@ class _Task:
                 )  # fmt: skip
             assert nominal is not None
             return Wanted(points, nominal[1])
-        unknown = np.asarray(np.isnan(table.orientation).any(axis=1))
+        unknown = ~table.oriented
         _refuse(refused, unknown, "no orientation")
         quaternions = np.where(unknown[:, None], [1.0, 0, 0, 0], table.orientation)
-        given = Rotation.from_quat(quaternions[:, [1, 2, 3, 0]]).as_matrix()
+        given = Rotation.from_quat(quaternions, scalar_first=True).as_matrix()
         return Wanted(points, np.swapaxes(self.turn, 1, 2) @ given)
 
     def _nominal(self, wanted: Wanted, held: dict[int, float], refused: NDArray[np.object_]) -> Array:

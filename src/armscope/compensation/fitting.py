@@ -152,10 +152,7 @@ def _turning(
     how: _How, cut: Cut | None, arm: Arm, recordings: Recordings, base: Base, register: bool
 ) -> Turning | None:
     """The same terms fitted to the orientation's errors; None where none were measured."""
-    if recordings.orientation is None:
-        return None
-    known = np.asarray(np.isfinite(recordings.orientation).all(axis=1))
-    rows = recordings.rows(known)
+    rows = recordings.rows(recordings.oriented)
     if not len(rows):
         return None
     _check_rows(how, arm, rows, "rows with an orientation")
@@ -182,8 +179,7 @@ def turning_errors(arm: Arm, rows: Recordings, base: Base, register: bool) -> tu
     Raises:
         InputError: orientations of another frame.
     """
-    assert rows.orientation is not None
-    measured = Rotation.from_quat(rows.orientation[:, [1, 2, 3, 0]]).as_matrix()
+    measured = Rotation.from_quat(rows.quaternions, scalar_first=True).as_matrix()
     nominal = chain(arm, rows.motor_angles).tool_rotation
     in_base = base.rotation.T @ measured
     tool = np.eye(3)

@@ -25,6 +25,7 @@ from armscope.errormodels import SwarmFit
 from armscope.errormodels.extended import ExtendedModel, ModelSet, with_products, with_regions
 from armscope.paper.measurements import Measurements, PoseSet
 from armscope.physics.model import Base
+from armscope.recordings.columns import angle_columns
 from armscope.recordings.table import as_recordings
 from armscope.robot import Arm
 from armscope.world.tolerances import geometric_errors
@@ -127,7 +128,7 @@ def _predictor(model: SwarmFit | ExtendedModel) -> Callable[[PoseSet], Array]:
 
 
 def _diagnosed(arm: Arm, identification: PoseSet) -> Corrector:
-    columns = {f"q{motor}_rad": angles for motor, angles in enumerate(identification.motor_angles.T, start=1)}
+    columns = angle_columns(identification.motor_angles)
     measured = identification.nominal_mm + identification.errors_mm[0]
     columns |= {f"{axis}_mm": measured[:, n] for n, axis in enumerate("xyz")}
     recordings = replace(as_recordings(pd.DataFrame(columns)), source="identification")

@@ -29,7 +29,8 @@ from armscope.paper.closed_loop import DIAGNOSED
 from armscope.paper.measurements import Measurements
 from armscope.physics.model import predict, predict_orientation
 from armscope.recordings import Recordings
-from armscope.recordings.table import as_recordings
+from armscope.recordings.columns import angle_columns
+from armscope.recordings.table import as_recordings, unmeasured
 from armscope.robot import Arm, Chain, chain
 from armscope.robot.inverse import follow_path
 from armscope.world.poses import candidate_poses, choose_poses, joint_ranges
@@ -132,7 +133,7 @@ def _measured(truth: GeometricErrors, errors: Array, angles: Array, rng: np.rand
 
 
 def _table(angles: Array, points: Array, rotations: Array) -> pd.DataFrame:
-    columns = {f"q{motor}_rad": values for motor, values in enumerate(angles.T, start=1)}
+    columns = angle_columns(angles)
     columns |= {f"{axis}_mm": points[:, n] * 1e3 for n, axis in enumerate("xyz")}
     quaternions = Rotation.from_matrix(rotations).as_quat(canonical=True)
     return pd.DataFrame(columns | dict(zip(("qx", "qy", "qz", "qw"), quaternions.T, strict=True)))
@@ -161,9 +162,7 @@ def _physics(arm: Arm, recordings: Recordings) -> _Model:
     identified, model = identified_on(arm, verdict.recordings), verdict.model
 
     def stand(angles: Array) -> tuple[Array, Array]:
-        motors = [f"q{motor}_rad" for motor in range(1, arm.n_motors + 1)]
-        rows = as_recordings(pd.DataFrame(angles, columns=motors), measured=False)
-        rows = replace(rows, run=np.full(len(rows), list(model.bases)[-1]))
+        rows = unmeasured(angles, list(model.bases)[-1])
         return predict(model, rows), predict_orientation(model, rows)
 
     options = Options(frame="measurement", pose=True)
