@@ -14,7 +14,6 @@ STILL_LONG_FILES = {
     "diagnosis/selection_loop.py",
     "physics/drivers.py",
     "physics/scene.py",
-    "proof/rates.py",
     "recordings/importing/rawfiles.py",
     "swarm/compiled.py",
     "verdict/schema.py",
