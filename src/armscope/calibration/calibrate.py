@@ -18,7 +18,7 @@ from armscope.calibration.model import Level, SetUp, set_up
 from armscope.calibration.sanity import lost, no_gain, odd_loads, require_loads
 from armscope.calibration.sharing import sharing
 from armscope.calibration.solve import Priors, Redundancy, Solved, scales_of, solve
-from armscope.calibration.splits import foretold, split
+from armscope.calibration.splits import foretold, random_split
 from armscope.calibration.state import State
 from armscope.calibration.words import in_words
 from armscope.core.averages import rms_distance
@@ -227,7 +227,7 @@ def _orientation_helps(rows: SetUp, recordings: Recordings, solved_for: Callable
     for variant in (without, rows):
         squares = []
         for seed in range(DECIDING_SPLITS):
-            train, test = split(recordings, seed)
+            train, test = random_split(recordings, seed)
             train = train[:: max(1, len(train) // DECIDING_ROWS)]
             test = foretold(rows, train, test)
             fitted = solved_for(variant.rows(train)).fitted

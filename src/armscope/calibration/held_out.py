@@ -10,7 +10,7 @@ import numpy as np
 from armscope.calibration.fit import placed
 from armscope.calibration.model import LEVELS, Level, set_up
 from armscope.calibration.solve import Priors, solve
-from armscope.calibration.splits import foretold, split
+from armscope.calibration.splits import foretold, random_split
 from armscope.core.averages import rms_distance
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -65,7 +65,7 @@ def held_out_levels(
     levels = [level for level in levels if level != "compliance" or rows.loads is not None]
     found: dict[Level, list[float]] = {level: [] for level in levels}
     for seed in seeds:
-        train, test = split(recordings, seed)
+        train, test = random_split(recordings, seed)
         if most_rows is not None:
             train = np.random.default_rng(seed).permutation(train)[:most_rows]
         training, testing = rows.rows(train), rows.rows(foretold(rows, train, test))
