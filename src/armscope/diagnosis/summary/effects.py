@@ -15,7 +15,7 @@ from armscope.diagnosis.scans.context import ScanContext
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary import alternatives as certainty
 from armscope.diagnosis.summary.effect_curve import curve_of
-from armscope.diagnosis.summary.homogeneity import Consistency
+from armscope.diagnosis.summary.homogeneity import SameSize
 from armscope.diagnosis.summary.parameters import parameters, undetermined
 from armscope.fitting.discrepancy import ModelError
 from armscope.fitting.joint_scatter import motor_jacobians
@@ -159,7 +159,7 @@ def _worth(state: DiagnosisState, search: Search, chosen: SelectedEffect) -> flo
     return search.log_odds(state.best, chosen.candidate)
 
 
-def as_far_as_it_carries(found: FoundEffect, candidate: Candidate, over: Consistency | None) -> FoundEffect:
+def as_far_as_it_carries(found: FoundEffect, candidate: Candidate, over: SameSize | None) -> FoundEffect:
     """An effect with what other rows say of its size: one of different sizes is told by its kind and region only.
 
     Args:

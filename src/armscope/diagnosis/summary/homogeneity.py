@@ -22,14 +22,14 @@ from armscope.recordings import Recordings
 
 
 @dataclass(frozen=True)
-class Consistency:
+class SameSize:
     """Whether an effect has one size: everywhere where that could be asked, and in words."""
 
     agrees: bool
     text: str
 
 
-def subset_consistency(state: DiagnosisState) -> dict[int, Consistency]:
+def subset_consistency(state: DiagnosisState) -> dict[int, SameSize]:
     """For effects with plain parameters: whether every run, payload and half of the workspace alone gives the same.
 
     Args:
@@ -50,7 +50,7 @@ def subset_consistency(state: DiagnosisState) -> dict[int, Consistency]:
         for candidate, agrees in _agreements(state.problem, state.best, plain, parts, chance).items():
             told.setdefault(candidate, []).append((agrees, _sentence(len(parts), kind, agrees)))
     return {
-        candidate: Consistency(all(agrees for agrees, _ in found), " ".join(text for _, text in found))
+        candidate: SameSize(all(agrees for agrees, _ in found), " ".join(text for _, text in found))
         for candidate, found in told.items()
     }
 
