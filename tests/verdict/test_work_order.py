@@ -13,8 +13,9 @@ from armscope.physics.registry import EFFECTS
 from armscope.report.pages.diagnosis import write_report
 from armscope.robot.arm import build_arm
 from armscope.verdict.contributions import contributions
+from armscope.verdict.corrections import corrected_rows, zero_offsets
 from armscope.verdict.schema import Parameter
-from armscope.verdict.work_order import CHANGES, angle, corrected_rows, task_of, work_order, zero_offsets
+from armscope.verdict.work_order import CHANGES, angle, task_of, work_order
 from tests.physics.test_cure import World
 from tests.report import verdicts
 from tests.verdict.test_contributions import missed, verdict, world  # noqa: F401  (fixtures)
