@@ -19,10 +19,11 @@ import numpy as np
 import pandas as pd
 from scipy.optimize import least_squares
 
-from armscope.compensation.compensate import Options, compensate_physical
+from armscope.compensation.compensate import compensate_physical
 from armscope.compensation.forward import PhysicalArm
 from armscope.compensation.path import as_path
 from armscope.compensation.physical import Identified, identified_on
+from armscope.compensation.task import Options
 from armscope.physics.model import Base, FittedModel
 from armscope.physics.registry import library
 from armscope.physics.scene import Part

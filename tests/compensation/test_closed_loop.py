@@ -15,10 +15,11 @@ from armscope.compensation.closed_loop import (
     physical_candidate,
     remaining_errors,
 )
-from armscope.compensation.compensate import Options, compensate_physical
+from armscope.compensation.compensate import compensate_physical
 from armscope.compensation.fitting import fit_error_model
 from armscope.compensation.path import as_path
 from armscope.compensation.physical import identified_on
+from armscope.compensation.task import Options
 from armscope.diagnosis import Settings, diagnose
 from armscope.errormodels import FDP_CI, SDP_AI, FitProblem, fit_swarms
 from armscope.recordings import read_recordings

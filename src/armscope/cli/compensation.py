@@ -66,7 +66,8 @@ def compensate(
     import numpy as np
 
     from armscope.compensation.black_box import ErrorModel
-    from armscope.compensation.compensate import Options, compensate_black_box, compensate_physical
+    from armscope.compensation.compensate import compensate_black_box, compensate_physical
+    from armscope.compensation.task import Options
     from armscope.robot.inverse import LARGEST_STEP_RAD
 
     step = np.inf if separate_points else LARGEST_STEP_RAD

@@ -9,10 +9,11 @@ import numpy as np
 import pandas as pd
 
 from armscope.compensation.black_box import ErrorModel
-from armscope.compensation.compensate import Options, compensate_black_box, compensate_physical
+from armscope.compensation.compensate import compensate_black_box, compensate_physical
 from armscope.compensation.path import WantedPath, as_path
 from armscope.compensation.physical import Identified
 from armscope.compensation.result import Compensated
+from armscope.compensation.task import Options
 from armscope.core.types import Array
 from armscope.physics.model import FittedModel, predict
 from armscope.recordings.columns import angle_columns

@@ -16,11 +16,12 @@ from scipy.spatial.transform import Rotation
 
 from armscope.compensation.black_box import ErrorModel
 from armscope.compensation.closed_loop import NO_MODEL
-from armscope.compensation.compensate import Options, compensate_black_box, compensate_physical
+from armscope.compensation.compensate import compensate_black_box, compensate_physical
 from armscope.compensation.fitting import fit_error_model
 from armscope.compensation.path import WantedPath, as_path
 from armscope.compensation.physical import identified_on
 from armscope.compensation.result import Compensated
+from armscope.compensation.task import Options
 from armscope.core.averages import rms_distance
 from armscope.core.types import Array
 from armscope.diagnosis import Settings, diagnose

@@ -86,7 +86,16 @@ def html_table(rows: pd.DataFrame, digits: int = 3) -> Markup:
 
 
 def share_text(share: float, right: float, cases: float) -> str:
-    """A share of cases as "97 % (29/30)"; a dash where there were none."""
+    """A share of cases as "97 % (29/30)".
+
+    Args:
+        share: 0 ... 1.
+        right: how many were.
+        cases: of how many.
+
+    Returns:
+        The text; a dash where there were none.
+    """
     return f"{100 * share:.0f} % ({right:.0f}/{cases:.0f})" if cases else "–"
 
 
