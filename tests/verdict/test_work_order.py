@@ -12,8 +12,9 @@ from armscope.physics.registry import EFFECTS
 from armscope.report.pages.diagnosis import write_report
 from armscope.robot.arm import build_arm
 from armscope.verdict.contributions import contributions, rms
+from armscope.verdict.corrections import corrected_rows, zero_offsets
 from armscope.verdict.schema import Parameter
-from armscope.verdict.work_order import CHANGES, angle, corrected_rows, task_of, work_order, zero_offsets
+from armscope.verdict.work_order import CHANGES, angle, task_of, work_order
 from tests.physics.test_cure import World
 from tests.report import verdicts
 from tests.verdict.test_contributions import missed, verdict, world  # noqa: F401  (fixtures)
@@ -95,3 +96,16 @@ def test_causes_that_work_against_each_other_are_commanded_away_together() -> No
     assert "joint 3" in order.tasks[0].instruction
     assert order.tasks[0].then_mm == pytest.approx(rms(worth.left))
     assert not order.besides
+
+
+def test_a_cause_that_is_not_settled_is_settled_first() -> None:
+    bends = verdicts.found("link_bending", "link 7", Parameter("bending", "rad/(N m)", 2e-6, 1e-7))
+    vague = replace(bends, named_as="family", title="link bending at link 7 or payload")
+    done = {}
+    for effect in (bends, vague):
+        case = verdicts.case(effects=(effect,))
+        model, (cause,) = case.verdict.model, contributions(case.verdict).causes
+        done[effect.named_as] = task_of(model.scene(case.recordings), cause, effect).instruction
+    assert done["effect"].startswith("Put the bending of link 7")
+    assert done["family"].startswith("First find out which it is: link bending at link 7 or payload")
+    assert done["family"].endswith(done["effect"])

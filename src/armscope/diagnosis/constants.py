@@ -232,6 +232,11 @@ class TellingRules(Constants):
         "times the stated noise beyond which a residual is more than the noise",
         "judgement: statements are rounded",
     )
+    same_size: float = constant(
+        0.05,
+        "of an effect's size by which parts of the rows may differ and still give the same",
+        "judgement: seen with bench cases in view; who cures an effect by it takes 95 % away",
+    )
     background_seen_nats: float = constant(
         5.0, "evidence from which a background is said to be there", "judgement: 150 to 1", unit="nats"
     )

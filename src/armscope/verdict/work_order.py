@@ -7,15 +7,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import pandas as pd
 
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics.backgrounds import DRIFT, ELASTIC, GEOMETRIC, TRANSMISSION
 from armscope.physics.scene import Part, Scene
 from armscope.verdict.contributions import Contributions, Repair, rms
-from armscope.verdict.schema import INTERVAL, Diagnosis, FoundEffect
-from armscope.verdict.sentences import cure_of_family, phrase
+from armscope.verdict.schema import Diagnosis, FoundEffect
+from armscope.verdict.sentences import cure_of_family, exact_phrase, phrase
 from armscope.verdict.wording import SMALL, capitalised, implausible, read_parameter
 
 CHANGES = {
@@ -48,8 +47,6 @@ CHANGES = {
     "unknown": ("correction table", "Find what it follows; until then store its curve as a correction table."),
 }
 """By effect: what is changed, in two words, and how. The rest of the cure stands in the effect's own words."""
-NUMBERS = ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg")
-"""Of a D-H row, as robot.yaml calls them."""
 ALL_AT_ONCE = {
     GEOMETRIC: "calibration", ELASTIC: "elastic model", TRANSMISSION: "correction table", DRIFT: "fastening"
 }  # fmt: skip
@@ -197,10 +194,17 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect) -> Task:
         place=effect.location,
         change=change,
         motion=motion(scene, cause.parts),
-        instruction=how.format(**words),
+        instruction=_settled(effect) + how.format(**words),
         cure=effect.cure.replace("`", ""),
         confirm=effect.confirm,
     )
+
+
+def _settled(effect: FoundEffect) -> str:
+    """What comes before the cure of a cause that these rows don't tell from others."""
+    if effect.named_as == "effect":
+        return ""
+    return f"First find out which it is: {effect.title} (see what to measure next). If {exact_phrase(effect)}: "
 
 
 def angle(radians: float) -> str:
@@ -263,37 +267,3 @@ def _range(amount: Array, turning: bool) -> str:
 def _signed(value: float, decimals: int) -> str:
     text = f"{value:+.{decimals}f}"
     return (text if float(text) else text[1:]).replace("-", "−")
-
-
-def zero_offsets(verdict: Diagnosis) -> pd.DataFrame:
-    """The zeros of all motors as found: actual angle minus commanded angle, with 95 % intervals (half width).
-
-    Those that were not named stand as 0 with what the small errors in all joints say of them.
-    """
-    rows = []
-    for j in range(1, verdict.model.arm.n_motors + 1):
-        found = [p for e in verdict.effects if (e.effect, e.location) == ("joint_offset", f"joint {j}")
-                 for p in e.parameters if p.name == "offset" and not implausible(p, e)]  # fmt: skip
-        value, half = (found[0].value, INTERVAL * found[0].stderr) if found else (0.0, float("nan"))
-        rows.append((f"joint {j}", math.degrees(value), 1e3 * value, 1e3 * half, "named" if found else "not named"))
-    columns = ["joint", "actual_minus_commanded_deg", "actual_minus_commanded_mrad", "half_interval_95_mrad", "cause"]
-    return pd.DataFrame(rows, columns=columns)
-
-
-def corrected_rows(verdict: Diagnosis) -> pd.DataFrame | None:
-    """The D-H rows as stated and as found, mm and degrees, without the zeros; None for an arm that has no D-H rows."""
-    dh = verdict.model.arm.description.dh
-    if dh is None:
-        return None
-    rows = []
-    for j, stated in enumerate(dh.joints, start=1):
-        found = {p.name: p for e in verdict.effects if (e.effect, e.location) == ("link_geometry", f"link {j}")
-                 for p in e.parameters if not implausible(p, e)}  # fmt: skip
-        row: dict[str, object] = {"row": j, "convention": dh.convention}
-        numbers = (stated.a_mm, stated.alpha_deg, stated.d_mm, stated.theta_offset_deg)
-        for name, key, value in zip(NUMBERS, ("a", "alpha", "d", "theta"), numbers, strict=True):
-            step = found[key].value if key in found else 0.0
-            step = math.degrees(step) if name.endswith("deg") else step
-            row |= {f"stated_{name}": value, f"correction_{name}": step, f"corrected_{name}": value + step}
-        rows.append(row)
-    return pd.DataFrame(rows)

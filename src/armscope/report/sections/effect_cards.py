@@ -214,7 +214,8 @@ def gap_in_words(other: FoundAlternative) -> str:
     if gap < 0:
         return f"{-gap:.1f} nats better"
     alike = other.discriminability_nats < INDISTINGUISHABLE_NATS <= gap
-    return f"{gap:.1f} nats worse{', but only because it has one number more' if alike else ''}"
+    told = f"{gap:.1f} nats worse{', but only because of what its name costs' if alike else ''}"
+    return f"{told}; other rows do not exclude it" if other.excluded is False else told
 
 
 def _followed(effect: str, driver: str) -> str:
