@@ -35,7 +35,6 @@ STILL_FROM_ELSEWHERE = [
     "core/streams.py",
     "core/types.py",
     "diagnosis/constants.py",
-    "diagnosis/judgement.py",
     "diagnosis/row_noise.py",
     "diagnosis/scans/change_points.py",
     "diagnosis/scans/context.py",

@@ -13,7 +13,6 @@ from scipy.spatial.transform import Rotation
 from armscope.calibration.geometry import Constant, constant_columns, constants_of, corrected, turn_columns
 from armscope.calibration.state import Posed, State
 from armscope.core.grouping import by_label
-from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.fitting.placement import frame_columns
 from armscope.recordings import Recordings
@@ -243,14 +242,7 @@ def set_up(
     Raises:
         InputError: another number of motors than the arm has.
     """
-    if recordings.n_motors != arm.n_motors:
-        raise InputError(
-            recordings.source,
-            "motor angles",
-            f"{recordings.n_motors} motors",
-            f"{arm.name} has {arm.n_motors}",
-            "Is this the right robot for the recordings?",
-        )
+    recordings.check_motors(arm.name, arm.n_motors)
     base_names, base = by_label(np.full(len(recordings), "") if one_base else recordings.run)
     labels = recordings.target
     if tool_per_run:

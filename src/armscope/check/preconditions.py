@@ -44,14 +44,7 @@ def check_table(arm: Arm, recordings: Recordings) -> Checked:
     Raises:
         InputError: the table doesn't fit the arm, or holds no usable rows.
     """
-    if recordings.n_motors != arm.n_motors:
-        raise InputError(
-            recordings.source,
-            "line 1",
-            f"{recordings.n_motors} motor angles",
-            f"{arm.name} has {arm.n_motors} motors",
-            "Is this the right robot for the recordings?",
-        )
+    recordings.check_motors(arm.name, arm.n_motors)
     notices: list[Notice] = []
     kept = np.isfinite(recordings.positions).all(axis=1)
     kept &= _told(_not_repeated(recordings), "repeated rows", "are exact copies of earlier rows", notices)

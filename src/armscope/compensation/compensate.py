@@ -24,7 +24,6 @@ from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
-from armscope.robot import Arm
 
 
 def compensate_black_box(model: ErrorModel, path: WantedPath, options: Options | None = None) -> Compensated:
@@ -45,7 +44,7 @@ def compensate_black_box(model: ErrorModel, path: WantedPath, options: Options |
         InputError: a path of another arm, or options that the path can't serve.
     """
     options = options or Options()
-    _check_arm(model.arm, path.table)
+    path.table.check_motors(model.arm.name, model.arm.n_motors)
     rotation, translation = np.eye(3), np.zeros(3)
     if options.frame == "measurement":
         rotation, translation = model.base.rotation, model.base.translation
@@ -89,7 +88,7 @@ def compensate_physical(
         InputError: a path of another arm, or options that the path can't serve.
     """
     options = options or Options()
-    _check_arm(model.arm, path.table)
+    path.table.check_motors(model.arm.name, model.arm.n_motors)
     if identified.arm != model.arm.name:
         rule = f"the model is of {model.arm.name!r}"
         raise InputError("domain", "robot", identified.arm, rule, "These files do not belong together.")
@@ -122,17 +121,6 @@ def compensate_physical(
 
 def _same(points: Array) -> Array:
     return points
-
-
-def _check_arm(arm: Arm, rows: Recordings) -> None:
-    if rows.n_motors != arm.n_motors:
-        raise InputError(
-            rows.source,
-            "line 1",
-            f"{rows.n_motors} motor angles",
-            f"{arm.name} has {arm.n_motors} motors",
-            "Is this the right model for the path?",
-        )
 
 
 def _named(model: FittedModel, rows: Recordings) -> tuple[Recordings, NDArray[np.object_], tuple[str, ...]]:

@@ -68,10 +68,7 @@ class Identified:
 
 def identified_on(arm: Arm, recordings: Recordings) -> Identified:
     """What the recordings of a diagnosis, as it used them, say about where its model holds."""
-    if recordings.n_motors != arm.n_motors:
-        raise InputError(
-            recordings.source, "line 1", f"{recordings.n_motors} motor angles", f"{arm.name} has {arm.n_motors} motors"
-        )
+    recordings.check_motors(arm.name, arm.n_motors)
     names, units = [f"q{motor}" for motor in range(1, arm.n_motors + 1)], ["rad"] * arm.n_motors
     columns = [recordings.motor_angles]
     names, units = [*names, "payload_kg"], [*units, "kg"]

@@ -90,10 +90,7 @@ def real_measurements(arm: Arm, recordings: Recordings, seed: int, count: int = 
     Raises:
         InputError: an arm with another number of motors, or too few rows to fit frames and models.
     """
-    if arm.n_motors != recordings.n_motors:
-        raise InputError(
-            recordings.source, "line 1", f"{recordings.n_motors} motor angles", f"{arm.name} has {arm.n_motors} motors"
-        )
+    recordings.check_motors(arm.name, arm.n_motors)
     configuration = _configurations(recordings)
     first_rows = np.unique(configuration, return_index=True)[1]
     rows_each = len(recordings) / len(first_rows)

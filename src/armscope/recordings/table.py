@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.recordings.column_reader import ColumnReader
 from armscope.recordings.columns import Names, as_in_contract, column_named
@@ -70,6 +71,17 @@ class Recordings:
     def n_motors(self) -> int:
         """Number of motor angles per row."""
         return int(self.motor_angles.shape[1])
+
+    def check_motors(self, arm: str, count: int) -> None:
+        """Refuse the table of another arm than the one of this name and number of motors.
+
+        Raises:
+            InputError: it has another number of motor angles.
+        """
+        if self.n_motors != count:
+            rule = f"{arm} has {count} motors"
+            cure = "Is this the right robot for the table?"
+            raise InputError(self.source, "line 1", f"{self.n_motors} motor angles", rule, cure)
 
     def rows(self, which: NDArray[np.bool_] | NDArray[np.intp] | slice) -> Recordings:
         """The recordings of some rows, in that order."""
