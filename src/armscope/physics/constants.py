@@ -130,18 +130,6 @@ class PlausibleSizes(Constants):
         "judgement: a wrong unit of temperature or prism makes 0.1 %",
         unit="m/m",
     )
-    shift_m: float = constant(
-        5e-3,
-        "jump of base or tool, beyond which a set-up was made anew",
-        "judgement: who moves a tripod moves it farther",
-        unit="m",
-    )
-    shift_rad: float = constant(
-        5e-3,
-        "turn of base or tool in a jump or drift",
-        "judgement: as its shift at 1 m",
-        unit="rad",
-    )
     mass_share: float = constant(
         0.1,
         "error of a link's stated mass as a share of it",
