@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.verdict.contributions import ground_of, parts_of
+from armscope.verdict.contributions import Contributions, ground_of, parts_of, rms
 from armscope.verdict.schema import Background, Cause, Diagnosis, FoundEffect
 from armscope.verdict.sentences import cause_in_words, cure_of_family, headline
 
@@ -50,7 +50,8 @@ def with_importance(draft: Diagnosis) -> Diagnosis:
     named = [
         replace(effect, share=share(its)) for effect, its in zip(draft.effects, moved, strict=True) if parts[id(effect)]
     ]
-    left_over = max(1 - sum(each.share for each in (*named, *families)), 0.0)
+    modelled = sum(effect.share for effect in named) + sum(family.share for family in families)
+    left_over = max(1 - modelled, 0.0)
     # what scatters is in no model: it has no more than nothing else explains
     scattered = [replace(e, share=min(e.share, left_over)) for e in draft.effects if not parts[id(e)]]
     present = sum(each.share for each in families if each.present)
@@ -81,3 +82,25 @@ def _retold(cause: Cause, effects: Sequence[FoundEffect], small: Background | No
         text=cause_in_words(cause.family, members, cause.everywhere, everywhere),
         cure=cure_of_family(cause.family, members, cause.everywhere),
     )
+
+
+def expected(verdict: Diagnosis, worth: Contributions, mm: float) -> float:
+    """What RMS to expect on poses that took no part, where one on the recorded rows is known.
+
+    A fit is a little better on its own rows. Both ends are known, the nominal arm's and the whole model's, from
+    cross-validation; between them squared errors are taken to go straight.
+
+    Args:
+        verdict: the diagnosis.
+        worth: its contributions.
+        mm: RMS per axis on the recorded rows.
+
+    Returns:
+        RMS per axis, mm; the same where nothing was held out.
+    """
+    fitted = rms(worth.before) ** 2, rms(worth.left) ** 2
+    held = verdict.held_out.before**2, verdict.held_out.after**2
+    if not (np.isfinite(held).all() and fitted[0] > fitted[1] and held[0] > held[1]):
+        return mm
+    slope = (held[0] - held[1]) / (fitted[0] - fitted[1])
+    return float(np.sqrt(max(held[1] + slope * (mm**2 - fitted[1]), 0.0)))

@@ -7,14 +7,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import pandas as pd
 
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics.backgrounds import DRIFT, ELASTIC, GEOMETRIC, TRANSMISSION
 from armscope.physics.scene import Part, Scene
 from armscope.verdict.contributions import Contributions, Repair, rms
-from armscope.verdict.schema import INTERVAL, Diagnosis, FoundEffect
+from armscope.verdict.schema import Diagnosis, FoundEffect
 from armscope.verdict.sentences import cure_of_family, phrase
 from armscope.verdict.wording import SMALL, capitalised, implausible, read_parameter
 
@@ -48,8 +47,6 @@ CHANGES = {
     "unknown": ("correction table", "Find what it follows; until then store its curve as a correction table."),
 }
 """By effect: what is changed, in two words, and how. The rest of the cure stands in the effect's own words."""
-NUMBERS = ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg")
-"""Of a D-H row, as robot.yaml calls them."""
 ALL_AT_ONCE = {
     GEOMETRIC: "calibration", ELASTIC: "elastic model", TRANSMISSION: "correction table", DRIFT: "fastening"
 }  # fmt: skip
@@ -176,28 +173,6 @@ def _everywhere(family: str) -> Task:
     )
 
 
-def expected(verdict: Diagnosis, worth: Contributions, mm: float) -> float:
-    """What RMS to expect on poses that took no part, where one on the recorded rows is known.
-
-    A fit is a little better on its own rows. Both ends are known, the nominal arm's and the whole model's, from
-    cross-validation; between them squared errors are taken to go straight.
-
-    Args:
-        verdict: the diagnosis.
-        worth: its contributions.
-        mm: RMS per axis on the recorded rows.
-
-    Returns:
-        RMS per axis, mm; the same where nothing was held out.
-    """
-    fitted = rms(worth.before) ** 2, rms(worth.left) ** 2
-    held = verdict.held_out.before**2, verdict.held_out.after**2
-    if not (np.isfinite(held).all() and fitted[0] > fitted[1] and held[0] > held[1]):
-        return mm
-    slope = (held[0] - held[1]) / (fitted[0] - fitted[1])
-    return float(np.sqrt(max(held[1] + slope * (mm**2 - fitted[1]), 0.0)))
-
-
 def task_of(scene: Scene, cause: Repair, effect: FoundEffect) -> Task:
     """What is done about a cause; what it is worth stands open.
 
@@ -306,37 +281,3 @@ def _range(amount: Array, turning: bool) -> str:
 def _signed(value: float, decimals: int) -> str:
     text = f"{value:+.{decimals}f}"
     return (text if float(text) else text[1:]).replace("-", "−")
-
-
-def zero_offsets(verdict: Diagnosis) -> pd.DataFrame:
-    """The zeros of all motors as found: actual angle minus commanded angle, with 95 % intervals (half width).
-
-    Those that were not named stand as 0 with what the small errors in all joints say of them.
-    """
-    rows = []
-    for j in range(1, verdict.model.arm.n_motors + 1):
-        found = [p for e in verdict.effects if (e.effect, e.location) == ("joint_offset", f"joint {j}")
-                 for p in e.parameters if p.name == "offset" and not implausible(p, e)]  # fmt: skip
-        value, half = (found[0].value, INTERVAL * found[0].stderr) if found else (0.0, float("nan"))
-        rows.append((f"joint {j}", math.degrees(value), 1e3 * value, 1e3 * half, "named" if found else "not named"))
-    columns = ["joint", "actual_minus_commanded_deg", "actual_minus_commanded_mrad", "half_interval_95_mrad", "cause"]
-    return pd.DataFrame(rows, columns=columns)
-
-
-def corrected_rows(verdict: Diagnosis) -> pd.DataFrame | None:
-    """The D-H rows as stated and as found, mm and degrees, without the zeros; None for an arm that has no D-H rows."""
-    dh = verdict.model.arm.description.dh
-    if dh is None:
-        return None
-    rows = []
-    for j, stated in enumerate(dh.joints, start=1):
-        found = {p.name: p for e in verdict.effects if (e.effect, e.location) == ("link_geometry", f"link {j}")
-                 for p in e.parameters if not implausible(p, e)}  # fmt: skip
-        row: dict[str, object] = {"row": j, "convention": dh.convention}
-        numbers = (stated.a_mm, stated.alpha_deg, stated.d_mm, stated.theta_offset_deg)
-        for name, key, value in zip(NUMBERS, ("a", "alpha", "d", "theta"), numbers, strict=True):
-            step = found[key].value if key in found else 0.0
-            step = math.degrees(step) if name.endswith("deg") else step
-            row |= {f"stated_{name}": value, f"correction_{name}": step, f"corrected_{name}": value + step}
-        rows.append(row)
-    return pd.DataFrame(rows)

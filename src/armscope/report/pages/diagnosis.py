@@ -17,10 +17,10 @@ from armscope.report.sections.effects import findings
 from armscope.report.sections.registry import SECTIONS
 from armscope.report.subject import Subject
 from armscope.verdict.contributions import rms
+from armscope.verdict.corrected_numbers import corrected_rows, zero_offsets
 from armscope.verdict.schema import Diagnosis, Notice
 from armscope.verdict.sentences import another_model, more_than_noise, unusable
 from armscope.verdict.wording import millimetres, percent
-from armscope.verdict.work_order import corrected_rows, zero_offsets
 
 ANSWERS = {
     "nothing missing": ("holds", "nothing is missing"),
