@@ -128,7 +128,7 @@ def test_two_effects_that_look_alike_are_both_named() -> None:
     asked = replace(
         asked, motor_angles=np.tile(poses.motor_angles, (repeats, 1)), payload=np.tile(poses.payload_kg, repeats)
     )
-    for seed in range(200, 202):
+    for seed in range(200, 204):
         more = recorded(arm, asked, {("joint_compliance", "joint 2"): [2e-7]}, 0.03, seed=seed)
         (settled,) = diagnose(arm, joined(table, more), QUICK).effects
         assert (settled.effect, settled.location) == ("joint_compliance", "joint 2")

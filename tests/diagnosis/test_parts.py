@@ -17,6 +17,7 @@ from armscope.fitting.joint_scatter import find_scatter, motor_jacobians, whiten
 from armscope.measurement import robust
 from armscope.measurement.noise import known_noise, relative_uncertainty
 from armscope.measurement.row_weights import whitened
+from armscope.physics import loads
 from armscope.physics.model import Base, FittedModel
 from armscope.physics.registry import library
 
@@ -216,15 +217,16 @@ def test_a_faint_jump_has_a_wide_interval() -> None:
 
 def test_a_long_table_is_sampled_and_then_weighed_whole(monkeypatch: pytest.MonkeyPatch) -> None:
     arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [5e-7]}, 400, 0.02, seed=15)
+    monkeypatch.setattr(loads, "PLAUSIBLE", replace(loads.PLAUSIBLE, weighed_share=1e-3))
     monkeypatch.setattr(selection, "LOOP", replace(selection.LOOP, sample_rows=120))
     verdict = diagnose(arm, table, QUICK)
     (found,) = verdict.effects
     assert (found.effect, found.location) == ("joint_compliance", "joint 2")
     assert verdict.rows == 400
-    # stated masses are known to a tenth each, the payload to a twentieth, and so is what gives way under them, less
-    # where several share the error
+    # stated masses are known to a tenth each, and so is what gives way under them, less where several share the error;
+    # the payload is exact here
     (compliance,) = found.parameters
-    assert compliance.stderr < 0.04 * 5e-7
+    assert compliance.stderr < 0.03 * 5e-7
     assert abs(compliance.value - 5e-7) < 3 * compliance.stderr
     assert len(verdict.residuals.after) == 400
 
@@ -258,4 +260,7 @@ def test_a_cause_that_differs_between_near_and_far_is_said_to() -> None:
     reach = np.linalg.norm(table.positions[:, :2], axis=1)
     positions = np.where((reach > np.median(reach))[:, None], other.positions, table.positions)
     effects = diagnose(arm, replace(table, positions=positions), QUICK).effects
-    assert any("halves of the workspace alone give different values" in effect.carries_over for effect in effects)
+    differing = [e for e in effects if "halves of the workspace alone give different values" in e.carries_over]
+    assert differing
+    # a size that depends on where one looks is none of a single cause
+    assert all(effect.named_as != "effect" for effect in differing)

@@ -112,7 +112,7 @@ def test_constant_noise_stays_silent(seed: int) -> None:
 def test_standard_errors_are_right_where_noise_grows() -> None:
     """Errors over worlds in units of their standard errors: their mean square is that of chi2, 99.8 % of the time."""
     squares = []
-    for seed in range(100, 106):
+    for seed in range(100, 108):
         verdict = diagnose(arm_named("six-axis"), tracked(seed, 0.004, 0.02, STIFFNESS), QUICK)
         (found,) = [effect for effect in verdict.effects if effect.effect == "joint_compliance"]
         squares.append(((found.parameters[0].value - 2e-7) / found.parameters[0].stderr) ** 2)

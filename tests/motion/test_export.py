@@ -31,7 +31,7 @@ def found() -> MotionDiagnosis:
 @pytest.fixture(scope="module")
 def folder(found: MotionDiagnosis, tmp_path_factory: pytest.TempPathFactory) -> Path:
     out = tmp_path_factory.mktemp("export")
-    export_motion(found.model, found.selected, out)
+    export_motion(found.model, found.selected, found.sure.factor, out)
     return out
 
 
@@ -60,7 +60,7 @@ def test_simulated_in_mujoco_the_gap_closes(found: MotionDiagnosis, folder: Path
     corrected = (folder / "corrected.urdf").read_text(encoding="utf-8")
     joints = ET.fromstring((folder / "mujoco.xml").read_text(encoding="utf-8"))
     plain = replace(found.model, joints=np.zeros_like(found.model.joints), causes=(), inertial=found.arm.inertial)
-    export_motion(plain, found.selected, folder / "stated")
+    export_motion(plain, found.selected, found.sure.factor, folder / "stated")
     stated = (folder / "stated" / "corrected.urdf").read_text(encoding="utf-8")
     moving = np.abs(dq).min(axis=1) > 0.05  # MuJoCo's dry friction is soft where a joint turns back
     before = torque - simulated(stated, None, q, dq, ddq)
@@ -78,7 +78,12 @@ def test_the_urdf_is_an_arm_with_the_fitted_masses(found: MotionDiagnosis, folde
     np.testing.assert_allclose(again.inertial, expected, atol=1e-9)
     assert again.joint_names == found.arm.joint_names
     # an arm that came from a URDF keeps it: the same numbers written once more
-    export_motion(replace(found.model, arm=again, inertial=again.inertial, causes=()), found.selected, folder / "kept")
+    export_motion(
+        replace(found.model, arm=again, inertial=again.inertial, causes=()),
+        found.selected,
+        found.sure.factor,
+        folder / "kept",
+    )
     (folder / "kept" / "robot.yaml").write_text(yaml.safe_dump(content), encoding="utf-8")
     np.testing.assert_allclose(load_moving_arm(folder / "kept" / "robot.yaml").inertial, again.inertial, atol=1e-9)
 
@@ -101,7 +106,7 @@ def test_what_no_simulator_takes_is_mended_and_said(found: MotionDiagnosis) -> N
 
 
 def test_the_table_holds_every_parameter_with_its_error(found: MotionDiagnosis, folder: Path) -> None:
-    table = parameter_table(found.model, found.selected)
+    table = parameter_table(found.model, found.selected, found.sure.factor)
     assert len(table) == 3 * 10 + 3 * 4
     told = {(row["place"], row["parameter"]): row for row in table.to_dict("records")}
     assert told["link 3", "m"]["stated"] == pytest.approx(4.0)

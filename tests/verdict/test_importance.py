@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from armscope.verdict.contributions import contributions, rms
+from armscope.core.averages import rms
+from armscope.verdict.contributions import contributions
 from armscope.verdict.importance import with_importance
 from armscope.verdict.schema import Background
 from armscope.verdict.sentences import headline

@@ -7,12 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from armscope.core.averages import rms
 from armscope.fitting.registration import fit_frames
 from armscope.physics.registry import EFFECTS
 from armscope.report.pages.diagnosis import write_report
 from armscope.robot.arm import build_arm
-from armscope.verdict.contributions import contributions, rms
-from armscope.verdict.corrected_numbers import corrected_rows, zero_offsets
+from armscope.verdict.contributions import contributions
+from armscope.verdict.corrections import corrected_rows, zero_offsets
 from armscope.verdict.importance import expected
 from armscope.verdict.schema import HeldOut, Parameter
 from armscope.verdict.work_order import CHANGES, angle, task_of, work_order
@@ -122,3 +123,16 @@ def test_expectations_are_those_of_rows_that_took_no_part(verdict) -> None:  # n
     assert expected(held, worth, left) == pytest.approx(2 * left)
     between = [expected(held, worth, mm) for mm in np.linspace(left, before, 9)]
     assert between == sorted(between)
+
+
+def test_a_cause_that_is_not_settled_is_settled_first() -> None:
+    bends = verdicts.found("link_bending", "link 7", Parameter("bending", "rad/(N m)", 2e-6, 1e-7))
+    vague = replace(bends, named_as="family", title="link bending at link 7 or payload")
+    done = {}
+    for effect in (bends, vague):
+        case = verdicts.case(effects=(effect,))
+        model, (cause,) = case.verdict.model, contributions(case.verdict).causes
+        done[effect.named_as] = task_of(model.scene(case.recordings), cause, effect).instruction
+    assert done["effect"].startswith("Put the bending of link 7")
+    assert done["family"].startswith("First find out which it is: link bending at link 7 or payload")
+    assert done["family"].endswith(done["effect"])

@@ -73,7 +73,7 @@ def diagnose_motions(table: Path, robot: Path, output: Path, asked: Asked, tell:
     found = diagnose_motion(arm, motions, MotionSettings(asked.cutoff, tuple(asked.held_out)), tell)
     write_motion_verdict(found.verdict, output)
     save_motion_model(output / "model.yaml", found.model)
-    export_motion(found.model, found.selected, output)
+    export_motion(found.model, found.selected, found.sure.factor, output)
     if asked.report:
         from armscope.report.pages.motion import write_motion_report
 

@@ -215,6 +215,9 @@ class NamingRules(Constants):
         1.0, "by which what fits alike may fit worse", "derived: a likelihood ratio of e is no evidence", unit="nats"
     )
     looked_at: int = constant(12, "weighed in an effect's place", "judgement: time", unit="additions")
+    asked_elsewhere: int = constant(
+        24, "of which held-out rows are asked, the nearest first", "judgement: time", unit="alternatives"
+    )
     coarsely: float = constant(
         0.25,
         "share of what taking an effect out costs by which predictions may miss",
@@ -231,6 +234,11 @@ class TellingRules(Constants):
         1.15,
         "times the stated noise beyond which a residual is more than the noise",
         "judgement: statements are rounded",
+    )
+    same_size: float = constant(
+        0.05,
+        "of an effect's size by which parts of the rows may differ and still give the same",
+        "judgement: seen with bench cases in view; who cures an effect by it takes 95 % away",
     )
     background_seen_nats: float = constant(
         5.0, "evidence from which a background is said to be there", "judgement: 150 to 1", unit="nats"

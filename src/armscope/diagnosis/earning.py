@@ -61,17 +61,33 @@ def held_out_gains(
     Returns:
         (others,) in squares of the hypothesis' noise, summed over all rows; zeros where rows are too few to hold out.
     """
-    everything = total(blocks)
     readings = [(hypothesis.chosen, hypothesis.background), *others]
-    errors = np.zeros(len(readings))
+    errors = held_out_errors(problem, blocks, readings, hypothesis.noise).sum(axis=0)
+    return np.asarray((errors[1:] - errors[0]) / hypothesis.noise**2)
+
+
+def held_out_errors(
+    problem: Problem, blocks: Sequence[NormalEquations], readings: Sequence[Reading], noise: float
+) -> Array:
+    """What readings that are fitted to four fifths of the blocks leave of the others.
+
+    Args:
+        problem: the sums of all rows, priors and costs.
+        blocks: sums of blocks of rows.
+        readings: effects and backgrounds, fitted anew.
+        noise: where the noise starts, mm.
+
+    Returns:
+        (blocks, readings) sums of squares, mm^2; zeros where blocks are too few to hold out.
+    """
+    everything, errors = total(blocks), np.zeros((len(blocks), len(readings)))
     for fold in _folds(len(blocks)):
         held = total([blocks[int(k)] for k in fold])
         trained = problem.with_equations(everything - held)
-        judged = held.scaled(problem.scale)
-        for number, (chosen, background) in enumerate(readings):
-            fitted = evaluate(trained, chosen, background, hypothesis.noise)
-            errors[number] += judged.rss(fitted.coefficients(len(problem.scale)))
-    return np.asarray((errors[1:] - errors[0]) / hypothesis.noise**2)
+        fitted = [evaluate(trained, chosen, background, noise) for chosen, background in readings]
+        values = np.array([each.coefficients(len(problem.scale)) / problem.scale for each in fitted])
+        errors[fold] = [[blocks[int(k)].rss(each) for each in values] for k in fold]
+    return errors
 
 
 def _folds(blocks: int) -> Iterator[Indices]:

@@ -15,9 +15,17 @@ from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary import alternatives as certainty
 from armscope.diagnosis.summary.attribution_map import atlas
 from armscope.diagnosis.summary.causes import causes
-from armscope.diagnosis.summary.effects import Weighed, found_effect, rest_of_a_curve, scattered_effects, with_weight
+from armscope.diagnosis.summary.effects import (
+    Weighed,
+    as_far_as_it_carries,
+    found_effect,
+    rest_of_a_curve,
+    scattered_effects,
+    with_weight,
+)
 from armscope.diagnosis.summary.homogeneity import subset_consistency
 from armscope.diagnosis.summary.next_poses import next_poses
+from armscope.diagnosis.summary.other_backgrounds import doubts
 from armscope.diagnosis.summary.parameters import beyond_plausible
 from armscope.diagnosis.summary.unexplained import (
     background_summaries,
@@ -76,11 +84,16 @@ def judge(
     weighed = Weighed(
         state,
         search,
-        {c.candidate: certainty.alternatives(search, best, c.candidate) for c in best.chosen},
+        certainty.judged_elsewhere(
+            state,
+            {c.candidate: certainty.alternatives(search, best, c.candidate) for c in best.chosen},
+            rng.spawn(1)[0],
+        ),
         certainty.inclusion_frequency(state, resamples, rng),
         fit.model.scene(state.recordings.rows(spread_evenly(len(state.recordings), TELLING.curve_rows))),
         _plain_gram(state),
         model_error(fit, state.recordings, state.noise.least_mm),
+        doubts(search, best),
     )
     variance = weighed.equations.least_rss(fit.pool.frames) / max(weighed.equations.n, 1.0)
     shared, of_families = _shares(fit, weighed.equations)
@@ -104,7 +117,7 @@ def judge(
     left = max(1.0 - sum(effect.share for effect in named) - sum(family.share for family in background), 0.0)
     scattered = [s for s in scattered_effects(state, variance, left) if not rest_of_a_curve(s, named)]
     over = subset_consistency(state)
-    named = [replace(e, carries_over=over.get(c, "")) for c, e in zip(order, named, strict=True)]
+    named = [as_far_as_it_carries(e, search.candidate(c), over.get(c)) for c, e in zip(order, named, strict=True)]
     effects = tuple(sorted([*named, *scattered], key=lambda effect: -effect.share))
     unexplained = _unexplained(state, search, effects, background)
     told = causes(state, search, dict(zip(order, named, strict=True)), scattered, background)

@@ -162,7 +162,23 @@ class Numerics(Constants):
     )
 
 
+@dataclass(frozen=True)
+class ConfidenceSet(Constants):
+    """Which models held-out rows exclude."""
+
+    chance: float = constant(
+        0.05, "of excluding a model that is as good as any", "convention: 95 % confidence, as all intervals"
+    )
+    draws: int = constant(
+        500, "of blocks", "derived: at a chance of 0.05 its standard error is then 0.01", unit="draws"
+    )
+    fewest_blocks: int = constant(
+        8, "below which nothing is excluded", "judgement: fewer are no sample of rows", unit="blocks"
+    )
+
+
 PRIORS = SelectionPriors()
 DETECTION = DetectionRules()
 BUDGET = SearchBudget()
 NUMERICS = Numerics()
+CONFIDENCE = ConfidenceSet()

@@ -132,6 +132,11 @@ class PriorRules(Constants):
         "by which gains may be off where they stand in the place of a load",
         "measured: the middle of what two published sets of the UR10e's gains differ by",
     )
+    level_of_gains: float = constant(
+        0.2,
+        "by which the gains of all drives may be off alike where no uncertainty is stated",
+        "measured: two published sets of the UR10e's gains differ by 25 % in the mean, 0.7 of which is each one's own",
+    )
     unit: float = constant(
         0.01,
         "that one standard deviation of a row's noise is scaled to",
@@ -199,6 +204,22 @@ class ConsistencyRules(Constants):
 
 
 @dataclass(frozen=True)
+class IntervalRules(Constants):
+    """How wide intervals are."""
+
+    agreeing: float = constant(
+        2.0,
+        "paths by which agreement is believed before any is seen",
+        "judgement: what two paths differ by is hardly known",
+        unit="paths",
+    )
+    reach_nats: float = constant(
+        7.0, "below the best, down to which models share in intervals", "derived: a thousandth", unit="nats"
+    )
+    held: float = constant(0.95, "of what is believed that intervals hold", "convention: 95 % intervals")
+
+
+@dataclass(frozen=True)
 class MotionTelling(Constants):
     """How much is told."""
 
@@ -217,6 +238,9 @@ class MotionTelling(Constants):
         "judgement: models are a little wrong, and among thousands of nats that costs tens",
     )
     listed: int = constant(4, "rivals of a cause", "judgement: nobody reads more", unit="causes")
+    doubtful: float = constant(
+        0.3, "of a size, from which half of its 95 % interval stands in the headline, too", "judgement: a third is much"
+    )
     in_headline: int = constant(4, "causes", "judgement: a sentence holds no more", unit="causes")
 
 
@@ -248,3 +272,4 @@ TELLING = MotionTelling()
 CHECK = CheckRules()
 MODEL_FILE = ModelFileRules()
 EXPORT = ExportRules()
+INTERVALS = IntervalRules()

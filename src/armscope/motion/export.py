@@ -35,18 +35,19 @@ WRITTEN = (
 )
 
 
-def export_motion(model: MotionModel, selected: SelectedCauses, folder: Path | str) -> None:
+def export_motion(model: MotionModel, selected: SelectedCauses, factor: Array, folder: Path | str) -> None:
     """Write ``corrected.urdf``, ``mujoco.xml`` and ``parameters.csv``.
 
     Args:
         model: the fitted model.
         selected: the selection that it is of, for standard errors.
+        factor: (p,) on each of these, see `intervals`.
         folder: where to.
     """
     folder = Path(folder)
     write_text(folder / URDF, corrected_urdf(model, folder))
     write_text(folder / MUJOCO, mujoco_joints(model))
-    write_table(folder / TABLE, parameter_table(model, selected))
+    write_table(folder / TABLE, parameter_table(model, selected, factor))
 
 
 def bodies(model: MotionModel) -> tuple[list[pin.Inertia], list[str]]:
@@ -132,12 +133,13 @@ def mujoco_joints(model: MotionModel) -> str:
     return ET.tostring(robot, encoding="unicode") + "\n"
 
 
-def parameter_table(model: MotionModel, selected: SelectedCauses) -> pd.DataFrame:
+def parameter_table(model: MotionModel, selected: SelectedCauses, factor: Array) -> pd.DataFrame:
     """Regressor parameters: of every link the ten inertial ones, of every motor friction and rotor, SI.
 
     Args:
         model: the model.
         selected: the selection that it is of.
+        factor: (p,) on the standard error of each column, see `intervals`.
 
     Returns:
         Columns place, parameter, unit, stated, fitted, stderr. Standard errors hold the priors, too: where they are as
@@ -145,7 +147,7 @@ def parameter_table(model: MotionModel, selected: SelectedCauses) -> pd.DataFram
     """
     arm, layout = model.arm, selected.rows.layout
     columns = selected.best.columns
-    covariance = selected.best.covariance(columns) / np.outer(*[selected.problem.scale[columns]] * 2)
+    covariance = selected.best.covariance(columns) / np.outer(*[selected.problem.scale[columns] / factor[columns]] * 2)
     of_links, of_joints = np.zeros((len(arm.inertial), layout.width)), np.zeros((OWN * arm.n_motors, layout.width))
     of_links[:, layout.inertial] = np.diag(layout.inertial_scale)
     for number, cause in enumerate(layout.placed):

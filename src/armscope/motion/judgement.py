@@ -9,34 +9,32 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.inference.model_space import Candidate
 from armscope.inference.normal_equations import total
-from armscope.inference.search import Search
 from armscope.inference.shapley import shares
 from armscope.motion.causes import PlacedCause
 from armscope.motion.confounding import gains_instead
 from armscope.motion.consistency import PathAgreement, agreement
 from armscope.motion.constants import TELLING
+from armscope.motion.intervals import Sureness, covariance_of
 from armscope.motion.layout import OWN
 from armscope.motion.selection import SelectedCauses
 from armscope.motion.verdict import FoundCause, JointBackground, UnexplainedTorque
 from armscope.verdict.schema import Alternative, Answer, Parameter
 
 
-def found_causes(selected: SelectedCauses) -> list[tuple[int, FoundCause]]:
+def found_causes(selected: SelectedCauses, sure: Sureness) -> list[tuple[int, FoundCause]]:
     """Every chosen cause with what is known about it, largest first, beside its candidate's number."""
-    best, search = selected.best, Search.on(selected.problem)
+    best = selected.best
     explained = _shares(selected)
     found = []
     for number, effect in enumerate(best.chosen):
         placed = selected.rows.layout.placed[effect.candidate]
         agreed = agreement(selected, effect.candidate)
-        found.append(
-            (effect.candidate, _found(selected, search, effect.candidate, placed, (explained[number], agreed)))
-        )
+        found.append((effect.candidate, _found(selected, sure, effect.candidate, placed, (explained[number], agreed))))
     return sorted(found, key=lambda pair: -pair[1].share)
 
 
 def _found(
-    selected: SelectedCauses, search: Search, number: int, placed: PlacedCause, known: tuple[float, PathAgreement]
+    selected: SelectedCauses, sure: Sureness, number: int, placed: PlacedCause, known: tuple[float, PathAgreement]
 ) -> FoundCause:
     share, agreed = known
     layout = selected.rows.layout
@@ -53,13 +51,13 @@ def _found(
         driver=placed.driver,
         title=title(placed),
         minor=share < TELLING.minor_share,
-        parameters=cause_parameters(selected, number),
+        parameters=cause_parameters(selected, number, sure.factor),
         rms=float(rms[joint]),
         unit="N" if layout.arm.sliding[joint] else "N m",
         joint=f"joint {joint + 1}",
         share=share,
-        evidence_nats=float(search.log_odds(selected.best, number)),
-        alternatives=_alternatives(selected, search, number),
+        evidence_nats=float(sure.search.log_odds(selected.best, number)),
+        alternatives=_alternatives(selected, sure, number),
         carries_over=agreed.words,
         consistent=agreed.consistent,
         physics=placed.cause.physics,
@@ -78,22 +76,15 @@ def title(placed: PlacedCause) -> str:
     return f"{name}{place}{where}"
 
 
-def cause_parameters(selected: SelectedCauses, number: int) -> tuple[Parameter, ...]:
+def cause_parameters(selected: SelectedCauses, number: int, factor: Array) -> tuple[Parameter, ...]:
     """A cause's numbers with standard errors: fitted ones, then scanned ones."""
     placed, columns = selected.rows.layout.placed[number], selected.rows.layout.columns[number]
-    values, stderr = selected.coefficients[columns], np.sqrt(np.diag(covariance_of(selected, number)))
+    values, stderr = selected.coefficients[columns], np.sqrt(np.diag(covariance_of(selected, number, factor)))
     told = [
         Parameter(name, unit, float(value), float(error))
         for (name, unit), value, error in zip(placed.parameters, values, stderr, strict=True)
     ]
     return (*told, *(Parameter(name, unit, value, float("nan")) for name, unit, value in placed.scanned))
-
-
-def covariance_of(selected: SelectedCauses, number: int) -> Array:
-    """(c, c) covariance of a chosen cause's fitted numbers, SI."""
-    columns = selected.rows.layout.columns[number]
-    scale = selected.problem.scale[columns]
-    return np.asarray(selected.best.covariance(columns) / np.outer(scale, scale))
 
 
 def _shares(selected: SelectedCauses) -> list[float]:
@@ -112,15 +103,15 @@ def _shares(selected: SelectedCauses) -> list[float]:
     return [float(share) for share in shares(problem.equations, ridge, base, both)][: len(members)]
 
 
-def _alternatives(selected: SelectedCauses, search: Search, number: int) -> tuple[Alternative, ...]:
+def _alternatives(selected: SelectedCauses, sure: Sureness, number: int) -> tuple[Alternative, ...]:
     """What could stand in a cause's place, nearest first, each name once."""
     best = selected.best
     candidate = selected.space.candidates[number]
-    rest = search.without(best, [number])
+    rest = sure.search.without(best, [number])
     taken = {selected.space.candidates[c].key for c in best.candidates}
     limit = max(TELLING.listed_nats, TELLING.listed_share * (best.log_posterior - rest.log_posterior))
     nearest: dict[tuple[str, str], tuple[float, Candidate]] = {}
-    for other in search.additions(rest, TELLING.looked_at, [number]):
+    for other in sure.rivals[number]:
         rival = selected.space.candidates[other.chosen[-1].candidate]
         gap = best.log_posterior - other.log_posterior
         if rival.key in taken or rival.key == candidate.key or gap > limit:
@@ -134,12 +125,12 @@ def _alternatives(selected: SelectedCauses, search: Search, number: int) -> tupl
     return tuple(sorted(listed, key=lambda each: each.evidence_gap_nats)[: TELLING.listed])
 
 
-def joint_backgrounds(selected: SelectedCauses, names: Sequence[str]) -> tuple[JointBackground, ...]:
+def joint_backgrounds(selected: SelectedCauses, sure: Sureness) -> tuple[JointBackground, ...]:
     """Friction and rotor inertia of every joint."""
     layout, best, problem = selected.rows.layout, selected.best, selected.problem
     told = []
     stated = np.nan_to_num(layout.arm.stated_background)
-    for j, name in enumerate(names):
+    for j in range(layout.arm.n_motors):
         slides = layout.arm.sliding[j]
         torque, unit = ("N", "m") if slides else ("N m", "rad")
         units = (torque, torque, f"{torque} s/{unit}", "kg" if slides else "kg m^2")
@@ -148,14 +139,14 @@ def joint_backgrounds(selected: SelectedCauses, names: Sequence[str]) -> tuple[J
         for k, what in enumerate(("offset", "coulomb", "viscous", "inertia")):
             column = OWN * j + k
             if column in best.columns and moving.any():
-                error = np.sqrt(best.variances(np.array([column]))[0]) / problem.scale[column]
+                error = sure.factor[column] * np.sqrt(best.variances(np.array([column]))[0]) / problem.scale[column]
                 made.append(
                     Parameter(what, units[k], float(selected.coefficients[column] + stated[j, k]), float(error))
                 )
         rows = float(moving.sum() / selected.weights.correlated[j])
         left = selected.residuals[moving, j]
         noise = float(np.sqrt(np.mean(left**2))) if len(left) else float("nan")
-        told.append(JointBackground(name, tuple(made), noise, torque, int(rows)))
+        told.append(JointBackground(f"joint {j + 1}", tuple(made), noise, torque, int(rows)))
     return tuple(told)
 
 
@@ -201,7 +192,9 @@ def _first(cause: FoundCause) -> str:
     if cause.effect == "unknown" or cause.effect == "cable_torque":
         return f"{cause.rms:.2g} {cause.unit} RMS"
     parameter = cause.parameters[0]
-    return f"{parameter.name.replace('_', ' ')} {parameter.value:+.3g} {parameter.unit}".strip()
+    half = parameter.interval[1] - parameter.value
+    reach = f" ± {half:.2g}" if half > TELLING.doubtful * abs(parameter.value) else ""
+    return f"{parameter.name.replace('_', ' ')} {parameter.value:+.3g}{reach} {parameter.unit}".strip()
 
 
 def noise_sums(selected: SelectedCauses) -> float:

@@ -24,9 +24,9 @@ from armscope.motion.holding_out import (
     own_fold,
     waterfall,
 )
+from armscope.motion.intervals import Sureness, covariance_of, level_told, sureness
 from armscope.motion.judgement import (
     answer_of,
-    covariance_of,
     found_causes,
     headline,
     joint_backgrounds,
@@ -69,6 +69,7 @@ class MotionDiagnosis:
         arm: the nominal arm.
         verdict: what verdict.json holds.
         selected: the finished selection.
+        sure: what else would do, and how wide intervals are for it.
         test: rows of the runs that were kept out; None where there were none.
         held: torques where nothing was fitted.
         how: filters and decimation.
@@ -77,6 +78,7 @@ class MotionDiagnosis:
     arm: MovingArm
     verdict: MotionVerdict
     selected: SelectedCauses
+    sure: Sureness
     test: MotionRows | None
     held: tuple[HeldOutTorque, ...]
     how: Preparation
@@ -89,7 +91,7 @@ class MotionDiagnosis:
         return fitted_model(
             layout,
             self.selected.coefficients,
-            [(number, covariance_of(self.selected, number)) for number in numbers],
+            [(number, covariance_of(self.selected, number, self.sure.factor)) for number in numbers],
             self.how,
         )
 
@@ -134,7 +136,9 @@ def diagnose_motion(
     apart = None
     if test:
         apart = build_rows(layout, test, how, model_so_far(layout, selected.coefficients))
-    verdict, held = _judged(selected, apart, settings, arm)
+    sure = sureness(selected, _carried(motions))
+    notices += level_told(layout)
+    verdict, held = _judged(selected, sure, apart, settings)
     verdict = replace(
         verdict,
         preparation=how.words,
@@ -145,7 +149,14 @@ def diagnose_motion(
         settings=asdict(settings),
     )
     progress("done", 1.0)
-    return MotionDiagnosis(arm, verdict, selected, apart, held, how)
+    return MotionDiagnosis(arm, verdict, selected, sure, apart, held, how)
+
+
+def _carried(motions: Motions) -> dict[str, float]:
+    """Stated payload of each run, kg; none where none is stated."""
+    if motions.payload is None:
+        return {}
+    return {str(run): float(np.nan_to_num(np.mean(motions.payload[motions.run == run]))) for run in motions.runs}
 
 
 def _parted(arm: MovingArm, motions: Motions, held_out: Sequence[str]) -> tuple[list[Stretch], list[Stretch]]:
@@ -163,7 +174,7 @@ def _parted(arm: MovingArm, motions: Motions, held_out: Sequence[str]) -> tuple[
 
 
 def _judged(
-    selected: SelectedCauses, test: MotionRows | None, settings: MotionSettings, arm: MovingArm
+    selected: SelectedCauses, sure: Sureness, test: MotionRows | None, settings: MotionSettings
 ) -> tuple[MotionVerdict, tuple[HeldOutTorque, ...]]:
     if test is None:
         parts = folds(selected)
@@ -176,12 +187,11 @@ def _judged(
     parts, held, alone = _that_others_tell(selected, parts, held)
     what += f", but for {', '.join(alone)}, of whose own load no other run knows" if alone else ""
     held_out = replace(measure(held, what), by_run=by_run)
-    numbered = found_causes(selected)
+    numbered = found_causes(selected, sure)
     found = [cause for _, cause in numbered]
     steps = waterfall(selected, parts, [number for number, _ in numbered], [cause.title for cause in found])
     left = unexplained(found)
     answer, mismatch = answer_of(found, left)
-    names = [f"joint {j + 1}" for j in range(arm.n_motors)]
     sizes = {family.name: share for family, share in zip(selected.space.families, _sizes(selected), strict=True)}
     verdict = MotionVerdict(
         answer=answer,
@@ -189,7 +199,7 @@ def _judged(
         mismatch=mismatch,
         effects=tuple(found),
         unexplained=left,
-        background=joint_backgrounds(selected, names),
+        background=joint_backgrounds(selected, sure),
         masses_share=sizes["masses"],
         held_out=held_out,
         fitted=steps[-1],

@@ -120,7 +120,8 @@ class PlausibleSizes(Constants):
     growth: float = constant(
         1.0e-4,
         "by which links grow or shrink in a session, as a share of their length",
-        "derived: steel or aluminium, 12 to 24 millionths per K, some 4 to 8 K between morning and noon",
+        "derived: steel or aluminium, 12 to 24 millionths per K, some 4 to 8 K between morning and noon; chosen with "
+        "rough worlds in view",
         unit="m/m",
     )
     scale: float = constant(
@@ -150,7 +151,8 @@ class PlausibleSizes(Constants):
     weighed_share: float = constant(
         0.05,
         "error of a payload's stated mass that deserves no name, as a share of it",
-        "judgement: a gripper is weighed once, cables and grease are not",
+        "judgement: with rough worlds in view; a gripper is weighed once, cables and grease are not; at 0.1 a payload "
+        "wrong by 36 % lost its name",
     )
     payload_share: float = constant(
         0.5, "error of a payload's mass as a share of the largest stated", "judgement: a gripper that was forgotten"

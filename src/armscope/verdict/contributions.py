@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from armscope.core.averages import rms
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
 from armscope.physics.backgrounds import DRIFT, GEOMETRIC
@@ -163,11 +164,6 @@ def contributions(verdict: Diagnosis) -> Contributions:
     if not verdict.background.present:  # tiny, and without a line of its own
         return Contributions(ground.rows, before - explained, causes, smaller, {})
     return Contributions(ground.rows, left, causes, smaller, ground.small(before - left - explained))
-
-
-def rms(errors: Array) -> float:
-    """RMS per axis of (n, 3) errors."""
-    return float(np.sqrt(np.mean(errors**2))) if errors.size else 0.0
 
 
 def _frames(verdict: Diagnosis, posture: Posture) -> Array:

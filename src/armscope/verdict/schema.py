@@ -57,6 +57,8 @@ class Alternative:
         evidence_gap_nats: the evidence that would be lost by naming it instead.
         discriminability_nats: by how much the data tell the two apart: a rival that fits alike and only pays for a
             number more has a gap, but is not told apart.
+        excluded: whether rows that took no part speak against it at 95 % (model confidence set over blocks of rows);
+            None where that was not asked.
     """
 
     effect: str
@@ -65,6 +67,7 @@ class Alternative:
     evidence_gap_nats: Number
     driver: str
     discriminability_nats: Number
+    excluded: bool | None = None
 
 
 @dataclass(frozen=True, eq=False)

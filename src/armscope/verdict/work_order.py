@@ -8,13 +8,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from armscope.core.averages import rms
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics.backgrounds import DRIFT, ELASTIC, GEOMETRIC, TRANSMISSION
 from armscope.physics.scene import Part, Scene
-from armscope.verdict.contributions import Contributions, Repair, rms
+from armscope.verdict.contributions import Contributions, Repair
 from armscope.verdict.schema import Diagnosis, FoundEffect
-from armscope.verdict.sentences import cure_of_family, phrase
+from armscope.verdict.sentences import cure_of_family, exact_phrase, phrase
 from armscope.verdict.wording import SMALL, capitalised, implausible, read_parameter
 
 CHANGES = {
@@ -203,7 +204,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect) -> Task:
         place=effect.location,
         change=change,
         motion=motion(scene, cause.parts),
-        instruction=how.format(**words),
+        instruction=_settled(effect) + how.format(**words),
         cure=effect.cure.replace("`", ""),
         confirm=effect.confirm,
     )
@@ -219,6 +220,13 @@ def _jump(effect: FoundEffect) -> str:
     ]
     axes = "the last D-H frame" if effect.location == "tool" else "the base frame"
     return f" (it jumped by {', '.join(told)} in {axes})" if told else ""
+
+
+def _settled(effect: FoundEffect) -> str:
+    """What comes before the cure of a cause that these rows don't tell from others."""
+    if effect.named_as == "effect":
+        return ""
+    return f"First find out which it is: {effect.title} (see what to measure next). If {exact_phrase(effect)}: "
 
 
 def angle(radians: float) -> str:

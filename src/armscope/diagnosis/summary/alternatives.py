@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from armscope.diagnosis.constants import NAMING
+from armscope.diagnosis.earning import held_out_errors
 from armscope.diagnosis.promotion import DRIVE, named, rest_of
 from armscope.diagnosis.state import DiagnosisState
+from armscope.inference.confidence_set import confidence_set
 from armscope.inference.constants import BUDGET
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import Candidate
@@ -20,18 +22,28 @@ from armscope.verdict.schema import Alternative, Specific
 
 
 class Rival(NamedTuple):
-    """What could stand in an effect's place: nats by which it falls short, and the hypothesis with it."""
+    """What could stand in an effect's place.
+
+    Attributes:
+        gap: nats by which it falls short.
+        candidate, hypothesis: what it is, and the hypothesis with it.
+        near: whether its evidence is near enough for it to be listed whatever other rows say.
+        excluded: whether rows that took no part exclude it.
+    """
 
     gap: float
     candidate: Candidate
     hypothesis: Hypothesis
+    near: bool
+    excluded: bool | None = None
 
 
 def alternatives(search: Search, best: Hypothesis, number: int) -> list[Rival]:
     """What could replace one effect, nearest first, each name once.
 
     None where a background holds the effect, too: without the name, the background explains the same. A line taken from
-    a curve of load is rivalled by what rivals the curve; a curve of another drive's load is told as its compliance.
+    a curve of load is rivalled by what rivals the curve, and by what could stand beside the curve's rest; a curve of
+    another drive's load is told as its compliance.
 
     Args:
         search: the finished one.
@@ -42,12 +54,24 @@ def alternatives(search: Search, best: Hypothesis, number: int) -> list[Rival]:
         Gap, effect in place, and the hypothesis with it.
     """
     candidate, rest = search.candidate(number), rest_of(search.problem, best, number)
-    if search.in_background(best, number) and not rest:
+    explained_anyway = search.in_background(best, number)
+    if explained_anyway and not rest:
         return []
+    paid = _price_of_curve(search, candidate) if rest and candidate.kind == DRIVE else 0.0
+    rivals = _in_place_of(search, best, number, rest, paid)
+    if rest and not explained_anyway:
+        rivals += [rival for rival in _in_place_of(search, best, number, [], 0.0) if not rival.candidate.is_curve]
+    nearest: dict[tuple[str, str], Rival] = {}
+    for rival in sorted(rivals, key=lambda rival: rival.gap):
+        nearest.setdefault(rival.candidate.key, rival)
+    return list(nearest.values())
+
+
+def _in_place_of(search: Search, best: Hypothesis, number: int, rest: Sequence[int], paid: float) -> list[Rival]:
+    """What could replace an effect together with the rest of its curve, or alone; ``paid``: the curve's price, nats."""
+    candidate, found = search.candidate(number), []
     base = search.without(best, [number, *rest])
     taken = {search.candidate(c).key for c in best.candidates}
-    nearest: dict[tuple[str, str], Rival] = {}
-    paid = _price_of_curve(search, candidate) if rest and candidate.kind == DRIVE else 0.0
     lines = {c.location: c for c in search.space.candidates if c.kind == DRIVE and not c.variant}
     # what a coarse prediction puts far behind is not weighed
     lost = best.log_posterior - base.log_posterior
@@ -55,22 +79,21 @@ def alternatives(search: Search, best: Hypothesis, number: int) -> list[Rival]:
     for other in search.additions(base, NAMING.looked_at, [number], least):
         rival, gap = search.candidate(other.chosen[-1].candidate), best.log_posterior - other.log_posterior - paid
         excluded = other.chosen[-1].candidate in candidate.excludes
-        as_likely = (candidate.is_curve and excluded) or _fits_alike(best, other, candidate, rival)
-        far = NAMING.listed_nats_of_special_cases if as_likely else NAMING.listed_nats
-        if (rest and excluded) or rival.key in taken or gap > far:
+        misfit = (other.rss - best.rss) / (2 * best.noise**2)
+        as_likely = (candidate.is_curve and excluded) or (misfit < NAMING.alike_nats and _is_other(candidate, rival))
+        near = gap <= (NAMING.listed_nats_of_special_cases if as_likely else NAMING.listed_nats)
+        asked = misfit < NAMING.listed_nats and gap <= NAMING.listed_nats_of_special_cases and not rival.is_curve
+        if (rest and excluded) or rival.key in taken or not (near or asked):
             continue
         if rest and rival.variant == "load" and rival.is_curve:
             rival = lines.get(rival.location, rival)
-        if rival.key not in nearest or gap < nearest[rival.key].gap:
-            nearest[rival.key] = Rival(gap, rival, other)
-    return sorted(nearest.values(), key=lambda rival: rival.gap)
+        found.append(Rival(gap, rival, other, near))
+    return found
 
 
-def _fits_alike(best: Hypothesis, other: Hypothesis, effect: Candidate, rival: Candidate) -> bool:
-    """Whether a named rival of more freedom, which does not contain the effect, leaves the rows no less likely."""
-    if rival.is_curve or set(effect.columns) <= set(rival.columns):
-        return False
-    return bool((other.rss - best.rss) / (2 * best.noise**2) < NAMING.alike_nats)
+def _is_other(effect: Candidate, rival: Candidate) -> bool:
+    """Whether a rival has a name, and does not contain the effect."""
+    return not (rival.is_curve or set(effect.columns) <= set(rival.columns))
 
 
 def _price_of_curve(search: Search, line: Candidate) -> float:
@@ -100,11 +123,41 @@ def discriminability(best: Hypothesis, other: Hypothesis, effect: Candidate, riv
     return min(gap, max((other.rss - best.rss) / (2 * best.noise**2), 0.0))
 
 
+def judged_elsewhere(
+    state: DiagnosisState, rivals: Mapping[int, Sequence[Rival]], rng: np.random.Generator
+) -> dict[int, list[Rival]]:
+    """The rivals of each effect that are near, or that rows that took no part do not exclude at 95 %.
+
+    Args:
+        state: the finished selection.
+        rivals: by candidate.
+        rng: draws blocks of rows.
+
+    Returns:
+        Those rivals, judged; those of one effect and the chosen hypothesis compete for one confidence set.
+    """
+    nearest = sorted((rival for some in rivals.values() for rival in some), key=lambda rival: rival.gap)
+    asked = {id(rival) for rival in nearest[: NAMING.asked_elsewhere]}
+    rivals = {n: [rival for rival in some if rival.near or id(rival) in asked] for n, some in rivals.items()}
+    every = [rival for some in rivals.values() for rival in some if id(rival) in asked]
+    readings = [(h.chosen, h.background) for h in (state.best, *(rival.hypothesis for rival in every))]
+    errors = held_out_errors(state.problem, state.blocks, readings, state.best.noise)
+    judged, at = {}, 1
+    for number, some in rivals.items():
+        those = [rival for rival in some if id(rival) in asked]
+        inside = confidence_set(errors[:, [0, *range(at, at + len(those))]], rng)[1:]
+        excluded = {id(rival): not bool(i) for rival, i in zip(those, inside, strict=True)}
+        known = [rival._replace(excluded=excluded.get(id(rival))) for rival in some]
+        judged[number] = [rival for rival in known if rival.near or not rival.excluded]
+        at += len(those)
+    return judged
+
+
 def listed(found: Sequence[Rival], apart: Sequence[float]) -> tuple[Alternative, ...]:
     """Alternatives as a verdict lists them; ``apart``: the `discriminability` of each."""
     return tuple(
-        Alternative(c.kind, c.location, c.family, float(gap), c.driver, float(nats))
-        for (gap, c, _), nats in zip(found, apart, strict=True)
+        Alternative(c.kind, c.location, c.family, float(gap), c.driver, float(nats), excluded)
+        for (gap, c, _, _, excluded), nats in zip(found, apart, strict=True)
     )
 
 

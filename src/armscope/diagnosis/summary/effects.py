@@ -15,10 +15,12 @@ from armscope.diagnosis.scans.context import ScanContext
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary import alternatives as certainty
 from armscope.diagnosis.summary.effect_curve import curve_of
+from armscope.diagnosis.summary.homogeneity import SameSize
 from armscope.diagnosis.summary.parameters import parameters, undetermined
 from armscope.fitting.discrepancy import ModelError
 from armscope.fitting.joint_scatter import motor_jacobians
 from armscope.fitting.refit import Refit
+from armscope.inference.model_space import Candidate
 from armscope.inference.normal_equations import NormalEquations, projected_rms
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
@@ -43,6 +45,7 @@ class Weighed:
         scene: recorded rows, spread evenly where there are many.
         equations: sums over all rows as they were measured.
         wrong: what no effect explains, and what it does to the covariance.
+        doubts: by candidate, what backgrounds of other sizes add to the covariance of its values.
     """
 
     state: DiagnosisState
@@ -52,6 +55,7 @@ class Weighed:
     scene: Scene
     equations: NormalEquations
     wrong: ModelError
+    doubts: Mapping[int, Array]
 
 
 def found_effect(weighed: Weighed, chosen: SelectedEffect, part: Part, share: float) -> FoundEffect:
@@ -71,12 +75,12 @@ def found_effect(weighed: Weighed, chosen: SelectedEffect, part: Part, share: fl
     at = fit.pool.of(placed)
     coefficients = np.zeros(len(fit.pool.terms))
     coefficients[at] = _sized(state, chosen, part.values, fit.covariance_of(placed))
-    covariance = weighed.wrong.covariance[np.ix_(at, at)]
+    covariance = weighed.wrong.covariance[np.ix_(at, at)] + weighed.doubts.get(chosen.candidate, 0.0)
     rms = projected_rms(weighed.equations, fit.pool.frames, coefficients)
     if candidate.is_curve:
         rms = min(rms, _own_size(fit, part))
-    apart = [certainty.discriminability(state.best, other, candidate, rival) for _, rival, other in rivals]
-    close = [rival for nats, (_, rival, _) in zip(apart, rivals, strict=True) if nats < INDISTINGUISHABLE_NATS]
+    apart = [certainty.discriminability(state.best, r.hypothesis, candidate, r.candidate) for r in rivals]
+    close = [r.candidate for nats, r in zip(apart, rivals, strict=True) if r.near and nats < INDISTINGUISHABLE_NATS]
     named_as, title = certainty.name(candidate, close)
     left_open = undetermined(placed, covariance)
     told = tuple(p for p in parameters(placed, part.values, covariance) if p.name not in left_open)
@@ -153,6 +157,25 @@ def _worth(state: DiagnosisState, search: Search, chosen: SelectedEffect) -> flo
     if chosen.nested:
         return nested_log_odds(state.problem, state.best, chosen)
     return search.log_odds(state.best, chosen.candidate)
+
+
+def as_far_as_it_carries(found: FoundEffect, candidate: Candidate, over: SameSize | None) -> FoundEffect:
+    """An effect with what other rows say of its size: one of different sizes is told by its kind and region only.
+
+    Args:
+        found: the effect.
+        candidate: of which it is.
+        over: whether runs, payloads and halves of the workspace agree; None where that could not be asked.
+
+    Returns:
+        The effect, less specific where they do not agree.
+    """
+    if over is None:
+        return found
+    if not over.agrees and found.named_as == "effect":
+        named_as, title = certainty.name(candidate, [candidate])
+        found = replace(found, named_as=named_as, title=title)
+    return replace(found, carries_over=over.text)
 
 
 def with_weight(found: FoundEffect, background: Sequence[Background]) -> FoundEffect:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.special import chdtri
@@ -21,13 +21,24 @@ from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 
 
-def subset_consistency(state: DiagnosisState) -> dict[int, str]:
+@dataclass(frozen=True)
+class SameSize:
+    """Whether an effect has one size: everywhere where that could be asked, and in words."""
+
+    agrees: bool
+    text: str
+
+
+def subset_consistency(state: DiagnosisState) -> dict[int, SameSize]:
     """For effects with plain parameters: whether every run, payload and half of the workspace alone gives the same.
 
+    Args:
+        state: the finished selection.
+
     Returns:
-        A sentence by candidate.
+        By candidate.
     """
-    told: dict[int, list[str]] = {}
+    told: dict[int, list[tuple[bool, str]]] = {}
     plain = [
         c.candidate
         for c in state.best.chosen
@@ -37,8 +48,11 @@ def subset_consistency(state: DiagnosisState) -> dict[int, str]:
     chance = (1 - TELLING.chance) / max(len(divisions) * len(plain), 1)  # one false alarm in a hundred verdicts
     for parts, kind in divisions:
         for candidate, agrees in _agreements(state.problem, state.best, plain, parts, chance).items():
-            told.setdefault(candidate, []).append(_sentence(len(parts), kind, agrees))
-    return {candidate: " ".join(sentences) for candidate, sentences in told.items()}
+            told.setdefault(candidate, []).append((agrees, _sentence(len(parts), kind, agrees)))
+    return {
+        candidate: SameSize(all(agrees for agrees, _ in found), " ".join(text for _, text in found))
+        for candidate, found in told.items()
+    }
 
 
 def _divisions(state: DiagnosisState) -> Iterator[tuple[list[NormalEquations], str]]:
@@ -83,7 +97,8 @@ def _halves(recordings: Recordings, point: FittedModel) -> Indices:
 def _agreements(
     problem: Problem, best: Hypothesis, asked: Sequence[int], parts: Sequence[NormalEquations], chance: float
 ) -> dict[int, bool]:
-    """Whether the parts' own posteriors under the chosen hypothesis scatter no more than they do by this chance."""
+    """Whether the parts' own posteriors under the chosen hypothesis scatter no more than they do by this chance, or by
+    so little that it makes no difference."""
     # a line alone, without what is left of its curve: that could be another's line in each part
     lines = tuple(c for c in best.chosen if problem.space.candidates[c.candidate].variant != REST_OF_LOAD)
     shared = replace(problem, space=replace(problem.space, companions=()))
@@ -98,7 +113,9 @@ def _agreements(
         variances = np.array([h.variances(columns) for h in alone])
         mean = np.sum(values / variances, axis=0) / np.sum(1 / variances, axis=0)
         misfit = float(np.sum((values - mean) ** 2 / variances))
-        agree[candidate] = misfit < chdtri(values.size - values.shape[1], chance)
+        apart = np.linalg.norm(values - mean, axis=1).max()
+        by_chance = misfit < chdtri(values.size - values.shape[1], chance)
+        agree[candidate] = bool(by_chance or apart < TELLING.same_size * np.linalg.norm(mean))
     return agree
 
 

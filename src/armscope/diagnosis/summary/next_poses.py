@@ -42,7 +42,7 @@ def next_poses(
     pairs = [
         (discriminability(best, other, candidates[c], rival), candidates[c], rival, other)
         for c, found in rivals.items()
-        for _, rival, other in found
+        for _, rival, other, *_ in found
     ]
     if not pairs:
         return None

@@ -1,4 +1,4 @@
-"""Corrected zeros and D-H rows as tables, for whoever enters them in a controller."""
+"""What a verdict puts right in a controller's model, as tables: zeros of the motors, and D-H rows."""
 
 from __future__ import annotations
 
