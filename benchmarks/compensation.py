@@ -19,8 +19,11 @@ import numpy as np
 import pandas as pd
 from scipy.optimize import least_squares
 
-from armscope.compensation import Identified, Options, as_path, compensate_physical, identified_on
+from armscope.compensation.compensate import compensate_physical
 from armscope.compensation.forward import PhysicalArm
+from armscope.compensation.path import as_path
+from armscope.compensation.physical import Identified, identified_on
+from armscope.compensation.task import Options
 from armscope.physics.model import Base, FittedModel
 from armscope.physics.registry import library
 from armscope.physics.scene import Part

@@ -23,6 +23,7 @@ from scipy.stats import binomtest
 
 from armscope.core.files import copy_file, read_json, write_json, write_text
 from armscope.core.inputs import InputError
+from armscope.core.markdown import table_lines
 
 ROOT = Path(__file__).parents[1]
 FAMILIES = {
@@ -116,26 +117,27 @@ def figures(scored: Figures, commit: str) -> dict[str, Any]:
 
 def table(told: Figures) -> str:
     """The whole table, by family, as Markdown."""
-    lines = [
-        "| family | what is concealed | cases | right | exact 95 % interval | false names | held-out error over the "
-        "truth's own (median) | 95 % intervals that hold the truth |",
-        "|---|---|---|---|---|---|---|---|",
-    ]
+    head = (
+        "family", "what is concealed", "cases", "right", "exact 95 % interval", "false names",
+        "held-out error over the truth's own (median)", "95 % intervals that hold the truth",
+    )  # fmt: skip
+    rows = []
     for family, row in _rows(told):
         ratio = "–" if row["held_out_ratio"] is None else f"{row['held_out_ratio']:.3f}"
         covered = f"{row['covered']} of {row['intervals']}" if row["intervals"] else "–"
         cells = [_words(family), FAMILIES[family], row["cases"], row["right"], _interval(row), row["false_names"]]
-        lines.append(f"| {' | '.join(map(str, [*cells, ratio, covered]))} |")
-    return "\n".join([*lines, "", _source(told)])
+        rows.append((*cells, ratio, covered))
+    return "\n".join([*table_lines(head, rows), "", _source(told)])
 
 
 def short_table(told: Figures) -> str:
     """Names right, by family, as Markdown."""
-    lines = ["| names right, by family | cases | right | exact 95 % interval | false names |", "|---|---|---|---|---|"]
-    for family, row in _rows(told):
-        words = f"{_words(family)}: {FAMILIES[family]}"
-        lines.append(f"| {words} | {row['cases']} | {row['right']} | {_interval(row)} | {row['false_names']} |")
-    return "\n".join([*lines, "", _source(told)])
+    rows = (
+        (f"{_words(family)}: {FAMILIES[family]}", row["cases"], row["right"], _interval(row), row["false_names"])
+        for family, row in _rows(told)
+    )
+    head = ("names right, by family", "cases", "right", "exact 95 % interval", "false names")
+    return "\n".join([*table_lines(head, rows), "", _source(told)])
 
 
 def _rows(told: Figures) -> list[tuple[str, Figures]]:

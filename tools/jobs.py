@@ -15,6 +15,8 @@ from pathlib import Path
 
 import pandas as pd
 
+from armscope.core.markdown import table_lines
+
 ROOT = Path(__file__).parents[1]
 TABLE = ROOT / "benchmarks" / "jobs.csv"
 PROFILES = tuple(ROOT / "profiles" / name / "config.yaml" for name in ("slurm", "slurm-generic"))
@@ -94,19 +96,21 @@ def plan(table: pd.DataFrame, worlds: int, cores: int, worlds_per_job: int) -> d
 
 def page(table: pd.DataFrame) -> str:
     """The part of docs/cluster.md that is made of numbers."""
-    lines = ["| rule | jobs measured | longest (s) | CPU (s) | memory (MB) |", "|---|---|---|---|---|"]
-    for row in table.to_dict("records"):
-        numbers = " | ".join(f"{row[name]:.0f}" for name in ("jobs", "longest_s", "longest_cpu_s", "most_mb"))
-        lines.append(f"| `{row['rule']}` | {numbers} |")
+    measured = (
+        (f"`{row['rule']}`", *(f"{row[name]:.0f}" for name in ("jobs", "longest_s", "longest_cpu_s", "most_mb")))
+        for row in table.to_dict("records")
+    )
+    lines = table_lines(("rule", "jobs measured", "longest (s)", "CPU (s)", "memory (MB)"), measured)
     lines += ["", "A proof of 10,000 worlds, planned from these job times", ""]
-    lines += ["| cores | worlds per job | jobs | core hours | until the last job ends |", "|---|---|---|---|---|"]
+    plans = []
     for cores in (2, 10, 100, 1000):
         for size in (10, 50):
             planned = plan(table, 10_000, cores, size)
             hours = planned["hours"]
             took = f"{hours:.1f} h" if hours >= 1 else f"{60 * hours:.0f} min"
-            lines.append(f"| {cores} | {size} | {planned['jobs']:.0f} | {planned['core_hours']:.1f} | {took} |")
-    return "\n".join(lines)
+            plans.append((cores, size, f"{planned['jobs']:.0f}", f"{planned['core_hours']:.1f}", took))
+    head = ("cores", "worlds per job", "jobs", "core hours", "until the last job ends")
+    return "\n".join([*lines, *table_lines(head, plans)])
 
 
 def write(table: pd.DataFrame) -> None:

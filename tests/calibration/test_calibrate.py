@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import scipy.optimize
 
-from armscope.calibration import Priors, calibrate, held_out
-from armscope.calibration.geometry import columns, constants_of, corrected
+from armscope.calibration import Priors, calibrate, held_out_levels
+from armscope.calibration.geometry import constant_columns, constants_of, corrected
 from armscope.calibration.model import set_up
-from armscope.calibration.splits import split
+from armscope.calibration.splits import random_split
 from armscope.core.inputs import InputError
 from armscope.recordings import read_recordings
 from armscope.robot import chain, forward_kinematics, load_arm
@@ -49,7 +49,7 @@ def test_columns_are_the_derivatives_of_the_exact_arm(arm):
         start = rng.normal(scale=0.02, size=len(constants))
     angles = poses(rng, 6, arm.n_motors)
     here = corrected(arm, constants, start)
-    exact = columns(here, chain(here, angles), constants)
+    exact = constant_columns(here, chain(here, angles), constants)
     for column in range(len(constants)):
         step = np.zeros(len(constants))
         step[column] = 1e-6
@@ -182,7 +182,7 @@ def test_too_few_rows_and_the_wrong_arm_are_clear_errors():
 def test_a_split_keeps_the_targets_of_a_configuration_together_and_follows_the_protocol():
     rng = np.random.default_rng(11)
     recordings = measured(ur_like(), poses(rng, 20, 6), far_away(rng), {"p": [0, 0, 0], "q": [0, 0, 0.1]})
-    train, test = split(recordings, seed=4)
+    train, test = random_split(recordings, seed=4)
     expected = np.random.default_rng(4).permutation(20)[:14] + 1
     assert set(recordings.id[train].astype(int)) == set(expected)
     assert len(train) == 28
@@ -210,5 +210,5 @@ def test_held_out_figures_of_real_arms_are_the_reference_ones(name, run, seeds, 
     recordings = read_recordings(SHARED / name / "recordings.csv.gz")
     recordings = recordings.rows(recordings.run == run)
     priors = Priors(noise=1e-3) if name.startswith("panda") else Priors()
-    found = held_out(arm, recordings, seeds=range(seeds), priors=priors)
+    found = held_out_levels(arm, recordings, seeds=range(seeds), priors=priors)
     assert {each.level: each.mean * 1e3 for each in found} == pytest.approx(reference, abs=0.006)

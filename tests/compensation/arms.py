@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
-from armscope.compensation import Identified, error_model, identified_on
+from armscope.compensation.black_box import error_model
+from armscope.compensation.physical import Identified, identified_on
 from armscope.errormodels import SDP_AI, SDP_CI, FitProblem, ModelSpec, fit_swarms
 from armscope.physics.frames import free_frames
 from armscope.physics.model import Base, FittedModel

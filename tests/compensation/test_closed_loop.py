@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from armscope.compensation import Options, as_path, compensate_physical, error_model, fit_error_model, identified_on
+from armscope.compensation.black_box import error_model
 from armscope.compensation.closed_loop import (
     MeasuredPath,
     black_box_candidate,
@@ -15,6 +15,11 @@ from armscope.compensation.closed_loop import (
     physical_candidate,
     remaining_errors,
 )
+from armscope.compensation.compensate import compensate_physical
+from armscope.compensation.fitting import fit_error_model
+from armscope.compensation.path import as_path
+from armscope.compensation.physical import identified_on
+from armscope.compensation.task import Options
 from armscope.diagnosis import Settings, diagnose
 from armscope.errormodels import FDP_CI, SDP_AI, FitProblem, fit_swarms
 from armscope.recordings import read_recordings
@@ -23,7 +28,8 @@ from armscope.robot import chain, load_arm
 from armscope.world import folder
 from armscope.world.catalogue import catalogue
 from armscope.world.tolerances import geometric_errors
-from armscope.world.virtual_arm import conceal, measure_at
+from armscope.world.virtual_arm import conceal
+from tests.world.measuring import measure_at
 
 from .arms import identification_angles, sk120, wanted_points
 

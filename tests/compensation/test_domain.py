@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from armscope.compensation import Domain
+from armscope.compensation.domain import Domain
 
 
 def rows(count=60, seed=0):

@@ -6,8 +6,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from armscope.compensation import Options, as_path, compensate_black_box, compensate_physical, identified_on
-from armscope.compensation.physical import drivers_of, missing_context, with_torques
+from armscope.compensation.compensate import compensate_black_box, compensate_physical
+from armscope.compensation.path import as_path
+from armscope.compensation.physical import drivers_of, identified_on, missing_context, with_torques
+from armscope.compensation.task import Options
 from armscope.physics.effect import Driver
 from armscope.physics.model import Base, FittedModel
 from armscope.physics.registry import library

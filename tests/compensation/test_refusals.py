@@ -7,7 +7,9 @@ import pandas as pd
 import pytest
 from scipy.spatial.transform import Rotation
 
-from armscope.compensation import Options, as_path, compensate_black_box, compensate_physical
+from armscope.compensation.compensate import compensate_black_box, compensate_physical
+from armscope.compensation.path import as_path
+from armscope.compensation.task import Options
 from armscope.core.inputs import InputError
 from armscope.robot import chain
 

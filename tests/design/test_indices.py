@@ -6,7 +6,6 @@ from hypothesis import strategies as st
 from armscope.design.indices import (
     SOURCES,
     all_indices,
-    identifiable_combinations,
     observability,
     observability_slopes,
 )
@@ -50,5 +49,4 @@ def test_slopes_are_those_of_finite_differences(index):
 def test_what_cannot_be_told_has_no_observability():
     twins = np.repeat(np.random.default_rng(0).normal(size=(6, 3, 2)), 2, axis=2)
     assert all_indices(twins)["O3"] == pytest.approx(0, abs=1e-12)
-    assert identifiable_combinations(twins).shape == (6, 3, 2)
     assert all_indices(twins[:1]) == dict.fromkeys(SOURCES, 0.0)  # 3 numbers for 4 parameters

@@ -13,7 +13,7 @@ from armscope.errormodels import (
     SDP_AI,
     SDP_CI,
     FitProblem,
-    FittedModel,
+    SwarmFit,
     fit_least_squares,
     fit_random_search,
     fit_swarms,
@@ -26,7 +26,7 @@ SEEDS = range(20)
 SHORT = SwarmSettings(particles=20, iterations=15)
 
 
-def same_fit(first: FittedModel, second: FittedModel) -> bool:
+def same_fit(first: SwarmFit, second: SwarmFit) -> bool:
     return json.dumps(first.to_dict(history=True)) == json.dumps(second.to_dict(history=True))
 
 
@@ -158,7 +158,7 @@ def test_still_joints_and_dropped_terms_are_named_in_the_result():
 @pytest.mark.parametrize("history", [True, False])
 def test_a_fitted_model_survives_the_way_through_json(history):
     (fitted,) = fit_swarms([problem(SDP_CI)], [1, 2], SHORT)
-    again = FittedModel.from_dict(json.loads(json.dumps(fitted.to_dict(history))))
+    again = SwarmFit.from_dict(json.loads(json.dumps(fitted.to_dict(history))))
     assert same_fit(again, fitted) or not history
     _, positions, _ = identification()
     assert np.array_equal(again.predict(positions), fitted.predict(positions))

@@ -8,7 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from armscope.compensation import load_error_model, load_identified, read_path
+from armscope.compensation.error_model_file import load_error_model
+from armscope.compensation.path import read_path
+from armscope.compensation.physical import load_identified
 from armscope.core.config import Config
 from armscope.core.inputs import read_yaml, validate
 from armscope.core.variants import read_variants

@@ -23,7 +23,6 @@ STILL_FROM_ELSEWHERE = [
     "check/orientations.py",
     "check/preconditions.py",
     "check/suspicion.py",
-    "check/suspicions.py",
     "check/trials.py",
     "compensation/branch.py",
     "compensation/contents.py",

@@ -14,10 +14,11 @@ import pinocchio as pin
 import pytest
 from numpy.typing import NDArray
 
+from armscope.core.types import Array
 from armscope.diagnosis import Settings, diagnose
 from armscope.fitting.linearisation import LinearisedTable, residuals
 from armscope.fitting.registration import fit_frames
-from armscope.measurement.channel import Channel, linear_response
+from armscope.measurement.channel import Channel
 from armscope.measurement.registry import CHANNELS
 from armscope.physics import registry
 from armscope.physics.cure import Cure
@@ -42,6 +43,16 @@ ROWS, JOINT, PER_TURN = 200, 3, 4
 def torque_at(motor: int) -> Direction:
     """The reading of a motor's torque sensor: it moves no frame."""
     return Direction(f"motor {motor}", "torque")
+
+
+def linear_response(channel: Channel, model: FittedModel, posture: Posture) -> Array:
+    """(n, width) what a model's effects add up to in a channel that sees them linearly."""
+    total = np.zeros((len(posture.scene), channel.width))
+    for direction, amount in posture.scene.amounts(model.everything).items():
+        seen = channel.sensitivity(posture, direction)
+        if seen is not None:
+            total += seen * amount[:, None]
+    return total
 
 
 class Torques(Channel):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from armscope.errormodels import FDP_AI, FittedModel, Layout, fit_swarms
+from armscope.errormodels import FDP_AI, Layout, SwarmFit, fit_swarms
 from armscope.swarm import SwarmSettings
 
 
@@ -31,7 +31,7 @@ def test_a_joint_swarm_reaches_the_same_optimum_as_one_per_axis(joint):
 
 
 def test_a_joint_fit_survives_its_file(joint):
-    again = FittedModel.from_dict(joint[0].to_dict(history=True))
+    again = SwarmFit.from_dict(joint[0].to_dict(history=True))
     assert again.layout is Layout.JOINT
     assert again.history_mm == pytest.approx(joint[0].history_mm, rel=1e-6)
     assert again.excess_percent == pytest.approx(joint[0].excess_percent)

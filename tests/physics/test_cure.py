@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
+from armscope.core.averages import rms
 from armscope.core.location import Location
 from armscope.diagnosis.summary.parameters import parameters
 from armscope.physics.drift import base_shift, tool_shift
@@ -27,7 +28,7 @@ from armscope.robot.kinematics import joint_jacobian
 from armscope.world.catalogue import KINDS
 from armscope.world.kinds import Concealed
 from armscope.world.statics import Hidden, Session, balance
-from armscope.world.strength import make_scene, rms, stand
+from armscope.world.strength import make_scene, stand
 
 from ..world.scenes import drawn, scene_of
 from .scenes import arm_named

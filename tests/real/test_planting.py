@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from armscope.core.averages import rms
 from armscope.core.inputs import InputError
 from armscope.real.planting import CannotPlantError, Theatre, plant, truth_of
 from armscope.real.staging import AXES_MM, stage
@@ -15,7 +16,6 @@ from armscope.robot import chain, forward_kinematics
 from armscope.robot.arm import build_arm
 from armscope.robot.denavit_hartenberg import as_dh
 from armscope.robot.description import RobotDescription
-from armscope.world.strength import rms
 from tests.real.recorded import BASE, arm, table
 
 LEVEL = 1e-4

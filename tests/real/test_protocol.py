@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from armscope.calibration.splits import split
+from armscope.calibration.splits import random_split
 from armscope.core.inputs import InputError
 from armscope.real import protocol
 from armscope.real.protocol import ARMSCOPE, ORIENTED, measure_run, paper_models, protocol_table
@@ -76,7 +76,7 @@ def test_the_diagnosis_never_sees_a_test_row(measured, monkeypatch):
     monkeypatch.setattr(protocol, "diagnose", spying)
     with pytest.raises(KeyboardInterrupt):
         measure_run(arm(), rows, run)
-    train, test = split(rows, 0)
+    train, test = random_split(rows, 0)
     assert seen[0] == set(rows.id[train])
     assert not seen[0] & set(rows.id[test])
 

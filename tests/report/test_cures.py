@@ -6,11 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from armscope.core.averages import rms
 from armscope.diagnosis import Settings, diagnose
 from armscope.recordings import read_recordings
 from armscope.report.pages.diagnosis import write_report
 from armscope.robot import load_arm
-from armscope.verdict.contributions import contributions, rms
+from armscope.verdict.contributions import contributions
 from tests.report.test_error_field import browsed
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "five-effects"

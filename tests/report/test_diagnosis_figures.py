@@ -10,7 +10,7 @@ from armscope.report.figures.arm import location_shares
 from armscope.report.figures.arm_picture import draw_arm
 from armscope.report.figures.arm_shape import arm_shape, shares_by_place, typical_pose
 from armscope.report.figures.atlas import atlas_map
-from armscope.report.figures.effect_curve import curve_of, draw_curves
+from armscope.report.figures.effect_curve import draw_curves, drawn_curve
 from armscope.report.figures.next_poses import draw_poses
 from armscope.report.figures.waterfall import draw_waterfall, gathered, waterfall_steps
 from armscope.report.svg import Drawing, nice, ticks
@@ -234,7 +234,7 @@ def test_ticks_are_round_and_within():
 
 def test_a_curve_is_drawn_in_degrees_with_the_95_percent_band():
     effect = verdicts.unknown_curve()
-    curve = curve_of(effect, effect.curve)
+    curve = drawn_curve(effect, effect.curve)
     assert curve.x[-1] == pytest.approx(180)
     assert curve.y_label == "joint 4 turns by (µrad)"
     assert np.allclose(curve.high - curve.value, 1.96 * 12, rtol=1e-3)
@@ -243,7 +243,7 @@ def test_a_curve_is_drawn_in_degrees_with_the_95_percent_band():
 
 def test_a_curve_is_drawn_where_its_numbers_are():
     effect = verdicts.unknown_curve()
-    figure = draw_curves([curve_of(effect, effect.curve)])
+    figure = draw_curves([drawn_curve(effect, effect.curve)])
     (line,) = [points(path) for path in shapes(figure) if path.get("stroke-width") == "2"]
     top = line[np.argmin(line[:, 1]), 0]
     peak = np.interp(0.8, (-np.pi, np.pi), (line[0, 0], line[-1, 0]))

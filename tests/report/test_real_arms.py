@@ -11,6 +11,7 @@ import pytest
 from armscope.core.files import write_json, write_table, write_yaml
 from armscope.real.transfer import GEOMETRY_HERE, WITH_CURVES
 from armscope.report.pages.real_arms import RealArm, write_real_arms
+from armscope.report.text.concealment import concealment
 from armscope.verdict.schema import Background
 from tests.report import verdicts
 
@@ -120,6 +121,8 @@ def test_what_was_concealed_is_told_with_what_was_not(arm_, tmp_path):
     }  # fmt: skip
     write_table(proof / "withheld.csv", pd.DataFrame([withheld]))
     write_real_arms(tmp_path / "page.md", [arm_, replace(arm_, name="other", title="Other")], "figures", proof)
+    told = concealment(proof, {"arm": "An arm", "other": "Other"})
+    assert (tmp_path / "page.md").read_text().endswith(f"\n\n{told}\n")
     text = (tmp_path / "page.md").read_text(encoding="utf-8")
     assert "| An arm | 3 | 75 % (3/4) | – | – | – |" in text
     assert "| gear mesh | 3 | 75 % (3/4) |" in text

@@ -7,10 +7,11 @@ import pytest
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
+from armscope.core.averages import rms
 from armscope.diagnosis import Settings, diagnose
 from armscope.physics.scene import Scene
 from armscope.robot import chain as forward_frames
-from armscope.verdict.contributions import contributions, rms
+from armscope.verdict.contributions import contributions
 from tests.physics.test_cure import World, world_with
 from tests.world.scenes import drawn, scene_of
 

@@ -7,11 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from armscope.core.averages import rms
 from armscope.fitting.registration import fit_frames
 from armscope.physics.registry import EFFECTS
 from armscope.report.pages.diagnosis import write_report
 from armscope.robot.arm import build_arm
-from armscope.verdict.contributions import contributions, rms
+from armscope.verdict.contributions import contributions
 from armscope.verdict.corrections import corrected_rows, zero_offsets
 from armscope.verdict.schema import Parameter
 from armscope.verdict.work_order import CHANGES, angle, task_of, work_order

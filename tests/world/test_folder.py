@@ -13,8 +13,9 @@ from armscope.recordings import read_recordings
 from armscope.robot.description_file import load_description
 from armscope.world.catalogue import WorldSpec, catalogue
 from armscope.world.folder import build
-from armscope.world.virtual_arm import conceal, measure_at, measure_session
+from armscope.world.virtual_arm import conceal, measure_session
 from tests.world.by_hand import ROBOTS, HandArm
+from tests.world.measuring import measure_at
 
 OFFSET = {"kind": "joint_offset", "strength": 4.0, "location": "joint 3"}
 SOFT = {"kind": "joint_compliance", "strength": 3.0, "location": "joint 2"}

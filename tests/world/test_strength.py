@@ -11,11 +11,12 @@ import yaml
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
+from armscope.core.averages import rms
 from armscope.robot.description_file import load_description
 from armscope.world.catalogue import KINDS
 from armscope.world.kinds import Concealed
 from armscope.world.statics import Session
-from armscope.world.strength import Frames, carried, fit_frames, make_scene, rms, rms_after_frames, sized, stand
+from armscope.world.strength import Frames, carried, fit_frames, make_scene, rms_after_frames, sized, stand
 from tests.world.scenes import drawn, scene_of
 
 EXAMPLES = Path(__file__).parents[3] / "shared" / "examples"

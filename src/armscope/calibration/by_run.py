@@ -8,10 +8,11 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
-from armscope.calibration.fit import placed, rms_distance
+from armscope.calibration.fit import placed
 from armscope.calibration.model import SetUp
-from armscope.calibration.splits import foretold, split
+from armscope.calibration.splits import foretold, random_split
 from armscope.calibration.state import State
+from armscope.core.averages import rms_distance
 from armscope.recordings import Recordings
 
 ALL = "all"
@@ -45,7 +46,7 @@ def misses_by_run(
     held: dict[str, list[float]] = {name: [] for name in names}
     alone: dict[str, list[float]] = {name: [] for name in names}
     for seed in range(splits):
-        train, test = split(recordings, seed)
+        train, test = random_split(recordings, seed)
         if len(train) > MOST_ROWS:
             train = np.sort(np.random.default_rng(seed).permutation(train)[:MOST_ROWS])
         test = foretold(rows, train, test)

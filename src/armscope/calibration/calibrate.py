@@ -12,16 +12,16 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.calibration.by_run import misses_by_run
-from armscope.calibration.fit import rms_distance
 from armscope.calibration.geometry import nominal_values
 from armscope.calibration.imitation import Imitation, imitations
 from armscope.calibration.model import Level, SetUp, set_up
 from armscope.calibration.sanity import lost, no_gain, odd_loads, require_loads
 from armscope.calibration.sharing import sharing
 from armscope.calibration.solve import Priors, Redundancy, Solved, scales_of, solve
-from armscope.calibration.splits import foretold, split
+from armscope.calibration.splits import foretold, random_split
 from armscope.calibration.state import State
 from armscope.calibration.words import in_words
+from armscope.core.averages import rms_distance
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.measurement.robust import scale_of
@@ -227,7 +227,7 @@ def _orientation_helps(rows: SetUp, recordings: Recordings, solved_for: Callable
     for variant in (without, rows):
         squares = []
         for seed in range(DECIDING_SPLITS):
-            train, test = split(recordings, seed)
+            train, test = random_split(recordings, seed)
             train = train[:: max(1, len(train) // DECIDING_ROWS)]
             test = foretold(rows, train, test)
             fitted = solved_for(variant.rows(train)).fitted

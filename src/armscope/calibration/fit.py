@@ -13,7 +13,7 @@ from armscope.calibration.model import SetUp
 from armscope.calibration.state import Posed, State
 from armscope.core.types import Array
 from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic, Reason, gauss_newton
-from armscope.fitting.placement import FlangePoses, place_frames
+from armscope.fitting.placement import FlangePoses, all_alike, place_frames
 from armscope.measurement import robust
 
 LARGEST_STEPS = 60
@@ -32,11 +32,6 @@ class Fitted:
     weights: Array
     steps: int
     reason: Reason
-
-
-def all_alike(left: Array) -> Array:
-    """(N,) ones."""
-    return np.ones(len(left))
 
 
 class _Calibration(NonlinearProblem[State, Posed]):
@@ -77,7 +72,6 @@ def least_squares(
     free: NDArray[np.bool_],
     stiffness: Array | None = None,
     rule: Rule = all_alike,
-    most_steps: int = LARGEST_STEPS,
 ) -> Fitted:
     """Minimise sum of weights * squared residuals + sum of stiffness * squared change, from ``state``.
 
@@ -87,13 +81,12 @@ def least_squares(
         free: (P,) which parameters move.
         stiffness: (P,) m^2 per squared unit, holds parameters near zero (a prior); None holds none.
         rule: weights of the rows by what is left of them; all count alike where not given.
-        most_steps: after so many steps the fit stops where it is.
 
     Returns:
         The state, weights, steps, and why it stopped.
     """
     problem = _Calibration(set_up, free, np.zeros(len(free)) if stiffness is None else stiffness, rule)
-    found = gauss_newton(problem, state, most_steps)
+    found = gauss_newton(problem, state, LARGEST_STEPS)
     return Fitted(found.state, problem.weights, found.steps, found.reason)
 
 
@@ -124,11 +117,6 @@ def robust_least_squares(
         fitted = least_squares(set_up, state, free, stiffness, rule)
         state, steps = fitted.state, steps + fitted.steps
     return replace(fitted, steps=steps)
-
-
-def rms_distance(residuals: Array) -> float:
-    """Root mean square of the 3D distance of residuals (N, 3)."""
-    return float(np.sqrt(np.mean(np.sum(residuals**2, axis=1))))
 
 
 def _huber(left: Array) -> Array:

@@ -106,7 +106,7 @@ def _with_placements(arm: Arm, constants: tuple[Constant, ...], values: Array) -
     return replace(arm, before=before)
 
 
-def columns(arm: Arm, frames: Chain, constants: tuple[Constant, ...]) -> Array:
+def constant_columns(arm: Arm, frames: Chain, constants: tuple[Constant, ...]) -> Array:
     """(N, 3, P) displacement of the tool point by a unit of each constant, in base axes; m/m or m/rad.
 
     Exact for D-H rows at any values; for a URDF's placements exact at zero turns, and to their size beyond.

@@ -7,16 +7,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from armscope.calibration.fit import placed, rms_distance
+from armscope.calibration.fit import placed
 from armscope.calibration.model import LEVELS, Level, set_up
 from armscope.calibration.solve import Priors, solve
-from armscope.calibration.splits import foretold, split
+from armscope.calibration.splits import foretold, random_split
+from armscope.core.averages import rms_distance
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
 
 @dataclass(frozen=True)
-class HeldOut:
+class HeldOutLevel:
     """Test RMS of the 3D distance per split, m."""
 
     level: Level
@@ -38,7 +39,7 @@ class HeldOut:
         return float(np.median(self.per_split))
 
 
-def held_out(
+def held_out_levels(
     arm: Arm,
     recordings: Recordings,
     levels: Iterable[Level] = LEVELS,
@@ -46,7 +47,7 @@ def held_out(
     *,
     priors: Priors | None = None,
     most_rows: int | None = None,
-) -> list[HeldOut]:
+) -> list[HeldOutLevel]:
     """Fit each level on 70 % of the configurations and test it on the rest, for several splits; a base for every run.
 
     Args:
@@ -64,7 +65,7 @@ def held_out(
     levels = [level for level in levels if level != "compliance" or rows.loads is not None]
     found: dict[Level, list[float]] = {level: [] for level in levels}
     for seed in seeds:
-        train, test = split(recordings, seed)
+        train, test = random_split(recordings, seed)
         if most_rows is not None:
             train = np.random.default_rng(seed).permutation(train)[:most_rows]
         training, testing = rows.rows(train), rows.rows(foretold(rows, train, test))
@@ -72,4 +73,4 @@ def held_out(
         for level in levels:
             solved = solve(training, level, "priors", priors or Priors(), robust=False, start=start)
             found[level].append(rms_distance(testing.residuals(solved.fitted.state)))
-    return [HeldOut(level, tuple(values)) for level, values in found.items()]
+    return [HeldOutLevel(level, tuple(values)) for level, values in found.items()]

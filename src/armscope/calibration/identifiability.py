@@ -13,18 +13,17 @@ SMALLEST_TRACE = 1e-3
 reach) at the tool, beyond what the others can imitate. At a thousandth, 1 mm shows as 1 micrometre: no less helps."""
 
 
-def identifiable(jacobian: Array, tiers: NDArray[np.intp], scales: Array, smallest: float = SMALLEST_TRACE) -> Array:
+def identifiable(jacobian: Array, tiers: NDArray[np.intp], scales: Array) -> Array:
     """The columns that can be told apart, chosen tier by tier by QR with column pivoting (Golub 1965).
 
     Within a tier the column with the largest part beyond those chosen enters next, until what is left of every column
-    is below ``smallest``: the diagonal of the triangular factor reveals the rank. A lower tier enters first, so that a
-    redundancy between the base frame and the first joint is settled for the base.
+    is below `SMALLEST_TRACE`: the diagonal of the triangular factor reveals the rank. A lower tier enters first, so
+    that a redundancy between the base frame and the first joint is settled for the base.
 
     Args:
         jacobian: (M, P).
         tiers: (P,) order of preference.
         scales: (P,) size of a unit in each column's own unit (1 m; 1 rad / reach), so that columns compare.
-        smallest: see `SMALLEST_TRACE`.
 
     Returns:
         (P,) boolean.
@@ -35,7 +34,7 @@ def identifiable(jacobian: Array, tiers: NDArray[np.intp], scales: Array, smalle
     for tier in np.unique(tiers):
         members = np.flatnonzero(tiers == tier)
         basis, factor, order = scipy.linalg.qr(remaining[:, members], mode="economic", pivoting=True)
-        rank = int(np.sum(np.abs(np.diag(factor)) > smallest))
+        rank = int(np.sum(np.abs(np.diag(factor)) > SMALLEST_TRACE))
         chosen[members[order[:rank]]] = True
         span = basis[:, :rank]
         remaining = remaining - span @ (span.T @ remaining)

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from armscope.calibration.geometry import Constant, constants_of, corrected, turn_columns
-from armscope.calibration.geometry import columns as constant_columns
+from armscope.calibration.geometry import Constant, constant_columns, constants_of, corrected, turn_columns
 from armscope.calibration.state import Posed, State
 from armscope.core.grouping import by_label
 from armscope.core.inputs import InputError
@@ -280,7 +279,7 @@ def _matrices(quaternions: Array | None) -> Array | None:
         return None
     known = np.isfinite(quaternions).all(axis=1)
     matrices = np.full((len(quaternions), 3, 3), np.nan)
-    matrices[known] = Rotation.from_quat(quaternions[known][:, [1, 2, 3, 0]]).as_matrix()
+    matrices[known] = Rotation.from_quat(quaternions[known], scalar_first=True).as_matrix()
     return matrices
 
 

@@ -12,7 +12,7 @@ from armscope.recordings import Recordings
 TRAIN_SHARE = 0.7
 
 
-def split(recordings: Recordings, seed: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def random_split(recordings: Recordings, seed: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Rows to train on and rows to test on: `default_rng(seed).permutation` of the configurations, 70 % to train on.
 
     A configuration is an id within its run; all its targets stay together.

@@ -129,7 +129,7 @@ def _context(recordings: Recordings) -> list[Context]:
         ("time", "s", recordings.time),
         ("temperature", "degC", recordings.temperature),
         ("payload", "kg", recordings.payload),
-        ("orientation", "", None if recordings.orientation is None else recordings.orientation[:, 0]),
+        ("orientation", "", recordings.quaternions[:, 0]),
     ]
     for name, unit, values in (
         ("approach", "", recordings.approach),

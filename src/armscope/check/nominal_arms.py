@@ -6,10 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from armscope.calibration.fit import placed, rms_distance
+from armscope.calibration.fit import placed
 from armscope.calibration.model import set_up
 from armscope.check.suspicion import Suspicion
 from armscope.check.trials import FITS, MOST_ROWS, MOST_STEPS
+from armscope.core.averages import rms_distance
 from armscope.core.sampling import spread_evenly
 from armscope.recordings import Recordings
 from armscope.robot.arm import Arm, build_arm
@@ -78,7 +79,7 @@ def nominal_fits(recordings: Recordings) -> tuple[NominalFit, ...]:
     usable = np.flatnonzero(np.isfinite(recordings.positions).all(axis=1))
     some = recordings.rows(usable[spread_evenly(len(usable), MOST_ROWS)] if len(usable) > MOST_ROWS else usable)
     points = some.positions - np.array([some.positions[some.run == run].mean(axis=0) for run in some.run])
-    spread = float(np.sqrt(np.mean(np.sum(points**2, axis=1))))
+    spread = rms_distance(points)
     arms = ((name, nominal_description(name)) for name in nominal_names())
     fitting = ((name, build_arm(each)) for name, each in arms if each.n_motors(_joints(each)) == some.n_motors)
     found = [_fit(name, arm, some, spread) for name, arm in fitting]

@@ -11,13 +11,14 @@ from typing import Any
 
 import numpy as np
 
-from armscope.calibration.fit import placed, rms_distance, robust_least_squares
+from armscope.calibration.fit import placed, robust_least_squares
 from armscope.calibration.model import SetUp, set_up
 from armscope.calibration.state import State
 from armscope.check.nominal_arms import better_arm
 from armscope.check.orientations import orientation_mistakes
 from armscope.check.suspicion import Suspicion
 from armscope.check.trials import FITS, MOST_ROWS, MOST_STEPS, trials
+from armscope.core.averages import rms_distance
 from armscope.core.sampling import spread_evenly
 from armscope.fitting.exchanged_tool import exchanged_tool
 from armscope.fitting.registration import fit_frames
@@ -140,7 +141,7 @@ def _tried(arm: Arm, table: Recordings) -> tuple[float, float]:
 
 def _predicted_spread(rows: SetUp, state: State) -> float:
     points = rows.predicted(state)
-    return float(np.sqrt(np.mean(np.sum((points - points.mean(axis=0)) ** 2, axis=1))))
+    return rms_distance(points - points.mean(axis=0))
 
 
 def explanation(arm: Arm, table: Recordings) -> Suspicion:

@@ -24,6 +24,7 @@ OUTPUTS = ("output", "figure", "points", "visible", "sealed")
 """Parameters of this name are files or folders to write, and those marked `WRITTEN`; all other paths are read."""
 WRITTEN = object()
 
+Output = Annotated[Path, typer.Option("--output", "-o", help="where to write")]
 Force = Annotated[bool, typer.Option("--force", help="overwrite files that armscope did not write (never an input)")]
 Threads = Annotated[int, typer.Option(min=1, help="processes that share the rows of a long table; the same result")]
 """As a parameter ``threads`` of a command: its work is shared by so many processes."""

@@ -17,7 +17,9 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from armscope.compensation import Compensated, ErrorModel, Identified
+    from armscope.compensation.black_box import ErrorModel
+    from armscope.compensation.physical import Identified
+    from armscope.compensation.result import Compensated
     from armscope.physics.model import FittedModel
     from armscope.robot import Arm
 
@@ -63,7 +65,9 @@ def compensate(
 
     import numpy as np
 
-    from armscope.compensation import ErrorModel, Options, compensate_black_box, compensate_physical
+    from armscope.compensation.black_box import ErrorModel
+    from armscope.compensation.compensate import compensate_black_box, compensate_physical
+    from armscope.compensation.task import Options
     from armscope.robot.inverse import LARGEST_STEP_RAD
 
     step = np.inf if separate_points else LARGEST_STEP_RAD
@@ -109,8 +113,8 @@ def fit_error_model(
         raise InputError("--products", "", f"--method {method} --regions {regions}", "least squares, one region")
     arm, (table,) = arm_and_tables(robot, [recordings])
 
-    from armscope.compensation import fit_error_model as fit
-    from armscope.compensation import save_error_model
+    from armscope.compensation.error_model_file import save_error_model
+    from armscope.compensation.fitting import fit_error_model as fit
 
     for column, wanted, values in (("run", run, table.run), ("target", target, table.target)):
         if wanted is not None and wanted not in values:
@@ -134,7 +138,7 @@ def fit_error_model(
 
 def _load(model: Path) -> ErrorModel | FittedModel:
     if model.suffix == ".json":
-        from armscope.compensation import load_error_model
+        from armscope.compensation.error_model_file import load_error_model
 
         return load_error_model(model)
     from armscope.physics.model_file import load_model
@@ -144,8 +148,7 @@ def _load(model: Path) -> ErrorModel | FittedModel:
 
 def _identified(model: Path, fitted: FittedModel, recordings: Path | None) -> Identified:
     from armscope.check.preconditions import check_table
-    from armscope.compensation import identified_on, load_identified
-    from armscope.compensation.physical import FILE
+    from armscope.compensation.physical import FILE, identified_on, load_identified
     from armscope.recordings import read_recordings
 
     if recordings is not None:

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from armscope.cli.commands import Commands
-from armscope.core.inputs import InputError
+from armscope.cli.studies import every_nth
 
 app = Commands("fleet", no_args_is_help=True)
 
@@ -27,10 +27,7 @@ def diagnose(
     from armscope.fleet.diagnosing import diagnose_members
     from armscope.fleet.members import read_fleet
 
-    number, _, parts = part.partition("/")
-    if not (number.isdecimal() and parts.isdecimal() and int(number) < int(parts)):
-        raise InputError("--part", "", part, "a number from 0, a slash and how many parts there are: 0/4 ... 3/4")
-    members = read_fleet(fleet)[int(number) :: int(parts)]
+    members = read_fleet(fleet)[every_nth(part)]
     diagnose_members(members, output, Settings(resamples=0, cross_validation=False))
 
 

@@ -7,12 +7,11 @@ from typing import Annotated
 
 import typer
 
-from armscope.cli.commands import Commands
-from armscope.core.inputs import InputError, folder_of
+from armscope.cli.commands import Commands, Output
+from armscope.cli.studies import read_seed, worlds_in
+from armscope.core.inputs import folder_of
 
 app = Commands("proof motion", no_args_is_help=True)
-
-Output = Annotated[Path, typer.Option("--output", "-o", help="where to write")]
 
 
 @app.command()
@@ -25,13 +24,10 @@ def worlds(
 ) -> None:
     """Make moving worlds: motions with concealed causes, and the truth in an archive of its own."""
     from armscope.cli.proof import size_of
-    from armscope.core.files import read_json
     from armscope.proof.motion.making import make
 
-    seed = read_json(seed_file, "the file of `armscope proof seed`")
-    if not isinstance(seed, dict) or not isinstance(seed.get("proof_seed"), int):
-        raise InputError(seed_file, "", "no proof_seed", "`armscope proof seed` writes this file")
-    make(seed["proof_seed"], size_of(size), folder_of(robots, "the moving arms"), visible, sealed)
+    seed = read_seed(seed_file)["proof_seed"]
+    make(seed, size_of(size), folder_of(robots, "the moving arms"), visible, sealed)
 
 
 @app.command()
@@ -42,8 +38,7 @@ def diagnose(
     """Diagnose every world of a folder and predict its test path, each by its visible files alone."""
     from armscope.proof.motion.diagnosing import diagnose_worlds
 
-    found = sorted(path for path in folder_of(visible, "worlds").iterdir() if path.is_dir() and path.name[0] != ".")
-    diagnose_worlds(found, output)
+    diagnose_worlds(worlds_in(visible), output)
 
 
 @app.command()

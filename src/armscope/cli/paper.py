@@ -8,13 +8,12 @@ from typing import Annotated, Any
 import typer
 
 from armscope.cli import paper_judging, paper_pages
-from armscope.cli.commands import WRITTEN, Commands
+from armscope.cli.commands import WRITTEN, Commands, Output
 from armscope.cli.studies import (
     Errors,
     Fits,
     ManyErrors,
     ManyFits,
-    Output,
     Poses,
     Residuals,
     Settings,

@@ -7,11 +7,10 @@ from typing import Annotated
 
 import typer
 
-from armscope.cli.commands import WRITTEN, Commands
+from armscope.cli.commands import WRITTEN, Commands, Output
 from armscope.cli.studies import (
     ManyErrors,
     ManyFits,
-    Output,
     Poses,
     Settings,
     parsed,

@@ -93,11 +93,11 @@ def report(
     from armscope.core.files import read_table
     from armscope.report.pages.paper import PaperPage, write_table2
     from armscope.report.pages.paper_field import error_field
-    from armscope.report.pages.paper_outlook import Outlook, RealArm
+    from armscope.report.pages.paper_outlook import Outlook, ReproducedArm
     from armscope.robot import load_arm
 
     chosen = parsed(ReportSettings, settings)
-    arms = [RealArm(arm.title, Path(arm.folder) if arm.folder else None, arm.reason) for arm in chosen.real]
+    arms = [ReproducedArm(arm.title, Path(arm.folder) if arm.folder else None, arm.reason) for arm in chosen.real]
     table, audit = read_table(results / "table2.csv"), read_table(results / "audit.csv")
     write_table2(output.with_name("table2.html"), table, audit)
     left_over = read_table(compensation / "closed_loop_points.csv")

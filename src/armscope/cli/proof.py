@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import typer
 
 from armscope.cli import motion_proof
-from armscope.cli.commands import Commands
+from armscope.cli.commands import Commands, Output
+from armscope.cli.studies import every_nth, read_seed, worlds_in
 from armscope.core.inputs import InputError, folder_of, nearest
 
 app = Commands("proof", no_args_is_help=True)
 app.add_typer(motion_proof.app, name="motion", help="The same for arms in motion.")
-
-Output = Annotated[Path, typer.Option("--output", "-o", help="where to write")]
 
 
 @app.command()
@@ -44,14 +43,11 @@ def worlds(
     """Make a batch of worlds: recordings with concealed effects, and the truth in an archive of its own."""
     from armscope.proof.making import batch, make
 
-    number, _, parts = part.partition("/")
-    if not (number.isdecimal() and parts.isdecimal() and int(number) < int(parts)):
-        raise InputError("--part", "", part, "a number from 0, a slash and how many parts there are: 0/4 ... 3/4")
+    mine = every_nth(part)
     if half not in ("fixed", "fresh"):
         raise InputError("--half", "", half, "fixed or fresh")
-    drawn = _seed(seed_file)["proof_seed"] if seed_file else 0
-    chosen = batch(drawn, size_of(size), half == "fresh", int(number), int(parts))
-    make(chosen, robots, visible, sealed)
+    drawn = read_seed(seed_file)["proof_seed"] if seed_file else 0
+    make(batch(drawn, size_of(size), half == "fresh")[mine], robots, visible, sealed)
 
 
 @app.command()
@@ -66,8 +62,7 @@ def diagnose(
     from armscope.proof.diagnosing import diagnose_worlds
 
     settings = Settings(resamples=resamples, cross_validation=cross_validation)
-    found = sorted(path for path in folder_of(visible, "worlds").iterdir() if path.is_dir() and path.name[0] != ".")
-    diagnose_worlds(found, output, settings)
+    diagnose_worlds(worlds_in(visible), output, settings)
 
 
 @app.command()
@@ -111,7 +106,9 @@ def report(
     """One page: what the diagnosis finds, what it misses, and what it gets wrong."""
     from armscope.report.pages.proof import write_proof_page
 
-    write_proof_page(output, _scored(tables), folder_of(drawn, "the proof's figures"), _seed(seed_file), size_of(size))
+    write_proof_page(
+        output, _scored(tables), folder_of(drawn, "the proof's figures"), read_seed(seed_file), size_of(size)
+    )
 
 
 def _scored(tables: Path) -> Path:
@@ -119,15 +116,6 @@ def _scored(tables: Path) -> Path:
 
     read_table(folder_of(tables, "the proof's tables") / "aims.csv", what="a table of `armscope proof score`")
     return tables
-
-
-def _seed(path: Path) -> dict[str, Any]:
-    from armscope.core.files import read_json
-
-    content = read_json(path, "the file of `armscope proof seed`")
-    if not isinstance(content, dict) or not {"proof_seed", "drawn"} <= set(content):
-        raise InputError(path, "", "no proof_seed", "`armscope proof seed` writes this file")
-    return content
 
 
 def size_of(text: str) -> Literal["small", "full"]:

@@ -8,13 +8,11 @@ from typing import Annotated
 
 import typer
 
-from armscope.cli.commands import Commands
-from armscope.cli.studies import Settings, parsed
+from armscope.cli.commands import Commands, Output
+from armscope.cli.studies import Settings, parsed, read_seed
 from armscope.core.inputs import InputError, folder_of
 
 app = Commands("real", no_args_is_help=True)
-
-Output = Annotated[Path, typer.Option("--output", "-o", help="where to write")]
 
 
 @app.command()
@@ -99,7 +97,6 @@ def plant(
     seed_file: Annotated[Path | None, typer.Option(help="as `armscope proof seed` writes it; for fresh places")] = None,
 ) -> None:
     """Conceal known effects in real recordings: what may be seen, and the truth in an archive of its own."""
-    from armscope.core.files import read_json
     from armscope.real.making import Places, make_altered, make_original, make_withheld
     from armscope.real.settings import PlantSettings
     from armscope.real.staging import of_run, stage, with_payload
@@ -120,7 +117,7 @@ def plant(
         if verdict is None:
             raise InputError("--verdict", "", "nothing", "effects are sized by what the original's verdict leaves")
         level = read_verdict(verdict).residual_after_mm * 1e-3
-        drawn = read_json(seed_file, "the file of `armscope proof seed`")["proof_seed"] if seed_file else 0
+        drawn = read_seed(seed_file)["proof_seed"] if seed_file else 0
         seed = [chosen.seed, drawn, *chosen.title.encode()]
         make_altered(mine, chosen.effects, chosen.sizes, level, seed, places)
 
@@ -154,7 +151,6 @@ def report(
 
     import pandas as pd
 
-    from armscope.core.files import read_json
     from armscope.report.figures.real_proof import draw_all
     from armscope.report.pages.real_proof import write_real_proof_page
     from armscope.report.style import save_figure
@@ -164,8 +160,7 @@ def report(
     tables = {file.stem: pd.read_csv(file) if file.stat().st_size > 1 else pd.DataFrame() for file in files}
     for name, figure in draw_all(tables, named).items():
         save_figure(figure, output / "figures" / name, formats=("png", "svg"))
-    seed = read_json(seed_file, "the file of `armscope proof seed`")
-    write_real_proof_page(output / "report.html", tables, output / "figures", seed, named)
+    write_real_proof_page(output / "report.html", tables, output / "figures", read_seed(seed_file), named)
 
 
 @app.command()

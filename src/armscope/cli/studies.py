@@ -6,22 +6,21 @@ import gzip
 import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from armscope.core.inputs import InputError, Model, validate
+from armscope.core.inputs import InputError, Model, folder_of, validate
 
 if TYPE_CHECKING:
     import pandas as pd
 
-    from armscope.errormodels import FittedModel, ModelSpec
+    from armscope.errormodels import ModelSpec, SwarmFit
     from armscope.paper.measurements import Measurements
 
 Settings = Annotated[
     str, typer.Option(help="file (or text) in JSON: the parts of the configuration that this step follows")
 ]
-Output = Annotated[Path, typer.Option("--output", "-o", help="where to write")]
 Poses = Annotated[Path, typer.Argument(help="poses.csv of a study")]
 Errors = Annotated[Path, typer.Argument(help="errors.csv of a study")]
 Fits = Annotated[Path, typer.Argument(help="fits.json.gz of a study")]
@@ -50,6 +49,41 @@ def parsed(model: type[Model], settings: str) -> Model:
         place = f"line {error.lineno}, column {error.colno}"
         raise InputError(source, place, text, "this must be JSON", error.msg) from error
     return validate(model, content, source)
+
+
+def every_nth(part: str) -> slice:
+    """Which of many things a part like "0/4" takes: the first of four and every fourth after it.
+
+    Raises:
+        InputError: no part.
+    """
+    number, _, parts = part.partition("/")
+    if not (number.isdecimal() and parts.isdecimal() and int(number) < int(parts)):
+        raise InputError("--part", "", part, "a number from 0, a slash and how many parts there are: 0/4 ... 3/4")
+    return slice(int(number), None, int(parts))
+
+
+def worlds_in(folder: Path) -> list[Path]:
+    """The worlds of a folder, each a folder.
+
+    Raises:
+        InputError: there is no such folder.
+    """
+    return sorted(path for path in folder_of(folder, "worlds").iterdir() if path.is_dir() and path.name[0] != ".")
+
+
+def read_seed(path: Path) -> dict[str, Any]:
+    """The seed of a proof: proof_seed, and whether it was drawn.
+
+    Raises:
+        InputError: `armscope proof seed` has not written it.
+    """
+    from armscope.core.files import read_json
+
+    content = read_json(path, "the file of `armscope proof seed`")
+    if not isinstance(content, dict) or not {"proof_seed", "drawn"} <= set(content):
+        raise InputError(path, "", "no proof_seed", "`armscope proof seed` writes this file")
+    return content
 
 
 def tell(line: str) -> None:
@@ -101,7 +135,7 @@ def read_residuals(paths: Sequence[Path]) -> pd.DataFrame:
     return read_tables(paths, COLUMNS, "the table residuals.csv of a study")
 
 
-def write_fits(path: Path, fits: Sequence[FittedModel]) -> None:
+def write_fits(path: Path, fits: Sequence[SwarmFit]) -> None:
     """Fitted models as compressed JSON, the same bytes for the same fits."""
     from armscope.core.files import replacing
 
@@ -111,15 +145,15 @@ def write_fits(path: Path, fits: Sequence[FittedModel]) -> None:
         beside.write_bytes(gzip.compress(content, compresslevel=1, mtime=0))
 
 
-def read_fits(*paths: Path) -> list[FittedModel]:
+def read_fits(*paths: Path) -> list[SwarmFit]:
     """Fitted models that `write_fits` wrote, file by file."""
     from armscope.core.files import read_json
-    from armscope.errormodels import FittedModel
+    from armscope.errormodels import SwarmFit
 
     fits = []
     for path in paths:
         try:
-            fits += [FittedModel.from_dict(content) for content in read_json(path, "the file fits.json.gz of a study")]
+            fits += [SwarmFit.from_dict(content) for content in read_json(path, "the file fits.json.gz of a study")]
         except (KeyError, TypeError) as error:
             raise InputError(path, "", f"no {error}", "`armscope paper fit` writes the fits of a study") from error
     return fits

@@ -7,8 +7,8 @@ from typing import Annotated
 
 import typer
 
-from armscope.cli.commands import Commands
-from armscope.cli.studies import Errors, Output, Poses, Settings, parsed, read_measurements, read_tables
+from armscope.cli.commands import Commands, Output
+from armscope.cli.studies import Errors, Poses, Settings, parsed, read_measurements, read_tables
 
 app = Commands("sweep", no_args_is_help=True)
 

@@ -9,8 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from armscope.compensation.domain import Domain
 from armscope.core.types import Array
-from armscope.errormodels import FeatureSet, ModelSpec
-from armscope.errormodels import FittedModel as Fit
+from armscope.errormodels import FeatureSet, ModelSpec, SwarmFit
 from armscope.errormodels.products import ProductFeatures
 from armscope.errormodels.regions import Cut, weights
 from armscope.physics.model import Base
@@ -126,7 +125,7 @@ def _blend(
     return values, slopes
 
 
-def error_model(arm: Arm, fit: Fit, angles: Array, seed: int | None = None, base: Base | None = None) -> ErrorModel:
+def error_model(arm: Arm, fit: SwarmFit, angles: Array, seed: int | None = None) -> ErrorModel:
     """A fit of `armscope.errormodels` as a model to compensate with.
 
     Args:
@@ -134,7 +133,6 @@ def error_model(arm: Arm, fit: Fit, angles: Array, seed: int | None = None, base
         fit: fitted to x, y and z.
         angles: (M, m) its identification rows, rad.
         seed: whose swarm; None takes, per axis, the one with the smallest residual; -1 the least-squares fit.
-        base: measurement frame from base frame; None: they are the same.
 
     Returns:
         The model with the range in which it holds.
@@ -146,7 +144,7 @@ def error_model(arm: Arm, fit: Fit, angles: Array, seed: int | None = None, base
         number = fit.best_seeds if seed is None else np.full(len(axes), fit.seeds.index(seed))
         chosen, rms, method = fit.coefficients[number, axes], fit.fitness_mm[number, axes], fit.method
     domain = domain_of(arm, fit.features.spec, angles)
-    return ErrorModel(arm, fit.features, chosen[None], method, rms, base or Base(np.eye(3), np.zeros(3)), domain)
+    return ErrorModel(arm, fit.features, chosen[None], method, rms, Base(np.eye(3), np.zeros(3)), domain)
 
 
 def domain_of(arm: Arm, spec: ModelSpec, angles: Array) -> Domain:

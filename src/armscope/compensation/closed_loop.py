@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
 
 from armscope.compensation.black_box import ErrorModel
-from armscope.compensation.compensate import Options, compensate_black_box, compensate_physical
+from armscope.compensation.compensate import compensate_black_box, compensate_physical
 from armscope.compensation.path import WantedPath, as_path
 from armscope.compensation.physical import Identified
 from armscope.compensation.result import Compensated
+from armscope.compensation.task import Options
 from armscope.core.types import Array
 from armscope.physics.model import FittedModel, predict
-from armscope.recordings.table import as_recordings
+from armscope.recordings.columns import angle_columns
+from armscope.recordings.table import unmeasured
 from armscope.robot import Arm, chain
 
-STAGES = ("fit", "prediction", "closed loop")
 ERROR_COLUMNS = ["dx_mm", "dy_mm", "dz_mm"]
 NO_MODEL = "Uncompensated"
 """The negative control: the nominal commands."""
@@ -64,12 +65,10 @@ def black_box_candidate(model: ErrorModel) -> Corrector:
 
 def physical_candidate(model: FittedModel, identified: Identified) -> Corrector:
     """Diagnosed physics; measurements stand in the measurement frame that it was diagnosed in."""
-    motors = [f"q{motor}_rad" for motor in range(1, model.arm.n_motors + 1)]
     run, options = list(model.bases)[-1], Options(frame="measurement")
 
     def points(angles: Array) -> Array:
-        rows = as_recordings(pd.DataFrame(angles, columns=motors), measured=False)
-        return predict(model, replace(rows, run=np.full(len(rows), run)))
+        return predict(model, unmeasured(angles, run))
 
     return Corrector(points, lambda path: compensate_physical(model, identified, path, options))
 
@@ -129,7 +128,7 @@ def cross_table(left: pd.DataFrame) -> pd.DataFrame:
 
 def _as_wanted(arm: Arm, path: MeasuredPath, name: str) -> WantedPath:
     """Points wanted on the branch of the nominal commands."""
-    columns = {f"q{motor}_rad": angles for motor, angles in enumerate(path.motor_angles.T, start=1)}
+    columns = angle_columns(path.motor_angles)
     columns |= {f"{axis}_mm": path.wanted_mm[:, n] for n, axis in enumerate("xyz")}
     return as_path(pd.DataFrame(columns), f"trajectory {name}", arm)
 

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from armscope.compensation.black_box import ErrorModel, Turning, domain_of
+from armscope.core.averages import rms, rms_distance
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.errormodels import FeatureSet, FitProblem, ModelSpec, fit_least_squares, fit_swarms
@@ -21,6 +22,8 @@ from armscope.errormodels.regions import (
     fit_regions,
     halvings_of,
 )
+from armscope.fitting.constants import STEPS
+from armscope.fitting.placement import FlangePoses, all_alike, place_frames
 from armscope.physics.model import Base
 from armscope.recordings import Recordings
 from armscope.robot import Arm, chain
@@ -73,12 +76,12 @@ def fit_error_model(
         arm, base = register_frames(arm, recordings)
     frames = chain(arm, recordings.motor_angles)
     errors = ((recordings.positions - base.translation) @ base.rotation - frames.tool) * 1e3
-    rms = float(np.sqrt(np.mean(errors**2)))
-    if not register and rms > LARGEST_PLAIN_ERROR_MM:
+    off = rms(errors)
+    if not register and off > LARGEST_PLAIN_ERROR_MM:
         raise InputError(
             recordings.source,
             "x_mm, y_mm, z_mm",
-            f"{rms:.0f} mm RMS from the nominal arm",
+            f"{off:.0f} mm RMS from the nominal arm",
             f"errors are differences in the arm's base frame, below {LARGEST_PLAIN_ERROR_MM:.0f} mm",
             "Use --register to fit the measurement frame and the tool offset first.",
         )
@@ -149,10 +152,7 @@ def _turning(
     how: _How, cut: Cut | None, arm: Arm, recordings: Recordings, base: Base, register: bool
 ) -> Turning | None:
     """The same terms fitted to the orientation's errors; None where none were measured."""
-    if recordings.orientation is None:
-        return None
-    known = np.asarray(np.isfinite(recordings.orientation).all(axis=1))
-    rows = recordings.rows(known)
+    rows = recordings.rows(recordings.oriented)
     if not len(rows):
         return None
     _check_rows(how, arm, rows, "rows with an orientation")
@@ -179,20 +179,19 @@ def turning_errors(arm: Arm, rows: Recordings, base: Base, register: bool) -> tu
     Raises:
         InputError: orientations of another frame.
     """
-    assert rows.orientation is not None
-    measured = Rotation.from_quat(rows.orientation[:, [1, 2, 3, 0]]).as_matrix()
+    measured = Rotation.from_quat(rows.quaternions, scalar_first=True).as_matrix()
     nominal = chain(arm, rows.motor_angles).tool_rotation
     in_base = base.rotation.T @ measured
     tool = np.eye(3)
     if register:
         tool = Rotation.from_matrix(np.swapaxes(nominal, 1, 2) @ in_base).mean().as_matrix()
     turns = Rotation.from_matrix(in_base @ tool.T @ np.swapaxes(nominal, 1, 2)).as_rotvec()
-    rms = float(np.sqrt(np.mean(np.sum(turns**2, axis=1))))
-    if rms > LARGEST_PLAIN_TURN_RAD:
+    off = rms_distance(turns)
+    if off > LARGEST_PLAIN_TURN_RAD:
         raise InputError(
             rows.source,
             "qw, qx, qy, qz",
-            f"{np.degrees(rms):.0f} degrees RMS from the nominal arm",
+            f"{np.degrees(off):.0f} degrees RMS from the nominal arm",
             f"errors of the orientation are below {np.degrees(LARGEST_PLAIN_TURN_RAD):.0f} degrees",
             "Is it the order wxyz, measurement frame from tool frame? "
             + ("--no-orientation leaves them out." if register else "--register fits the tool's own turn."),
@@ -206,25 +205,12 @@ def register_frames(arm: Arm, recordings: Recordings) -> tuple[Arm, Base]:
     Returns:
         The arm with that tool offset, and measurement frame from base frame.
     """
-    frames = chain(arm, recordings.motor_angles)
-    last = frames.tool - frames.tool_rotation @ arm.tool
-    tool, measured = arm.tool.copy(), recordings.positions
-    rotation = _aligned(measured, frames.tool)
-    translation = np.zeros(3)
-    for _ in range(100):
-        points = last + frames.tool_rotation @ tool
-        turned = points @ rotation.T
-        turning = np.swapaxes(np.cross(np.eye(3)[None], turned[:, None, :]), 1, 2)
-        shifting = np.broadcast_to(np.eye(3), turning.shape)
-        columns = np.concatenate([turning, shifting, rotation @ frames.tool_rotation], axis=2)
-        gap = measured - turned - translation
-        step = np.linalg.lstsq(columns.reshape(-1, 9), gap.reshape(-1), rcond=1e-10)[0]
-        rotation = Rotation.from_rotvec(step[:3]).as_matrix() @ rotation
-        translation, tool = translation + step[3:6], tool + step[6:]
-        if np.abs(step).max() < 1e-12:
-            break
-    description = arm.description.model_copy(update={"tool_mm": tuple(float(value) for value in tool * 1e3)})
-    return build_arm(description), Base(rotation, translation)
+    frames, one = chain(arm, recordings.motor_angles), np.zeros(len(recordings), dtype=np.intp)
+    flange = frames.tool - frames.tool_rotation @ arm.tool
+    poses = FlangePoses(flange, frames.tool_rotation, recordings.positions, base=one, tool=one)
+    placed = place_frames(poses, poses.start(arm.tool[None], 1), STEPS.registration, all_alike).state
+    description = arm.description.model_copy(update={"tool_mm": tuple((placed.tools[0] * 1e3).tolist())})
+    return build_arm(description), Base(placed.rotations[0], placed.translations[0])
 
 
 def _inputs(arm: Arm, spec: ModelSpec, angles: Array) -> Array:
@@ -250,10 +236,3 @@ def _check_one_setup(recordings: Recordings) -> None:
                 f"a black-box model is fitted to one {column}: it has one set of frames",
                 f"Choose one with --{column}.",
             )
-
-
-def _aligned(measured: Array, points: Array) -> Array:
-    """The rotation that turns points into measured ones best, both about their middle."""
-    turn, _ = Rotation.align_vectors(measured - measured.mean(axis=0), points - points.mean(axis=0))
-    matrix: Array = turn.as_matrix()
-    return matrix

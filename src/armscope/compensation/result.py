@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation
 from armscope.compensation.path import Frame
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
+from armscope.recordings.columns import angle_columns
 from armscope.robot import Arm
 
 
@@ -68,11 +69,9 @@ class Compensated:
 
     def to_table(self) -> pd.DataFrame:
         """One row per row of the path, refused ones with their reason and without commands."""
-        table = pd.DataFrame({"id": self.id, "run": self.run})
-        table["status"] = np.where(self.reached, "ok", "refused")
-        table["reason"] = self.reasons
-        for motor, angles in enumerate(self.commands.T, start=1):
-            table[f"q{motor}_rad"] = angles
+        status = np.where(self.reached, "ok", "refused")
+        head = {"id": self.id, "run": self.run, "status": status, "reason": self.reasons}
+        table = pd.DataFrame(head | angle_columns(self.commands))
         quaternions = np.full((len(table), 4), np.nan)
         if self.reached.any():
             turned = Rotation.from_matrix(self.false_rotations[self.reached]).as_quat(canonical=True)

@@ -35,9 +35,6 @@ SOURCES: Mapping[str, str] = MappingProxyType(
 )
 """Where each index comes from."""
 
-IDENTIFIABLE = 1e-6
-"""A combination of parameters counts as identifiable above this share of the largest singular value."""
-
 
 def observability(index: str, singular: Array, poses: int) -> Array:
     """An index (..) from singular values (.., p) of the stacked Jacobian of so many poses; 0 where one of them is 0.
@@ -84,11 +81,3 @@ def all_indices(jacobian: Array) -> dict[str, float]:
     if len(singular) < jacobian.shape[2]:
         return dict.fromkeys(SOURCES, 0.0)
     return {index: float(observability(index, singular, len(jacobian))) for index in SOURCES}
-
-
-def identifiable_combinations(jacobian: Array) -> Array:
-    """The Jacobian (N, 3, K) by the combinations of parameters (N, 3, p) that the candidates can show at all."""
-    _, singular, directions = np.linalg.svd(jacobian.reshape(-1, jacobian.shape[2]), full_matrices=False)
-    kept = directions[singular > IDENTIFIABLE * singular[0]]
-    combined: Array = jacobian @ kept.T
-    return combined

@@ -215,6 +215,9 @@ class NamingRules(Constants):
         1.0, "by which what fits alike may fit worse", "derived: a likelihood ratio of e is no evidence", unit="nats"
     )
     looked_at: int = constant(12, "weighed in an effect's place", "judgement: time", unit="additions")
+    asked_elsewhere: int = constant(
+        24, "of which held-out rows are asked, the nearest first", "judgement: time", unit="alternatives"
+    )
     coarsely: float = constant(
         0.25,
         "share of what taking an effect out costs by which predictions may miss",

@@ -12,7 +12,7 @@ from armscope.errormodels.features import (
     FeatureSet,
     ModelSpec,
 )
-from armscope.errormodels.fitted import FittedModel, Layout
+from armscope.errormodels.fitted import Layout, SwarmFit
 from armscope.errormodels.least_squares import fit_least_squares
 from armscope.errormodels.swarm_fit import FitProblem, fit_random_search, fit_swarms
 
@@ -28,9 +28,9 @@ __all__ = [
     "BasisKind",
     "FeatureSet",
     "FitProblem",
-    "FittedModel",
     "Layout",
     "ModelSpec",
+    "SwarmFit",
     "fit_least_squares",
     "fit_random_search",
     "fit_swarms",

@@ -24,7 +24,7 @@ class Layout(StrEnum):
 
 
 @dataclass(frozen=True)
-class FittedModel:
+class SwarmFit:
     """One model fitted to one set of rows, by swarms of several seeds; S seeds, A axes, n terms.
 
     Attributes:
@@ -124,10 +124,6 @@ class FittedModel:
         """The predictions of all seeds in mm, S x N x A."""
         return np.asarray(np.matmul(self.features.matrix(inputs), self.coefficients.transpose(0, 2, 1)))
 
-    def predict_least_squares(self, inputs: ArrayLike) -> Array:
-        """The predictions of the least-squares coefficients in mm, N x A."""
-        return self.features.matrix(inputs) @ self.least_squares.T
-
     def to_dict(self, history: bool = False) -> dict[str, Any]:
         """Plain values for YAML or JSON; the histories, which are long, only if asked for."""
         content = {
@@ -154,14 +150,14 @@ class FittedModel:
         return content
 
     @staticmethod
-    def from_dict(content: dict[str, Any]) -> FittedModel:
+    def from_dict(content: dict[str, Any]) -> SwarmFit:
         """The inverse of `to_dict`; histories that were not kept come back as their first axes with no columns."""
         fitness = np.array(content["fitness_mm"], dtype=float)
         iterations = np.array(content["iterations"], dtype=np.int64)
         shape = iterations.shape
         reasons = np.empty(shape, dtype=object)
         reasons[:] = [[StopReason(sentence) for sentence in of_seed] for of_seed in content["reasons"]]
-        return FittedModel(
+        return SwarmFit(
             label=content["label"],
             features=FeatureSet.from_dict(content["features"]),
             basis=BasisKind(content["basis"]),

@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike
 
 from armscope.core.types import Array
 from armscope.errormodels.features import STILL, ModelSpec, checked_inputs, input_names
+from armscope.errormodels.folds import FOLDS, compare_sizes, fold_numbers
 
 Factor = tuple[int, str, int]
 """(input, "T" or "cos" or "sin", order)."""
@@ -132,13 +133,12 @@ class ProductFeatures:
         return np.asarray(angle * slope)
 
 
-def candidate_terms(spec: ModelSpec, half_range: Array, most_inputs: int = MOST_INPUTS) -> tuple[Term, ...]:
-    """All products of total order up to ``spec.order`` between inputs that move; the constant first.
+def candidate_terms(spec: ModelSpec, half_range: Array) -> tuple[Term, ...]:
+    """All products of up to `MOST_INPUTS` inputs that move, of total order up to ``spec.order``; the constant first.
 
     Args:
         spec: the model's input, degree and kind.
         half_range: (k,) half of each input's range; an input with none stands still and enters no product.
-        most_inputs: how many inputs a product may join.
 
     Returns:
         The terms by total order, then by how many inputs they join.
@@ -151,13 +151,13 @@ def candidate_terms(spec: ModelSpec, half_range: Array, most_inputs: int = MOST_
     terms: list[Term] = []
     for chosen in product(*options):
         term = tuple(factor for factor in chosen if factor is not None)
-        if len(term) <= most_inputs and sum(order for _, _, order in term) <= spec.order:
+        if len(term) <= MOST_INPUTS and sum(order for _, _, order in term) <= spec.order:
             terms.append(term)
     return tuple(sorted(terms, key=lambda term: (sum(order for _, _, order in term), len(term), term)))
 
 
 def fit_products(
-    spec: ModelSpec, inputs: ArrayLike, errors_mm: Array, rng: np.random.Generator, folds: int = 5
+    spec: ModelSpec, inputs: ArrayLike, errors_mm: Array, rng: np.random.Generator
 ) -> tuple[ProductFeatures, Array, pd.DataFrame]:
     """Choose terms and fit them.
 
@@ -166,21 +166,19 @@ def fit_products(
         inputs: (M, k) identification rows.
         errors_mm: (M, A).
         rng: draws the folds.
-        folds: of the cross-validation.
 
     Returns:
-        The chosen terms; their coefficients (A, n), mm; and a table: terms, fit_rms_mm, held_out_rms_mm, stderr_mm (RMS
-        of the error vector), chosen.
+        The chosen terms; their coefficients (A, n), mm; and the table of `compare_sizes`.
     """
     table = checked_inputs(inputs)
     centre, half_range = _standard(spec, table)
     terms = candidate_terms(spec, half_range)
     columns = ProductFeatures(spec, centre, half_range, terms).matrix(table)
-    most = max(1, int(LARGEST_SHARE * len(table) * (folds - 1) / folds))
+    most = max(1, int(LARGEST_SHARE * len(table) * (FOLDS - 1) / FOLDS))
     order = _greedy(columns, errors_mm, most)
-    fold_of = rng.permutation(np.arange(len(table)) % folds)
-    held_out = np.full((folds, len(order)), np.nan)
-    for fold in range(folds):
+    fold_of = fold_numbers(len(table), rng)
+    held_out = np.full((FOLDS, len(order)), np.nan)
+    for fold in range(FOLDS):
         kept = fold_of != fold
         steps = _greedy(columns[kept], errors_mm[kept], len(order))
         missed = _missed(columns[kept], errors_mm[kept], columns[~kept], errors_mm[~kept], steps)
@@ -228,22 +226,8 @@ def _missed(columns: Array, errors: Array, at: Array, true: Array, steps: list[i
 
 def _compared(fit: Array, held_out: Array) -> pd.DataFrame:
     """The table of `fit_products`; numbers of terms that not every fold reached are left out."""
-    complete = np.isfinite(held_out).all(axis=0)
-    fit, held_out = fit[complete], held_out[:, complete]
-    rms = np.sqrt(held_out.mean(axis=0))
-    stderr = held_out.std(axis=0, ddof=1) / np.sqrt(len(held_out)) / (2 * np.maximum(rms, 1e-300))
-    best = int(np.argmin(rms))
-    first = int(np.flatnonzero(rms <= rms[best] + stderr[best])[0])
-    counts = np.arange(1, len(rms) + 1)
-    return pd.DataFrame(
-        {
-            "terms": counts,
-            "fit_rms_mm": np.sqrt(fit),
-            "held_out_rms_mm": rms,
-            "stderr_mm": stderr,
-            "chosen": counts == first + 1,
-        }
-    )
+    complete = np.flatnonzero(np.isfinite(held_out).all(axis=0))
+    return compare_sizes("terms", complete + 1, fit[complete], held_out[:, complete])
 
 
 def _factor_name(inputs: tuple[str, ...], factor: Factor) -> str:

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from armscope.core.types import Array
 from armscope.errormodels.features import FeatureSet, ModelSpec, checked_inputs
+from armscope.errormodels.folds import FOLDS, compare_sizes, fold_numbers
 from armscope.errormodels.products import ProductFeatures
 
 OVERLAP = 0.5
@@ -152,12 +153,7 @@ def blended(features: FeatureSet | ProductFeatures, cut: Cut | None, coefficient
 
 
 def compare_regions(
-    spec: ModelSpec,
-    inputs: ArrayLike,
-    errors_mm: Array,
-    rng: np.random.Generator,
-    most_halvings: int = 4,
-    folds: int = 5,
+    spec: ModelSpec, inputs: ArrayLike, errors_mm: Array, rng: np.random.Generator, most_halvings: int = 4
 ) -> pd.DataFrame:
     """Held-out error by number of regions.
 
@@ -165,33 +161,26 @@ def compare_regions(
         spec: the model of every region.
         inputs: (M, k) identification rows.
         errors_mm: (M, axes).
-        rng: draws the folds.
+        rng: draws the folds; borders and fits are made anew in each.
         most_halvings: at most 2^this regions are tried; fewer where rows run out.
-        folds: of the cross-validation; borders and fits are made anew in each.
 
     Returns:
-        Columns regions, fit_rms_mm, held_out_rms_mm (RMS of the error vector), stderr_mm (of the held-out RMS, from the
-        scatter of the folds), and chosen: the fewest regions within one standard error of the best.
+        See `compare_sizes`; empty where the rows are too few for any.
     """
     table = checked_inputs(inputs)
-    fold_of = rng.permutation(np.arange(len(table)) % folds)
-    rows = []
+    fold_of = fold_numbers(len(table), rng)
+    fit, held_out = [], []
     for halvings in range(most_halvings + 1):
         try:
             left = errors_mm - _predicted(spec, halvings, table, errors_mm, table)
-            held_out = np.array([_missed(spec, halvings, table, errors_mm, fold_of == fold) for fold in range(folds)])
+            missed = [_missed(spec, halvings, table, errors_mm, fold_of == fold) for fold in range(FOLDS)]
         except ValueError:
             break
-        rms = np.sqrt(held_out.mean())
-        stderr = held_out.std(ddof=1) / np.sqrt(folds) / (2 * rms) if rms > 0 else 0.0
-        rows.append((2**halvings, np.sqrt(np.mean(np.sum(left**2, axis=1))), rms, stderr))
-    compared = pd.DataFrame(rows, columns=["regions", "fit_rms_mm", "held_out_rms_mm", "stderr_mm"])
-    if len(compared):
-        held_out = compared["held_out_rms_mm"].to_numpy(dtype=float)
-        best = int(np.argmin(held_out))
-        enough = np.flatnonzero(held_out <= held_out[best] + compared["stderr_mm"].to_numpy(dtype=float)[best])
-        compared["chosen"] = np.arange(len(compared)) == enough[0]
-    return compared
+        fit.append(np.mean(np.sum(left**2, axis=1)))
+        held_out.append(missed)
+    if not fit:
+        return pd.DataFrame()
+    return compare_sizes("regions", 2 ** np.arange(len(fit)), np.array(fit), np.array(held_out).T)
 
 
 def _missed(spec: ModelSpec, halvings: int, inputs: Array, errors_mm: Array, held_out: NDArray[np.bool_]) -> float:

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 from armscope.core.types import Array
 from armscope.errormodels.basis import Basis, BasisKind, make_basis
 from armscope.errormodels.features import FeatureSet, ModelSpec, checked_inputs
-from armscope.errormodels.fitted import FittedModel, Layout
+from armscope.errormodels.fitted import Layout, SwarmFit
 from armscope.errormodels.least_squares import fit_least_squares
 from armscope.swarm import LeastSquares, SwarmResult, SwarmSettings, minimise_least_squares
 from armscope.swarm.random_search import random_search
@@ -50,7 +50,7 @@ def fit_swarms(
     basis: BasisKind | str = BasisKind.QR,
     engine: str = "auto",
     layout: Layout | str = Layout.PER_AXIS,
-) -> list[FittedModel]:
+) -> list[SwarmFit]:
     """Fit every problem by swarms, one per seed and axis, or one per seed.
 
     A fit depends on its own problem, label, seed and settings only, not on what else is in the batch or in which order.
@@ -83,7 +83,7 @@ def fit_random_search(
     settings: SwarmSettings | None = None,
     basis: BasisKind | str = BasisKind.QR,
     layout: Layout | str = Layout.PER_AXIS,
-) -> list[FittedModel]:
+) -> list[SwarmFit]:
     """The baseline: as `fit_swarms`, in the same box, with as many evaluations, but of independent random points.
 
     Args:
@@ -198,13 +198,13 @@ def _prepared(problems: Sequence[FitProblem], job: _Job) -> list[_Prepared]:
     return [prepared[k] for k in range(len(problems))]
 
 
-def _fit(problems: Sequence[FitProblem], seeds: Sequence[int], job: _Job, search: Search) -> list[FittedModel]:
+def _fit(problems: Sequence[FitProblem], seeds: Sequence[int], job: _Job, search: Search) -> list[SwarmFit]:
     if not len(problems):
         return []
     if not len(seeds) or len(set(seeds)) < len(seeds) or any(seed < 0 for seed in seeds):
         raise ValueError(f"seeds = {list(seeds)!r}: must be different whole numbers, 0 or more, at least one")
     prepared = _prepared(problems, job)
-    fitted: dict[int, FittedModel] = {}
+    fitted: dict[int, SwarmFit] = {}
     for dimensions in sorted({each.dimensions for each in prepared}):
         chosen = [k for k, each in enumerate(prepared) if each.dimensions == dimensions]
         result = _search_together([prepared[k] for k in chosen], seeds, search)
@@ -236,11 +236,11 @@ def _search_together(group: list[_Prepared], seeds: Sequence[int], search: Searc
     return search(objective, -box, box, generators)
 
 
-def _fitted(each: _Prepared, seeds: Sequence[int], result: SwarmResult, swarms: slice, job: _Job) -> FittedModel:
+def _fitted(each: _Prepared, seeds: Sequence[int], result: SwarmResult, swarms: slice, job: _Job) -> SwarmFit:
     shape = (len(seeds), each.swarms_per_seed)
     coordinates = result.positions[swarms].reshape(len(seeds), len(each.axes), -1)
     fitness = result.fitness[swarms].reshape(shape)
-    return FittedModel(
+    return SwarmFit(
         label=each.problem.label,
         features=each.features,
         basis=each.basis.kind,

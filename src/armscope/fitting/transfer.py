@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 
+from armscope.core.averages import rms_distance
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.fitting.constants import STEPS
@@ -103,10 +104,10 @@ def transfer(
             [part for part in model.background if not any(part is p for p in background)],
         ),
         refitted=frames,
-        without_mm=_distance(before),
-        with_mm=_distance(left),
+        without_mm=rms_distance(before),
+        with_mm=rms_distance(left),
         per_run={
-            str(run): (_distance(before[recordings.run == run]), _distance(left[recordings.run == run]))
+            str(run): (rms_distance(before[recordings.run == run]), rms_distance(left[recordings.run == run]))
             for run in np.unique(recordings.run)
         },
         model=own,
@@ -209,8 +210,3 @@ class _Frames(NonlinearProblem[FittedModel, Array]):
 
     def settled(self, before: Array, after: Array) -> bool:
         return float(np.abs(after - before).max()) < STEPS.negligible_mm
-
-
-def _distance(errors: Array) -> float:
-    """RMS of the 3D distance."""
-    return float(np.sqrt(np.mean(np.sum(errors**2, axis=1))))

@@ -97,25 +97,6 @@ class ChannelResiduals:
         return any(channel.name == name for channel in self.by_channel)
 
 
-def linear_response(channel: Channel, model: FittedModel, posture: Posture) -> Array:
-    """(n, width) what a model's effects add up to in a channel that sees them linearly.
-
-    Args:
-        channel: what is looked at.
-        model: whose effects they are.
-        posture: the arm's, in n rows.
-
-    Returns:
-        (n, width) in the channel's unit, SI.
-    """
-    total = np.zeros((len(posture.scene), channel.width))
-    for direction, amount in posture.scene.amounts(model.everything).items():
-        seen = channel.sensitivity(posture, direction)
-        if seen is not None:
-            total += seen * amount[:, None]
-    return total
-
-
 def nuisances(channels: Sequence[Channel], recordings: Recordings, tool_per_run: bool) -> list[Placed]:
     """The always-free terms of all channels.
 

@@ -16,21 +16,15 @@ from armscope.check import check as check_table
 from armscope.check.preconditions import check_table as usable_rows
 from armscope.comparison import Comparison
 from armscope.comparison import compare as compare_recordings
-from armscope.compensation import (
-    Compensated,
-    ErrorModel,
-    Options,
-    WantedPath,
-    as_path,
-    compensate_black_box,
-    compensate_physical,
-    identified_on,
-    load_error_model,
-    load_identified,
-    read_path,
-)
+from armscope.compensation.black_box import ErrorModel
+from armscope.compensation.compensate import compensate_black_box, compensate_physical
+from armscope.compensation.error_model_file import load_error_model
+from armscope.compensation.path import WantedPath, as_path, read_path
 from armscope.compensation.physical import FILE as DOMAIN
+from armscope.compensation.physical import identified_on, load_identified
 from armscope.compensation.predicting import points_table, predict_file
+from armscope.compensation.result import Compensated
+from armscope.compensation.task import Options
 from armscope.core.inputs import InputError
 from armscope.diagnosis import Settings
 from armscope.diagnosis import diagnose as diagnose_arm

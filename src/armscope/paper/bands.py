@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from armscope.core.types import Array
-from armscope.errormodels import FittedModel
+from armscope.errormodels import SwarmFit
 from armscope.paper.measurements import Measurements
 from armscope.paper.table2 import ENSEMBLE_RANGE
 
@@ -17,7 +17,7 @@ COLUMNS = ["trajectory", "model", "point"]
 LOW, HIGH = ["low_x_mm", "low_y_mm", "low_z_mm"], ["high_x_mm", "high_y_mm", "high_z_mm"]
 
 
-def ensemble_bands(measurements: Measurements, fits: Sequence[FittedModel]) -> pd.DataFrame:
+def ensemble_bands(measurements: Measurements, fits: Sequence[SwarmFit]) -> pd.DataFrame:
     """5 and 95 % of the robots at every point.
 
     Args:

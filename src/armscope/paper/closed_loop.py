@@ -21,10 +21,11 @@ from armscope.compensation.closed_loop import (
 from armscope.compensation.physical import identified_on
 from armscope.core.types import Array
 from armscope.diagnosis import Settings, diagnose
-from armscope.errormodels import FittedModel
+from armscope.errormodels import SwarmFit
 from armscope.errormodels.extended import ExtendedModel, ModelSet, with_products, with_regions
 from armscope.paper.measurements import Measurements, PoseSet
 from armscope.physics.model import Base
+from armscope.recordings.columns import angle_columns
 from armscope.recordings.table import as_recordings
 from armscope.robot import Arm
 from armscope.world.tolerances import geometric_errors
@@ -36,7 +37,7 @@ NO_MORE = ModelSet()
 def paper_closed_loop(
     arm: Arm,
     measurements: Measurements,
-    fits: Sequence[FittedModel],
+    fits: Sequence[SwarmFit],
     errors: Array,
     models: ModelSet = NO_MORE,
     diagnosed: bool = True,
@@ -94,7 +95,7 @@ def _error_model(arm: Arm, model: ExtendedModel, rows: PoseSet) -> ErrorModel:
     return ErrorModel(arm, model.features, model.coefficients, "least squares", rms_mm, base, domain, model.cut)
 
 
-def real_left_over(measurements: Measurements, fits: Sequence[FittedModel], models: ModelSet = NO_MORE) -> pd.DataFrame:
+def real_left_over(measurements: Measurements, fits: Sequence[SwarmFit], models: ModelSet = NO_MORE) -> pd.DataFrame:
     """What is left at every point of a real arm's recordings, by model: fitted rows and held-out rows, by prediction.
 
     Such an arm can't be sent anywhere: what is left of its held-out errors is what a correction would leave, to first
@@ -110,7 +111,7 @@ def real_left_over(measurements: Measurements, fits: Sequence[FittedModel], mode
     """
     rows = measurements.identification
     found: dict[str, Callable[[PoseSet], Array]] = {NO_MODEL: lambda each: np.zeros_like(each.errors_mm[0])}
-    fitted: list[FittedModel | ExtendedModel] = [*fits, *_extended(models, rows)]
+    fitted: list[SwarmFit | ExtendedModel] = [*fits, *_extended(models, rows)]
     found |= {model.name: _predictor(model) for model in fitted}
     return pd.concat(
         [
@@ -122,12 +123,12 @@ def real_left_over(measurements: Measurements, fits: Sequence[FittedModel], mode
     )
 
 
-def _predictor(model: FittedModel | ExtendedModel) -> Callable[[PoseSet], Array]:
+def _predictor(model: SwarmFit | ExtendedModel) -> Callable[[PoseSet], Array]:
     return lambda poses: model.predict(poses.inputs(model.features.spec))
 
 
 def _diagnosed(arm: Arm, identification: PoseSet) -> Corrector:
-    columns = {f"q{motor}_rad": angles for motor, angles in enumerate(identification.motor_angles.T, start=1)}
+    columns = angle_columns(identification.motor_angles)
     measured = identification.nominal_mm + identification.errors_mm[0]
     columns |= {f"{axis}_mm": measured[:, n] for n, axis in enumerate("xyz")}
     recordings = replace(as_recordings(pd.DataFrame(columns)), source="identification")

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
-from armscope.errormodels import FittedModel
+from armscope.errormodels import SwarmFit
 from armscope.paper.printed import EQUATIONS, printed_coefficients
 
 
-def coefficient_table(fits: Sequence[FittedModel]) -> pd.DataFrame:
+def coefficient_table(fits: Sequence[SwarmFit]) -> pd.DataFrame:
     """One row per model, axis and term of one robot's fits.
 
     Args:

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
-from armscope.errormodels import FitProblem, FittedModel, fit_random_search, fit_swarms
+from armscope.errormodels import FitProblem, SwarmFit, fit_random_search, fit_swarms
 from armscope.swarm import SwarmSettings
 
 RULES: dict[str, dict[str, object]] = {
@@ -49,7 +49,7 @@ def convergence(
     return pd.concat([*tables, *(_history(RANDOM_SEARCH, fit) for fit in baseline)], ignore_index=True)
 
 
-def _history(rule: str, fit: FittedModel) -> pd.DataFrame:
+def _history(rule: str, fit: SwarmFit) -> pd.DataFrame:
     optimum = fit.optimum_mm[None, :, None]
     excess = (100 * (fit.history_mm / optimum - 1)).clip(min=SMALLEST_PERCENT).reshape(-1, fit.history_mm.shape[2])
     return pd.DataFrame(

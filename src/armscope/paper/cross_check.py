@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 
 from armscope.core.types import Array
-from armscope.errormodels import FittedModel
+from armscope.errormodels import SwarmFit
 from armscope.paper.printed import AXES, EQUATIONS, printed_features, printed_matrix, printed_table2
 from armscope.paper.residuals import typical
 
@@ -21,7 +21,7 @@ RANGE = (5, 95)
 UNTOLD_MODELS = ("FDP(AI)", "SDP(CI)", "SDP(AI)")
 
 
-def cross_check(residuals: pd.DataFrame, fits: Sequence[FittedModel]) -> pd.DataFrame:
+def cross_check(residuals: pd.DataFrame, fits: Sequence[SwarmFit]) -> pd.DataFrame:
     """One row per printed number that anchoring did not use.
 
     Args:
@@ -40,7 +40,7 @@ def cross_check(residuals: pd.DataFrame, fits: Sequence[FittedModel]) -> pd.Data
     return table
 
 
-def _slopes(fits: Sequence[FittedModel]) -> pd.DataFrame:
+def _slopes(fits: Sequence[SwarmFit]) -> pd.DataFrame:
     rows = []
     for model in UNTOLD_MODELS:
         mine = [fit for fit in fits if fit.name == model]

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from armscope.errormodels import FDP_CI, ModelSpec
+from armscope.errormodels import FDP_CI
 from armscope.paper.study import StudyPlan
 from armscope.paper.virtual import VirtualStudy, identification_ranges
 from armscope.robot import forward_kinematics
@@ -22,13 +22,12 @@ TOLERATED = 1.1
 """A number of poses suffices if the error is at most this many times that with the largest number."""
 
 
-def enough_poses(plan: StudyPlan, study: VirtualStudy, spec: ModelSpec = FDP_CI) -> pd.DataFrame:
+def enough_poses(plan: StudyPlan, study: VirtualStudy) -> pd.DataFrame:
     """The error left on the test trajectories against the number of poses, for every robot of a study.
 
     Args:
         plan: how robots, poses and tracker are made.
         study: the robots and what was measured of them.
-        spec: which model.
 
     Returns:
         Columns robot, model, poses, rms_mm (3D, over the test trajectories together, held out).
@@ -41,17 +40,17 @@ def enough_poses(plan: StudyPlan, study: VirtualStudy, spec: ModelSpec = FDP_CI)
     nominal = forward_kinematics(plan.arm, angles)
     noise = plan.tracker.measurement_errors(nominal, rng) + plan.repeat_m * rng.standard_normal(nominal.shape)
     errors = 1e3 * (plan.errors.positions(angles, study.robots.in_sigmas) + noise - nominal)
-    inputs = 1e3 * nominal if spec.space == "cartesian" else angles
+    inputs = 1e3 * nominal
     tables = []
     for count in COUNTS:
-        features = spec.features(inputs[:count])
+        features = FDP_CI.features(inputs[:count])
         terms = features.matrix(inputs[:count])
         scale = np.linalg.norm(terms, axis=0)
         coefficients = (np.linalg.pinv(terms / scale) @ errors[:, :count]) / scale[:, None]
-        left = [each.errors_mm - features.matrix(each.inputs(spec)) @ coefficients for each in paths]
+        left = [each.errors_mm - features.matrix(each.inputs(FDP_CI)) @ coefficients for each in paths]
         mean_squares = [np.mean(np.sum(each**2, axis=2), axis=1) for each in left]
         rms = np.sqrt(np.mean(mean_squares, axis=0))
-        tables.append(pd.DataFrame({"robot": study.robots.names, "model": spec.name, "poses": count, "rms_mm": rms}))
+        tables.append(pd.DataFrame({"robot": study.robots.names, "model": FDP_CI.name, "poses": count, "rms_mm": rms}))
     return pd.concat(tables, ignore_index=True)
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pandas as pd
 
-from armscope.errormodels import FittedModel, fit_random_search
+from armscope.errormodels import SwarmFit, fit_random_search
 from armscope.paper.claims import AS_PRINTED, IMPROVED, Evidence
 from armscope.paper.measurements import Measurements
 from armscope.paper.printed import PRINTED_MODELS
@@ -16,8 +16,8 @@ from armscope.swarm import SwarmSettings
 
 def gather(
     measurements: Measurements,
-    improved: Sequence[FittedModel],
-    as_printed: Sequence[FittedModel],
+    improved: Sequence[SwarmFit],
+    as_printed: Sequence[SwarmFit],
     tables: Mapping[str, pd.DataFrame],
     progress: Callable[[str], None] = lambda _: None,
 ) -> dict[str, Evidence]:
@@ -41,7 +41,7 @@ def gather(
     return found
 
 
-def random_search_beside(measurements: Measurements, fits: Sequence[FittedModel]) -> list[FittedModel]:
+def random_search_beside(measurements: Measurements, fits: Sequence[SwarmFit]) -> list[SwarmFit]:
     """Random search for the paper's models in the coordinates of ``fits``, one seed."""
     mine = [fit for fit in fits if fit.name in PRINTED_MODELS]
     if not mine:

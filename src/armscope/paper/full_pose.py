@@ -14,18 +14,15 @@ import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation
 
-from armscope.compensation import (
-    ErrorModel,
-    Options,
-    as_path,
-    compensate_black_box,
-    compensate_physical,
-    fit_error_model,
-)
+from armscope.compensation.black_box import ErrorModel
 from armscope.compensation.closed_loop import NO_MODEL
-from armscope.compensation.path import WantedPath
+from armscope.compensation.compensate import compensate_black_box, compensate_physical
+from armscope.compensation.fitting import fit_error_model
+from armscope.compensation.path import WantedPath, as_path
 from armscope.compensation.physical import identified_on
 from armscope.compensation.result import Compensated
+from armscope.compensation.task import Options
+from armscope.core.averages import rms_distance
 from armscope.core.types import Array
 from armscope.diagnosis import Settings, diagnose
 from armscope.errormodels.extended import ModelSet
@@ -33,7 +30,8 @@ from armscope.paper.closed_loop import DIAGNOSED
 from armscope.paper.measurements import Measurements
 from armscope.physics.model import predict, predict_orientation
 from armscope.recordings import Recordings
-from armscope.recordings.table import as_recordings
+from armscope.recordings.columns import angle_columns
+from armscope.recordings.table import as_recordings, unmeasured
 from armscope.robot import Arm, Chain, chain
 from armscope.robot.inverse import follow_path
 from armscope.world.poses import candidate_poses, choose_poses, joint_ranges
@@ -136,7 +134,7 @@ def _measured(truth: GeometricErrors, errors: Array, angles: Array, rng: np.rand
 
 
 def _table(angles: Array, points: Array, rotations: Array) -> pd.DataFrame:
-    columns = {f"q{motor}_rad": values for motor, values in enumerate(angles.T, start=1)}
+    columns = angle_columns(angles)
     columns |= {f"{axis}_mm": points[:, n] * 1e3 for n, axis in enumerate("xyz")}
     quaternions = Rotation.from_matrix(rotations).as_quat(canonical=True)
     return pd.DataFrame(columns | dict(zip(("qx", "qy", "qz", "qw"), quaternions.T, strict=True)))
@@ -165,9 +163,7 @@ def _physics(arm: Arm, recordings: Recordings) -> _Model:
     identified, model = identified_on(arm, verdict.recordings), verdict.model
 
     def stand(angles: Array) -> tuple[Array, Array]:
-        motors = [f"q{motor}_rad" for motor in range(1, arm.n_motors + 1)]
-        rows = as_recordings(pd.DataFrame(angles, columns=motors), measured=False)
-        rows = replace(rows, run=np.full(len(rows), list(model.bases)[-1]))
+        rows = unmeasured(angles, list(model.bases)[-1])
         return predict(model, rows), predict_orientation(model, rows)
 
     options = Options(frame="measurement", pose=True)
@@ -196,7 +192,7 @@ def _rows(
     model: str, trajectory: str, stage: str, displacement: Array, turn: Array, refused: int = 0
 ) -> list[Mapping[str, object]]:
     def rms(vectors: Array) -> float:
-        return float(np.sqrt(np.mean(np.sum(vectors**2, axis=1)))) * 1e3 if len(vectors) else float("nan")
+        return rms_distance(vectors) * 1e3 if len(vectors) else float("nan")
 
     keys = {"model": model, "trajectory": trajectory, "stage": stage, "points": len(turn), "refused": refused}
     return [keys | {"rms_mm": rms(displacement), "rms_mrad": rms(turn)}]

@@ -14,6 +14,7 @@ import pandas as pd
 from armscope.core.types import Array
 from armscope.errormodels import FitProblem, ModelSpec
 from armscope.paper.printed import IDENTIFICATION
+from armscope.recordings.columns import angle_columns
 
 ERROR_COLUMNS = ["dx_mm", "dy_mm", "dz_mm"]
 POSITION_COLUMNS = ["x_mm", "y_mm", "z_mm"]
@@ -104,8 +105,7 @@ def pose_table(name: str, motor_angles: Array, nominal_mm: Array) -> pd.DataFram
     Returns:
         The table.
     """
-    columns = {f"q{motor}_rad": angles for motor, angles in enumerate(motor_angles.T, start=1)}
-    columns |= dict(zip(POSITION_COLUMNS, nominal_mm.T, strict=True))
+    columns = angle_columns(motor_angles) | dict(zip(POSITION_COLUMNS, nominal_mm.T, strict=True))
     return pd.DataFrame({"trajectory": name, "point": np.arange(1, len(motor_angles) + 1), **columns})
 
 

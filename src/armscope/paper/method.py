@@ -13,7 +13,7 @@ from itertools import product
 import numpy as np
 import pandas as pd
 
-from armscope.errormodels import BasisKind, FittedModel, Layout, fit_random_search, fit_swarms
+from armscope.errormodels import BasisKind, Layout, SwarmFit, fit_random_search, fit_swarms
 from armscope.errormodels.features import ModelSpec
 from armscope.paper.claims.catalogue import CLAIMS
 from armscope.paper.claims.evidence import Evidence
@@ -79,7 +79,7 @@ def method_table(
     return pd.DataFrame(tables), pd.DataFrame(judged, columns=CLAIM_COLUMNS)
 
 
-def _by_model(fits: Sequence[FittedModel]) -> list[dict[str, object]]:
+def _by_model(fits: Sequence[SwarmFit]) -> list[dict[str, object]]:
     rows: list[dict[str, object]] = []
     for model in dict.fromkeys(fit.name for fit in fits):
         mine = [fit for fit in fits if fit.name == model]

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
-from armscope.core.types import Array
+from armscope.core.averages import rms_distance
 from armscope.errormodels import FDP_CI, FOURIER_2_AI, POLYNOMIAL_4_AI, SDP_AI, SDP_CI, ModelSpec
 from armscope.errormodels.extended import with_products, with_regions
 from armscope.errormodels.products import ProductFeatures, candidate_terms
@@ -37,15 +37,10 @@ def paper_regions(
         table = compare_regions(spec, inputs, errors, np.random.default_rng(seed), most_halvings)
         divided = [with_regions(spec, inputs, errors, int(count)) for count in table["regions"]]
         for path in measurements.held_out:
-            table[path.name] = [_length(path.errors_mm[0] - model.predict(path.inputs(spec))) for model in divided]
+            table[path.name] = [rms_distance(path.errors_mm[0] - model.predict(path.inputs(spec))) for model in divided]
         parts.append(table.assign(model=spec.name))
     table = pd.concat(parts, ignore_index=True)
     return table[["model", *table.columns.drop("model")]]
-
-
-def _length(left: Array) -> float:
-    """RMS of vectors (N, 3)."""
-    return float(np.sqrt(np.mean(np.sum(left**2, axis=1))))
 
 
 def paper_products(measurements: Measurements, specs: Sequence[ModelSpec], seed: int = 0) -> pd.DataFrame:
@@ -76,7 +71,7 @@ def paper_products(measurements: Measurements, specs: Sequence[ModelSpec], seed:
         )
         for kind, model, scores, tried in by_kind:
             left = {
-                each.name: _length(each.errors_mm[0] - model.predict(each.inputs(spec)))
+                each.name: rms_distance(each.errors_mm[0] - model.predict(each.inputs(spec)))
                 for each in measurements.held_out
             }
             numbers = {name: float(scores[name].iloc[0]) for name in ("fit_rms_mm", "held_out_rms_mm", "stderr_mm")}
@@ -138,7 +133,7 @@ def _extended(
             kind,
             size,
             {
-                each.name: _length(each.errors_mm[robot] - model.predict(each.inputs(spec)))
+                each.name: rms_distance(each.errors_mm[robot] - model.predict(each.inputs(spec)))
                 for each in measurements.sets
             },
         )

@@ -6,22 +6,22 @@ import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike
 
+from armscope.core.averages import rms_distance
 from armscope.paper.printed import AXES, printed_matrix
 
 
-def reading(points_mm: ArrayLike, model: str = "FDP(CI)") -> pd.DataFrame:
+def reading(points_mm: ArrayLike) -> pd.DataFrame:
     """The printed equations as rotation + translation + scale + rest, and what each part moves on the given points.
 
     Args:
         points_mm: (N, 3) tool points over which the parts are weighed (identification poses), mm.
-        model: "FDP(CI)".
 
     Returns:
         Columns quantity, value, unit, meaning. delta = t + G p with G = scale 1 + [rotation]x + rest (symmetric,
         without trace); the translation is given at the robot's base and at the points' centre.
     """
     points = np.asarray(points_mm, dtype=float)
-    coefficients = printed_matrix(model)
+    coefficients = printed_matrix("FDP(CI)")
     translation, gradient = coefficients[:, 0], coefficients[:, 1:]
     turn = (gradient - gradient.T) / 2
     rotation = np.array([turn[2, 1], turn[0, 2], turn[1, 0]])
@@ -51,6 +51,6 @@ def reading(points_mm: ArrayLike, model: str = "FDP(CI)") -> pd.DataFrame:
         rows.append((f"rest, {name} strain", value * 1e3, "mm/m", "principal strain of the rest"))
     total = points @ gradient.T + translation
     for name, part in {"all": total, **shares}.items():
-        moved = float(np.sqrt(np.mean(np.sum(part**2, axis=1))))
+        moved = rms_distance(part)
         rows.append((f"RMS moved by {name}", moved, "mm", "3D root mean square over the points"))
     return pd.DataFrame(rows, columns=["quantity", "value", "unit", "meaning"])

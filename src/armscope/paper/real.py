@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array
 from armscope.fitting.constants import STEPS
-from armscope.fitting.placement import FlangePoses, place_frames
+from armscope.fitting.placement import FlangePoses, all_alike, place_frames
 from armscope.paper.measurements import Measurements, PoseSet
 from armscope.paper.printed import IDENTIFICATION
 from armscope.recordings import Recordings
@@ -122,7 +122,7 @@ def real_measurements(arm: Arm, recordings: Recordings, seed: int, count: int = 
         target[chosen],
     )
     start = poses.start(np.tile(arm.tool, (len(targets), 1)), 1)
-    placed = place_frames(poses, start, STEPS.registration, lambda left: np.ones(len(left))).state
+    placed = place_frames(poses, start, STEPS.registration, all_alike).state
     rotation, position, tools = placed.rotations[0], placed.translations[0], placed.tools
     nominal = origins + np.einsum("nij,nj->ni", frames.tool_rotation, tools[target])
     measured = (recordings.positions - position) @ rotation

@@ -10,7 +10,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
-from armscope.errormodels import FittedModel
+from armscope.errormodels import SwarmFit
 from armscope.paper.measurements import Measurements
 from armscope.paper.printed import AXES, UNCOMPENSATED
 
@@ -21,7 +21,7 @@ NO_SEED = -1
 COLUMNS = ["robot", "model", "trajectory", "axis", "method", "seed", "points", "rss_mm", "rms_mm"]
 
 
-def residual_table(measurements: Measurements, fits: Sequence[FittedModel]) -> pd.DataFrame:
+def residual_table(measurements: Measurements, fits: Sequence[SwarmFit]) -> pd.DataFrame:
     """One row per robot, model, trajectory, axis and fit.
 
     Args:
@@ -73,23 +73,22 @@ def _rows(
     }
 
 
-def typical(residuals: pd.DataFrame, method: str = "swarm", value: str = "rms_mm") -> pd.DataFrame:
-    """The median over seeds: one row per robot, columns (model, trajectory, axis); robots in their first order.
+def typical(residuals: pd.DataFrame, value: str = "rms_mm") -> pd.DataFrame:
+    """The swarms' median over seeds: one row per robot, columns (model, trajectory, axis); robots in their first order.
 
     Args:
         residuals: see `residual_table`.
-        method: whose fits; the uncompensated errors are always in.
         value: "rms_mm" or "rss_mm".
 
     Returns:
         The table of medians, mm.
     """
-    chosen = residuals[residuals["method"].isin(["none", method])]
+    chosen = residuals[residuals["method"].isin(["none", "swarm"])]
     medians = chosen.groupby(["robot", "model", "trajectory", "axis"], sort=False)[value].median()
     return medians.unstack(["model", "trajectory", "axis"]).reindex(residuals["robot"].unique())
 
 
-def spatial_rms(measurements: Measurements, fits: Sequence[FittedModel], least_squares: bool = False) -> pd.DataFrame:
+def spatial_rms(measurements: Measurements, fits: Sequence[SwarmFit], least_squares: bool = False) -> pd.DataFrame:
     """What fits leave of the errors, one row per robot with fits, in the order of the fits.
 
     Args:
@@ -101,7 +100,7 @@ def spatial_rms(measurements: Measurements, fits: Sequence[FittedModel], least_s
         Columns (model, trajectory, axis); RMS in mm, the median over the seeds; "Uncompensated" is one of the models.
     """
     robots = list(dict.fromkeys(fit.label for fit in fits))
-    alike: dict[tuple[str, int], list[FittedModel]] = {}
+    alike: dict[tuple[str, int], list[SwarmFit]] = {}
     for fit in fits:
         alike.setdefault((fit.name, len(fit.seeds)), []).append(fit)
     values: dict[tuple[str, str, str], Array] = {}

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pandas as pd
 
-from armscope.errormodels import FitProblem, FittedModel, ModelSpec, fit_random_search, fit_swarms
+from armscope.errormodels import FDP_CI, FitProblem, ModelSpec, SwarmFit, fit_random_search, fit_swarms
 from armscope.paper.anchoring import ANCHORED
 from armscope.paper.claims import AS_PRINTED, IMPROVED, Evidence, judge_claims
 from armscope.paper.enough_poses import enough_poses
@@ -76,15 +76,16 @@ def judge_scenario(scenario: Scenario, fitting: Fitting) -> pd.DataFrame:
     ]
 
 
-def _blind(problems: list[FitProblem], fitting: Fitting, basis: str, layout: str) -> list[FittedModel]:
+def _blind(problems: list[FitProblem], fitting: Fitting, basis: str, layout: str) -> list[SwarmFit]:
     if not fitting.everything:
         return []
     return fit_random_search(problems, fitting.seeds, fitting.settings, basis, layout)
 
 
-def rank_of_anchored(cells: pd.DataFrame, model: str = "FDP(CI)") -> tuple[int, int]:
+def rank_of_anchored(cells: pd.DataFrame) -> tuple[int, int]:
     """(place of the anchored robot's 3D residual on the identification poses, robots in all); 0 where it is unknown."""
-    if (model, IDENTIFICATION, SPATIAL) not in cells.columns or ANCHORED not in cells.index:
+    place = (FDP_CI.name, IDENTIFICATION, SPATIAL)
+    if place not in cells.columns or ANCHORED not in cells.index:
         return 0, len(cells)
-    left = cells[model, IDENTIFICATION, SPATIAL]
+    left = cells[place]
     return int(np.sum(left < left[ANCHORED])) + 1, len(cells)

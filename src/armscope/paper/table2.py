@@ -15,12 +15,11 @@ READINGS = {"rss": "root of the sum of squares", "rms": "root of the mean square
 """The two ways to read the table's "RMS": by name of the columns."""
 
 
-def table2(residuals: pd.DataFrame, robot: str | None = None) -> pd.DataFrame:
+def table2(residuals: pd.DataFrame) -> pd.DataFrame:
     """One row per model, trajectory and axis (x, y, z, 3D), in the order of the fits.
 
     Args:
-        residuals: see `residual_table`.
-        robot: the one to show; None takes the first (the anchored one). All others are its ensemble.
+        residuals: see `residual_table`; the first robot is shown (the anchored one), all others are its ensemble.
 
     Returns:
         Columns model, trajectory, axis, points, printed (as in the paper, no unit; NaN for models, sets and axes that
@@ -31,7 +30,7 @@ def table2(residuals: pd.DataFrame, robot: str | None = None) -> pd.DataFrame:
         the one shown among them, 1 the smallest error).
     """
     robots = residuals["robot"].unique()
-    shown = robots[0] if robot is None else robot
+    shown: str = robots[0]
     keys = ["model", "trajectory", "axis"]
     mine = residuals[residuals["robot"] == shown]
     fitted = mine[mine["method"] != "least squares"].groupby(keys, sort=False)

@@ -12,6 +12,7 @@ from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.poses.obstacles import REASONS, Surroundings, ranges, refusals
 from armscope.recordings import Recordings
+from armscope.recordings.table import unmeasured
 from armscope.robot import Arm
 
 MOST_DRAWN = 40
@@ -89,13 +90,9 @@ def pose_rows(angles: Array, rng: np.random.Generator, payload_kg: float = 0.0) 
     Returns:
         N rows without positions.
     """
-    count, none = len(angles), np.full(len(angles), "")
     approach = rng.choice([-1.0, 1.0], angles.shape)
-    payload = np.where(rng.random(count) < 0.5, payload_kg, 0.0) if payload_kg > 0 else None
-    return Recordings(
-        angles, np.full((count, 3), np.nan), none, none, np.arange(1, count + 1).astype(str),
-        approach=approach, payload=payload, source="poses",
-    )  # fmt: skip
+    payload = np.where(rng.random(len(angles)) < 0.5, payload_kg, 0.0) if payload_kg > 0 else None
+    return replace(unmeasured(angles), approach=approach, payload=payload, source="poses")
 
 
 def grid(arm: Arm, count: int, around: Surroundings, rng: np.random.Generator, payload_kg: float = 0.0) -> Recordings:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 import pandas as pd
 
+from armscope.core.averages import rms
 from armscope.core.types import Array
 from armscope.design.indices import all_indices
 from armscope.poses.candidates import candidates
@@ -71,9 +72,9 @@ def compare_sets(
                     "seed": number,
                     "set": kind,
                     **all_indices(seen.jacobian(poses)),
-                    "parameter_rms_mm": float(np.sqrt(np.mean(wrong**2))),
+                    "parameter_rms_mm": rms(wrong),
                     "parameter_worst_mm": float(wrong.max()),
-                    "held_out_rms_mm": float(np.sqrt(np.mean(missed**2))),
+                    "held_out_rms_mm": rms(missed),
                     "held_out_worst_mm": float(missed.max()),
                 }
             )

@@ -15,6 +15,7 @@ from armscope.physics.effect import Driver
 from armscope.poses.choose import Choice
 from armscope.poses.compare import RIVALS, predicted_errors, share_won, summary
 from armscope.poses.obstacles import UNSTATED_RAD
+from armscope.recordings.columns import angle_columns
 
 FOLLOW_APPROACH = {"approach", "lost motion"}
 
@@ -23,7 +24,7 @@ def poses_table(choice: Choice) -> pd.DataFrame:
     """The poses in the order to measure: id, q1_rad, ..., and the context that the effects follow."""
     table = choice.table
     columns: dict[str, Any] = {"id": table.id}
-    columns |= {f"q{motor}_rad": angles for motor, angles in enumerate(table.motor_angles.T, start=1)}
+    columns |= angle_columns(table.motor_angles)
     if table.payload is not None:
         columns["payload_kg"] = table.payload
     if table.approach is not None and _follows_approach(choice):

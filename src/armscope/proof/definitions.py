@@ -113,11 +113,13 @@ class Aim:
     among: Callable[[pd.DataFrame], pd.Series]
 
 
-def _category(name: str) -> Callable[[pd.DataFrame], pd.Series]:
+def category(name: str) -> Callable[[pd.DataFrame], pd.Series]:
+    """Cases of a category."""
     return lambda rows: rows["category"] == name
 
 
-def _clear(name: str) -> Callable[[pd.DataFrame], pd.Series]:
+def clear(name: str) -> Callable[[pd.DataFrame], pd.Series]:
+    """Those of them in which everything concealed is three times the noise."""
     return lambda rows: (rows["category"] == name) & (rows["weakest"] >= CLEAR_STRENGTH)
 
 
@@ -128,11 +130,11 @@ def _rough_cause(rows: pd.DataFrame) -> pd.Series:
 AIMS: tuple[Aim, ...] = (
     Aim(
         "rough arms: every cause named, the largest first, nothing false", "worlds", "right", (0.90, 1.0),
-        _category("rough"),
+        category("rough"),
     ),
     Aim(
         "the same where times, temperatures or poses mislead", "worlds", "right", (0.90, 1.0),
-        _category("rough_misleading"),
+        category("rough_misleading"),
     ),
     Aim("causes that stand out of rough arms: named", "effects", "right", (0.95, 1.0), _rough_cause),
     Aim(
@@ -143,11 +145,11 @@ AIMS: tuple[Aim, ...] = (
         "rough arms: 95 % intervals of causes hold the true number", "intervals", "covered", (0.93, 0.97),
         lambda rows: _rough_cause(rows) & rows["covered"].notna(),
     ),
-    Aim("no name on clean arms", "worlds", "silent", (0.99, 1.0), _category("clean")),
+    Aim("no name on clean arms", "worlds", "silent", (0.99, 1.0), category("clean")),
     Aim(
-        "exact set of names, single effects at 3x the noise and above", "worlds", "exact", (0.95, 1.0), _clear("single")
+        "exact set of names, single effects at 3x the noise and above", "worlds", "exact", (0.95, 1.0), clear("single")
     ),
-    Aim("exact set of names, two to six effects at 3x and above", "worlds", "exact", (0.90, 1.0), _clear("multiple")),
+    Aim("exact set of names, two to six effects at 3x and above", "worlds", "exact", (0.90, 1.0), clear("multiple")),
     Aim(
         "location right whenever the name is", "names", "right", (1.0, 1.0),
         lambda rows: rows["effect_right"].astype(bool),
@@ -156,7 +158,7 @@ AIMS: tuple[Aim, ...] = (
         "95 % intervals hold the true number", "intervals", "covered", (0.93, 0.97),
         lambda rows: rows["category"].isin(RIGHT_INPUTS) & rows["covered"].notna(),
     ),
-    Aim("outside the library: located and not misnamed", "worlds", "outside_right", (0.90, 1.0), _category("outside")),
+    Aim("outside the library: located and not misnamed", "worlds", "outside_right", (0.90, 1.0), category("outside")),
     Aim(
         "ambiguous: the truth among effects or alternatives", "effects", "among_all", (0.95, 1.0),
         lambda rows: rows["ambiguous"].astype(bool) & ~rows["minor"].astype(bool) & (rows["category"] != "faint"),

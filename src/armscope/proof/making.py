@@ -17,21 +17,18 @@ from armscope.world.folder import build
 TEST_POSES = "test_poses.csv"
 
 
-def batch(proof_seed: int, size: Literal["small", "full"], fresh: bool, part: int, parts: int) -> list[WorldSpec]:
-    """Every ``parts``-th of the worlds with fixed, or with fresh seeds; ``part`` counts from 0.
+def batch(proof_seed: int, size: Literal["small", "full"], fresh: bool) -> list[WorldSpec]:
+    """The worlds with fixed, or with fresh seeds.
 
     Args:
         proof_seed: of the proof; fresh seeds follow from it.
         size: of the catalogue.
         fresh: whether the worlds with fresh seeds are wanted, or those with fixed ones.
-        part: from 0.
-        parts: into how many the worlds are dealt.
 
     Returns:
         The worlds' specifications.
     """
-    specs = [spec for spec in catalogue(proof_seed, size) if spec.fresh == fresh]
-    return specs[part::parts]
+    return [spec for spec in catalogue(proof_seed, size) if spec.fresh == fresh]
 
 
 def make(specs: list[WorldSpec], robots: Path, visible: Path, sealed: Path) -> None:

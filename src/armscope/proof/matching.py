@@ -79,6 +79,80 @@ def _unmatched(truth: Concealed, claims: Sequence[NamedEffect], left: Sequence[N
     return Match(truth, there[0], "located") if there else Match(truth, None, "missed")
 
 
+def outside_outcome(matches: Sequence[Match], left: Sequence[NamedEffect], said: bool) -> str:
+    """How a world outside the library was answered, by a diagnosis that did not fail; see `definitions`.
+
+    Args:
+        matches: concealed effects, minor ones too, with the claims that stand for them.
+        left: claims that stand for none.
+        said: whether anything was said.
+
+    Returns:
+        The outcome's name.
+    """
+    where = {place(found.truth.location) for found in matches if not found.truth.minor}
+    names = [claim for claim in left if claim.effect != UNKNOWN]
+    if all(found.right for found in matches):
+        if not names:
+            return "located" if all(found.outcome == "named" for found in matches) else "acceptable"
+        return "partly named" if {place(claim.location) for claim in names} <= where else "misnamed"
+    if names:
+        return "misnamed"
+    return "elsewhere" if said else "missed"
+
+
+def name_row(concealed: Sequence[Concealed], claim: NamedEffect, right: bool) -> dict[str, object]:
+    """A claim as a case.
+
+    Args:
+        concealed: all of a world's effects.
+        claim: a name given there.
+        right: whether it stands for one of them.
+
+    Returns:
+        Its row in the table of names.
+    """
+    acceptable = {name for effect in concealed for name in (effect.name, *effect.alternatives)}
+    return {
+        "effect": claim.effect,
+        "location": claim.location,
+        "minor": claim.minor,
+        "named_as": claim.named_as,
+        "evidence_nats": claim.evidence_nats,
+        "rms_mm": claim.rms_mm,
+        "right": right,
+        "effect_right": claim.effect in {effect for effect, _ in acceptable},
+    }
+
+
+def effect_row(found: Match, claims: Sequence[NamedEffect]) -> dict[str, object]:
+    """A concealed effect as a case.
+
+    Args:
+        found: the effect and the claim that stands for it.
+        claims: all claims of its world.
+
+    Returns:
+        What its row in the table of effects says of every arm, standing or moving.
+    """
+    truth, claim = found.truth, found.claim
+    return {
+        "effect": truth.effect,
+        "location": truth.location,
+        "shape": truth.shape,
+        "driver": truth.driver,
+        "minor": truth.minor,
+        "strength": truth.strength,
+        "outcome": found.outcome,
+        "right": found.right,
+        "ambiguous": bool(truth.alternatives),
+        "among_all": among_all(truth, claims),
+        "said_effect": claim.effect if claim else "",
+        "said_location": claim.location if claim else "",
+        "said_driver": claim.driver if claim else "",
+    }
+
+
 def among_all(truth: Concealed, claims: Sequence[NamedEffect]) -> bool:
     """Whether the truth is among the effects, or among the alternatives that the verdict itself lists."""
     return any(truth.name == claim.name or truth.name in claim.alternatives for claim in claims)

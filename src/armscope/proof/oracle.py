@@ -36,19 +36,18 @@ def power(noncentrality: float, columns: int, rows: int, frame_numbers: int) -> 
     return float(1 - ncfdtr(columns, freedom, noncentrality, critical))
 
 
-def reliable_noncentrality(columns: int, rows: int, frame_numbers: int, share: float = RELIABLE) -> float:
-    """The noncentrality at which the oracle finds the effect in that ``share`` of cases.
+def reliable_noncentrality(columns: int, rows: int, frame_numbers: int) -> float:
+    """The noncentrality at which the oracle finds the effect in the share `RELIABLE` of cases.
 
     Args:
         columns: the effect's numbers.
         rows: measured points.
         frame_numbers: free numbers of base and tool.
-        share: of cases, 0 ... 1.
 
     Returns:
         The noncentrality.
     """
-    return float(brentq(lambda value: power(value, columns, rows, frame_numbers) - share, 1e-3, 1e3))
+    return float(brentq(lambda value: power(value, columns, rows, frame_numbers) - RELIABLE, 1e-3, 1e3))
 
 
 def size_in_thresholds(noncentrality: float, columns: int, rows: int, frame_numbers: int) -> float:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 import pandas as pd
 
-from armscope.proof.binomial import RATE, Rate, Row, of_seeds, rate
+from armscope.proof.binomial import RATE, Rate, Row, aim_row, aim_rows, of_seeds, rate
 from armscope.proof.definitions import (
     AIMS,
     CLEAR_STRENGTH,
@@ -17,7 +17,6 @@ from armscope.proof.definitions import (
     ROUGH,
     SEEDS,
     THRESHOLD_AIM,
-    judged,
 )
 from armscope.proof.matching import UNKNOWN
 from armscope.proof.oracle import Threshold, threshold
@@ -35,25 +34,12 @@ OUTCOMES = ("exact", "exact_story", "silent", "held_out_close")
 
 def aims_table(cases: Cases, rng: np.random.Generator) -> pd.DataFrame:
     """Every aim for fixed, fresh and all worlds, with its rate, interval, bounds and verdict."""
-    tables = cases.tables()
-    rows: list[Row] = []
-    for aim in AIMS:
-        among = tables[aim.table]
-        among = among[aim.among(among)]
-        for seeds in SEEDS:
-            chosen = of_seeds(among, seeds)
-            counted = rate(chosen[aim.column])
-            rows.append(_judged(aim.text, seeds, counted, aim.bounds))
+    rows = aim_rows(AIMS, cases.tables())
     for seeds in SEEDS:
         found = detection_threshold(of_seeds(cases.effects, seeds), "seen", RELIABLE, rng)
         counted = Rate(found.cases, None, found.value, found.low, found.high)
-        rows.append(_judged(THRESHOLD_TEXT, seeds, counted, THRESHOLD_AIM))
+        rows.append(aim_row(THRESHOLD_TEXT, seeds, counted, THRESHOLD_AIM))
     return pd.DataFrame(rows)
-
-
-def _judged(aim: str, seeds: str, counted: Rate, bounds: tuple[float, float]) -> Row:
-    verdict = judged(counted.cases, counted.estimate, counted.low, counted.high, bounds)
-    return {"aim": aim, "seeds": seeds, **vars(counted), "least": bounds[0], "most": bounds[1], "verdict": verdict}
 
 
 def _powered(effects: pd.DataFrame) -> pd.DataFrame:

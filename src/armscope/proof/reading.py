@@ -8,7 +8,7 @@ seen/<batch>.txt           the files that the diagnosing job could see
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
 
 import pandas as pd
@@ -39,15 +39,19 @@ def read_worlds(folder: Path) -> Iterator[World]:
             yield World(truth, read_answer(verdicts / world), times, runs)
 
 
-def check_seal(seen: Path) -> None:
+def check_seal(seen: Path, allowed: Collection[str] = ALLOWED) -> None:
     """Make sure that a diagnosing job saw nothing but what may be seen.
+
+    Args:
+        seen: the list of the files that it could see.
+        allowed: names of files that it may see.
 
     Raises:
         InputError: the list holds another file.
     """
     files = seen.read_text(encoding="utf-8").splitlines()
     if not files:
-        raise InputError(seen, "", "nothing", "the list says what the diagnosing job saw, its recordings at least")
+        raise InputError(seen, "", "nothing", "the list says what the diagnosing job saw, what was measured at least")
     for line in files:
-        if Path(line).name not in ALLOWED:
-            raise InputError(seen, "", line, f"a diagnosing job may see {', '.join(sorted(ALLOWED))} and nothing else")
+        if Path(line).name not in allowed:
+            raise InputError(seen, "", line, f"a diagnosing job may see {', '.join(sorted(allowed))} and nothing else")

@@ -11,7 +11,7 @@ import pandas as pd
 from armscope.proof.answers import Answer, NamedEffect
 from armscope.proof.definitions import AXES_MM, HELD_OUT_TOLERANCE, NEAR_ORACLE, ROUGH, Name, place
 from armscope.proof.intervals import compare_numbers
-from armscope.proof.matching import UNKNOWN, Match, among_all, distinct, match
+from armscope.proof.matching import UNKNOWN, Match, distinct, effect_row, match, name_row, outside_outcome
 from armscope.proof.oracle import power, size_in_thresholds
 from armscope.proof.rough import marks
 from armscope.proof.truth import Concealed, Truth
@@ -94,7 +94,7 @@ def score(worlds: Iterable[World]) -> Cases:
         }
         rows["worlds"].append(common | _world(world, claims, matches, left))
         rows["effects"] += [common | _effect(world, m, claims) for m in matches]
-        rows["names"] += [common | _name(world.truth, claim, claim not in left) for claim in claims]
+        rows["names"] += [common | name_row(world.truth.effects, claim, claim not in left) for claim in claims]
         rows["intervals"] += [common | number for m in matches for number in _numbers(world, m)]
         rows["pairs"] += [common | {"true": true, "said": said} for true, said in _pairs(matches, left)]
     return Cases(**{name: pd.DataFrame(found, columns=list(COLUMNS[name])) for name, found in rows.items()})
@@ -105,11 +105,11 @@ def _world(
 ) -> dict[str, object]:
     truth, answer = world.truth, world.answer
     story = [m for m in matches if not m.truth.minor]
-    left = [claim for claim in left if claim.name not in truth.also_allowed]
+    unmatched, left = left, [claim for claim in left if claim.name not in truth.also_allowed]
     wrong = [claim for claim in left if truth.category not in (REAL, *ROUGH) or claim.effect != UNKNOWN]
     all_right = not answer.failed and all(m.right for m in story)
     ratio = held_out_ratio(truth, answer)
-    outside = outside_outcome(truth, answer, claims) if truth.outside else ""
+    outside = _outside(answer, matches, unmatched) if truth.outside else ""
     return marks(truth, answer, matches, wrong) | {
         "arm": truth.arm,
         "rows": truth.rows,
@@ -152,45 +152,19 @@ def held_out_ratio(truth: Truth, answer: Answer) -> float:
     return float(np.sqrt(np.mean(off**2)) / truth.true_rms_mm)
 
 
-def outside_outcome(truth: Truth, answer: Answer, claims: Sequence[NamedEffect]) -> str:
-    """How a world outside the library was answered; see `definitions`.
-
-    Args:
-        truth: what the world concealed.
-        answer: the diagnosis's.
-        claims: the effects that it names.
-
-    Returns:
-        The outcome's name.
-    """
-    matches, left = match(truth.effects, claims)
-    where = {place(effect.location) for effect in truth.story}
-    names = [claim for claim in left if claim.effect != UNKNOWN]
+def _outside(answer: Answer, matches: Sequence[Match], left: Sequence[NamedEffect]) -> str:
+    """As `outside_outcome`, of a diagnosis that may have failed, or say that it cannot tell."""
     if answer.failed:
         return "failed"
-    if all(m.right for m in matches):
-        if not names:
-            return "located" if all(m.outcome == "named" for m in matches) else "acceptable"
-        return "partly named" if {place(claim.location) for claim in names} <= where else "misnamed"
-    if names:
-        return "misnamed"
-    if claims:
-        return "elsewhere"
-    return "cannot tell" if answer.answer == CANNOT_TELL else "missed"
+    found = outside_outcome(matches, left, bool(answer.claims))
+    return CANNOT_TELL if found == "missed" and answer.answer == CANNOT_TELL else found
 
 
 def _effect(world: World, found: Match, claims: Sequence[NamedEffect]) -> dict[str, object]:
-    truth, rows = found.truth, world.truth.rows
+    truth, rows, claim = found.truth, world.truth.rows, found.claim
     tested = np.isfinite(truth.noncentrality) and truth.columns > 0
     test = truth.noncentrality, truth.columns, rows, truth.frame_numbers
-    claim = found.claim
-    return {
-        "effect": truth.effect,
-        "location": truth.location,
-        "shape": truth.shape,
-        "driver": truth.driver,
-        "minor": truth.minor,
-        "strength": truth.strength,
+    return effect_row(found, claims) | {
         "noncentrality": truth.noncentrality,
         "columns": truth.columns,
         "frame_numbers": truth.frame_numbers,
@@ -198,13 +172,7 @@ def _effect(world: World, found: Match, claims: Sequence[NamedEffect]) -> dict[s
         "oracle_power": power(*test) if tested else float("nan"),
         "size_in_thresholds": size_in_thresholds(*test) if tested else float("nan"),
         "seen": bool(world.answer.mismatch),
-        "outcome": found.outcome,
-        "right": found.right,
         "ambiguous": bool(truth.alternatives) or (world.truth.category == "inseparable" and not truth.minor),
-        "among_all": among_all(truth, claims),
-        "said_effect": claim.effect if claim else "",
-        "said_location": claim.location if claim else "",
-        "said_driver": claim.driver if claim else "",
         "driver_right": claim is not None and same_driver(truth, claim),
     }
 
@@ -217,20 +185,6 @@ def same_driver(truth: Concealed, claim: NamedEffect) -> bool:
         "constant": ("constant",),
     }  # fmt: skip
     return any(word in claim.driver for word in words[truth.driver])
-
-
-def _name(truth: Truth, claim: NamedEffect, right: bool) -> dict[str, object]:
-    acceptable = {name for effect in truth.effects for name in (effect.name, *effect.alternatives)}
-    return {
-        "effect": claim.effect,
-        "location": claim.location,
-        "minor": claim.minor,
-        "named_as": claim.named_as,
-        "evidence_nats": claim.evidence_nats,
-        "rms_mm": claim.rms_mm,
-        "right": right,
-        "effect_right": claim.effect in {effect for effect, _ in acceptable},
-    }
 
 
 def _numbers(world: World, found: Match) -> list[dict[str, object]]:

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.averages import rms
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.real.staging import Stage
@@ -24,7 +25,7 @@ from armscope.world.choice import LARGEST_FACTOR
 from armscope.world.kinds import LEAST_TORQUE, LOAD, Concealed, Kind, number, second_number
 from armscope.world.rivals import Judge, Visibility
 from armscope.world.statics import Hidden, Session, balance
-from armscope.world.strength import LARGEST_RAW_M, SEEN_SHARE, Sized, frame_columns, make_scene, rms
+from armscope.world.strength import LARGEST_RAW_M, SEEN_SHARE, Sized, frame_columns, make_scene
 
 MOVES_RAD = 0.05
 """A joint that moves less than this cannot show what follows its angle."""

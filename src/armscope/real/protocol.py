@@ -15,9 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from armscope.calibration import held_out
-from armscope.calibration.fit import rms_distance
-from armscope.calibration.splits import split
+from armscope.calibration import held_out_levels
+from armscope.calibration.splits import random_split
+from armscope.core.averages import rms_distance
 from armscope.core.types import Array
 from armscope.diagnosis import Diagnosis, Settings, diagnose
 from armscope.errormodels import PAPER_MODELS, fit_least_squares
@@ -74,14 +74,14 @@ def measure_run(
     tell(f"{reference.name}: {len(table)} rows, {len(seeds)} splits")
     rows = [
         {"run": reference.name, "model": level.level, "split": seed, "rms_mm": 1e3 * value}
-        for level in held_out(arm, table, seeds=seeds, most_rows=reference.most_rows)
+        for level in held_out_levels(arm, table, seeds=seeds, most_rows=reference.most_rows)
         for seed, value in zip(seeds, level.per_split, strict=True)
     ]
     names: list[dict[str, object]] = []
     diagnosed = list(seeds)[:diagnosed_splits]
     models = {ARMSCOPE: diagnosed} | ({} if not table.oriented.any() else {ORIENTED: diagnosed[:oriented_splits]})
     for model, seed in ((model, seed) for model, chosen in models.items() for seed in chosen):
-        train, test = split(table, seed)
+        train, test = random_split(table, seed)
         settings = Settings(seed=seed, resamples=0, cross_validation=False, orientation=model == ORIENTED)
         verdict = diagnose(arm, table.rows(train), settings)
         left = {
@@ -127,18 +127,17 @@ def effects_named(verdict: Diagnosis) -> list[dict[str, object]]:
     ]
 
 
-def paper_models(arm: Arm, table: Recordings, seed: int = 0) -> list[dict[str, object]]:
+def paper_models(arm: Arm, table: Recordings) -> list[dict[str, object]]:
     """The paper's models at 85 identification rows, by least squares: rows of model, split, train, test, rms_mm.
 
     Args:
         arm: the nominal arm.
         table: rows of one run.
-        seed: of the split.
 
     Returns:
         One dictionary per model and split.
     """
-    sets = {each.name: each for each in real_measurements(arm, table, seed, PAPER_ROWS).measurements.sets}
+    sets = {each.name: each for each in real_measurements(arm, table, 0, PAPER_ROWS).measurements.sets}
     train, test = sets.pop(IDENTIFICATION), next(iter(sets.values()))
     found: list[tuple[str, Array]] = [(UNCORRECTED, test.errors_mm[0])]
     for spec in PAPER_MODELS:

@@ -34,7 +34,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from armscope.calibration.fit import rms_distance
+from armscope.core.averages import rms_distance
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.proof.answers import Answer, NamedEffect, read_answer

@@ -16,7 +16,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from armscope.calibration import calibrate
-from armscope.calibration.splits import split
+from armscope.calibration.splits import random_split
 from armscope.core.grouping import by_label
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
@@ -117,7 +117,7 @@ def stage(arm: Arm, table: pd.DataFrame, most_rows: int, source: str = "table") 
     recordings = as_recordings(table, source, arm.n_motors)
     calibrated = calibrate(arm, recordings, "geometric", robust=True, tool_per_run=False, orientation=False)
     rows, state = calibrated.set_up, calibrated.state
-    train, test = split(recordings, 0)
+    train, test = random_split(recordings, 0)
     return Stage(
         arm, table, recordings, train, test, configuration, rows.tool_names, rows.tool, state.tools,
         state.rotations[rows.base],

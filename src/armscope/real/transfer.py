@@ -8,11 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
-from armscope.calibration.fit import least_squares, placed, rms_distance
-from armscope.calibration.held_out import held_out
+from armscope.calibration.fit import least_squares, placed
+from armscope.calibration.held_out import held_out_levels
 from armscope.calibration.model import LEVELS, Level, SetUp, set_up
 from armscope.calibration.solve import Priors, solve
 from armscope.calibration.state import State
+from armscope.core.averages import rms_distance
 from armscope.diagnosis import Diagnosis, Settings, diagnose
 from armscope.fitting.transfer import transfer as carry_over
 from armscope.real.curves import turned_by_curves
@@ -95,7 +96,7 @@ def curves_transfer(arm: Arm, learned: Diagnosis, rows: Recordings) -> dict[str,
         return {}
     found = {}
     for name, table in ((GEOMETRY_HERE, rows), (WITH_CURVES, turned)):
-        found[name] = 1e3 * held_out(arm, table, ["geometric"], SPLITS, most_rows=MOST_ROWS)[0].mean
+        found[name] = 1e3 * held_out_levels(arm, table, ["geometric"], SPLITS, most_rows=MOST_ROWS)[0].mean
     return found
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from armscope.core.inputs import InputError, nearest
+from armscope.core.types import Array
 
 LARGEST_ANGLE_RAD = 4 * np.pi
 """Beyond two turns either way no arm's joint stands, so a larger number is not in radians."""
@@ -114,6 +115,11 @@ COLUMNS = (
     Column("sigma_mm", "mm", "stated 1-sigma uncertainty of the point, alike along x, y and z"),
     *(Column(f"sigma_{axis}_mm", "mm", f"the same along {axis} alone; all three or none") for axis in "xyz"),
 )
+
+
+def angle_columns(motor_angles: Array) -> dict[str, Array]:
+    """Motor angles (N, m), rad, as columns of a table: q1_rad, q2_rad, ..."""
+    return {f"q{motor}_rad": angles for motor, angles in enumerate(motor_angles.T, start=1)}
 
 
 def column_named(header: str) -> Column | None:

@@ -82,6 +82,14 @@ class Recordings:
         return replace(self, **per_row, extra=extra)
 
 
+def unmeasured(motor_angles: Array, run: str = "") -> Recordings:
+    """Poses (N, m) rad without measurements, all of one run."""
+    count = len(motor_angles)
+    none = np.full(count, "")
+    ids = np.arange(1, count + 1).astype(str)
+    return Recordings(motor_angles, np.full((count, 3), np.nan), np.full(count, run), none, ids)
+
+
 def read_recordings(path: Path | str, n_motors: int | None = None, measured: bool = True) -> Recordings:
     """Read a recordings table (CSV, ``.gz`` allowed).
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import jinja2
 import pandas as pd
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
 from armscope.core.files import write_text
 from armscope.core.outputs import readable
@@ -83,6 +83,29 @@ def html_table(rows: pd.DataFrame, digits: int = 3) -> Markup:
     body = Markup("").join(Markup("<tr>{}</tr>").format(line("td", row)) for row in rows.itertuples(index=False))
     head = Markup("<tr>{}</tr>").format(line("th", rows.columns))
     return Markup('<div class="scroll"><table><thead>{}</thead><tbody>{}</tbody></table></div>').format(head, body)
+
+
+def share_text(share: float, right: float, cases: float) -> str:
+    """A share of cases as "97 % (29/30)".
+
+    Args:
+        share: 0 ... 1.
+        right: how many were.
+        cases: of how many.
+
+    Returns:
+        The text; a dash where there were none.
+    """
+    return f"{100 * share:.0f} % ({right:.0f}/{cases:.0f})" if cases else "–"
+
+
+def definitions(text: str) -> list[tuple[str, Markup]]:
+    """(bold head, rest as HTML) of a docstring's paragraphs after the first."""
+    found = []
+    for paragraph in text.strip().split("\n\n")[1:]:
+        head, _, rest = " ".join(paragraph.split()).removeprefix("**").partition("**")
+        found.append((head, Markup(re.sub(r"`(.+?)`", r"<code>\1</code>", str(escape(rest))))))
+    return found
 
 
 def significant(value: float, digits: int = 3) -> str:

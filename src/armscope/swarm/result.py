@@ -38,12 +38,6 @@ class SwarmResult:
     iterations: NDArray[np.int64]
     reasons: NDArray[np.object_]
 
-    @property
-    def last_improvement(self) -> NDArray[np.int64]:
-        """The iteration of each swarm's last improvement (0: the best stood there from the start)."""
-        falls = np.diff(self.history, axis=1) < 0
-        return np.asarray(np.max(falls * np.arange(1, self.history.shape[1]), axis=1, initial=0))
-
     @staticmethod
     def joined(parts: Sequence[SwarmResult]) -> SwarmResult:
         """The swarms of several results, one after the other."""

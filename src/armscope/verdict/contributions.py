@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from armscope.core.averages import rms
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
 from armscope.physics.backgrounds import GEOMETRIC
@@ -128,11 +129,6 @@ def contributions(verdict: Diagnosis) -> Contributions:
 
 def _share(verdict: Diagnosis, family: str) -> float:
     return next((each.share for each in verdict.background_families if each.family == family), 0.0)
-
-
-def rms(errors: Array) -> float:
-    """RMS per axis of (n, 3) errors."""
-    return float(np.sqrt(np.mean(errors**2))) if errors.size else 0.0
 
 
 def _frames(verdict: Diagnosis, posture: Posture) -> Array:

@@ -9,6 +9,7 @@ import pandas as pd
 
 from armscope.core.files import read_json, write_json, write_table
 from armscope.physics.model_file import save_model
+from armscope.recordings.columns import angle_columns
 from armscope.verdict.schema import Atlas, Diagnosis, Verdict
 
 VERDICT = "verdict.json"
@@ -67,7 +68,7 @@ def next_poses_table(verdict: Diagnosis) -> pd.DataFrame:
     """Poses to measure next, ready to be commanded, the most telling first."""
     poses = verdict.next_poses
     assert poses is not None
-    table = pd.DataFrame({f"q{j + 1}_rad": poses.motor_angles[:, j] for j in range(poses.motor_angles.shape[1])})
+    table = pd.DataFrame(angle_columns(poses.motor_angles))
     table["payload_kg"] = poses.payload_kg
     table["separation_mm"] = poses.separation_mm
     return table

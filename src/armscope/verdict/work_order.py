@@ -8,11 +8,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from armscope.core.averages import rms
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics.backgrounds import DRIFT, ELASTIC, GEOMETRIC, TRANSMISSION
 from armscope.physics.scene import Part, Scene
-from armscope.verdict.contributions import Contributions, Repair, rms
+from armscope.verdict.contributions import Contributions, Repair
 from armscope.verdict.schema import Diagnosis, FoundEffect
 from armscope.verdict.sentences import cure_of_family, exact_phrase, phrase
 from armscope.verdict.wording import SMALL, capitalised, implausible, read_parameter

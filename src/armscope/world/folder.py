@@ -19,6 +19,7 @@ import numpy as np
 import pandas as pd
 import yaml
 
+from armscope.core.averages import rms
 from armscope.core.files import write_table, write_yaml
 from armscope.world.catalogue import WorldSpec
 from armscope.world.choice import visibilities
@@ -27,7 +28,7 @@ from armscope.world.kinds import CONSTANT, LOAD
 from armscope.world.oracle import oracle_rms
 from armscope.world.rivals import Visibility
 from armscope.world.rough import as_stated
-from armscope.world.strength import Sized, fit_frames, rms
+from armscope.world.strength import Sized, fit_frames
 from armscope.world.virtual_arm import Measured, VirtualArm, conceal, measure_session, seen_in_runs
 
 CONTEXT = ("run", "time_s", "temperature_c", "payload_kg", "approach", "speed", "torque")

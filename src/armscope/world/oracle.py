@@ -6,11 +6,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from armscope.core.averages import rms
 from armscope.core.types import Array
 from armscope.world.blemishes import FINE_WAVES, LOW_WAVES
 from armscope.world.kinds import APPROACH, LOAD, PAYLOAD, SPEED, TEMPERATURE, Concealed, Scene, number
 from armscope.world.rivals import Patterns
-from armscope.world.strength import free_frames, rms, stand
+from armscope.world.strength import free_frames, stand
 from armscope.world.virtual_arm import Measured, VirtualArm
 
 DRIVERS = {APPROACH: "approach", TEMPERATURE: "temperature_c", SPEED: "speed"}

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from armscope.core.averages import rms
 from armscope.core.types import Array
 from armscope.robot.description import RobotDescription
 from armscope.world.kinds import Concealed, Scene
@@ -79,11 +80,6 @@ def free_frames(tool: Array, tool_turn: Array, run: NDArray[np.int64] | None = N
         return columns
     bases = [np.where((run == one).repeat(3)[:, None], base, 0.0) for one in np.unique(run)]
     return np.concatenate([*bases, point], axis=1)
-
-
-def rms(difference: Array) -> float:
-    """Root mean square over all entries."""
-    return float(np.sqrt(np.mean(np.square(difference))))
 
 
 def rms_after_frames(tool: Array, nominal: Array, tool_turn: Array) -> float:

@@ -1,4 +1,4 @@
-"""A virtual arm with what it conceals, ready to be measured: in its own session, and at poses asked for later."""
+"""A virtual arm with what it conceals, ready to be measured in its own session."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
@@ -18,7 +17,7 @@ from armscope.world.kinds import Scene
 from armscope.world.rivals import Judge, Visibility
 from armscope.world.rough import blemishes, rough_description, rough_noise
 from armscope.world.session import random_session
-from armscope.world.statics import Hidden, Session, balance
+from armscope.world.statics import Hidden, balance
 from armscope.world.strength import Frames, Sized, make_scene
 
 TEST_ROWS = 100
@@ -145,43 +144,3 @@ def measure_session(arm: VirtualArm) -> Measured:
         direction /= np.linalg.norm(direction, axis=1, keepdims=True)
         noise[struck] += direction * rng.uniform(1e-3, 10e-3, (len(struck), 1))
     return Measured(points, noise, bad, torque)
-
-
-def measure_at(arm: VirtualArm, poses: pd.DataFrame, rng: np.random.Generator) -> pd.DataFrame:
-    """The same arm measured at further poses, for instance those that a diagnosis asks for.
-
-    Args:
-        arm: the virtual arm.
-        poses: columns q1_rad ... and, where it matters, payload_kg, time_s, temperature_c, approach1 ..., dq1_rad_s ...
-            (otherwise none, after the session's end, 20 degrees, from below, at rest).
-        rng: of the Gaussian noise.
-
-    Returns:
-        ``poses`` with x_mm, y_mm, z_mm.
-    """
-    session = _asked(arm, poses)
-    scene, _ = make_scene(arm.scene.description, session)
-    points, _ = true_points(arm, replace(scene, torque_scale=arm.scene.torque_scale))
-    readings = (points + rng.normal(0, arm.spec.sigma_mm * 1e-3, points.shape)).round(TO_TEN_NANOMETRES)
-    return poses.assign(**{f"{axis}_mm": (readings[:, k] * 1e3).round(4) for k, axis in enumerate("xyz")})
-
-
-def _asked(arm: VirtualArm, poses: pd.DataFrame) -> Session:
-    motors = range(1, arm.scene.geometry.n_motors + 1)
-    count = len(poses)
-
-    def column(name: str, otherwise: Array | float) -> Array:
-        return np.asarray(poses[name] if name in poses else np.full(count, otherwise), dtype=float)
-
-    def per_motor(name: str, otherwise: float) -> Array:
-        return np.column_stack([column(name.format(m), otherwise) for m in motors])
-
-    return Session(
-        commanded=np.column_stack([np.asarray(poses[f"q{m}_rad"], dtype=float) for m in motors]),
-        payload=column("payload_kg", 0.0),
-        time=column("time_s", arm.scene.session.time[-1] + 30.0),
-        temperature=column("temperature_c", 20.0),
-        run=np.full(count, arm.scene.session.run[-1]),
-        approach=per_motor("approach{}", 1.0),
-        speed=per_motor("dq{}_rad_s", 0.0),
-    )

@@ -6,8 +6,9 @@ from scipy.stats import beta
 
 from armscope.core.inputs import InputError
 from armscope.proof.motion.rates import in_words, per_effect, summary
-from armscope.proof.motion.reading import check_seal
+from armscope.proof.motion.reading import ALLOWED
 from armscope.proof.motion.scoring import COLUMNS, held_out_ratio, score
+from armscope.proof.reading import check_seal
 from tests.proof.motion.cases import ROWS, effect, said, world
 
 HYSTERESIS = effect("unknown", "joint 2", shape="hysteresis")
@@ -120,8 +121,8 @@ def test_nothing_scored_is_empty_tables():
 def test_a_job_that_saw_the_truth_is_refused(tmp_path):
     seen = tmp_path / "seen.txt"
     seen.write_text("visible/motion-000/motions.csv\nvisible/motion-000/robot.yaml\n")
-    check_seal(seen)
+    check_seal(seen, ALLOWED)
     for wrong in ("sealed/motion-000/truth.yaml\n", ""):
         seen.write_text(wrong)
         with pytest.raises(InputError, match="diagnosing job"):
-            check_seal(seen)
+            check_seal(seen, ALLOWED)

@@ -136,15 +136,20 @@ def judged_elsewhere(
     Returns:
         Those rivals, judged; those of one effect and the chosen hypothesis compete for one confidence set.
     """
-    every = [rival for some in rivals.values() for rival in some]
+    nearest = sorted((rival for some in rivals.values() for rival in some), key=lambda rival: rival.gap)
+    asked = {id(rival) for rival in nearest[: NAMING.asked_elsewhere]}
+    rivals = {n: [rival for rival in some if rival.near or id(rival) in asked] for n, some in rivals.items()}
+    every = [rival for some in rivals.values() for rival in some if id(rival) in asked]
     readings = [(h.chosen, h.background) for h in (state.best, *(rival.hypothesis for rival in every))]
     errors = held_out_errors(state.problem, state.blocks, readings, state.best.noise)
     judged, at = {}, 1
     for number, some in rivals.items():
-        inside = confidence_set(errors[:, [0, *range(at, at + len(some))]], rng)[1:]
-        known = [rival._replace(excluded=not bool(i)) for rival, i in zip(some, inside, strict=True)]
+        those = [rival for rival in some if id(rival) in asked]
+        inside = confidence_set(errors[:, [0, *range(at, at + len(those))]], rng)[1:]
+        excluded = {id(rival): not bool(i) for rival, i in zip(those, inside, strict=True)}
+        known = [rival._replace(excluded=excluded.get(id(rival))) for rival in some]
         judged[number] = [rival for rival in known if rival.near or not rival.excluded]
-        at += len(some)
+        at += len(those)
     return judged
 
 

@@ -11,7 +11,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
-from armscope.errormodels import FittedModel
+from armscope.errormodels import SwarmFit
 from armscope.paper.measurements import Measurements
 from armscope.paper.printed import PRINTED_MODELS, TEST_TRAJECTORIES, printed_table2
 from armscope.paper.residuals import SPATIAL, spatial_rms
@@ -45,14 +45,14 @@ class Evidence:
 
     cells: pd.DataFrame
     by_least_squares: pd.DataFrame
-    fits: Sequence[FittedModel]
-    random: Sequence[FittedModel] = ()
+    fits: Sequence[SwarmFit]
+    random: Sequence[SwarmFit] = ()
     sub_volumes: pd.DataFrame = field(default_factory=pd.DataFrame)
     outlook: pd.DataFrame = field(default_factory=pd.DataFrame)
     poses: pd.DataFrame = field(default_factory=pd.DataFrame)
 
     @staticmethod
-    def of(measurements: Measurements, fits: Sequence[FittedModel], random: Sequence[FittedModel] = ()) -> Evidence:
+    def of(measurements: Measurements, fits: Sequence[SwarmFit], random: Sequence[SwarmFit] = ()) -> Evidence:
         """From the fits of one method.
 
         Args:

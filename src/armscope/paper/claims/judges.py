@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from armscope.core.types import Array
-from armscope.errormodels import FOURIER_2_AI, POLYNOMIAL_4_AI, FittedModel
+from armscope.errormodels import FOURIER_2_AI, POLYNOMIAL_4_AI, SwarmFit
 from armscope.paper.claims.evidence import Evidence, Judged, printed_cells, printed_spatial
 from armscope.paper.enough_poses import PRINTED_COUNT, smallest_sufficient
 from armscope.paper.outlook import PLAIN, SUB_VOLUMES
@@ -129,7 +129,7 @@ def beats_random_search(evidence: Evidence) -> Judged | None:
         return None
     blind = {(fit.label, fit.name): float(np.median(fit.excess_percent)) for fit in evidence.random}
 
-    def ratio(fit: FittedModel) -> float:
+    def ratio(fit: SwarmFit) -> float:
         return float(np.median(fit.excess_percent)) / blind[fit.label, fit.name]
 
     ratios = _worst(evidence, evidence.fits, ratio)
@@ -142,14 +142,14 @@ def small_cost(evidence: Evidence) -> Judged:
     return Judged(numbers <= SMALL_COST, numbers)
 
 
-def arrival(fit: FittedModel) -> float:
+def arrival(fit: SwarmFit) -> float:
     """The iteration at which the last of a fit's swarms is close to least squares; infinite if one never is."""
     close = fit.history_mm <= fit.optimum_mm[None, :, None] * (1 + CLOSE_PER_CENT / 100)
     first = np.where(close.any(axis=2), close.argmax(axis=2), np.inf)
     return float(first.max())
 
 
-def cost_ratio(fit: FittedModel) -> float:
+def cost_ratio(fit: SwarmFit) -> float:
     """Evaluations until a fit is close, over what least squares costs: as much as one evaluation per coefficient.
 
     One evaluation of n coefficients on N rows takes 2 N n operations, a QR solution 2 N n^2.
@@ -157,7 +157,7 @@ def cost_ratio(fit: FittedModel) -> float:
     return (1 + arrival(fit)) * fit.particles / len(fit.features.term_names)
 
 
-def _worst(evidence: Evidence, fits: Sequence[FittedModel], number: Callable[[FittedModel], float]) -> Array:
+def _worst(evidence: Evidence, fits: Sequence[SwarmFit], number: Callable[[SwarmFit], float]) -> Array:
     """The largest number over each robot's fits of the paper's models, robots in their order."""
     worst: dict[str, float] = {}
     for fit in fits:

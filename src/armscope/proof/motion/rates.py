@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from armscope.proof.binomial import RATE, of_seeds, rate
-from armscope.proof.definitions import SEEDS, judged
-from armscope.proof.motion.scoring import AIMS, Row
+from armscope.core.markdown import table_lines
+from armscope.proof.binomial import RATE, Rate, Row, aim_row, aim_rows, of_seeds, rate
+from armscope.proof.definitions import SEEDS
+from armscope.proof.motion.scoring import AIMS
 
 HELD_OUT = "held-out error over the truth's own, median world (clean, single, multiple)"
 HELD_OUT_AIM = (0.0, 1.05)
@@ -16,13 +17,7 @@ RIGHT_INPUTS = ("clean", "single", "multiple")
 
 def summary(cases: dict[str, pd.DataFrame]) -> pd.DataFrame:
     """Every aim for fixed, fresh and all worlds: cases, right, estimate, 95 % interval, bounds, verdict."""
-    rows: list[Row] = []
-    for aim in AIMS:
-        among = cases[aim.table][aim.among(cases[aim.table])]
-        for seeds in SEEDS:
-            counted = rate(of_seeds(among, seeds)[aim.column])
-            verdict = judged(counted.cases, counted.estimate, counted.low, counted.high, aim.bounds)
-            rows.append(_row(aim.text, seeds, vars(counted), aim.bounds, verdict))
+    rows = aim_rows(AIMS, cases)
     worlds = cases["worlds"]
     for seeds in SEEDS:
         ratios = of_seeds(worlds[worlds["category"].isin(RIGHT_INPUTS)], seeds)["held_out_ratio"]
@@ -30,23 +25,17 @@ def summary(cases: dict[str, pd.DataFrame]) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def _row(aim: str, seeds: str, counted: dict[str, object], bounds: tuple[float, float], verdict: str) -> Row:
-    return {"aim": aim, "seeds": seeds, **counted, "least": bounds[0], "most": bounds[1], "verdict": verdict}
-
-
 def _held_out(ratios: np.ndarray, seeds: str) -> Row:
     """The median, with the order statistics that hold it in 95 % of samples (distribution-free)."""
     count = len(ratios)
     if not count:
-        nothing = dict.fromkeys(RATE[2:], np.nan)
-        return _row(HELD_OUT, seeds, {"cases": 0, "right": 0, **nothing}, HELD_OUT_AIM, "too few cases")
+        return aim_row(HELD_OUT, seeds, Rate(0, 0, np.nan, np.nan, np.nan), HELD_OUT_AIM)
     ordered = np.sort(ratios)
     below = int(np.floor(count / 2 - 0.98 * np.sqrt(count)))
     low, high = ordered[max(below, 0)], ordered[min(count - 1 - below, count - 1)]
     median = float(ordered[(count - 1) // 2])  # a median that is a world's own, and so may be infinite
-    counted = {"cases": count, "right": int((ratios <= HELD_OUT_AIM[1]).sum()), "estimate": median}
-    verdict = judged(count, median, float(low), float(high), HELD_OUT_AIM)
-    return _row(HELD_OUT, seeds, {**counted, "low": float(low), "high": float(high)}, HELD_OUT_AIM, verdict)
+    counted = Rate(count, int((ratios <= HELD_OUT_AIM[1]).sum()), median, float(low), float(high))
+    return aim_row(HELD_OUT, seeds, counted, HELD_OUT_AIM)
 
 
 def per_effect(cases: dict[str, pd.DataFrame]) -> pd.DataFrame:
@@ -69,10 +58,8 @@ def _with_shape(effects: pd.DataFrame) -> pd.Series:
 
 def in_words(table: pd.DataFrame) -> str:
     """The summary of all worlds as a Markdown table."""
-    lines = ["| aim | cases | rate | 95 % interval | aimed at | |", "|---|---|---|---|---|---|"]
+    rows = []
     for _, row in table[table["seeds"] == "all"].iterrows():
-        spans = [f"{row['low']:.3g} - {row['high']:.3g}", f"{row['least']:g} - {row['most']:g}"]
-        lines.append(
-            f"| {row['aim']} | {row['cases']} | {row['estimate']:.3g} | {' | '.join(spans)} | {row['verdict']} |"
-        )
-    return "\n".join(lines) + "\n"
+        spans = (f"{row['low']:.3g} - {row['high']:.3g}", f"{row['least']:g} - {row['most']:g}")
+        rows.append((row["aim"], row["cases"], f"{row['estimate']:.3g}", *spans, row["verdict"]))
+    return "\n".join(table_lines(("aim", "cases", "rate", "95 % interval", "aimed at", ""), rows)) + "\n"

@@ -11,10 +11,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from armscope.core.inputs import InputError
 from armscope.proof.motion.answers import read_answer
 from armscope.proof.motion.scoring import MotionWorld
 from armscope.proof.motion.truth import unseal
+from armscope.proof.reading import check_seal
 
 ALLOWED = {"robot.yaml", "motions.csv", "test_motions.csv"}
 """All that a diagnosing job may see of a world."""
@@ -26,20 +26,6 @@ def read_worlds(folder: Path) -> Iterator[MotionWorld]:
     Raises:
         InputError: a diagnosing job could see more than it may.
     """
-    check_seal(folder / "seen.txt")
+    check_seal(folder / "seen.txt", ALLOWED)
     for world, truth in unseal(folder / "sealed.tar.gz").items():
         yield MotionWorld(truth, read_answer(folder / "verdicts" / world))
-
-
-def check_seal(seen: Path) -> None:
-    """Make sure that the diagnosing job saw nothing but what may be seen.
-
-    Raises:
-        InputError: the list holds another file.
-    """
-    files = seen.read_text(encoding="utf-8").splitlines()
-    if not files:
-        raise InputError(seen, "", "nothing", "the list says what the diagnosing job saw, its motions at least")
-    for line in files:
-        if Path(line).name not in ALLOWED:
-            raise InputError(seen, "", line, f"a diagnosing job may see {', '.join(sorted(ALLOWED))} and nothing else")

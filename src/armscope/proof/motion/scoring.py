@@ -9,7 +9,7 @@ leaves there (noise, and what the drives' filter rounds off).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,9 +17,9 @@ import pandas as pd
 
 from armscope.core.location import Location
 from armscope.proof.answers import NamedEffect
-from armscope.proof.definitions import CLEAR_STRENGTH, place
+from armscope.proof.definitions import Aim, category, clear, place
 from armscope.proof.intervals import NORMAL_95
-from armscope.proof.matching import UNKNOWN, Match, among_all, match
+from armscope.proof.matching import UNKNOWN, Match, effect_row, match, name_row, outside_outcome
 from armscope.proof.motion.answers import MotionAnswer
 from armscope.proof.motion.truth import MotionTruth
 
@@ -55,9 +55,9 @@ def score(worlds: Iterable[MotionWorld]) -> dict[str, pd.DataFrame]:
         common: Row = {"world": truth.world, "category": truth.category, "arm": truth.arm, "fresh": truth.fresh}
         common["weakest"] = min((effect.strength for effect in truth.effects), default=float("nan"))
         rows["worlds"].append(common | _world(world, matches, left))
-        rows["effects"] += [common | _effect(found, claims) for found in matches]
+        rows["effects"] += [common | effect_row(found, claims) for found in matches]
         rows["names"] += [
-            common | _name(truth, claim, claim not in left) for claim in claims if claim.effect != UNKNOWN
+            common | name_row(truth.effects, claim, claim not in left) for claim in claims if claim.effect != UNKNOWN
         ]
         rows["intervals"] += [common | number for number in [*_numbers(matches), *_ordinary(world)]]
     return {name: pd.DataFrame(found, columns=list(COLUMNS[name])) for name, found in rows.items()}
@@ -65,7 +65,9 @@ def score(worlds: Iterable[MotionWorld]) -> dict[str, pd.DataFrame]:
 
 def _world(world: MotionWorld, matches: list[Match], left: list[NamedEffect]) -> Row:
     truth, answer = world.truth, world.answer
-    outside = _outside(truth, answer, matches, left) if truth.outside else ""
+    outside = ""
+    if truth.outside:
+        outside = "failed" if answer.failed else outside_outcome(matches, left, bool(answer.claims))
     return {
         "stated": truth.stated,
         "rows": truth.rows,
@@ -85,21 +87,6 @@ def _world(world: MotionWorld, matches: list[Match], left: list[NamedEffect]) ->
     }
 
 
-def _outside(truth: MotionTruth, answer: MotionAnswer, matches: list[Match], left: list[NamedEffect]) -> str:
-    """How a world outside the library was answered, as in `armscope.proof.definitions`."""
-    names = [claim for claim in left if claim.effect != UNKNOWN]
-    where = {place(effect.location) for effect in truth.effects}
-    if answer.failed:
-        return "failed"
-    if all(found.right for found in matches):
-        if not names:
-            return "located" if all(found.outcome == "named" for found in matches) else "acceptable"
-        return "partly named" if {place(claim.location) for claim in names} <= where else "misnamed"
-    if names:
-        return "misnamed"
-    return "elsewhere" if answer.claims else "missed"
-
-
 def held_out_ratio(truth: MotionTruth, answer: MotionAnswer) -> float:
     """See the module; infinite if it failed or too little of the path was predicted."""
     if answer.predicted is None:
@@ -110,34 +97,6 @@ def held_out_ratio(truth: MotionTruth, answer: MotionAnswer) -> float:
     off = (answer.predicted[names].to_numpy() - truth.test[names].to_numpy()) / truth.left_nm
     there = np.isfinite(off).all(axis=1)
     return float(np.sqrt(np.mean(off[there] ** 2))) if there.mean() >= ENOUGH_PREDICTED else float("inf")
-
-
-def _effect(found: Match, claims: tuple[NamedEffect, ...]) -> Row:
-    truth, claim = found.truth, found.claim
-    return {
-        "effect": truth.effect,
-        "location": truth.location,
-        "shape": truth.shape,
-        "strength": truth.strength,
-        "outcome": found.outcome,
-        "right": found.right,
-        "ambiguous": bool(truth.alternatives),
-        "among_all": among_all(truth, claims),
-        "said_effect": claim.effect if claim else "",
-        "said_location": claim.location if claim else "",
-    }
-
-
-def _name(truth: MotionTruth, claim: NamedEffect, right: bool) -> Row:
-    acceptable = {effect for each in truth.effects for effect, _ in (each.name, *each.alternatives)}
-    return {
-        "effect": claim.effect,
-        "location": claim.location,
-        "minor": claim.minor,
-        "evidence_nats": claim.evidence_nats,
-        "right": right,
-        "effect_right": claim.effect in acceptable,
-    }
 
 
 def _numbers(matches: list[Match]) -> Iterator[Row]:
@@ -172,33 +131,18 @@ def _covered(name: str, unit: str, true: float, fitted: tuple[float, float, str]
     }  # fmt: skip
 
 
-@dataclass(frozen=True)
-class MotionAim:
-    """An aim: its words, the table and column that say right or wrong, its bounds, and which rows count."""
-
-    text: str
-    table: str
-    column: str
-    bounds: tuple[float, float]
-    among: Callable[[pd.DataFrame], pd.Series]
-
-
-def _of(category: str) -> Callable[[pd.DataFrame], pd.Series]:
-    return lambda rows: rows["category"] == category
-
-
-AIMS: tuple[MotionAim, ...] = (
-    MotionAim("no name on clean arms", "worlds", "silent", (0.99, 1.0), _of("clean")),
-    MotionAim("exact set of names, single causes at 3x the noise and above", "worlds", "exact", (0.95, 1.0),
-              lambda rows: (rows["category"] == "single") & (rows["weakest"] >= CLEAR_STRENGTH)),
-    MotionAim("exact set of names, several causes", "worlds", "exact", (0.90, 1.0), _of("multiple")),
-    MotionAim("location right whenever the name is", "names", "right", (0.98, 1.0),
-              lambda rows: rows["effect_right"].astype(bool)),
-    MotionAim("95 % intervals of causes hold the true number", "intervals", "covered", (0.90, 0.97),
-              lambda rows: rows["effect"] != ORDINARY),
-    MotionAim("95 % intervals of ordinary friction and rotors hold the true number", "intervals", "covered",
-              (0.90, 0.97), lambda rows: rows["effect"] == ORDINARY),
-    MotionAim("outside the library: located and not misnamed", "worlds", "outside_right", (0.90, 1.0), _of("outside")),
-    MotionAim("ambiguous: the truth among causes or alternatives", "effects", "among_all", (0.95, 1.0),
-              lambda rows: rows["ambiguous"].astype(bool)),
+AIMS: tuple[Aim, ...] = (
+    Aim("no name on clean arms", "worlds", "silent", (0.99, 1.0), category("clean")),
+    Aim("exact set of names, single causes at 3x the noise and above", "worlds", "exact", (0.95, 1.0),
+        clear("single")),
+    Aim("exact set of names, several causes", "worlds", "exact", (0.90, 1.0), category("multiple")),
+    Aim("location right whenever the name is", "names", "right", (0.98, 1.0),
+        lambda rows: rows["effect_right"].astype(bool)),
+    Aim("95 % intervals of causes hold the true number", "intervals", "covered", (0.90, 0.97),
+        lambda rows: rows["effect"] != ORDINARY),
+    Aim("95 % intervals of ordinary friction and rotors hold the true number", "intervals", "covered",
+        (0.90, 0.97), lambda rows: rows["effect"] == ORDINARY),
+    Aim("outside the library: located and not misnamed", "worlds", "outside_right", (0.90, 1.0), category("outside")),
+    Aim("ambiguous: the truth among causes or alternatives", "effects", "among_all", (0.95, 1.0),
+        lambda rows: rows["ambiguous"].astype(bool)),
 )  # fmt: skip

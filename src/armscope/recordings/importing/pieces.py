@@ -13,7 +13,8 @@ from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array
 from armscope.recordings.importing.formats import Column, Format, RowFilter
 from armscope.recordings.importing.mapping import Beside, RunFiles
-from armscope.recordings.importing.rawfiles import RawRows, joined, read_pieces
+from armscope.recordings.importing.rawfiles import read_pieces
+from armscope.recordings.importing.rawrows import RawRows, joined
 
 MOST_NAMED = 3
 """Columns that an error names one by one."""

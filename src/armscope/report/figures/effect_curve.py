@@ -13,15 +13,14 @@ from armscope.report.colours import AFTER, OUTLINE, PALE
 from armscope.report.sectioning import Drawn
 from armscope.report.subject import Subject
 from armscope.report.svg import Drawing, Panel
-from armscope.verdict.schema import INTERVAL, FoundEffect
-from armscope.verdict.schema import Curve as FoundCurve
+from armscope.verdict.schema import INTERVAL, Curve, FoundEffect
 
 WIDTH, HEIGHT = 440.0, 220.0
 """Of a curve's picture, px."""
 
 
 @dataclass(frozen=True, eq=False)
-class Curve:
+class DrawnCurve:
     """One curve to draw.
 
     Attributes:
@@ -41,7 +40,7 @@ class Curve:
     rows: Array | None = None
 
 
-def draw_curves(curves: Sequence[Curve]) -> Drawing:
+def draw_curves(curves: Sequence[DrawnCurve]) -> Drawing:
     """Each curve with its band in a panel of its own, under each other."""
     drawing = Drawing(WIDTH, HEIGHT * len(curves), "; ".join(f"{curve.title}, with its 95 % band" for curve in curves))
     for place, curve in enumerate(curves):
@@ -65,7 +64,7 @@ def effect_curves(subject: Subject) -> Iterator[Drawn]:
     """A curve of every effect whose shape says more than a number, named by the effect's number."""
     for number, effect in enumerate(subject.verdict.effects, start=1):
         if effect.curve is not None and worth_drawing(effect):
-            yield Drawn(f"curve_{number}", draw_curves([curve_of(effect, effect.curve)]))
+            yield Drawn(f"curve_{number}", draw_curves([drawn_curve(effect, effect.curve)]))
 
 
 def worth_drawing(effect: FoundEffect) -> bool:
@@ -73,14 +72,14 @@ def worth_drawing(effect: FoundEffect) -> bool:
     return effect.curve is not None and (effect.effect == "unknown" or len(effect.parameters) > 1)
 
 
-def curve_of(effect: FoundEffect, found: FoundCurve) -> Curve:
+def drawn_curve(effect: FoundEffect, found: Curve) -> DrawnCurve:
     """An effect's curve in the units of a figure: degrees for angles, µrad or mm for what it does."""
     x, x_unit = (np.degrees(found.at), "deg") if found.driver_unit == "rad" else (found.at, found.driver_unit)
     size = float(np.max(np.abs(found.value), initial=0.0))
     factor, unit = shown_unit(found.value_unit, size)
     value, band = factor * found.value, INTERVAL * factor * found.stderr
     does = "moves by" if found.value_unit.startswith("m") else "turns by"
-    return Curve(
+    return DrawnCurve(
         title=f"what {effect.location} does over the {found.driver}",
         x=x,
         value=value,

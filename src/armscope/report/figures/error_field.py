@@ -64,22 +64,21 @@ class ErrorField:
     shares: Mapping[str, float] = field(default_factory=dict)
 
 
-def turnable(arm: Arm, shown: ErrorField, name: str = "field") -> Markup:
+def turnable(arm: Arm, shown: ErrorField) -> Markup:
     """The figure's content for a page that includes error_field.css and error_field.js.
 
     Args:
         arm: the nominal arm.
         shown: what is to be turned.
-        name: id of the figure.
 
     Returns:
         HTML.
     """
     content = json.dumps(figure_data(arm, shown), separators=(",", ":"), ensure_ascii=False).replace("<", "\\u003c")
     return Markup(
-        '<figure class="field" id="{}"><script type="application/json">{}</script>'
+        '<figure class="field" id="field"><script type="application/json">{}</script>'
         "<noscript><p>Turning the arm needs JavaScript; the figures below do without.</p></noscript>"
-    ).format(name, Markup(content))
+    ).format(Markup(content))
 
 
 def figure_data(arm: Arm, shown: ErrorField) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from armscope.motion.laws import Law
 from armscope.motion.shapes import free_curve, friction_over_speed, limits_of
 from armscope.report.colours import AFTER, BEFORE, INK, OUTLINE, QUIET
 from armscope.report.figures.along_joints import running_mean
-from armscope.report.figures.effect_curve import Curve, draw_curves
+from armscope.report.figures.effect_curve import DrawnCurve, draw_curves
 from armscope.report.motion_subject import MotionSubject, longest_piece
 from armscope.report.sectioning import Drawn
 from armscope.report.svg import Drawing, Panel
@@ -149,7 +149,7 @@ def curve_figures(subject: MotionSubject) -> Iterator[Drawn]:
             value, stderr = free_curve(curve, at)
             factor, unit = _driver_unit(subject, cause.driver, law.joints[0])
             band = INTERVAL * stderr
-            drawn = Curve(
+            drawn = DrawnCurve(
                 f"what {cause.location} does over the {cause.driver}",
                 factor * at, value, value - band, value + band,
                 f"{cause.driver} ({unit})", f"torque ({cause.unit})",

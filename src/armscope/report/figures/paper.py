@@ -10,7 +10,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from armscope.core.types import Array
-from armscope.errormodels import FittedModel
+from armscope.errormodels import SwarmFit
 from armscope.paper.bands import TRUE, band_of
 from armscope.paper.measurements import Measurements
 from armscope.paper.printed import PRINTED_MODELS
@@ -46,13 +46,13 @@ class PaperResults:
     """
 
     measurements: Measurements
-    fits: Sequence[FittedModel]
+    fits: Sequence[SwarmFit]
     bands: pd.DataFrame
     arm: Arm | None = None
     tracker_mm: Array | None = None
 
     @property
-    def by_model(self) -> dict[str, FittedModel]:
+    def by_model(self) -> dict[str, SwarmFit]:
         """The fits of the first robot."""
         return {fit.name: fit for fit in self.fits if fit.label == self.measurements.robots[0]}
 
@@ -94,18 +94,16 @@ def draw(name: str, shown: PaperResults) -> Figure:
     )
 
 
-def modelled(models: Mapping[str, FittedModel]) -> list[str]:
+def modelled(models: Mapping[str, SwarmFit]) -> list[str]:
     """The models of Fig. 4: the paper's four as far as they are there, else the first four."""
     return [name for name in PRINTED_MODELS if name in models] or list(models)[:4]
 
 
-def estimated(models: Mapping[str, FittedModel], space: str) -> list[str]:
+def estimated(models: Mapping[str, SwarmFit], space: str) -> list[str]:
     """The models of one kind of input that Figs. 6, 7, 10, 11 show: the first two."""
     return [name for name, fit in models.items() if fit.features.spec.space == space][:MOST_COLUMNS]
 
 
-def _predictions(
-    fits: Mapping[str, FittedModel], models: Sequence[str], inputs: Callable[..., Array]
-) -> dict[str, Array]:
+def _predictions(fits: Mapping[str, SwarmFit], models: Sequence[str], inputs: Callable[..., Array]) -> dict[str, Array]:
     """By model, the median of the seeds' predictions (N, 3), mm."""
     return {model: np.median(fits[model].predict_all(inputs(fits[model].features.spec)), axis=0) for model in models}

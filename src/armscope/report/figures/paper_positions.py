@@ -40,13 +40,12 @@ def errors_of_positions(errors: Array, low: Array | None = None, high: Array | N
     return figure
 
 
-def modelling_performance(errors: Array, predictions: Mapping[str, Array], axis: int = 1) -> Figure:
-    """Fig. 4: what each model makes of the identification errors along one axis.
+def modelling_performance(errors: Array, predictions: Mapping[str, Array]) -> Figure:
+    """Fig. 4: what each model makes of the identification errors along y, as the paper shows it.
 
     Args:
         errors: (N, 3) mm.
         predictions: by model, (N, 3) mm; any number of models.
-        axis: 0, 1, 2 for x, y, z; the paper shows y.
 
     Returns:
         The figure.
@@ -60,12 +59,12 @@ def modelling_performance(errors: Array, predictions: Mapping[str, Array], axis:
         for panel in panels.flat[len(predictions) :]:
             panel.set_visible(False)
         for panel, (model, predicted) in zip(panels.flat, predictions.items(), strict=False):
-            panel.plot(points, errors[:, axis], color=BLACK, linewidth=0.8, label="measured")
-            panel.plot(points, predicted[:, axis], color=VERMILION, linestyle="--", linewidth=1.0, label="predicted")
-            rest = np.sqrt(np.mean((errors[:, axis] - predicted[:, axis]) ** 2))
+            panel.plot(points, errors[:, 1], color=BLACK, linewidth=0.8, label="measured")
+            panel.plot(points, predicted[:, 1], color=VERMILION, linestyle="--", linewidth=1.0, label="predicted")
+            rest = np.sqrt(np.mean((errors[:, 1] - predicted[:, 1]) ** 2))
             panel.set_title(f"{model}: {rest:.2f} mm RMS left")
         for panel in panels[:, 0]:
-            panel.set_ylabel(f"$\\delta_{AXIS_NAMES[axis]}$ (mm)")
+            panel.set_ylabel(f"$\\delta_{AXIS_NAMES[1]}$ (mm)")
         for panel in panels[-1]:
             panel.set_xlabel("identification position")
         legend_above(figure)

@@ -29,7 +29,7 @@ def draw_all(tables: Mapping[str, pd.DataFrame], titles: Mapping[str, str]) -> d
     """
     cases = tables["cases"].assign(arm=[titles.get(name, name) for name in tables["cases"]["set"]])
     with styled():
-        return {"found": found(cases), "sizes": sizes(cases), "held_out": held_out(cases)}
+        return {"found": found(cases), "sizes": sizes(cases), "held_out": held_out_by_arm(cases)}
 
 
 def found(cases: pd.DataFrame) -> Figure:
@@ -79,7 +79,7 @@ def sizes(cases: pd.DataFrame) -> Figure:
     return figure
 
 
-def held_out(cases: pd.DataFrame) -> Figure:
+def held_out_by_arm(cases: pd.DataFrame) -> Figure:
     """Share of the planted squared error on unseen rows that the altered verdict's model takes away, by arm."""
     names = sorted(cases["arm"].unique())
     figure, axes = plt.subplots(figsize=(7.2, max(2.4, 1.4 + 0.4 * len(names))))

@@ -9,6 +9,7 @@ from typing import Any
 
 from markupsafe import Markup
 
+from armscope.core.averages import rms
 from armscope.core.files import write_table, write_text
 from armscope.report.colours import page_variables
 from armscope.report.html import render_page
@@ -16,7 +17,6 @@ from armscope.report.sectioning import write_sections
 from armscope.report.sections.effects import findings
 from armscope.report.sections.registry import SECTIONS
 from armscope.report.subject import Subject
-from armscope.verdict.contributions import rms
 from armscope.verdict.corrections import corrected_rows, zero_offsets
 from armscope.verdict.schema import Diagnosis, Notice
 from armscope.verdict.sentences import another_model, more_than_noise, unusable

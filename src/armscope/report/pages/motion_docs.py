@@ -7,6 +7,7 @@ from pathlib import Path
 import pandas as pd
 
 from armscope.core.files import read_table, write_text
+from armscope.core.markdown import table_lines
 from armscope.motion.catalogue import CAUSES
 from armscope.motion.verdict import read_motion_verdict
 from armscope.report.html import significant
@@ -39,8 +40,8 @@ def fill_motion_page(page: Path, proof: Path | None, real: Path | None, of: str)
 
 def cause_lines() -> list[str]:
     """Every cause of the library: its name in verdict.json, its family, what it is."""
-    rows = [f"| `{cause.name}` | {cause.family} | {cause.physics} |" for cause in CAUSES]
-    return ["| name | family | what it is |", "|---|---|---|", *rows]
+    rows = ((f"`{cause.name}`", cause.family, cause.physics) for cause in CAUSES)
+    return table_lines(("name", "family", "what it is"), rows)
 
 
 def rate_lines(summary: pd.DataFrame, worlds: int, of: str) -> list[str]:
@@ -54,19 +55,15 @@ def rate_lines(summary: pd.DataFrame, worlds: int, of: str) -> list[str]:
     Returns:
         Lines of Markdown.
     """
-    lines = [
-        f"Measured at {of}, {worlds} worlds, with 95 % intervals:",
-        "",
-        "| | cases | found | aim |",
-        "|---|---|---|---|",
-    ]
+    rows = []
     for row in summary[(summary["seeds"] == "all") & (summary["cases"] > 0)].to_dict("records"):
         if MEDIAN in row["aim"]:
             found = f"{significant(row['estimate'], 3)} ({significant(row['low'], 3)}–{significant(row['high'], 3)})"
         else:
             found = f"{row['estimate']:.0%} ({row['low']:.0%}–{row['high']:.0%})".replace("%", " %")
-        lines.append(f"| {row['aim']} | {row['cases']} | {found} | {row['verdict']} |")
-    return lines
+        rows.append((row["aim"], row["cases"], found, row["verdict"]))
+    head = f"Measured at {of}, {worlds} worlds, with 95 % intervals:"
+    return [head, "", *table_lines(("", "cases", "found", "aim"), rows)]
 
 
 def real_lines(folder: Path, of: str) -> list[str]:
@@ -79,16 +76,12 @@ def real_lines(folder: Path, of: str) -> list[str]:
     Returns:
         Lines of Markdown.
     """
-    lines = [
-        f"Measured at {of}:",
-        "",
-        "| set | held out | as stated | friction and rotors | with masses and causes | said |",
-        "|---|---|---|---|---|---|",
-    ]
+    rows = []
     for path in sorted(folder.glob("*/verdict.json")):
         verdict = read_motion_verdict(path)
         held = verdict["held_out"]
-        errors = " | ".join(f"{significant(100 * held[name], 2)} %" for name in ("stated", "background", "model"))
+        errors = (f"{significant(100 * held[name], 2)} %" for name in ("stated", "background", "model"))
         said = verdict["headline"].partition("; on held-out")[0]
-        lines.append(f"| {path.parent.name} | {held['what']} | {errors} | {said} |")
-    return lines
+        rows.append((path.parent.name, held["what"], *errors, said))
+    head = ("set", "held out", "as stated", "friction and rotors", "with masses and causes", "said")
+    return [f"Measured at {of}:", "", *table_lines(head, rows)]

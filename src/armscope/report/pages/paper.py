@@ -15,7 +15,7 @@ from armscope.paper.printed import PRINTED_MODELS, TRAJECTORIES
 from armscope.report.html import significant, write_page
 from armscope.report.pages import paper_tables as shown
 from armscope.report.pages.paper_claims import claim_rows, first_screen, sensitivity_table
-from armscope.report.pages.paper_outlook import Outlook, RealArm
+from armscope.report.pages.paper_outlook import Outlook, ReproducedArm
 from armscope.report.text.audit import ROMAN, audit_sentence, contradictions
 
 FIGURES_OF_INPUT = {"cartesian": ("Figs. 6 and 10", "fig06"), "angular": ("Figs. 7 and 11", "fig07")}
@@ -52,7 +52,7 @@ class PaperPage:
     seed: int
     results: Path
     proof: Path
-    real: list[RealArm]
+    real: list[ReproducedArm]
     field: Markup
     outlook: Outlook
 

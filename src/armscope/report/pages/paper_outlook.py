@@ -11,7 +11,7 @@ from armscope.core.files import read_table
 
 
 @dataclass(frozen=True)
-class RealArm:
+class ReproducedArm:
     """A real arm in the report: the folder of its study, or why it was skipped."""
 
     title: str

@@ -33,22 +33,21 @@ class Row:
     kind: str
 
 
-def table2_blocks(table: pd.DataFrame, marks: Contradictions, reading: str = "rss") -> list[tuple[str, list[Row]]]:
-    """The rendered Table 2: by model, one line per quantity, one cell per trajectory and axis.
+def table2_blocks(table: pd.DataFrame, marks: Contradictions) -> list[tuple[str, list[Row]]]:
+    """The rendered Table 2, its "RMS" read as "rss": by model, one line per quantity, one cell per trajectory and axis.
 
     Args:
         table: as `armscope.paper.table2` returns it.
         marks: cells of the printed table that contradict others.
-        reading: of "RMS": "rss" (root of the sum of squares) or "rms" (of their mean), mm.
 
     Returns:
         Pairs of model and lines.
     """
     cells = table[table["axis"].isin(AXES)].set_index(["model", "trajectory", "axis"])
     columns = pd.MultiIndex.from_product([TRAJECTORIES, AXES])
-    drawn = table[f"{reading}_ensemble_median"].notna().any()
-    ours = f"{reading}_ensemble_median" if drawn else f"{reading}_median"
-    ratio = f"{reading}_ensemble_ratio" if drawn else f"{reading}_ratio"
+    drawn = table["rss_ensemble_median"].notna().any()
+    ours = "rss_ensemble_median" if drawn else "rss_median"
+    ratio = "rss_ensemble_ratio" if drawn else "rss_ratio"
     whose = "ours: median of the drawn robots" if drawn else "ours: anchored robot"
     blocks = []
     for model in dict.fromkeys(table["model"]):
@@ -60,9 +59,9 @@ def table2_blocks(table: pd.DataFrame, marks: Contradictions, reading: str = "rs
         rows = [
             Row("printed", printed, "printed"),
             Row(whose, _numbers(of_model, ours), "ours"),
-            Row("5–95 % of them", _ranges(of_model, f"{reading}_ensemble_low", f"{reading}_ensemble_high"), "quiet"),
+            Row("5–95 % of them", _ranges(of_model, "rss_ensemble_low", "rss_ensemble_high"), "quiet"),
             Row("ours / printed", _numbers(of_model, ratio, "×"), "ratio"),
-            Row("anchored robot", _numbers(of_model, f"{reading}_median"), "quiet"),
+            Row("anchored robot", _numbers(of_model, "rss_median"), "quiet"),
         ]
         blocks.append((model, [row for row in rows if {cell.text for cell in row.cells} != {"–"}]))
     return blocks

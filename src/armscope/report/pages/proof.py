@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
-from markupsafe import Markup, escape
 
-from armscope.proof import definitions
+from armscope.proof import definitions as proof_definitions
 from armscope.proof.rates import NEAR_THRESHOLD
-from armscope.report.html import significant, write_page
+from armscope.report.html import definitions, share_text, significant, write_page
 
 TAGS = {"met": "holds", "not met": "fails", "open": "depends", "too few cases": "depends"}
 SHOWN_WRONG = 400
@@ -41,7 +39,7 @@ def write_proof_page(path: Path, tables: Path, figures: Path, seed: dict[str, An
         aims=_aims(read["aims"]),
         tags=TAGS,
         summary=_summary(read["aims"]),
-        definitions=_paragraphs(definitions.__doc__ or ""),
+        definitions=definitions(proof_definitions.__doc__ or ""),
         per_effect=_wide(read["per_effect"], "effect"),
         rough=_rough(read["rough"]),
         outcomes=_wide(read["outcomes"], "category"),
@@ -100,10 +98,7 @@ def _summary(table: pd.DataFrame) -> str:
 def _wide(table: pd.DataFrame, index: str) -> pd.DataFrame:
     """Scores as columns: share, right and cases of all seeds together and of the fresh ones."""
     text = table.assign(
-        cell=[
-            "–" if cases == 0 else f"{100 * estimate:.0f} % ({right:.0f}/{cases:.0f})"
-            for estimate, right, cases in zip(table["estimate"], table["right"], table["cases"], strict=True)
-        ]
+        cell=[share_text(*row) for row in table[["estimate", "right", "cases"]].itertuples(index=False)]
     )
     pieces = []
     for seeds in ("fresh", "fixed"):
@@ -146,12 +141,3 @@ def _wrong(table: pd.DataFrame) -> pd.DataFrame:
     """Worlds with a wrong answer, readable."""
     shown = table.drop(columns=[column for column in ("failed",) if table[column].isna().all()])
     return shown.head(SHOWN_WRONG).rename(columns={"weakest": "weakest / noise", "held_out_ratio": "held out / true"})
-
-
-def _paragraphs(text: str) -> list[tuple[str, Markup]]:
-    """(bold head, rest as HTML) of the definitions' paragraphs."""
-    found = []
-    for paragraph in text.strip().split("\n\n")[1:]:
-        head, _, rest = " ".join(paragraph.split()).removeprefix("**").partition("**")
-        found.append((head, Markup(re.sub(r"`(.+?)`", r"<code>\1</code>", str(escape(rest))))))
-    return found

@@ -10,6 +10,7 @@ import pandas as pd
 
 from armscope.core.files import read_table, write_text
 from armscope.core.inputs import InputError
+from armscope.core.markdown import table_lines
 from armscope.paper.printed import AXES, TRAJECTORIES
 from armscope.paper.residuals import SPATIAL
 from armscope.report.html import significant
@@ -65,21 +66,19 @@ def filled(text: str, name: str, lines: list[str], readme: Path) -> str:
 
 def _proof_lines(aims: pd.DataFrame, worlds: int) -> list[str]:
     """The proof's aims on seeds that were drawn when it ran."""
-    lines = [
-        f"The diagnosis on {worlds} virtual arms with effects concealed from it, simulated by another engine; "
-        "the half whose seeds were drawn when the proof ran, with 95 % intervals:",
-        "",
-        "| aim | cases | found | |",
-        "|---|---|---|---|",
-    ]
+    rows = []
     for row in aims[aims["seeds"] == "fresh"].to_dict("records"):
         if row["aim"].startswith("detection"):
             found = f"{row['estimate']:.1f} ({row['low']:.1f}–{row['high']:.1f})"
         else:
             estimate, low, high = (_percent(row[name]) for name in ("estimate", "low", "high"))
             found = f"{estimate} % ({low}–{high})"
-        lines.append(f"| {row['aim']} | {row['cases']} | {found} | {row['verdict']} |")
-    return lines
+        rows.append((row["aim"], row["cases"], found, row["verdict"]))
+    told = (
+        f"The diagnosis on {worlds} virtual arms with effects concealed from it, simulated by another engine; "
+        "the half whose seeds were drawn when the proof ran, with 95 % intervals:"
+    )
+    return [told, "", *table_lines(("aim", "cases", "found", ""), rows)]
 
 
 README_CLAIMS = ("smaller", "as_printed", "alternative", "cartesian_1", "fourier", "remedied", "minimum_data")
@@ -98,23 +97,20 @@ def _percent(share: float) -> str:
 
 def _claim_lines(claims: pd.DataFrame) -> list[str]:
     robots = int(claims["robots"].dropna().iloc[0])
-    lines = [
+    told = (
         f"The paper's main claims, on {robots} virtual robots drawn so that its printed Eqs. (15)-(17) come out "
         "(assumed geometry, poses and tolerances): share of the robots for which each is true, with exact 95 % "
-        "intervals, and what remains under other assumptions:",
-        "",
-        "| claim | method as printed | improved | under other assumptions |",
-        "|---|---|---|---|",
-    ]
+        "intervals, and what remains under other assumptions:"
+    )
+    rows = []
     for key in README_CLAIMS:
         by_method = {row["method"]: row for row in claims[claims["key"] == key].to_dict("records")}
         best = by_method.get("improved", by_method.get("least squares"))
         if best is None or best["verdict"] == "skipped":
             continue
         printed = by_method.get("as printed")
-        cells = ["–" if printed is None else _verdict(printed), _verdict(best), _remains(best)]
-        lines.append(f"| {best['claim']} | {' | '.join(cells)} |")
-    return lines
+        rows.append((best["claim"], "–" if printed is None else _verdict(printed), _verdict(best), _remains(best)))
+    return [told, "", *table_lines(("claim", "method as printed", "improved", "under other assumptions"), rows)]
 
 
 def _verdict(row: dict[Hashable, Any]) -> str:
@@ -137,17 +133,15 @@ def _table_lines(table: pd.DataFrame) -> list[str]:
     whole = table[table["axis"] == SPATIAL].set_index(["model", "trajectory"])
     columns = [f"rss_ensemble_{name}" for name in ("median", "low", "high")]
     ours = {place: [significant(value, 2) for value in row[columns]] for place, row in whole.iterrows()}
-    lines = [
+    told = (
         "Table 2 in short: median of the drawn robots (5–95 % of them) / printed; length of the x, y, z errors, each "
-        "the root of the sum of squares, mm; identification fitted, tests held out:",
-        "",
-        "| | " + " | ".join(TRAJECTORIES) + " |",
-        "|---|" + "---|" * len(TRAJECTORIES),
-    ]
+        "the root of the sum of squares, mm; identification fitted, tests held out:"
+    )
+    rows = []
     for model in lengths.index.get_level_values(0).unique():
         cells = []
         for name in TRAJECTORIES:
             median, low, high = ours[model, name]
             cells.append(f"{median} ({low}–{high}) / {significant(lengths[model, name], 2)}")
-        lines.append(f"| {model} | {' | '.join(cells)} |")
-    return lines
+        rows.append((model, *cells))
+    return [told, "", *table_lines(("", *TRAJECTORIES), rows)]

@@ -11,12 +11,14 @@ import numpy as np
 import pandas as pd
 
 from armscope.core.files import write_text
+from armscope.core.markdown import table_lines
 from armscope.real.curves import shared
 from armscope.real.protocol import ARMSCOPE, ORIENTED, UNCORRECTED
 from armscope.real.reference import Reference, ReferenceRun, load_reference
 from armscope.real.transfer import GEOMETRY_HERE, SPLITS, WITH_CURVES
 from armscope.report.html import significant
 from armscope.report.text.compliances import compliance_lines
+from armscope.report.text.concealment import concealment
 from armscope.verdict.files import VERDICT, read_verdict
 from armscope.verdict.schema import Verdict
 
@@ -36,13 +38,6 @@ it. What that does not exclude: these recordings were in view while armscope was
 bearing is expected to give half as much as its drive, not a third) was settled on the iiwa's 2016-11-18. The recordings
 are not part of this repository: `snakemake -j2 fetch_recordings`."""
 PAPER = "The paper's models at 85 identification rows (chosen as in the paper, least squares; the rest tests them):"
-CONCEALMENT = """\
-One known effect at a time, added to the recordings behind a seal at 0.5, 1 and 3 times what each arm's own diagnosis
-leaves, on top of all the arm does (`snakemake -j2 proof_real`; definitions and figures in its report):"""
-WITHHELD = """\
-The same recordings without the columns that say how loaded the arm was: is it still found to give way? Where drives and
-bearings are not told apart, they give way without a name, among the small errors everywhere."""
-SCORES = {"found": "found", "right_place": "right place", "covered": "interval holds", "quiet": "no new name"}
 JUMPS = ("base_shift", "tool_shift")
 
 
@@ -69,37 +64,36 @@ def write_real_arms(path: Path, arms: Sequence[RealArm], figures: str, proof: Pa
         figures: folder of the figures as the page names it; real-<name>.svg in it.
         proof: folder of the tables of `armscope real score`; None leaves the concealment out.
     """
-    sections = [_section(arm, figures) for arm in arms]
-    text = "\n\n".join([_head(arms, figures), *sections, *([] if proof is None else [_concealment(proof, arms)])])
-    write_text(path, text + "\n")
+    parts = [_head(arms, figures), *(_section(arm, figures) for arm in arms)]
+    if proof is not None:
+        parts.append(concealment(proof, {arm.name: arm.title.partition(",")[0] for arm in arms}))
+    write_text(path, "\n\n".join(parts) + "\n")
 
 
 def _head(arms: Sequence[RealArm], figures: str) -> str:
-    lines = [
-        "# Real arms",
-        "",
-        "<!-- written by `snakemake -j1 real_arms` from results; edits here are lost -->",
-        "",
-        INTRODUCTION,
-        "",
-        "| arm | run | armscope | best figure of others | armscope beside it | orientations too |",
-        "|---|---|---|---|---|---|",
-    ]
+    head = ("arm", "run", "armscope", "best figure of others", "armscope beside it", "orientations too")
+    rows = []
     for arm in arms:
         table, reference = _read(arm)
         for run in reference.runs:
             ours = _row(table, run.name, ARMSCOPE)
             others = run.lowest
             verdict = "at or below" if ours["mean_mm"] <= others.mm else "**above**"
-            lines.append(
-                f"| {arm.title} | {run.name} | {_spread(ours, run.splits)} "
-                f"| {others.mm:g} ({others.what}) | {verdict} | {_oriented(table, run)} |"
-            )
-    lines += [
-        "",
-        f"![Every run from the nominal arm to armscope, beside the figures of others]({figures}/real-protocol.png)",
-    ]
-    return "\n".join(lines)
+            best = f"{others.mm:g} ({others.what})"
+            rows.append((arm.title, run.name, _spread(ours, run.splits), best, verdict, _oriented(table, run)))
+    return "\n".join(
+        [
+            "# Real arms",
+            "",
+            "<!-- written by `snakemake -j1 real_arms` from results; edits here are lost -->",
+            "",
+            INTRODUCTION,
+            "",
+            *table_lines(head, rows),
+            "",
+            f"![Every run from the nominal arm to armscope, beside the figures of others]({figures}/real-protocol.png)",
+        ]
+    )
 
 
 def _section(arm: RealArm, figures: str) -> str:
@@ -175,7 +169,7 @@ def _levels(table: pd.DataFrame, runs: Sequence[ReferenceRun]) -> str:
     turned = ORIENTED in set(table["model"])
     head = ["run", *("+ compliance" if level == "compliance" else level for level in LEVELS), "armscope"]
     head += ["orientations too", "angle left (mrad)"] if turned else []
-    lines = [f"| {' | '.join([*head, 'best of others'])} |", "|---|" + "---|" * len(head)]
+    rows = []
     for run in runs:
         cells = []
         for level in LEVELS:
@@ -186,8 +180,8 @@ def _levels(table: pd.DataFrame, runs: Sequence[ReferenceRun]) -> str:
         if turned:
             row = _row(table, run.name, ORIENTED)
             cells += [_oriented(table, run), "–" if row is None else significant(row["turn_mrad"])]
-        lines.append(f"| {run.name} | {' | '.join(cells)} | {run.lowest.mm:g} |")
-    return "\n".join(lines)
+        rows.append((run.name, *cells, f"{run.lowest.mm:g}"))
+    return "\n".join(table_lines([*head, "best of others"], rows))
 
 
 def _agreement(arm: RealArm, runs: Sequence[ReferenceRun]) -> str:
@@ -233,21 +227,17 @@ def _jumps(jumps: pd.DataFrame, count: int) -> list[str]:
 def _paper(table: pd.DataFrame, runs: Sequence[ReferenceRun]) -> str:
     models = [m for m in table["model"].unique() if m not in (*LEVELS, ARMSCOPE, ORIENTED)]
     names = {UNCORRECTED: "none (frames only)"}
-    lines = ["| run | " + " | ".join(names.get(m, m) for m in models) + " |", "|---|" + "---|" * len(models)]
+    rows = []
     for run in runs:
         found = [_row(table, run.name, model) for model in models]
-        cells = ["–" if row is None else significant(row["mean_mm"]) for row in found]
-        lines.append(f"| {run.name} | {' | '.join(cells)} |")
-    return "\n".join(lines)
+        rows.append((run.name, *("–" if row is None else significant(row["mean_mm"]) for row in found)))
+    return "\n".join(table_lines(["run", *(names.get(model, model) for model in models)], rows))
 
 
 def _transfers(table: pd.DataFrame) -> str:
     keys = ["learned", "applied", "refitted"]
     models = list(dict.fromkeys(table["model"]))
-    lines = [
-        "| learned on | applied to | refitted | " + " | ".join(models) + " |",
-        "|---|---|---|" + "---|" * len(models),
-    ]
+    rows = []
     for key, group in table.groupby(keys, sort=False):
         cells = []
         for model in models:
@@ -257,8 +247,8 @@ def _transfers(table: pd.DataFrame) -> str:
                 continue
             known = row["reference_mm"].iloc[0]
             cells.append(significant(row["rms_mm"].iloc[0]) + (f" ({known:g})" if np.isfinite(known) else ""))
-        lines.append(f"| {' | '.join(map(str, key))} | {' | '.join(cells)} |")
-    return "\n".join(lines)
+        rows.append((*key, *cells))
+    return "\n".join(table_lines(["learned on", "applied to", "refitted", *models], rows))
 
 
 def _curves(arm: RealArm, transfers: pd.DataFrame, figures: str) -> str:
@@ -282,67 +272,3 @@ def _curves(arm: RealArm, transfers: pd.DataFrame, figures: str) -> str:
         text += f" Where both runs know it, the two curves of a joint correlate by: {', '.join(told)}."
         text += f"\n\n![{arm.title}: curves of joints as two runs tell them]({figures}/real-{arm.name}-curves.png)"
     return text
-
-
-def _concealment(proof: Path, arms: Sequence[RealArm]) -> str:
-    """How often known effects that were added to these recordings were found, and what is found with less recorded."""
-    rates, titles = pd.read_csv(proof / "rates.csv"), {arm.name: arm.title.partition(",")[0] for arm in arms}
-    rates = rates[rates["half"] == "both"]
-    there = set(rates[rates["by"] == "arm"]["of"])
-    missing = [title for name, title in titles.items() if name not in there]
-    lines = ["## Known effects concealed in these recordings", "", CONCEALMENT, ""]
-    lines += _rates(rates, [("all", "all"), *(("arm", name) for name in titles)], titles, "arm")
-    lines += ["", *_rates(rates, [("effect", name) for name in sorted(rates[rates["by"] == "effect"]["of"].unique())])]
-    if missing:
-        lines += ["", f"Not run for this page: {', '.join(missing)}."]
-    skipped = pd.read_csv(proof / "skipped.csv")
-    if len(skipped):
-        told = skipped.drop_duplicates(["set", "effect"])
-        lines += ["", "Not planted: "]
-        lines[-1] += "; ".join(
-            f"{effect.replace('_', ' ')} in {titles.get(name, name)} ({reason})"
-            for name, effect, reason in zip(told["set"], told["effect"], told["reason"], strict=True)
-        )
-    return "\n".join([*lines, *_withheld(proof, titles)])
-
-
-def _rates(
-    rates: pd.DataFrame, groups: list[tuple[str, str]], titles: dict[str, str] | None = None, head: str = "effect"
-) -> list[str]:
-    lines = [f"| {head} | size | " + " | ".join(SCORES.values()) + " |", "|---|---|" + "---|" * len(SCORES)]
-    for by, of in groups:
-        mine = rates[(rates["by"] == by) & (rates["of"] == of)]
-        for size, group in mine.groupby("size"):
-            cells = group.set_index("score")
-            shown = [_rate(cells.loc[score]) if score in cells.index else "–" for score in SCORES]
-            name = (titles or {}).get(of, of.replace("_", " "))
-            lines.append(f"| {name} | {size:g} | {' | '.join(shown)} |")
-    return lines
-
-
-def _withheld(proof: Path, titles: dict[str, str]) -> list[str]:
-    path = proof / "withheld.csv"
-    table = pd.read_csv(path) if path.stat().st_size > 1 else pd.DataFrame()
-    if table.empty:
-        return []
-    lines = [
-        "",
-        WITHHELD,
-        "",
-        "| arm | rows | learned from | withheld | follows the load | joint compliance by name "
-        "| small errors everywhere (mm) | held out (mm, 3D) |",
-        "|---|---|---|---|---|---|---|---|",
-    ]
-    rows = {"run": "all joints move", "payloads": "three payloads"}
-    for row in table.to_dict("records"):
-        follows = str(row["follows_load"]).replace("_", " ") if row["load_found"] else "nothing"
-        named = "yes" if row["compliance_found"] else "no"
-        learned = "points and orientations" if row["orientations"] else "points"
-        cells = [titles.get(str(row["set"]), row["set"]), rows[row["rows"]], learned, row["withheld"], follows, named]
-        sizes = (significant(float(row[name])) for name in ("background_mm", "held_out_mm"))
-        lines.append(f"| {' | '.join(map(str, [*cells, *sizes]))} |")
-    return lines
-
-
-def _rate(row: Any) -> str:
-    return f"{100 * row['estimate']:.0f} % ({row['right']:.0f}/{row['cases']:.0f})"

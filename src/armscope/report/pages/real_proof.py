@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
-from markupsafe import Markup, escape
 
 from armscope.real import scoring
-from armscope.report.html import write_page
-
-SCORES = {"found": "found", "right_place": "right place", "covered": "interval holds", "quiet": "no new name"}
+from armscope.report.html import definitions, share_text, write_page
+from armscope.report.text.concealment import SCORES
 
 
 def write_real_proof_page(
@@ -46,7 +43,7 @@ def write_real_proof_page(
         skipped=_titled(tables["skipped"], titles),
         wrong=_wrong(cases, titles),
         failed=int(cases["failed"].notna().sum()),
-        definitions=_paragraphs(scoring.__doc__ or ""),
+        definitions=definitions(scoring.__doc__ or ""),
     )  # fmt: skip
 
 
@@ -57,10 +54,7 @@ def _titled(table: pd.DataFrame, titles: Mapping[str, str]) -> pd.DataFrame:
 def _wide(rates: pd.DataFrame, by: str, titles: Mapping[str, str]) -> pd.DataFrame:
     """One row per value and size: share (right/cases) of both halves together."""
     mine = rates[(rates["by"] == by) & (rates["half"] == "both")]
-    cells = [
-        f"{100 * share:.0f} % ({right:.0f}/{cases:.0f})"
-        for share, right, cases in zip(mine["estimate"], mine["right"], mine["cases"], strict=True)
-    ]
+    cells = [share_text(*row) for row in mine[["estimate", "right", "cases"]].itertuples(index=False)]
     mine = mine.assign(cell=cells, score=mine["score"].map(SCORES), of=[titles.get(name, name) for name in mine["of"]])
     wide = mine.pivot_table(index=["of", "size"], columns="score", values="cell", aggfunc="first").reset_index()
     kept = [name for name in SCORES.values() if name in wide.columns]
@@ -91,12 +85,3 @@ def _wrong(cases: pd.DataFrame, titles: Mapping[str, str]) -> pd.DataFrame:
     chosen = cases[~cases["found"] | (cases["new_names"] > 0)]
     columns = ["arm", "half", "effect", "location", "size", "outcome", "said", "new", "alternatives"]
     return _titled(chosen, titles)[columns].sort_values(["size", "arm", "effect"], ascending=[False, True, True])
-
-
-def _paragraphs(text: str) -> list[tuple[str, Markup]]:
-    """(bold head, rest as HTML) of the definitions' paragraphs."""
-    found = []
-    for paragraph in text.strip().split("\n\n")[1:]:
-        head, _, rest = " ".join(paragraph.split()).removeprefix("**").partition("**")
-        found.append((head, Markup(re.sub(r"`(.+?)`", r"<code>\1</code>", str(escape(rest))))))
-    return found

@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 from markupsafe import Markup
 
+from armscope.core.averages import rms
 from armscope.core.types import Array
 from armscope.report.figures.arm import location_shares
 from armscope.report.figures.error_field import ErrorField, turnable
 from armscope.report.sectioning import Section
 from armscope.report.subject import Subject
-from armscope.verdict.contributions import Contributions, rms
+from armscope.verdict.contributions import Contributions
 from armscope.verdict.wording import capitalised, millimetres, plain
 
 FINEST = 32_767

@@ -7,8 +7,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from armscope.verdict.schema import INDISTINGUISHABLE_NATS, FoundEffect, Parameter
-from armscope.verdict.schema import Alternative as FoundAlternative
+from armscope.verdict.schema import INDISTINGUISHABLE_NATS, Alternative, FoundEffect, Parameter
 from armscope.verdict.wording import (
     Reading,
     capitalised,
@@ -33,7 +32,7 @@ RELIABLE = 0.5
 
 
 @dataclass(frozen=True)
-class Alternative:
+class ShownAlternative:
     """What else could stand in an effect's place, in words."""
 
     name: str
@@ -57,7 +56,7 @@ class Card:
     shape: str
     evidence: str
     evidence_words: str
-    alternatives: tuple[Alternative, ...]
+    alternatives: tuple[ShownAlternative, ...]
     chosen: str
     how_specific: str
     physics: str
@@ -94,7 +93,7 @@ def card(effect: FoundEffect, number: int, figure: str = "") -> Card:
         evidence=f"{effect.evidence_nats:.{0 if effect.evidence_nats >= 10 else 1}f} nats",
         evidence_words=evidence_in_words(effect.evidence_nats),
         alternatives=tuple(
-            Alternative(
+            ShownAlternative(
                 effect_in_words(other.effect, other.location) + _followed(other.effect, other.driver),
                 gap_in_words(other),
                 other.discriminability_nats < INDISTINGUISHABLE_NATS,
@@ -208,7 +207,7 @@ def how_specific(effect: FoundEffect) -> str:
     )
 
 
-def gap_in_words(other: FoundAlternative) -> str:
+def gap_in_words(other: Alternative) -> str:
     """How much evidence it costs to name an alternative instead, and whether only its size does."""
     gap = other.evidence_gap_nats
     if gap < 0:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from armscope.core.averages import rms
 from armscope.report.figures.effect_curve import effect_curves, worth_drawing
 from armscope.report.sectioning import Section
 from armscope.report.sections.effect_cards import Card, card
 from armscope.report.subject import Subject
-from armscope.verdict.contributions import rms
 from armscope.verdict.schema import Diagnosis, FoundEffect, NextPoses
 from armscope.verdict.wording import main_and_minor, millimetres, percent
 

@@ -16,7 +16,7 @@ from armscope.report.figures.motion import curve_figures, friction_figures, left
 from armscope.report.figures.waterfall import Quantity, draw_waterfall
 from armscope.report.motion_subject import MotionSubject
 from armscope.report.sectioning import Drawn, Section
-from armscope.report.sections.effect_cards import Alternative, gap_in_words
+from armscope.report.sections.effect_cards import ShownAlternative, gap_in_words
 from armscope.robot.arm import build_arm
 from armscope.verdict.schema import INDISTINGUISHABLE_NATS, Parameter
 from armscope.verdict.wording import Reading, capitalised, evidence_in_words, percent, read_parameter
@@ -40,7 +40,7 @@ class MotionCard:
     confirm: str
     cure: str
     evidence: str
-    alternatives: tuple[Alternative, ...]
+    alternatives: tuple[ShownAlternative, ...]
     paths: str
     doubt: str
     figure: str
@@ -64,7 +64,7 @@ def motion_card(cause: FoundCause, number: int) -> MotionCard:
         cure=cause.cure,
         evidence=f"{capitalised(evidence_in_words(cause.evidence_nats))} ({cause.evidence_nats:.0f} nats).",
         alternatives=tuple(
-            Alternative(
+            ShownAlternative(
                 _named(other.effect, other.location, other.driver),
                 gap_in_words(other),
                 other.discriminability_nats < INDISTINGUISHABLE_NATS,

@@ -42,14 +42,13 @@ class Contradictions:
     trajectories: frozenset[str]
 
 
-def contradictions(audit: pd.DataFrame, reading: str = "rss") -> Contradictions:
-    """Cells and trajectories of the printed table that contradict the printed equations, or each other.
+def contradictions(audit: pd.DataFrame) -> Contradictions:
+    """Cells and trajectories of the printed table, read as "rss", that contradict its equations, or each other.
 
     Args:
         audit: see `armscope.paper.audit`.
-        reading: of "RMS".
     """
-    broken = audit[(audit["reading"] == reading) & ~audit["possible"].astype(bool)]
+    broken = audit[(audit["reading"] == "rss") & ~audit["possible"].astype(bool)]
     single = broken[broken["axis"].isin(AXES)]
     cells: set[tuple[str, str, str]] = set()
     for row in single.itertuples():

@@ -8,6 +8,7 @@ from typing import Any
 
 import pandas as pd
 
+from armscope.core.markdown import table_lines
 from armscope.real.compliance_tables import half_width
 from armscope.real.compliances import PRIOR, WAVE
 from armscope.real.rehearsal import AGREES
@@ -68,18 +69,16 @@ def _interval(row: Mapping[Hashable, Any]) -> str:
 
 def _table(pairs: pd.DataFrame) -> str:
     """One line per pair of runs: probability of so large a difference, and where it is largest."""
-    lines = [
-        "| learned from | runs | combinations both determine | probability | the largest difference, µrad/(N m) |",
-        "|---|---|---|---|---|",
-    ]
+    head = ("learned from", "runs", "combinations both determine", "probability", "the largest difference, µrad/(N m)")
+    lines = []
     for _, rows in pairs.groupby(["learned", "one", "other"], sort=False):
         row = max(rows.to_dict("records"), key=lambda row: abs(row["difference"] / row["stderr"]))
         chance = row["probability"]
         told = f"{chance:.2f}" if chance >= 0.01 else f"**{chance:.0e}**"
         apart = f"{row['difference']:.0f} ± {half_width(row['stderr']):.0f}"
         largest = f"{row['of']}: {row['one_value']:.0f} and {row['other_value']:.0f}, apart by {apart}"
-        lines.append(f"| {row['learned']} | {row['one']}, {row['other']} | {row['directions']} | {told} | {largest} |")
-    return "\n".join(lines)
+        lines.append((row["learned"], f"{row['one']}, {row['other']}", row["directions"], told, largest))
+    return "\n".join(table_lines(head, lines))
 
 
 def _rehearsal(rehearsed: pd.DataFrame) -> str:

@@ -1,0 +1,253 @@
+"""What is the same for every model: a path, the arm that shall follow it, and every reason to refuse a row."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from armscope.compensation.branch import nominal_branch
+from armscope.compensation.correction import correct
+from armscope.compensation.domain import ALLOWED, Domain
+from armscope.compensation.forward import Forward, NominalArm
+from armscope.compensation.newton import Solution, Wanted, row_pieces, solve_commands
+from armscope.compensation.path import Frame, WantedPath, unit_doubt
+from armscope.compensation.result import Compensated
+from armscope.core.inputs import InputError
+from armscope.core.parallel import each_piece
+from armscope.core.types import Array
+from armscope.robot import Arm, tool_frames
+from armscope.robot.inverse import LARGEST_STEP_RAD
+
+LARGEST_CORRECTION_RAD = np.radians(3)
+"""Errors of millimetres never ask for more, unless the arm is close to a pole."""
+
+
+@dataclass(frozen=True, eq=False)
+class Options:
+    """How to compensate.
+
+    Attributes:
+        frame: where wanted points and orientations stand: in the arm's base frame, or in the measurement frame.
+        pose: keep the orientation, too: of the table's quaternions, or of its joint angles.
+        start: (m,) rad, where the arm comes from; None takes the middle of the identified range.
+        allowed: how far outside the identified range a command may lie, standard deviations.
+        largest_step: rad; a larger motion of a motor between neighbouring rows is a jump.
+    """
+
+    frame: Frame = "base"
+    pose: bool = False
+    start: Array | None = None
+    allowed: float = ALLOWED
+    largest_step: float = LARGEST_STEP_RAD
+
+
+@dataclass(frozen=True, eq=False)
+class PathTask:
+    """A path, the arm that shall follow it, and where its model holds.
+
+    Attributes:
+        arm: the nominal arm with the tool point that is led along the path.
+        stated: the controller's arm, whose tool point may be another one.
+        forward: the real arm near given nominal postures, and a note about it.
+        domain_inputs: the domain's inputs at motor angles of all rows.
+        to_base, to_frame: points from the path's frame to the base frame and back.
+        turn: (N, 3, 3) the path's frame from the base frame.
+    """
+
+    arm: Arm
+    stated: Arm
+    path: WantedPath
+    options: Options
+    domain: Domain
+    forward: Callable[[Array], tuple[Forward, str]]
+    domain_inputs: Callable[[Array], Array]
+    to_base: Callable[[Array], Array]
+    to_frame: Callable[[Array], Array]
+    turn: Array
+
+    def run(self, refused: NDArray[np.object_]) -> Compensated:
+        """Nominal branch, Newton's method on the real arm from there, every reason to refuse a row."""
+        rows = np.arange(len(self.path))
+        held = {} if self.options.pose else self._held()
+        wanted = self._wanted(refused)
+        nominal = self._nominal(wanted, held, refused)
+        real, note = self.forward(nominal)
+        free = np.array([motor + 1 not in held for motor in range(self.arm.n_motors)])
+        uncorrected, uncorrected_turn, residual_turn = np.full((3, len(rows)), np.nan)
+        commands, predicted = np.full_like(nominal, np.nan), np.full((len(rows), 3), np.nan)
+        iterations = 0
+        possible = np.isfinite(nominal.sum(axis=1)) & np.isfinite(wanted.points.sum(axis=1))
+        known = np.flatnonzero(possible & np.equal(refused, ""))
+        if len(known):
+            pieces = [known[at] for at in row_pieces(len(known))]
+            for at, found in zip(
+                pieces,
+                each_piece(pieces, lambda at: correct(real, wanted.rows(at), nominal[at], free, at)),
+                strict=True,
+            ):
+                uncorrected[at], uncorrected_turn[at] = found.uncorrected, found.uncorrected_turn
+                commands[at], predicted[at] = found.solution.angles, found.predicted
+                residual_turn[at] = found.residual_turn
+                iterations = max(iterations, found.solution.iterations)
+                moved = np.abs(found.solution.angles - nominal[at])
+                self._refuse_unsolved(refused, at, found.solution, moved, found.pole)
+        outside, nearest = self._refuse_outside(refused, commands, unit_doubt(wanted.points, self.arm.reach))
+        reasons = np.asarray(refused, dtype=str)
+        residual = np.linalg.norm(wanted.points - predicted, axis=1)
+        for values in (commands, predicted, residual, residual_turn):
+            values[reasons != ""] = np.nan
+        ok = np.flatnonzero(reasons == "")
+        points, turns = np.full((len(rows), 3), np.nan), np.full((len(rows), 3, 3), np.nan)
+        if len(ok):
+            points[ok], turns[ok] = tool_frames(self.stated, commands[ok])
+        return Compensated(
+            self.stated,
+            self.path.table.id,
+            self.path.table.run,
+            reasons,
+            commands,
+            nominal,
+            points,
+            turns,
+            self.to_frame(wanted.points),
+            self.to_frame(predicted),
+            residual,
+            uncorrected,
+            residual_turn,
+            uncorrected_turn,
+            outside,
+            nearest,
+            self.options.frame,
+            self.options.pose,
+            iterations,
+            (note,) if note else (),
+        )
+
+    def _held(self) -> dict[int, float]:
+        """Motors that stood still in the identification data, where enough others can move the tool point."""
+        still = {int(name[1:]): angle for name, angle in self.domain.still("rad").items()}
+        return still if self.arm.n_motors - len(still) >= 3 else {}
+
+    def _wanted(self, refused: NDArray[np.object_]) -> Wanted:
+        """Points and, where asked, orientations in base axes."""
+        table, nominal = self.path.table, None
+        if self.path.points is None or (self.options.pose and table.orientation is None):
+            nominal = tool_frames(self.arm, table.motor_angles)
+        points = nominal[0] if self.path.points is None and nominal else self.to_base(_given(self.path.points))
+        if not self.options.pose:
+            return Wanted(points)
+        if table.orientation is None:
+            if not self.path.has_angles:
+                raise InputError(
+                    table.source, "line 1", "no columns qw, qx, qy, qz", "a full pose needs an orientation",
+                    "Add them, or leave the orientation free.",
+                )  # fmt: skip
+            assert nominal is not None
+            return Wanted(points, nominal[1])
+        unknown = ~table.oriented
+        refuse(refused, unknown, "no orientation")
+        quaternions = np.where(unknown[:, None], [1.0, 0, 0, 0], table.orientation)
+        given = Rotation.from_quat(quaternions, scalar_first=True).as_matrix()
+        return Wanted(points, np.swapaxes(self.turn, 1, 2) @ given)
+
+    def _nominal(self, wanted: Wanted, held: dict[int, float], refused: NDArray[np.object_]) -> Array:
+        """(N, m) postures of the nominal arm; NaN and a reason where there are none."""
+        if self.path.has_angles:
+            angles = self.path.table.motor_angles.copy()
+            self._refuse_beyond_limits(refused, angles)
+            return angles if self.path.points is None else self._nearest(wanted, angles, held, refused)
+        start = self.options.start
+        if start is None:
+            middle = [self.domain.value(f"q{j}") if f"q{j}" in self.domain.names else np.nan for j in self._motors]
+            limits = np.where(np.isfinite(self.arm.limits).all(axis=1), np.nan_to_num(self.arm.limits).mean(axis=1), 0)
+            start = np.where(np.isnan(middle), limits, middle)
+        branch = nominal_branch(self.arm, wanted, start, held, self.options.largest_step)
+        doubt = unit_doubt(wanted.points, self.arm.reach)
+        for reason in np.unique(branch.reasons[~branch.reached]):
+            refuse(
+                refused, np.flatnonzero(branch.reasons == reason), str(reason) + (doubt if "reach" in reason else "")
+            )
+        return branch.motor_angles
+
+    def _nearest(self, wanted: Wanted, angles: Array, held: dict[int, float], refused: NDArray[np.object_]) -> Array:
+        """(N, m) nominal postures at the wanted points nearest to given ones."""
+        free = np.array([motor not in held for motor in self._motors])
+        rows = np.flatnonzero(np.isfinite(wanted.points.sum(axis=1)) & np.equal(refused, ""))
+        if not len(rows):
+            return angles
+        solution = solve_commands(NominalArm(self.arm), wanted.rows(rows), angles[rows], free, rows)
+        angles[rows] = solution.angles
+        for motor in np.unique(solution.limit[solution.limit > 0]):
+            refuse(refused, rows[solution.limit == motor], f"limit of joint {motor}")
+        refuse(refused, rows[~solution.converged], "beyond reach on the branch of the given angles")
+        return angles
+
+    @property
+    def _motors(self) -> range:
+        return range(1, self.arm.n_motors + 1)
+
+    def _refuse_beyond_limits(self, refused: NDArray[np.object_], angles: Array) -> None:
+        low, high = self.arm.limits.T
+        for motor in self._motors:
+            beyond = (angles[:, motor - 1] < low[motor - 1] - 1e-9) | (angles[:, motor - 1] > high[motor - 1] + 1e-9)
+            refuse(refused, beyond, f"limit of joint {motor}")
+
+    def _refuse_unsolved(
+        self,
+        refused: NDArray[np.object_],
+        known: NDArray[np.intp],
+        solution: Solution,
+        moved: Array,
+        pole: NDArray[np.bool_],
+    ) -> None:
+        named = "pole of the wrist" if self.options.pose else "pole: the tool can't be moved in all directions"
+        refuse(refused, known[pole], named)
+        for motor in np.unique(solution.limit[solution.limit > 0]):
+            refuse(refused, known[solution.limit == motor], f"limit of joint {motor}")
+        refuse(refused, known[~solution.converged], "no command found: the real arm can't get there")
+        worst = np.argmax(moved, axis=1)
+        for row in np.flatnonzero(moved.max(axis=1) > LARGEST_CORRECTION_RAD):
+            size = np.degrees(moved[row, worst[row]])
+            text = f"the correction turns joint {worst[row] + 1} by {size:.1f} degrees: close to a pole"
+            refused[known[row]] = refused[known[row]] or text
+
+    def _refuse_outside(self, refused: NDArray[np.object_], commands: Array, doubt: str) -> tuple[Array, Array]:
+        """Distances (N,) from the identified range and from the nearest identification row.
+
+        ``doubt`` is what `unit_doubt` says about the path.
+        """
+        outside, nearest = np.full(len(commands), np.nan), np.full(len(commands), np.nan)
+        solved = np.isfinite(commands.sum(axis=1))
+        if not solved.any():
+            return outside, nearest
+        inputs = self.domain_inputs(np.where(solved[:, None], commands, 0.0))[solved]
+        outside[solved], label = self.domain.outside(inputs)
+        nearest[solved] = self.domain.nearest(inputs)
+        where = np.flatnonzero(solved)
+        for row, name in zip(where, label, strict=True):
+            if outside[row] > self.options.allowed:
+                text = f"outside the identified range: {name} by {outside[row]:.2g} standard deviations{doubt}"
+                refused[row] = refused[row] or text
+        return outside, nearest
+
+
+def _given(points: Array | None) -> Array:
+    assert points is not None
+    return points
+
+
+def refuse(refused: NDArray[np.object_], rows: NDArray[np.bool_] | NDArray[np.intp], reason: str) -> None:
+    """Refuse rows that are not refused yet: the first reason of a row stays.
+
+    Args:
+        refused: (N,) reasons, "" for none; changed in place.
+        rows: which.
+        reason: why.
+    """
+    which = np.zeros(len(refused), dtype=bool)
+    which[rows] = True
+    refused[np.flatnonzero(which & np.equal(refused, ""))] = reason

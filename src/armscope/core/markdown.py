@@ -1,0 +1,22 @@
+"""Tables of pages in Markdown."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+
+def table_lines(head: Sequence[str], rows: Iterable[Iterable[object]]) -> list[str]:
+    """A table, line by line.
+
+    Args:
+        head: the columns' names.
+        rows: as many cells each.
+
+    Returns:
+        Head, rule and rows.
+    """
+    return [_line(head), f"|{'---|' * len(head)}", *map(_line, rows)]
+
+
+def _line(cells: Iterable[object]) -> str:
+    return "|" + "".join(f" {cell} |" if cell != "" else " |" for cell in cells)

@@ -1,0 +1,173 @@
+"""Rows of raw files as columns of words and numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.core.inputs import InputError, nearest
+from armscope.core.types import Array
+from armscope.recordings.columns import LARGEST_NUMBER
+from armscope.recordings.importing.formats import Column, TextFormat
+
+TOO_LARGE = f"no recorded value reaches {LARGEST_NUMBER:.0e}"
+
+
+@dataclass(frozen=True, eq=False)
+class TextRows:
+    """Some rows of a delimited file.
+
+    Attributes:
+        source: the file.
+        names: its header; empty where it has none.
+        numbers_of_rows: (N,) rows of the file without its header, counted from 1.
+        lines: (N,) lines of the file, for messages.
+        cells: N rows of words.
+        format: how the file writes numbers.
+    """
+
+    source: Path
+    names: tuple[str, ...]
+    numbers_of_rows: NDArray[np.intp]
+    lines: NDArray[np.intp]
+    cells: list[list[str]]
+    format: TextFormat
+
+    def __len__(self) -> int:
+        return len(self.cells)
+
+    def words(self, column: Column) -> list[str]:
+        """The words of a column, blanks around them removed."""
+        index = _index(self.source, self.names, len(self.cells[0]) if self.cells else 0, column, self.format)
+        return [row[index].strip() for row in self.cells]
+
+    def numbers(self, column: Column) -> Array:
+        """The numbers of a column, NaN where it says that there is none."""
+        words = self.words(column)
+        as_float = _to_floats(words, self.format)
+        if as_float is not None:
+            return as_float
+        return np.array([self._number(row, column, word) for row, word in enumerate(words)])
+
+    def _number(self, row: int, column: Column, word: str) -> float:
+        if word in self.format.missing:
+            return np.nan
+        rule, wrong_sign = "this must be a finite number", "," if self.format.decimal == "." else "."
+        cure = "The header stands here a second time: remove this line." if word == str(column) else ""
+        if not cure and self.numbers_of_rows[row] == 1:
+            cure = "If this line names the columns, leave out `header: false`."
+            if self.names:
+                cure = f"If this line holds units, count columns: `header: false`, `skip_lines: {self.lines[row]}`."
+        if wrong_sign in word:
+            cure = (
+                f"The mapping declares decimal: {self.format.decimal!r} for the whole file, this number uses another."
+            )
+        elif "_" not in word:
+            try:
+                value = float(word.replace(",", "."))
+            except ValueError:
+                pass
+            else:
+                if abs(value) <= LARGEST_NUMBER:
+                    return value
+                cure = "Declare it under `missing` if it stands for no value."
+                rule = TOO_LARGE if np.isfinite(value) else rule
+        place = f"line {self.lines[row]}, column {column}"
+        raise InputError(self.source, place, word, rule, cure)
+
+    def take(self, which: NDArray[np.intp]) -> TextRows:
+        """Some of the rows, in that order."""
+        cells = [self.cells[row] for row in which]
+        return replace(self, cells=cells, lines=self.lines[which], numbers_of_rows=self.numbers_of_rows[which])
+
+
+def _to_floats(words: list[str], style: TextFormat) -> Array | None:
+    """All words as finite numbers, or None where one of them is not a plain number (the slow way then says which)."""
+    joined = "\n".join(words)
+    if "_" in joined or (style.decimal == "," and "." in joined):
+        return None
+    if style.decimal == ",":
+        words = joined.replace(",", ".").split("\n")
+    try:
+        values = np.fromiter(map(float, words), dtype=float, count=len(words))
+    except ValueError:
+        return None
+    return values if (np.abs(values) <= LARGEST_NUMBER).all() else None
+
+
+@dataclass(frozen=True, eq=False)
+class MatrixRows:
+    """Some rows of a MATLAB matrix; attributes as in `TextRows`, with ``values`` (N, columns)."""
+
+    source: Path
+    numbers_of_rows: NDArray[np.intp]
+    values: Array
+
+    @property
+    def lines(self) -> NDArray[np.intp]:
+        """A matrix has rows where text has lines."""
+        return self.numbers_of_rows
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def numbers(self, column: Column) -> Array:
+        """The numbers of a column; NaN stands for no value."""
+        values = self.values[:, _index(self.source, (), self.values.shape[1], column)]
+        beyond = np.abs(values) > LARGEST_NUMBER
+        if beyond.any():
+            row = int(beyond.argmax())
+            place = f"row {self.numbers_of_rows[row]}, column {column}"
+            raise InputError(self.source, place, f"{values[row]:g}", TOO_LARGE, "Write NaN where there is no value.")
+        return values
+
+    def words(self, column: Column) -> list[str]:
+        """The numbers of a column as words: whole numbers without a point."""
+        return ["" if np.isnan(value) else f"{value:.12g}" for value in self.numbers(column)]
+
+    def take(self, which: NDArray[np.intp]) -> MatrixRows:
+        """Some of the rows, in that order."""
+        return replace(self, values=self.values[which], numbers_of_rows=self.numbers_of_rows[which])
+
+
+RawRows = TextRows | MatrixRows
+
+
+def _index(
+    source: Path, names: tuple[str, ...], n_columns: int, column: Column, style: TextFormat | None = None
+) -> int:
+    if isinstance(column, int):
+        if column > n_columns:
+            raise InputError(
+                source, f"column {column}", f"{n_columns} columns", "the mapping names a column beyond them"
+            )
+        return column - 1
+    if not names:
+        rule = "the mapping names a column, but this file has no header"
+        raise InputError(source, "", column, rule, f"Use numbers: 1 ... {n_columns}.")
+    count = names.count(column)
+    if count == 0:
+        cure = nearest(column, names)
+        if style is not None and len(names) == 1 and any(sign in names[0] for sign in ",;\t| "):
+            cure = f"The header is {names[0][:40]!r}: is its delimiter really {style.delimiter!r}?"
+        raise InputError(source, "header", f"no column {column}", "the mapping names this column", cure)
+    if count > 1:
+        rule = f"the header has this name {count} times"
+        raise InputError(source, "header", column, rule, "Name the column by its number, counted from 1.")
+    return names.index(column)
+
+
+def joined(pieces: list[RawRows]) -> RawRows:
+    """Pieces of one file, one after the other, as one."""
+    texts = [piece for piece in pieces if isinstance(piece, TextRows)]
+    if len(texts) < 2:  # a matrix comes as one piece
+        return pieces[0]
+    return replace(
+        texts[0],
+        cells=[row for piece in texts for row in piece.cells],
+        lines=np.concatenate([piece.lines for piece in texts]),
+        numbers_of_rows=np.concatenate([piece.numbers_of_rows for piece in texts]),
+    )

@@ -1,0 +1,83 @@
+"""Known effects concealed in recordings of real arms: how often they were found, as a part of docs/real-arms.md."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import pandas as pd
+
+from armscope.core.markdown import table_lines
+from armscope.report.html import share_text, significant
+
+CONCEALMENT = """\
+One known effect at a time, added to the recordings behind a seal at 0.5, 1 and 3 times what each arm's own diagnosis
+leaves, on top of all the arm does (`snakemake -j2 proof_real`; definitions and figures in its report):"""
+WITHHELD = """\
+The same recordings without the columns that say how loaded the arm was: is it still found to give way? Where drives and
+bearings are not told apart, they give way without a name, among the small errors everywhere."""
+SCORES = {"found": "found", "right_place": "right place", "covered": "interval holds", "quiet": "no new name"}
+
+
+def concealment(proof: Path, titles: Mapping[str, str]) -> str:
+    """How often known effects that were added to these recordings were found, and what is found with less recorded.
+
+    Args:
+        proof: folder of the tables of `armscope real score`.
+        titles: what to call each arm.
+
+    Returns:
+        Markdown.
+    """
+    rates = pd.read_csv(proof / "rates.csv")
+    rates = rates[rates["half"] == "both"]
+    there = set(rates[rates["by"] == "arm"]["of"])
+    missing = [title for name, title in titles.items() if name not in there]
+    lines = ["## Known effects concealed in these recordings", "", CONCEALMENT, ""]
+    lines += _rates(rates, [("all", "all"), *(("arm", name) for name in titles)], titles, "arm")
+    lines += ["", *_rates(rates, [("effect", name) for name in sorted(rates[rates["by"] == "effect"]["of"].unique())])]
+    if missing:
+        lines += ["", f"Not run for this page: {', '.join(missing)}."]
+    skipped = pd.read_csv(proof / "skipped.csv")
+    if len(skipped):
+        told = skipped.drop_duplicates(["set", "effect"])
+        lines += ["", "Not planted: "]
+        lines[-1] += "; ".join(
+            f"{effect.replace('_', ' ')} in {titles.get(name, name)} ({reason})"
+            for name, effect, reason in zip(told["set"], told["effect"], told["reason"], strict=True)
+        )
+    return "\n".join([*lines, *_withheld(proof, titles)])
+
+
+def _rates(
+    rates: pd.DataFrame, groups: list[tuple[str, str]], titles: Mapping[str, str] | None = None, head: str = "effect"
+) -> list[str]:
+    rows = []
+    for by, of in groups:
+        mine = rates[(rates["by"] == by) & (rates["of"] == of)]
+        for size, group in mine.groupby("size"):
+            cells = group.set_index("score")[["estimate", "right", "cases"]]
+            shown = [share_text(*cells.loc[score]) if score in cells.index else "–" for score in SCORES]
+            name = (titles or {}).get(of, of.replace("_", " "))
+            rows.append((name, f"{size:g}", *shown))
+    return table_lines([head, "size", *SCORES.values()], rows)
+
+
+def _withheld(proof: Path, titles: Mapping[str, str]) -> list[str]:
+    path = proof / "withheld.csv"
+    table = pd.read_csv(path) if path.stat().st_size > 1 else pd.DataFrame()
+    if table.empty:
+        return []
+    head = (
+        "arm", "rows", "learned from", "withheld", "follows the load", "joint compliance by name",
+        "small errors everywhere (mm)", "held out (mm, 3D)",
+    )  # fmt: skip
+    told, rows = [], {"run": "all joints move", "payloads": "three payloads"}
+    for row in table.to_dict("records"):
+        follows = str(row["follows_load"]).replace("_", " ") if row["load_found"] else "nothing"
+        named = "yes" if row["compliance_found"] else "no"
+        learned = "points and orientations" if row["orientations"] else "points"
+        cells = [titles.get(str(row["set"]), row["set"]), rows[row["rows"]], learned, row["withheld"], follows, named]
+        sizes = (significant(float(row[name])) for name in ("background_mm", "held_out_mm"))
+        told.append((*cells, *sizes))
+    return ["", WITHHELD, "", *table_lines(head, told)]
