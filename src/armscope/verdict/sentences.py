@@ -92,7 +92,7 @@ def headline(verdict: Diagnosis) -> str:
 
 def _told_and_rest(causes: Sequence[Cause]) -> tuple[list[Cause], list[Cause]]:
     """The causes that a headline tells, and those that it counts."""
-    first = [cause for cause in causes if not cause.minor and cause.share > TOLD][:MOST_TOLD] or list(causes[:1])
+    first = [cause for cause in causes if cause.share > TOLD][:MOST_TOLD] or list(causes[:1])
     return first, [cause for cause in causes if cause not in first]
 
 
@@ -201,7 +201,7 @@ def _others(rest: Sequence[Cause]) -> Iterator[str]:
         parts.append(SMALL["drift"])
     if parts:
         share, told = sum(cause.share for cause in rest), ", and ".join(parts)
-        yield f"{told}: {percent(share)}" if share > 0 else f"{told}, which pay only once the others are cured"
+        yield f"{told}: {percent(share)}" if share > 0 else f"{told}, for which the others must be cured first"
 
 
 def _unsure(verdict: Diagnosis) -> Iterator[str]:
