@@ -16,8 +16,9 @@ from numpy.random import default_rng
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.motion import model_file
+from armscope.motion.layout import OWN, TorqueLayout
 from armscope.motion.library import place_causes
-from armscope.motion.model import FittedCause, MotionModel
+from armscope.motion.model import FittedCause, MotionModel, fitted_model, predicted_torque
 from armscope.motion.model_check import CauseReader
 from armscope.motion.model_file import load_motion_model, save_motion_model
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
@@ -148,3 +149,26 @@ def test_a_cause_is_read_by_what_the_file_says_of_it() -> None:
 
 def inertial(link: int) -> dict[str, object]:
     return {"parameter": 1, "link": link, "what": "m", "per_unit": 1.0}
+
+
+def dry_friction(late: float) -> tuple[Array, Array]:
+    """Times, and joint 1's predicted torque of 4 N m of dry friction alone that changes sides later by some seconds."""
+    arm = robot()
+    layout = TorqueLayout(arm, (), False)
+    coefficients = np.zeros(layout.width)
+    own = coefficients[layout.own].reshape(-1, OWN)
+    own[:, 1], own[:, 5] = 4.0, 4.0 * late
+    coefficients[layout.own] = own.ravel()
+    stretch = next(iter(stretches(moved(arm, 4, seconds=6.0, runs=1))))
+    how = preparation(stretch.rate, 20.0, "given")
+    models = [fitted_model(layout, each, [], how) for each in (coefficients, np.zeros(layout.width))]
+    with_friction, without = (predicted_torque(model, [stretch])[0][:, 0] for model in models)
+    return stretch.time, with_friction - without
+
+
+def test_friction_that_changes_sides_later_is_predicted_as_a_shift_in_time() -> None:
+    """What is fitted as a slope of friction over time is a step at another moment, not a spike beside the step."""
+    (time, dry), (_, late) = dry_friction(0.0), dry_friction(0.005)
+    assert np.max(np.abs(late)) == pytest.approx(4.0, abs=0.01)
+    shifted = np.interp(time - 0.005, time, dry)
+    assert np.sum((late - shifted) ** 2) < 0.2 * np.sum((late - dry) ** 2)

@@ -14,7 +14,8 @@ from armscope.report.pages.diagnosis import write_report
 from armscope.robot.arm import build_arm
 from armscope.verdict.contributions import contributions
 from armscope.verdict.corrections import corrected_rows, zero_offsets
-from armscope.verdict.schema import Parameter
+from armscope.verdict.importance import expected
+from armscope.verdict.schema import HeldOut, Parameter
 from armscope.verdict.work_order import CHANGES, angle, task_of, work_order
 from tests.physics.test_cure import World
 from tests.report import verdicts
@@ -97,6 +98,31 @@ def test_causes_that_work_against_each_other_are_commanded_away_together() -> No
     assert "joint 3" in order.tasks[0].instruction
     assert order.tasks[0].then_mm == pytest.approx(rms(worth.left))
     assert not order.besides
+
+
+def test_what_pays_only_after_the_others_is_told_so_and_comes_after_them() -> None:
+    """A cause that hides part of another: alone its cure makes the error larger."""
+    two = [verdicts.found("joint_offset", f"joint {n}", Parameter("offset", "rad", 1e-3, 1e-5)) for n in (2, 3)]
+    case = verdicts.case(effects=tuple(two))
+    worth = contributions(case.verdict)
+    large, first, second = np.random.default_rng(0).normal(0, 1, worth.left.shape), *worth.causes
+    moved = (replace(first, moved=-0.3 * large), replace(second, moved=large))
+    worth = replace(worth, causes=moved, smaller=None, small={}, left=0.02 * worth.left)
+    done = work_order(case.verdict, worth).tasks
+    assert [task.place for task in done] == ["joint 3", "joint 2"]
+    assert [task.only_after for task in done] == [False, True]
+    assert done[1].alone_mm > rms(worth.before) > done[0].then_mm > done[1].then_mm
+
+
+def test_expectations_are_those_of_rows_that_took_no_part(verdict) -> None:  # noqa: F811
+    worth = contributions(verdict)
+    before, left = rms(worth.before), rms(worth.left)
+    assert expected(verdict, worth, 0.2) == 0.2, "nothing was held out"
+    held = replace(verdict, held_out=HeldOut(1.1 * before, 2 * left))
+    assert expected(held, worth, before) == pytest.approx(1.1 * before)
+    assert expected(held, worth, left) == pytest.approx(2 * left)
+    between = [expected(held, worth, mm) for mm in np.linspace(left, before, 9)]
+    assert between == sorted(between)
 
 
 def test_a_cause_that_is_not_settled_is_settled_first() -> None:

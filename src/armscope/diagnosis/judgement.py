@@ -47,6 +47,7 @@ from armscope.physics.freeform import held
 from armscope.physics.model import FittedModel
 from armscope.physics.wander import is_of_rows
 from armscope.recordings import Recordings
+from armscope.verdict.importance import with_importance
 from armscope.verdict.schema import (
     Answer,
     Background,
@@ -60,7 +61,6 @@ from armscope.verdict.schema import (
     Unexplained,
     WaterfallStep,
 )
-from armscope.verdict.sentences import headline
 
 
 def judge(
@@ -151,7 +151,7 @@ def judge(
         model=_held(fit.model, state.recordings),
         orientations=_orientations(state),
     )
-    return replace(draft, headline=headline(draft))
+    return with_importance(draft)
 
 
 def _unexplained(

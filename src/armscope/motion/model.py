@@ -11,9 +11,11 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.motion import catalogue
 from armscope.motion.causes import Moment, PlacedCause
+from armscope.motion.constants import PRIOR
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.preparation import Preparation, Signals, parts
 from armscope.motion.rows import SoFar, bend, own_columns
+from armscope.motion.sampling_constants import FILTER
 from armscope.motion.timing import Stretch
 from armscope.robot.dynamics import MovingArm
 
@@ -88,17 +90,29 @@ class MotionModel:
         if signals.payload is not None:
             carried = signals.payload[:, None] * (regressor @ self.arm.point_load())
         followed = self.followed()
-        own = own_columns(self.arm, signals, followed.delay)
+        joints, turning = self._turning()
+        own = own_columns(self.arm, signals, followed.delay, turning, FILTER.sharper_at_rest)
         rigid = regressor @ followed.inertial_in(signals.run) + carried
         predicted = rigid + np.einsum("nmk,mk->nm", own[:, :, :CAUSES_OF_OWN], followed.background)
         moment = Moment(signals, rigid, predicted, self._gravity(signals.q), rate)
         total = regressor @ (self.inertial + self._added(signals.run)) + carried
-        total += np.einsum("nmk,mk->nm", own, self.joints) + self.gains * predicted
+        total += np.einsum("nmk,mk->nm", own, joints) + self.gains * predicted
         total += self.response * bend(predicted, rate)
         for cause in self.causes:
             if cause.placed.columns is not None:
                 total[:, list(cause.placed.joints)] += cause.placed.columns(moment) @ cause.values
         return np.asarray(total)
+
+    def _turning(self) -> tuple[Array, Array]:
+        """(m, 6) the joints' numbers without, and (m,) s, by how much later than its speed dry friction changes sides.
+
+        Fits hold that as friction's slope over time, which is the shift only as long as the low-pass rounds more off.
+        """
+        joints, most = self.joints.copy(), PRIOR.reversal_sizes[-1] * PRIOR.turning_s
+        dry, later = joints[:, 1], joints[:, 5]
+        turning = np.where(dry > 0, np.clip(later / np.where(dry > 0, dry, 1.0), -most, most), 0.0)
+        joints[:, 5] -= turning * dry
+        return joints, turning
 
     def _gravity(self, q: Array) -> Array | None:
         if not any(each.placed.cause.name == "gravity_direction" for each in self.causes):

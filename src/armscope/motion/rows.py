@@ -261,20 +261,25 @@ def bend(torque: Array, rate: float) -> Array:
     return np.asarray(np.gradient(slope, 1 / rate, axis=0))
 
 
-def own_columns(arm: MovingArm, signals: Signals, delay: Array) -> Array:
+def own_columns(
+    arm: MovingArm, signals: Signals, delay: Array, turning: Array | float = 0.0, sharper: float = 1.0
+) -> Array:
     """What every joint has, per unit of each.
 
     Args:
         arm: the arm.
         signals: N samples.
         delay: (m,) s by which torques are late: how friction changes sides is seen later by as much.
+        turning: (m,) s by which friction changes sides later than the speed.
+        sharper: times, than fits take it to change sides.
 
     Returns:
         (N, m, 6) of `layout.OWN_NAMES`.
     """
-    width = sharp_width(arm)
-    turned = side(signals, width)
-    blunter = side(signals, coulomb_width(arm)) - turned
+    width = sharp_width(arm) / sharper
+    at = replace(signals, dq=signals.dq - signals.ddq * turning)
+    turned = side(at, width)
+    blunter = side(at, coulomb_width(arm)) - turned
     later = -np.gradient(turned, signals.period, axis=0)
     for j in np.flatnonzero(delay):
         for shape in (blunter, later):

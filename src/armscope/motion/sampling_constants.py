@@ -94,6 +94,11 @@ class FilterRules(Constants):
     sharper: float = constant(
         5.0, "that friction may change sides more sharply than within the width", "judgement: no filter shows more"
     )
+    sharper_at_rest: float = constant(
+        5.0,
+        "more sharply still, where torque is predicted: fits leave joints out that stand, predictions begin with them",
+        "judgement: above what positions' steps make of a speed at rest",
+    )
     alike: float = constant(
         1e-3,
         "change of speed within a sample below which friction's mean over it is that in its middle",

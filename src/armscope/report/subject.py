@@ -9,6 +9,7 @@ from armscope.errormodels.reference_models import held_out_rms
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.verdict.contributions import Contributions, contributions
+from armscope.verdict.importance import expected
 from armscope.verdict.schema import Diagnosis
 from armscope.verdict.work_order import WorkOrder, work_order
 
@@ -38,6 +39,10 @@ class Subject:
     def order(self) -> WorkOrder:
         """The work order."""
         return work_order(self.verdict, self.worth)
+
+    def expected(self, mm: float) -> float:
+        """RMS per axis, mm, to expect on poses that took no part, where one on the recorded rows is known."""
+        return expected(self.verdict, self.worth, mm)
 
     @cached_property
     def references(self) -> list[tuple[str, float]]:

@@ -16,7 +16,7 @@ import numpy as np
 from armscope.core.averages import rms
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
-from armscope.physics.backgrounds import GEOMETRIC
+from armscope.physics.backgrounds import DRIFT, GEOMETRIC
 from armscope.physics.effect import AXES, Direction
 from armscope.physics.posture import Posture
 from armscope.physics.scene import Part
@@ -86,49 +86,84 @@ class Contributions:
         return rms(self.before - sum((self.causes[n].moved for n in causes), np.zeros_like(self.left)))
 
 
-def contributions(verdict: Diagnosis) -> Contributions:
-    """What each cause of a verdict moves, on at most `MOST_ROWS` rows that are no bad shots."""
-    trusted = np.flatnonzero(verdict.residuals.weight > TRUSTED)
-    rows = trusted[spread_evenly(len(trusted), MOST_ROWS)]
-    model, table = verdict.model, verdict.recordings.rows(rows)
-    scene = model.scene(table)
-    posture = model.posture(scene)
-    taken_up = _frames(verdict, posture)
+@dataclass(frozen=True, eq=False)
+class Ground:
+    """Rows of a verdict on which contributions are calculated, with the whole fitted model in place.
 
-    def free(moved: Array) -> Array:
+    Attributes:
+        verdict: the diagnosis.
+        rows: (n,) numbers of the rows, from 0.
+        posture: the arm there.
+        taken_up: (3 n, f) orthonormal: what frames take up.
+    """
+
+    verdict: Diagnosis
+    rows: Indices
+    posture: Posture
+    taken_up: Array
+
+    def free(self, moved: Array) -> Array:
+        """(n, 3) without what frames take up."""
         flat = moved.reshape(-1)
-        return np.asarray((flat - taken_up @ (taken_up.T @ flat)).reshape(-1, 3))
+        return np.asarray((flat - self.taken_up @ (self.taken_up.T @ flat)).reshape(-1, 3))
 
-    def moved_by(parts: Sequence[Part]) -> Array:
-        out = {id(part) for part in parts}
+    def moved_by(self, parts: Sequence[Part]) -> Array:
+        """(n, 3) how far the tool moves, mm, when parts are taken out of the exact model."""
+        if not parts:
+            return np.zeros((len(self.rows), 3))
+        out, model = {id(part) for part in parts}, self.verdict.model
         kept, small = (tuple(p for p in some if id(p) not in out) for some in (model.parts, model.background))
         others = replace(model, parts=kept, background=small)
-        return free(1e3 * (posture.tool - others.posture(scene).tool)) if parts else np.zeros((len(rows), 3))
+        return self.free(1e3 * (self.posture.tool - others.posture(self.posture.scene).tool))
 
+    def left_and_before(self) -> tuple[Array, Array]:
+        """(n, 3) each: with everything cured, and with nothing."""
+        residuals = self.verdict.residuals
+        return self.free(residuals.after[self.rows]), self.free(residuals.before[self.rows])
+
+    def small(self, rest: Array) -> dict[str, Array]:
+        """By family, (n, 3) of the small errors without a name.
+
+        Args:
+            rest: (n, 3) what neither named effects nor what is left account for. What the families' parts do not
+                account for either is the wander in the order of rows, which a model to predict with does not hold;
+                without a wander it is what errors do only together, and goes to the largest.
+        """
+        families: dict[str, list[Part]] = {}
+        for part in self.verdict.model.background:
+            families.setdefault(part.placed.family, []).append(part)
+        small = {family: self.moved_by(parts) for family, parts in families.items()}
+        wanders = any(each.family == DRIFT and each.present for each in self.verdict.background_families)
+        takes_rest = DRIFT if wanders else max(small, key=lambda family: rms(small[family]), default=GEOMETRIC)
+        rest = rest - sum(small.values(), np.zeros_like(rest))
+        return {**small, takes_rest: small.get(takes_rest, np.zeros_like(rest)) + rest}
+
+
+def ground_of(verdict: Diagnosis) -> Ground:
+    """At most `MOST_ROWS` rows of a verdict that are no bad shots."""
+    trusted = np.flatnonzero(verdict.residuals.weight > TRUSTED)
+    rows = trusted[spread_evenly(len(trusted), MOST_ROWS)]
+    posture = verdict.model.posture(verdict.model.scene(verdict.recordings.rows(rows)))
+    return Ground(verdict, rows, posture, _frames(verdict, posture))
+
+
+def contributions(verdict: Diagnosis) -> Contributions:
+    """What each cause of a verdict moves, on at most `MOST_ROWS` rows that are no bad shots."""
+    ground, parts = ground_of(verdict), parts_of(verdict)
     main, minor = main_and_minor(verdict.effects)
-    parts = _parts_of(verdict)
     causes = tuple(
-        Repair(effect.title, (effect,), parts[id(effect)], moved_by(parts[id(effect)])) for effect in main[:MOST_CAUSES]
+        Repair(effect.title, (effect,), parts[id(effect)], ground.moved_by(parts[id(effect)]))
+        for effect in main[:MOST_CAUSES]
     )
     rest = [effect for effect in (*main[MOST_CAUSES:], *minor) if parts[id(effect)]]
     together = tuple(part for effect in rest for part in parts[id(effect)])
-    name = f"{len(rest)} minor effects together" if len(rest) > 1 else "one minor effect"
-    smaller = Repair(name, tuple(rest), together, moved_by(together)) if rest else None
-    left, before = free(verdict.residuals.after[rows]), free(verdict.residuals.before[rows])
+    name = f"{len(rest)} smaller effects together" if len(rest) > 1 else "one smaller effect"
+    smaller = Repair(name, tuple(rest), together, ground.moved_by(together)) if rest else None
+    left, before = ground.left_and_before()
     explained = sum((cause.moved for cause in (*causes, *([smaller] if smaller else []))), np.zeros_like(left))
     if not verdict.background.present:  # tiny, and without a line of its own
-        left = before - explained
-    families: dict[str, list[Part]] = {}
-    for part in model.background:
-        families.setdefault(part.placed.family, []).append(part)
-    largest, *others = sorted(families, key=lambda family: -_share(verdict, family)) or [GEOMETRIC]
-    small = {family: moved_by(families[family]) for family in others}
-    rest_of_small = before - left - explained - sum(small.values(), np.zeros_like(left))
-    return Contributions(rows, left, causes, smaller, {largest: rest_of_small, **small})
-
-
-def _share(verdict: Diagnosis, family: str) -> float:
-    return next((each.share for each in verdict.background_families if each.family == family), 0.0)
+        return Contributions(ground.rows, before - explained, causes, smaller, {})
+    return Contributions(ground.rows, left, causes, smaller, ground.small(before - left - explained))
 
 
 def _frames(verdict: Diagnosis, posture: Posture) -> Array:
@@ -147,14 +182,15 @@ def _frames(verdict: Diagnosis, posture: Posture) -> Array:
     return np.asarray(left[:, size > 1e-9 * size[0]])
 
 
-def _parts_of(verdict: Diagnosis) -> dict[int, tuple[Part, ...]]:
+def parts_of(verdict: Diagnosis) -> dict[int, tuple[Part, ...]]:
     """The part of the fitted model of every effect, by the effect's `id`; none for scatter, which is no model."""
     waiting = list(verdict.model.parts)
     parts: dict[int, tuple[Part, ...]] = {}
     for effect in verdict.effects:
         alike = [p for p in waiting if p.placed.key == (effect.effect, effect.location)]
         same = [p for p in alike if p.placed.driver == effect.driver and _same_scanned(p, effect)]
-        parts[id(effect)] = tuple((same or alike)[:1])
+        # scatter, which no part stands for, is no curve that follows something
+        parts[id(effect)] = tuple((same or (alike if effect.effect != "unknown" else []))[:1])
         waiting = [p for p in waiting if not any(p is taken for taken in parts[id(effect)])]
     return parts
 

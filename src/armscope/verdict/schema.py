@@ -97,7 +97,8 @@ class FoundEffect:
         minor: worth little of the mismatch.
         parameters: with standard errors.
         rms_at_tool_mm: per axis, beyond what the free frames absorb.
-        share: of the residual variance after the free frames, averaged over the orders in which effects come in.
+        share: of the residual variance after the free frames that goes when it is cured as found, averaged over the
+            orders in which all can be cured; below zero it hides part of what others do.
         evidence_nats: what is lost by leaving it out.
         alternatives: what could stand in its place, nearest first.
         inclusion: how often it, or one of its alternatives at the same place, is chosen when rows are resampled

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from armscope.physics.backgrounds import GEOMETRIC
 from armscope.physics.clause import Number, Told, say
 from armscope.physics.registry import effect_named
 from armscope.verdict.schema import Cause, Diagnosis, FoundEffect, Verdict
@@ -28,17 +27,25 @@ MOST_TOLD = 3
 """More causes than this are counted, not told."""
 _KINDS = {"geometric": "shape", "elastic": "stiffness", "transmission": "drives"}
 _EVERYWHERE = {
-    "geometric": "the geometry is off a little in all joints and links, as on any arm",
-    "elastic": "all joints and links give way a little, as in any arm",
-    "transmission": "all drives err a little, as in any arm",
-    "drift": "base and instrument wander a little, as in any session",
+    "geometric": "the geometry is off a little in all joints and links, and none stands out",
+    "elastic": "all joints and links give way a little, and none stands out",
+    "transmission": "all drives err a little, and none stands out",
+    "drift": "base and instrument wander slowly",
 }
+_ALL = {
+    "geometric": "the geometry is off in all joints and links",
+    "elastic": "all joints and links give way",
+    "transmission": "all drives err",
+    "drift": "base and instrument wander",
+}
+"""The same where one stands out, but most of the error is everywhere."""
 _BESIDE = {"transmission": "all drives a little", "drift": "and a slow wander"}
 """Small errors of a family beside one that stands out; of others: `_OTHERS`."""
 _OTHERS = "all others a little"
 _CURES = {
-    "geometric": "Calibrate the geometry: put the fitted zeros and D-H rows (`armscope calibrate`, or model.yaml) into "
-    "the controller, or command what their inverse kinematics asks for (`armscope compensate`).",
+    "geometric": "Calibrate the geometry: measure once more, and put the zeros and D-H rows that `armscope calibrate` "
+    "finds into the controller; or command what the fitted model's inverse kinematics asks for "
+    "(`armscope compensate`).",
     "elastic": "Give the controller the fitted compliances and the true loads, or command what gives way away "
     "(`armscope compensate`).",
     "transmission": "Store the fitted waves, ratios and play as corrections of the joints, or command them away "
@@ -50,8 +57,11 @@ _CURES = {
 }
 """What mends a family where it has several members or small errors everywhere."""
 
-CALIBRATED = 0.1
-"""Share of the squared error from which they are told as one."""
+TOLD = 0.05
+"""Share of the squared error from which a cause is told in the headline; smaller ones are counted, unless it is the
+largest."""
+UNSURE = 0.01
+"""Share from which small errors are told that the evidence does not ask for."""
 
 FAINT = 0.7
 """Something unexplained that is smaller than this share of the residual is hidden in the noise."""
@@ -76,24 +86,24 @@ def headline(verdict: Diagnosis) -> str:
         return f"{_no_cause(verdict, minor)} {capitalised(_remainder(verdict))}."
     told, rest = _told_and_rest(verdict.causes or _one_by_one(verdict))
     causes = "; ".join(f"{cause.text} – {percent(cause.share)}{_of_what(n)}" for n, cause in enumerate(told))
-    return f"{capitalised(causes)}. {capitalised('; '.join([*_others(rest), _remainder(verdict)]))}."
+    rest_told = [*_others(rest), *_unsure(verdict), _remainder(verdict)]
+    return f"{capitalised(causes)}. {capitalised('; '.join(rest_told))}."
 
 
 def _told_and_rest(causes: Sequence[Cause]) -> tuple[list[Cause], list[Cause]]:
     """The causes that a headline tells, and those that it counts."""
-    worth_a_calibration = [c for c in causes if not c.members and c.family == GEOMETRIC and c.share > CALIBRATED]
-    first = [cause for cause in causes if not cause.minor and (cause.members or cause in worth_a_calibration)]
-    first = first[:MOST_TOLD] or list(causes[:1])
+    first = [cause for cause in causes if cause.share > TOLD][:MOST_TOLD] or list(causes[:1])
     return first, [cause for cause in causes if cause not in first]
 
 
-def cause_in_words(family: str, members: Sequence[FoundEffect], everywhere: bool) -> str:
+def cause_in_words(family: str, members: Sequence[FoundEffect], everywhere: bool, share: float = 0.0) -> str:
     """What is wrong, in a clause: the largest member, how many more, and whether it is so everywhere.
 
     Args:
         family: of the cause.
         members: its effects, largest share first; those that are minor are counted, not told.
         everywhere: whether small errors of the family in the whole arm belong to it.
+        share: of these small errors; where it is the larger part, they are told first.
 
     Returns:
         The clause.
@@ -103,6 +113,9 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], everywhere: bool
     if not told:
         return small
     more = len(members) - len(told)
+    if everywhere and share > sum(effect.share for effect in members) and family in _ALL:
+        others = f" and {spelled(more)} more" if more else ""
+        return f"{_ALL[family]}, most of all: {phrase(told[0])}{others}"
     beside = [f"{spelled(more)} more of its kind"] if more else []
     beside += [_BESIDE.get(family, _OTHERS)] if everywhere else []
     return f"{phrase(told[0])} ({', '.join(beside)})" if beside else phrase(told[0])
@@ -187,14 +200,23 @@ def _others(rest: Sequence[Cause]) -> Iterator[str]:
     if any(cause.family == "drift" and not cause.members for cause in rest):
         parts.append(SMALL["drift"])
     if parts:
-        yield f"{', and '.join(parts)}: {percent(sum(cause.share for cause in rest))}"
+        share, told = sum(cause.share for cause in rest), ", and ".join(parts)
+        yield f"{told}: {percent(share)}" if share > 0 else f"{told}, for which the others must be cured first"
+
+
+def _unsure(verdict: Diagnosis) -> Iterator[str]:
+    """Small errors that the model holds though the evidence does not ask for them, and so are in no cause."""
+    told = [each for each in verdict.background_families if not each.present and each.share > UNSURE]
+    if told:
+        kinds = " and ".join(SMALL[each.family] for each in told if each.family in SMALL)
+        yield f"possibly {kinds}: {percent(sum(each.share for each in told))}"
 
 
 def _remainder(verdict: Diagnosis) -> str:
     """What the model leaves."""
     left = millimetres(verdict.residual_after_mm)
     if more_than_noise(verdict):
-        return f"the {left} left are more than noise, and still without a cause"
+        return f"the {left} left are in part more than noise, still without a cause"
     return f"the {left} left are noise"
 
 

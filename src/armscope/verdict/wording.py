@@ -19,7 +19,7 @@ LABELS = {
     "phase": "largest at",
     "reaches": "reaches",
     "time": "at time",
-    "row": "at row",
+    "row": "at row with id",
 }
 """What parameters of several effects are called; an effect has labels of its own (`armscope.physics.effect`)."""
 
@@ -133,7 +133,8 @@ def percent(share: float) -> str:
         return "over 100 %"  # it and another nearly cancel: the number itself says nothing
     if abs(value) < 0.05:
         return "< 0.1 %"
-    return f"{value:.0f} %" if value >= 9.5 else f"{value:.1f} %"
+    text = f"{min(value, 100):.0f} %" if abs(value) >= 9.5 else f"{value:.1f} %"
+    return text.replace("-", "−")
 
 
 def millimetres(value: float | None) -> str:

@@ -41,8 +41,8 @@ CHANGES = {
     "thermal_expansion": ("temperature", "Warm the arm up before work, or scale {location} with its temperature."),
     "parallelogram_geometry": ("linkage", "Adjust the rod of the parallelogram by minus its error."),
     "base_drift": ("set-up", "Fix base and instrument, and measure again."),
-    "base_shift": ("set-up", "Fasten base and instrument, and measure again from the jump on."),
-    "tool_shift": ("fastening", "Fasten the tool, and measure its tool point again from the jump on."),
+    "base_shift": ("set-up", "Fasten base and instrument, and register the base anew from the jump on{jump}."),
+    "tool_shift": ("fastening", "Fasten the tool, and measure its tool point anew from the jump on{jump}."),
     "payload_error": ("payload data", "Weigh the load and correct mass and centre of mass in the controller."),
     "instrument_scale": ("instrument", "Have the instrument's scale calibrated, and measure again."),
     "unknown": ("correction table", "Find what it follows; until then store its curve as a correction table."),
@@ -52,13 +52,13 @@ ALL_AT_ONCE = {
     GEOMETRIC: "calibration", ELASTIC: "elastic model", TRANSMISSION: "correction table", DRIFT: "fastening"
 }  # fmt: skip
 """What is changed for the small errors of a family in all joints and links."""
-WORTH_ALL = 0.05
-"""Share of the squared error from which these are a task of their own."""
-LEAST_GAIN = 0.01
+LEAST_GAIN = 0.03
 """Share of the error that a task must take away in its turn."""
 WORTH_TOGETHER = 0.1
 """Share of the error from which all that is left in the fitted model is commanded away together."""
 NO_GAIN = "To cure it does not lower the error in its turn: confirm it before anything is changed."
+LEAST_TURN = 5e-5
+"""Smaller turns of a jump (rad) are not told: at a metre they are less than what jumps are measured by."""
 STEADY = 0.02
 """A motion whose range is below this share of its size is told as one number."""
 
@@ -73,7 +73,8 @@ class Task:
         motion: how far and which way it goes in these recordings: mm, mrad and degrees, with signs.
         instruction, cure: what to do; and the rule by which it is commanded away.
         confirm: how to confirm it first.
-        alone_mm, then_mm: RMS per axis expected once this alone, or this and all before it, is cured.
+        alone_mm, then_mm: RMS per axis on the recorded rows once this alone, or this and all before it, is cured.
+        only_after: it pays only once all before it is done: alone it would make the error larger.
     """
 
     what: str
@@ -85,6 +86,7 @@ class Task:
     confirm: str
     alone_mm: float = math.nan
     then_mm: float = math.nan
+    only_after: bool = False
 
 
 @dataclass(frozen=True)
@@ -92,8 +94,8 @@ class WorkOrder:
     """What to do, and what was found besides.
 
     Attributes:
-        tasks: in the order in which they pay: repairs, then what takes out small errors everywhere, then repairs that
-            pay only after that, and corrected commands for what pays only together.
+        tasks: in the order in which they pay: repairs, then what takes out small errors everywhere, then what pays
+            only after that, and corrected commands for what pays only together.
         besides: in words, causes that leave the error as it is in their turn, and what to do about them.
     """
 
@@ -105,13 +107,19 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
     """The work order of a verdict: tasks for major effects, and for small errors that make up a cause."""
     scene = verdict.model.posture(verdict.model.scene(verdict.recordings)).scene
     repairs = [(task_of(scene, cause, effect), cause.moved) for cause in worth.causes for effect in cause.effects[:1]]
-    share = {family.family: family.share for family in verdict.background_families}
-    small = [(_everywhere(family), moved) for family, moved in worth.small.items() if share.get(family, 0) > WORTH_ALL]
-    first, left, unpaid = _by_gain(repairs, worth.before)
-    then, left, _ = _by_gain(small, left)
-    last, left, unpaid = _by_gain(unpaid, left)
+    present = {family.family for family in verdict.background_families if family.present and family.family in SMALL}
+    small = [(_everywhere(family), moved) for family, moved in worth.small.items() if family in present]
+    before = rms(worth.before)
     alone = {id(task): rms(worth.before - moved) for task, moved in (*repairs, *small)}
-    done = [replace(task, alone_mm=alone[id(task)], then_mm=then_mm) for task, then_mm in (*first, *then, *last)]
+    first, left, _ = _by_gain([job for job in repairs if alone[id(job[0])] < before], worth.before)
+    then, left, _ = _by_gain([job for job in small if alone[id(job[0])] < before], left)
+    done_so_far = {id(task) for task, _ in (*first, *then)}
+    last, left, unpaid = _by_gain([job for job in (*repairs, *small) if id(job[0]) not in done_so_far], left)
+    unpaid = [job for job in unpaid if any(job[0] is task for task, _ in repairs)]
+    done = [
+        replace(task, alone_mm=alone[id(task)], then_mm=then_mm, only_after=alone[id(task)] >= before)
+        for task, then_mm in (*first, *then, *last)
+    ]
     moving = [task.what for task, moved in unpaid if rms(moved) > 0]
     if rms(worth.left) < (1 - WORTH_TOGETHER) * rms(left):
         done.append(_together([what[:1].lower() + what[1:] for what in moving], rms(worth.left)))
@@ -179,6 +187,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect) -> Task:
     """
     change, how = CHANGES.get(effect.effect, ("", ""))
     words = {"location": effect.location, "zero": "–", "ratio": "–", "row": "–", "size": ""}
+    words["jump"] = _jump(effect)
     words["opposite"] = motion(scene, cause.parts, -1) or "its opposite"
     told = {p.name: p for p in effect.parameters if not implausible(p, effect)}
     if "offset" in told:
@@ -199,6 +208,18 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect) -> Task:
         cure=effect.cure.replace("`", ""),
         confirm=effect.confirm,
     )
+
+
+def _jump(effect: FoundEffect) -> str:
+    """How far and which way, in the axes of what jumped."""
+    named = {"rx": "about x", "ry": "about y", "rz": "about z"}
+    told = [
+        f"{named[p.name]} {angle(p.value)}" if p.name in named else f"{p.name} {_signed(p.value, 3)} mm"
+        for p in effect.parameters
+        if p.name in ("x", "y", "z") or (p.name in named and abs(p.value) > LEAST_TURN)
+    ]
+    axes = "the last D-H frame" if effect.location == "tool" else "the base frame"
+    return f" (it jumped by {', '.join(told)} in {axes})" if told else ""
 
 
 def _settled(effect: FoundEffect) -> str:

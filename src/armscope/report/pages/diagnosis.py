@@ -69,7 +69,8 @@ def write_work_order(subject: Subject, folder: Path) -> None:
         "order": subject.order,
         "before": rms(subject.worth.before),
         "left": min((task.then_mm for task in subject.order.tasks), default=rms(subject.worth.before)),
-        "mm": millimetres,
+        "mm": lambda mm: millimetres(subject.expected(mm)),
+        "held_out": math.isfinite(verdict.held_out.after),
         "background": percent(verdict.background.share),
         "dh": None if rows is None else rows.to_dict("records"),
         "rows_change": rows is not None and bool(rows.filter(like="correction_").any(axis=None)),
@@ -124,6 +125,11 @@ def _warns(notice: Notice, verdict: Diagnosis) -> bool:
     return notice.kind in WARNINGS or verdict.mismatch is None
 
 
+def _noise(verdict: Diagnosis) -> str:
+    """Noise that was estimated from what is left is no more than an upper bound where that is not all noise."""
+    return "noise, at most" if more_than_noise(verdict) and "residuals" in verdict.noise_source else "noise"
+
+
 def _tiles(verdict: Diagnosis) -> list[tuple[str, str, str]]:
     """(number, what it is, details) for the strip under the headline."""
     held_out = math.isfinite(verdict.held_out.before) and math.isfinite(verdict.held_out.after)
@@ -140,6 +146,6 @@ def _tiles(verdict: Diagnosis) -> list[tuple[str, str, str]]:
         tiles = [(millimetres(before), "error", "RMS per axis once base and tool are placed")]
     return [
         *tiles,
-        (millimetres(verdict.noise_mm), "noise", f"per axis, {verdict.noise_source}" if known else "not known"),
+        (millimetres(verdict.noise_mm), _noise(verdict), f"per axis, {verdict.noise_source}" if known else "not known"),
         (f"{verdict.rows:,}".replace(",", " "), "recorded rows", f"{Path(verdict.source).name}{runs}"),
     ]

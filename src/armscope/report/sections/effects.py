@@ -35,8 +35,8 @@ def findings(verdict: Diagnosis) -> dict[str, Any]:
 def _context(subject: Subject) -> dict[str, Any]:
     alone = {id(cause.effects[0]): subject.worth.cured([n]) for n, cause in enumerate(subject.worth.causes)}
     main, _ = main_and_minor(subject.verdict.effects)
-    before = millimetres(rms(subject.worth.before))
-    worth = [f"{before} → {millimetres(alone[id(effect)])}" if id(effect) in alone else "" for effect in main]
+    before = millimetres(subject.expected(rms(subject.worth.before)))
+    worth = [f"{before} → {millimetres(subject.expected(alone[id(e)]))}" if id(e) in alone else "" for e in main]
     found = findings(subject.verdict)
     families: dict[str, list[tuple[Card, str]]] = {}
     for effect, its_card, its_worth in zip(main, found["cards"], worth, strict=True):

@@ -14,9 +14,10 @@ GLOSSARY = (
     ("Held-out rows", "Rows that took no part in finding or fitting the effects. A model that merely memorises the "
      "rows it has seen fails on them."),
     ("Noise", "What remains when the model is right: instrument and repeatability together, 1 sigma per axis."),
-    ("Share of the mismatch", "How much of the squared residual after the free frames an effect explains, averaged "
-     "over the orders in which the effects can enter the model (Shapley's value). The shares of all effects and of the "
-     "small errors everywhere add up to what the whole model explains."),
+    ("Share of the mismatch", "How much of the squared residual after the free frames goes when an effect is cured as "
+     "it was found, averaged over the orders in which all can be cured (Shapley's value). The shares of all effects and"
+     " of the small errors everywhere add up to what the whole model explains. One below zero hides part of what others"
+     " do."),
     ("Driver", "What an effect follows: a joint's angle, the load of gravity on it, temperature, time, ..."),
     ("Evidence, nats", "How much more probable the recordings are with the effect than without it, as a natural "
      "logarithm, after paying for the size of the library searched. 1 nat is odds of 3 to 1, 5 nats 150 to 1."),

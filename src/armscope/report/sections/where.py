@@ -13,6 +13,9 @@ from armscope.report.subject import Subject
 from armscope.verdict.schema import Diagnosis
 from armscope.verdict.wording import SMALL, capitalised, main_and_minor, percent
 
+LEAST_AGAINST = 5e-4
+"""Shares as far below zero are told to be so."""
+
 
 @dataclass(frozen=True)
 class Place:
@@ -35,7 +38,8 @@ class Place:
 
 
 def _context(subject: Subject) -> dict[str, Any]:
-    return {"ranking": _ranking(subject.verdict), "arm": subject.arm}
+    ranking = _ranking(subject.verdict)
+    return {"ranking": ranking, "against": any(place.share < -LEAST_AGAINST for place in ranking), "arm": subject.arm}
 
 
 def _ranking(verdict: Diagnosis) -> list[Place]:

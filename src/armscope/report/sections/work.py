@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from armscope.report.sectioning import Section
@@ -11,7 +12,11 @@ from armscope.verdict.wording import millimetres
 
 
 def _context(subject: Subject) -> dict[str, Any]:
-    return {"order": subject.order, "mm": millimetres}
+    return {
+        "order": subject.order,
+        "mm": lambda mm: millimetres(subject.expected(mm)),
+        "held_out": math.isfinite(subject.verdict.held_out.after),
+    }
 
 
 def _something_to_do(verdict: Diagnosis) -> bool:

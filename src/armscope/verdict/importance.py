@@ -1,0 +1,107 @@
+"""How much each cause matters: the one measure by which headline, lists, pictures and work order are in order.
+
+What a cause is worth is how much of the squared error goes when it is cured as it was found, averaged over the orders
+in which everything can be cured (Shapley 1953). With each cause's contribution at the tool known (`contributions`) this
+needs no orders: the error before is their sum with what is left, and a cause's share is the product of its contribution
+with the error before and with what is left, over the squared error. The shares add up to what the model explains. One
+below zero hides part of what others do: its cure pays only once theirs are done.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from armscope.core.averages import rms
+from armscope.core.types import Array
+from armscope.verdict.contributions import Contributions, ground_of, parts_of
+from armscope.verdict.schema import Background, Cause, Diagnosis, FoundEffect
+from armscope.verdict.sentences import cause_in_words, cure_of_family, headline
+
+
+def with_importance(draft: Diagnosis) -> Diagnosis:
+    """A diagnosis whose effects, small errors and causes have shares, stand in their order, and are told in words.
+
+    Args:
+        draft: with effects, backgrounds and causes in any order.
+
+    Returns:
+        The same with `share` everywhere, the largest first, and the headline.
+    """
+    ground, parts = ground_of(draft), parts_of(draft)
+    left, before = ground.left_and_before()
+    squared = float(np.sum(before**2))
+    if not squared:
+        return replace(draft, headline=headline(draft))
+
+    def share(moved: Array) -> float:
+        return float(np.sum(moved * (before + left))) / squared
+
+    moved = [ground.moved_by(parts[id(effect)]) for effect in draft.effects]
+    explained = sum(moved, np.zeros_like(left))
+    small = ground.small(before - left - explained) if draft.background.present else {}
+    if not small:  # tiny, and without a line of its own
+        left = before - explained
+    families = tuple(
+        replace(each, share=share(small[each.family]) if each.family in small else 0.0)
+        for each in draft.background_families
+    )
+    named = [
+        replace(effect, share=share(its)) for effect, its in zip(draft.effects, moved, strict=True) if parts[id(effect)]
+    ]
+    modelled = sum(effect.share for effect in named) + sum(family.share for family in families)
+    left_over = max(1 - modelled, 0.0)
+    # what scatters is in no model: it has no more than nothing else explains
+    scattered = [replace(e, share=min(e.share, left_over)) for e in draft.effects if not parts[id(e)]]
+    present = sum(each.share for each in families if each.present)
+    told = replace(
+        draft,
+        effects=tuple(sorted([*named, *scattered], key=lambda effect: -effect.share)),
+        background=replace(draft.background, share=present),
+        background_families=families,
+    )
+    told = replace(told, causes=_causes(told))
+    return replace(told, headline=headline(told))
+
+
+def _causes(verdict: Diagnosis) -> tuple[Cause, ...]:
+    """The causes with their members in order, the largest share first."""
+    small = {each.family: each for each in verdict.background_families}
+    causes = [_retold(cause, verdict.effects, small.get(cause.family)) for cause in verdict.causes]
+    return tuple(sorted(causes, key=lambda cause: -cause.share))
+
+
+def _retold(cause: Cause, effects: Sequence[FoundEffect], small: Background | None) -> Cause:
+    members = [effect for effect in effects if f"{effect.effect} at {effect.location}" in cause.members]
+    everywhere = small.share if small and cause.everywhere else 0.0
+    return replace(
+        cause,
+        members=tuple(f"{effect.effect} at {effect.location}" for effect in members),
+        share=sum(effect.share for effect in members) + everywhere,
+        text=cause_in_words(cause.family, members, cause.everywhere, everywhere),
+        cure=cure_of_family(cause.family, members, cause.everywhere),
+    )
+
+
+def expected(verdict: Diagnosis, worth: Contributions, mm: float) -> float:
+    """What RMS to expect on poses that took no part, where one on the recorded rows is known.
+
+    A fit is a little better on its own rows. Both ends are known, the nominal arm's and the whole model's, from
+    cross-validation; between them squared errors are taken to go straight.
+
+    Args:
+        verdict: the diagnosis.
+        worth: its contributions.
+        mm: RMS per axis on the recorded rows.
+
+    Returns:
+        RMS per axis, mm; the same where nothing was held out.
+    """
+    fitted = rms(worth.before) ** 2, rms(worth.left) ** 2
+    held = verdict.held_out.before**2, verdict.held_out.after**2
+    if not (np.isfinite(held).all() and fitted[0] > fitted[1] and held[0] > held[1]):
+        return mm
+    slope = (held[0] - held[1]) / (fitted[0] - fitted[1])
+    return float(np.sqrt(max(held[1] + slope * (mm**2 - fitted[1]), 0.0)))

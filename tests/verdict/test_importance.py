@@ -1,0 +1,50 @@
+"""A cause's share is what its cure is worth, averaged over all orders of curing: no more and no less."""
+
+import itertools
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from armscope.core.averages import rms
+from armscope.verdict.contributions import contributions
+from armscope.verdict.importance import with_importance
+from armscope.verdict.schema import Background
+from armscope.verdict.sentences import headline
+from tests.report import verdicts
+from tests.verdict.test_contributions import verdict, world  # noqa: F401  (fixtures)
+
+
+def test_a_share_is_what_curing_takes_away_averaged_over_all_orders(verdict) -> None:  # noqa: F811
+    worth = contributions(verdict)
+    count, squared = len(worth.causes), rms(worth.before) ** 2
+    drops = np.zeros(count)
+    orders = list(itertools.permutations(range(count)))
+    for order in orders:
+        for place, cause in enumerate(order):
+            drops[cause] += worth.cured(order[:place]) ** 2 - worth.cured(order[: place + 1]) ** 2
+    told = [cause.effects[0].share for cause in worth.causes]
+    # what is left has a little to do with the contributions: it is shared among them, too
+    assert told == pytest.approx(drops / len(orders) / squared, abs=2e-3)
+    assert count >= 3
+
+
+def test_shares_add_up_to_what_is_explained_and_stand_in_their_order(verdict) -> None:  # noqa: F811
+    worth = contributions(verdict)
+    shares = [effect.share for effect in verdict.effects]
+    assert shares == sorted(shares, reverse=True)
+    everything = sum(shares) + sum(family.share for family in verdict.background_families)
+    assert everything == pytest.approx(1 - (rms(worth.left) / rms(worth.before)) ** 2, abs=1e-6)
+    assert sum(cause.share for cause in verdict.causes) == pytest.approx(everything, abs=1e-3)
+    again = with_importance(replace(verdict, effects=tuple(reversed(verdict.effects))))
+    assert [e.title for e in again.effects] == [e.title for e in verdict.effects]
+    assert [e.share for e in again.effects] == pytest.approx(shares)
+    assert again.headline == verdict.headline
+
+
+def test_small_errors_that_the_evidence_does_not_ask_for_are_told_with_their_share() -> None:
+    """They are in the model, and so in what it explains, but in no cause: without them the shares would not add up."""
+    held = (Background("geometric", True, 0.8, 0.04, 0.02), Background("transmission", False, 0.1, 0.3, 0.33))
+    said = headline(replace(verdicts.single().verdict, background_families=held))
+    assert "possibly small errors of all drives: 33 %" in said
+    assert "possibly" not in headline(verdicts.single().verdict)
