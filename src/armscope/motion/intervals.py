@@ -23,18 +23,19 @@ from armscope.motion import catalogue
 from armscope.motion.constants import INTERVALS, PRIOR, TELLING
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.selection import SelectedCauses
-from armscope.verdict.schema import Notice
+from armscope.verdict.schema import INTERVAL, Notice
 
 Rivals = Mapping[int, Sequence[Hypothesis]]
-NORMAL_95 = 1.959964
 
 
 @dataclass(frozen=True, eq=False)
 class Sureness:
-    """Attributes:
-    search: on the selection's problem.
-    rivals: by candidate: hypotheses with another cause in its place.
-    factor: (p,) by which the standard error of each column is larger than the best hypothesis says.
+    """How far a selection can be trusted.
+
+    Attributes:
+        search: on the selection's problem.
+        rivals: by candidate: hypotheses with another cause in its place.
+        factor: (p,) by which the standard error of each column is larger than the best hypothesis says.
     """
 
     search: Search
@@ -108,7 +109,16 @@ def _whole(selected: SelectedCauses, carried: Mapping[str, float]) -> Array:
 
 
 def covariance_of(selected: SelectedCauses, number: int, factor: Array) -> Array:
-    """(c, c) covariance of a chosen cause's fitted numbers, SI, with ``factor`` (p,) on every standard error."""
+    """Covariance of a chosen cause's fitted numbers.
+
+    Args:
+        selected: the selection.
+        number: of the cause.
+        factor: (p,) on the standard error of every column.
+
+    Returns:
+        (c, c), SI.
+    """
     columns = selected.rows.layout.columns[number]
     by = factor[columns] / selected.problem.scale[columns]
     return np.asarray(selected.best.covariance(columns) * np.outer(by, by))
@@ -137,7 +147,7 @@ def _widened(selected: SelectedCauses, search: Search, rivals: Rivals) -> Array:
         spread = own[place] * np.sqrt([each.variances(np.array([column]))[0] for each in told])
         weight = np.exp([min(each.log_posterior - best.log_posterior, 0.0) for each in told])
         reach = _half_width(mean - best.mean[place], spread, weight / weight.sum()) if len(told) > 1 else 0.0
-        factor[column] = own[place] * max(reach / (NORMAL_95 * error[place]), 1.0)
+        factor[column] = own[place] * max(reach / (INTERVAL * error[place]), 1.0)
     return factor
 
 

@@ -8,7 +8,6 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.inference.model_space import Candidate
-from armscope.inference.normal_equations import total
 from armscope.inference.shapley import shares
 from armscope.motion.causes import PlacedCause
 from armscope.motion.confounding import gains_instead
@@ -77,7 +76,16 @@ def title(placed: PlacedCause) -> str:
 
 
 def cause_parameters(selected: SelectedCauses, number: int, factor: Array) -> tuple[Parameter, ...]:
-    """A cause's numbers with standard errors: fitted ones, then scanned ones."""
+    """A cause's numbers with standard errors.
+
+    Args:
+        selected: the selection.
+        number: of the cause.
+        factor: (p,) on the standard error of every column.
+
+    Returns:
+        Those that were fitted, then those that were scanned, in the units of files.
+    """
     placed, columns = selected.rows.layout.placed[number], selected.rows.layout.columns[number]
     values, stderr = selected.coefficients[columns], np.sqrt(np.diag(covariance_of(selected, number, factor)))
     told = [
@@ -195,8 +203,3 @@ def _first(cause: FoundCause) -> str:
     half = parameter.interval[1] - parameter.value
     reach = f" ± {half:.2g}" if half > TELLING.doubtful * abs(parameter.value) else ""
     return f"{parameter.name.replace('_', ' ')} {parameter.value:+.3g}{reach} {parameter.unit}".strip()
-
-
-def noise_sums(selected: SelectedCauses) -> float:
-    """Number of independent rows of all joints together."""
-    return float(total(selected.blocks).n)

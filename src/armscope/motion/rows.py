@@ -257,8 +257,7 @@ class _Piece:
 
 def bend(torque: Array, rate: float) -> Array:
     """(N, m) second derivative of torques, N m/s^2: what drives' filters and rounding take part of."""
-    slope = np.gradient(torque, 1 / rate, axis=0)
-    return np.asarray(np.gradient(slope, 1 / rate, axis=0))
+    return np.asarray(np.gradient(np.gradient(torque, 1 / rate, axis=0), 1 / rate, axis=0))
 
 
 def own_columns(
