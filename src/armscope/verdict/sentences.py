@@ -58,8 +58,8 @@ _CURES = {
 """What mends a family where it has several members or small errors everywhere."""
 
 TOLD = 0.05
-"""Share of the squared error from which a cause is told in the headline; smaller ones are counted, unless it is the
-largest."""
+"""Share of the squared error from which a cause is told in the headline, whatever its members; smaller ones are counted,
+unless a member stands out or it is the largest."""
 UNSURE = 0.01
 """Share from which small errors are told that the evidence does not ask for."""
 
@@ -92,7 +92,8 @@ def headline(verdict: Diagnosis) -> str:
 
 def _told_and_rest(causes: Sequence[Cause]) -> tuple[list[Cause], list[Cause]]:
     """The causes that a headline tells, and those that it counts."""
-    first = [cause for cause in causes if cause.share > TOLD][:MOST_TOLD] or list(causes[:1])
+    named = [c for c in causes if c.members and not c.minor and c.share > UNSURE]
+    first = [c for c in causes if c.share > TOLD or c in named][:MOST_TOLD] or list(causes[:1])
     return first, [cause for cause in causes if cause not in first]
 
 
