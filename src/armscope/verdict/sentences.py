@@ -58,8 +58,8 @@ _CURES = {
 """What mends a family where it has several members or small errors everywhere."""
 
 TOLD = 0.05
-"""Share of the squared error from which a cause is told in the headline, whatever its members; smaller ones are counted,
-unless a member stands out or it is the largest."""
+"""Share of the squared error from which a cause is told in the headline, whatever its members; smaller ones are
+counted, unless a member stands out or it is the largest."""
 UNSURE = 0.01
 """Share from which small errors are told that the evidence does not ask for."""
 
