@@ -108,6 +108,7 @@ def test_play_without_a_record_of_the_side_is_located_and_not_explained_by_chanc
     assert verdict.effects[0].driver == "nothing in the table"
 
 
+@pytest.mark.long
 def test_two_effects_that_look_alike_are_both_named() -> None:
     """Without payload changes motor 2's load on a parallelogram arm is a once-per-turn wave of its angle."""
     arm = arm_named("parallelogram-120kg")

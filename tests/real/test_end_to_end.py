@@ -13,6 +13,7 @@ from armscope.cli import app
 from armscope.core.files import write_json
 from tests.real.recorded import ROBOT, table
 
+pytestmark = pytest.mark.long
 SETTINGS = {
     "seed": 1, "title": "made_up", "run": "one", "first_id": None, "most_rows": 500,
     "effects": ["joint_coupling", "backlash", "joint_compliance"], "sizes": [3.0],
@@ -24,10 +25,7 @@ def call(*words):
     assert result.exception is None, (words, result.exception, result.stdout)
 
 
-@pytest.fixture(
-    scope="module",
-    params=[pytest.param(None, id="points"), pytest.param(1e-4, id="orientations too", marks=pytest.mark.long)],
-)
+@pytest.fixture(scope="module", params=[None, 1e-4], ids=["points", "orientations too"])
 def folder(request, tmp_path_factory):
     home = tmp_path_factory.mktemp("concealed")
     # an arm with errors of its own: two zeros are off and a gear is out of round
