@@ -12,7 +12,6 @@ STILL_LONG_FILES = {
     "physics/drivers.py",
     "physics/scene.py",
     "swarm/compiled.py",
-    "verdict/schema.py",
     "world/catalogue.py",
     "world/effects.py",
     "world/mechanism.py",

@@ -17,7 +17,8 @@ from armscope.motion.intervals import Sureness, covariance_of
 from armscope.motion.layout import OWN
 from armscope.motion.selection import SelectedCauses
 from armscope.motion.verdict import FoundCause, JointBackground, UnexplainedTorque
-from armscope.verdict.schema import Alternative, Answer, Parameter
+from armscope.verdict.effects import Alternative, Parameter
+from armscope.verdict.schema import Answer
 
 
 def found_causes(selected: SelectedCauses, sure: Sureness) -> list[tuple[int, FoundCause]]:

@@ -195,6 +195,8 @@ class Effect:
         drivers: kinds of drivers that it brings along, by name (`armscope.physics.drivers`).
         needs: context columns without which it can't be seen.
         requires: family without which it does nothing: a payload's error shows through what gives way.
+        departs: its values are departures from what is stated, which carry their sign.
+        jumps: it holds from a moment on, before which it is not there.
         nonnegative: its one value is not negative: what gives way does so along its load.
         several: whether several of it (mesh lines, jumps, curves of different drivers) may stand at one place.
         contained_in: free curves, by driver, that hold it as a special case at the same location.
@@ -213,6 +215,8 @@ class Effect:
     drivers: Mapping[str, DriverKind] = field(default_factory=dict, repr=False, compare=False)
     needs: tuple[str, ...] = ()
     requires: str = ""
+    departs: bool = False
+    jumps: bool = False
     nonnegative: bool = False
     several: bool = False
     contained_in: tuple[str, ...] = ()

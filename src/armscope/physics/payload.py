@@ -104,6 +104,8 @@ PAYLOAD_ERROR = Effect(
         "Correct the payload's data in the controller: mass = stated mass + mass, centre = stated centre + com. What "
         "gives way is then commanded away with the right load.",
         statement=_restated,
+        change="payload data",
+        instruction="Weigh the load and correct mass and centre of mass in the controller.",
     ),
     clauses=(_not_as_stated,),
     atlas="gravity load",
