@@ -20,8 +20,8 @@ from armscope.verdict.schema import INTERVAL
 
 WIDE, HIGH = 500.0, 200.0
 """Of one joint's picture, px."""
-SMALL = 330.0
-"""Width of a picture of what is left, px."""
+SMALL, LOW = 330.0, 165.0
+"""Of a picture of which three stand beside each other, px; what is left is as high as the wide ones."""
 FEW = 2
 """Joints up to which a picture has the width of half a page."""
 MOST_ROWS, MOST_DOTS = 450, 500
@@ -48,6 +48,10 @@ def _wide(subject: MotionSubject) -> float:
     return WIDE if subject.arm.n_motors <= FEW else SMALL
 
 
+def _high(wide: float) -> float:
+    return HIGH if wide >= WIDE else LOW
+
+
 def draw_trace(
     title: str, unit: str, time: Array, lines: Sequence[tuple[Array, str, float]], wide: float = WIDE
 ) -> Drawing:
@@ -66,7 +70,9 @@ def draw_trace(
     measured = lines[0][0]
     middle, half = (measured.max() + measured.min()) / 2, max(float(np.ptp(measured)) / 2, 1e-9)
     shown = np.clip(np.concatenate([each for each, _, _ in lines]), middle - BEYOND * half, middle + BEYOND * half)
-    drawing = Drawing(wide, HIGH, f"Torque of {title} over time on held-out motion: measured, as stated, corrected")
+    drawing = Drawing(
+        wide, _high(wide), f"Torque of {title} over time on held-out motion: measured, as stated, corrected"
+    )
     panel = _panel(drawing, wide, (float(time[0]), float(time[-1])), _range(shown))
     panel.frame("", "time (s)", f"torque ({unit})")
     for values, colour, width in lines:
@@ -115,7 +121,7 @@ def draw_friction(
     Returns:
         The figure.
     """
-    drawing = Drawing(wide, HIGH, f"Friction of {title} over its speed: rows and the model's curve")
+    drawing = Drawing(wide, _high(wide), f"Friction of {title} over its speed: rows and the model's curve")
     values = np.concatenate([np.percentile(cloud[1], [0.5, 99.5]), curve[1]])
     panel = _panel(drawing, wide, (float(curve[0][0]), float(curve[0][-1])), _range(values))
     panel.frame("", *labels)
@@ -189,7 +195,7 @@ def _driver_unit(subject: MotionSubject, driver: str, joint: int) -> tuple[float
 
 
 def _panel(drawing: Drawing, wide: float, x: tuple[float, float], y: tuple[float, float]) -> Panel:
-    return Panel(drawing, 62, 26, wide - 74, HIGH - 68, x, y)
+    return Panel(drawing, 62, 26, wide - 74, drawing.height - 68, x, y)
 
 
 def _range(values: Array) -> tuple[float, float]:
