@@ -9,12 +9,12 @@ import numpy as np
 
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Progress
-from armscope.diagnosis.constants import TELLING
 from armscope.diagnosis.held_out import Rows, cross_validate
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary import alternatives as certainty
 from armscope.diagnosis.summary.attribution_map import atlas
 from armscope.diagnosis.summary.causes import causes
+from armscope.diagnosis.summary.constants import TELLING
 from armscope.diagnosis.summary.effects import (
     Weighed,
     as_far_as_it_carries,

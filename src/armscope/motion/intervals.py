@@ -130,7 +130,7 @@ def _widened(selected: SelectedCauses, search: Search, rivals: Rivals) -> Array:
     Args:
         selected: the selection.
         search: on its problem.
-        rivals: see `rivals_of`.
+        rivals: by candidate, see `Sureness`.
 
     Returns:
         (p,), at least 1; 1 for what takes no part.

@@ -6,7 +6,7 @@ import numpy as np
 
 from armscope.core.location import Location
 from armscope.core.sampling import spread_evenly
-from armscope.diagnosis.constants import TELLING
+from armscope.diagnosis.summary.constants import TELLING
 from armscope.fitting.column_blocks import column_blocks
 from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.fitting.parameter_layout import ParameterLayout

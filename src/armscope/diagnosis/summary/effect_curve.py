@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.diagnosis.constants import TELLING
+from armscope.diagnosis.summary.constants import TELLING
 from armscope.physics.drivers import KINDS, cubic_spline
 from armscope.physics.effect import ONE, Driver, Placed
 from armscope.physics.scene import Scene

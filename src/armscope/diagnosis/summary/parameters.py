@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.diagnosis.constants import TELLING
+from armscope.diagnosis.summary.constants import TELLING
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.effect import Placed
 from armscope.physics.scene import Part

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from armscope.diagnosis.constants import TELLING
 from armscope.diagnosis.state import DiagnosisState
+from armscope.diagnosis.summary.constants import TELLING
 from armscope.inference.detection import Detection
 from armscope.inference.edits import Edits
 from armscope.inference.evidence import savage_dickey
