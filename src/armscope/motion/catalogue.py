@@ -95,7 +95,7 @@ GAIN = Cause(
 DELAY = Cause(
     "torque_delay",
     DRIVE,
-    "Torque was recorded later than the motion that it belongs to.",
+    "Torque was recorded at another time than the motion that it belongs to.",
     "Shift the recorded torque against the motion and watch the difference.",
     "Shift the torque back by the delay, or simulate the delay.",
 )

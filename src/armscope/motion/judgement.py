@@ -17,8 +17,10 @@ from armscope.motion.intervals import Sureness, covariance_of
 from armscope.motion.layout import OWN
 from armscope.motion.selection import SelectedCauses
 from armscope.motion.verdict import FoundCause, JointBackground, UnexplainedTorque
+from armscope.motion.words import clause, cure
 from armscope.verdict.effects import Alternative, Parameter
 from armscope.verdict.schema import Answer
+from armscope.verdict.wording import capitalised, percent, spelled
 
 
 def found_causes(selected: SelectedCauses, sure: Sureness) -> list[tuple[int, FoundCause]]:
@@ -44,6 +46,7 @@ def _found(
     rms = np.sqrt(np.mean(selected.rows.modelled(coefficients) ** 2, axis=0))
     relative = rms / selected.weights.sigma
     joint = int(np.argmax(relative))
+    parameters = cause_parameters(selected, number, sure.factor)
     return FoundCause(
         effect=placed.cause.name,
         location=placed.location,
@@ -51,7 +54,7 @@ def _found(
         driver=placed.driver,
         title=title(placed),
         minor=share < TELLING.minor_share,
-        parameters=cause_parameters(selected, number, sure.factor),
+        parameters=parameters,
         rms=float(rms[joint]),
         unit="N" if layout.arm.sliding[joint] else "N m",
         joint=f"joint {joint + 1}",
@@ -62,7 +65,7 @@ def _found(
         consistent=agreed.consistent,
         physics=placed.cause.physics,
         confirm=placed.cause.confirm,
-        cure=placed.cause.cure,
+        cure=cure(placed, parameters, layout.arm),
     )
 
 
@@ -178,29 +181,30 @@ def answer_of(found: Sequence[FoundCause], left: UnexplainedTorque) -> tuple[Ans
 
 
 def headline(found: Sequence[FoundCause], held_out: tuple[float, float]) -> str:
-    """The answer in one sentence."""
+    """The largest causes with what each has of the torque that friction and rotors leave, the others by family."""
     before, after = (f"{100 * error:.2g} %" for error in held_out)
-    better = f"on held-out motion the torque is met to {after} instead of {before}"
+    better = f"{ON_HELD_OUT} the torque is met to {after} instead of {before}."
     main = [cause for cause in found if not cause.minor]
     if not found:
-        return f"Nothing is missing beyond friction and rotors of the joints: {better}."
-    told = "; ".join(f"{cause.title} ({_first(cause)})" for cause in (main or found)[: TELLING.in_headline])
-    return f"{told[:1].upper()}{told[1:]}{_further(main[TELLING.in_headline :])}; {better}."
+        return f"Nothing is missing beyond friction and rotors of the joints. {better}"
+    told, rest = (main or found)[: TELLING.in_headline], main[TELLING.in_headline :]
+    of_what = (" of what friction and rotors leave", *[""] * len(told))
+    causes = "; ".join(f"{clause(c)} – {percent(c.share)}{of_what[n]}" for n, c in enumerate(told))
+    return f"{capitalised(causes)}. {_further(rest)}{better}"
+
+
+ON_HELD_OUT = "On held-out motion"
+"""How the sentence of a headline begins that says how well torque is met."""
 
 
 def _further(causes: Sequence[FoundCause]) -> str:
     """What a headline doesn't name, by family: where there is more of it."""
+    if not causes:
+        return ""
     places: dict[str, list[str]] = {}
     for cause in causes:
         places.setdefault(cause.family, []).append(cause.location)
-    told = [f"{family} ({', '.join(dict.fromkeys(where))})" for family, where in places.items()]
-    return f"; besides, {', '.join(told)}" if told else ""
-
-
-def _first(cause: FoundCause) -> str:
-    if cause.effect == "unknown" or cause.effect == "cable_torque":
-        return f"{cause.rms:.2g} {cause.unit} RMS"
-    parameter = cause.parameters[0]
-    half = parameter.interval[1] - parameter.value
-    reach = f" ± {half:.2g}" if half > TELLING.doubtful * abs(parameter.value) else ""
-    return f"{parameter.name.replace('_', ' ')} {parameter.value:+.3g}{reach} {parameter.unit}".strip()
+    kinds = {"unknown": "torque without a known law"}
+    told = [f"{kinds.get(family, family)} ({', '.join(dict.fromkeys(where))})" for family, where in places.items()]
+    count = f"{spelled(len(causes))} more cause{'s' if len(causes) > 1 else ''}"
+    return f"{capitalised(count)}: {', '.join(told)} – {percent(sum(c.share for c in causes))}. "
