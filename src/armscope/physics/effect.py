@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from armscope.core.types import Array
     from armscope.physics.clause import Clause, Told
     from armscope.physics.cure import Cure
-    from armscope.physics.drivers import DriverKind
     from armscope.physics.scene import Part, Scene
     from armscope.recordings import Recordings
     from armscope.robot import Arm
@@ -57,6 +56,25 @@ class Driver:
         value = self.arguments[place]
         assert isinstance(value, Real), self
         return float(value)
+
+
+@dataclass(frozen=True)
+class DriverKind:
+    """How a driver is evaluated, and all that anybody else asks about it.
+
+    Attributes:
+        values: (scene, *arguments of the driver) -> (N,) values, SI units (time in hours).
+        needs: the field of the recordings without which it can't be evaluated ("temperature"; "" for none).
+        follows: what it depends on: "load" (where the arm stands under gravity), "payload", "weight" (it is a load,
+            proportional to what hangs there), "torque" (recorded where it was), "run" (it describes a recording, not
+            the arm).
+        unit: of its values where an effect is drawn as a curve over it; "" where it is not.
+    """
+
+    values: Callable[..., Array]
+    needs: str = ""
+    follows: frozenset[str] = frozenset()
+    unit: str = ""
 
 
 ONE = Driver("one")
