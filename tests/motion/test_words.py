@@ -17,7 +17,7 @@ from armscope.motion.seen import seen_in
 from armscope.motion.timing import stretches
 from armscope.motion.verdict import FoundCause
 from armscope.motion.words import _CLAUSES, amount, clause, cure
-from armscope.verdict.schema import Parameter
+from armscope.verdict.effects import Parameter
 from tests.motion.moving import moved, robot
 
 

@@ -15,7 +15,7 @@ from armscope.report.motion_subject import MotionSubject, liveliest_piece
 from armscope.report.pages.motion import write_motion_report
 from armscope.report.sectioning import write_sections
 from armscope.report.sections.motion import MOTION_SECTIONS, arm_of_motion, motion_card, relative_steps, signed
-from armscope.verdict.schema import Parameter
+from armscope.verdict.effects import Parameter
 from tests.motion.moving import moved, robot
 
 

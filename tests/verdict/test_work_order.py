@@ -14,16 +14,18 @@ from armscope.report.pages.diagnosis import write_report
 from armscope.robot.arm import build_arm
 from armscope.verdict.contributions import contributions
 from armscope.verdict.corrections import corrected_rows, zero_offsets
+from armscope.verdict.effects import Parameter
 from armscope.verdict.importance import expected
-from armscope.verdict.schema import HeldOut, Parameter
-from armscope.verdict.work_order import CHANGES, angle, task_of, work_order
+from armscope.verdict.schema import HeldOut
+from armscope.verdict.work_order import angle, task_of, work_order
 from tests.physics.test_cure import World
 from tests.report import verdicts
 from tests.verdict.test_contributions import missed, verdict, world  # noqa: F401  (fixtures)
 
 
 def test_every_effect_has_a_change() -> None:
-    assert set(CHANGES) == {effect.name for effect in EFFECTS}
+    silent = [effect.name for effect in EFFECTS if not (effect.cure.change and effect.cure.instruction)]
+    assert not silent
 
 
 def test_an_angle_has_its_sign_in_degrees_and_in_mrad() -> None:

@@ -47,16 +47,15 @@ from armscope.physics.freeform import held
 from armscope.physics.model import FittedModel
 from armscope.physics.wander import is_of_rows
 from armscope.recordings import Recordings
+from armscope.verdict.diagnosis import Diagnosis, Residuals
+from armscope.verdict.effects import FoundEffect
 from armscope.verdict.importance import with_importance
 from armscope.verdict.schema import (
     Answer,
     Background,
-    Diagnosis,
-    FoundEffect,
     HeldOut,
     Notice,
     Orientations,
-    Residuals,
     SuspectRow,
     Unexplained,
     WaterfallStep,

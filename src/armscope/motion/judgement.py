@@ -19,7 +19,8 @@ from armscope.motion.layout import OWN
 from armscope.motion.selection import SelectedCauses
 from armscope.motion.verdict import FoundCause, JointBackground, UnexplainedTorque
 from armscope.motion.words import clause, cure
-from armscope.verdict.schema import Alternative, Answer, Parameter
+from armscope.verdict.effects import Alternative, Parameter
+from armscope.verdict.schema import Answer
 from armscope.verdict.wording import capitalised, percent, spelled
 
 

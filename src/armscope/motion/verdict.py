@@ -15,7 +15,8 @@ import numpy as np
 from armscope.core.files import read_json, write_json
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
-from armscope.verdict.schema import Alternative, Answer, Notice, Parameter
+from armscope.verdict.effects import Alternative, Parameter
+from armscope.verdict.schema import Answer, Notice
 
 FORMAT = "armscope motion verdict 1"
 

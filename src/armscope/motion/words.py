@@ -18,7 +18,7 @@ from armscope.motion.causes import PlacedCause
 from armscope.motion.laws import Law
 from armscope.motion.verdict import FoundCause
 from armscope.robot.dynamics import MovingArm
-from armscope.verdict.schema import INTERVAL, Parameter
+from armscope.verdict.effects import INTERVAL, Parameter
 from armscope.verdict.wording import decimals_for
 
 

@@ -18,8 +18,8 @@ from armscope.report.pages.diagnosis import write_report
 from armscope.report.sections.registry import SECTIONS
 from armscope.report.subject import Subject
 from armscope.report.svg import Drawing
+from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.files import write_verdict
-from armscope.verdict.schema import Diagnosis
 from armscope.verdict.wording import millimetres, percent
 
 

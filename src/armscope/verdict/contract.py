@@ -13,18 +13,14 @@ from pydantic import AliasChoices, BaseModel, ConfigDict, Field
 from pydantic.json_schema import GenerateJsonSchema
 
 from armscope.core.inputs import InputError, validate
+from armscope.core.types import Number
+from armscope.verdict.effects import Alternative, Cause, FoundEffect, Parameter, Specific
 from armscope.verdict.schema import (
-    Alternative,
     Answer,
     Background,
-    Cause,
-    FoundEffect,
     HeldOut,
     Notice,
-    Number,
     Orientations,
-    Parameter,
-    Specific,
     SuspectRow,
     Unexplained,
     Verdict,
@@ -41,7 +37,11 @@ class _Part(BaseModel):
 
 
 class ParameterFile(_Part):
-    """A fitted number in its unit, with its standard error (null: found by trying values) and 95 % interval."""
+    """A fitted number in its unit.
+
+    Attributes:
+        interval_95: the 95 % interval, from its standard error.
+    """
 
     name: str
     unit: str
@@ -51,7 +51,7 @@ class ParameterFile(_Part):
 
 
 class EffectFile(_Part):
-    """An effect that the evidence asks for; the attributes of `armscope.verdict.schema.FoundEffect`."""
+    """An effect that the evidence asks for; the attributes of `armscope.verdict.effects.FoundEffect`."""
 
     effect: str
     location: str
@@ -72,7 +72,12 @@ class EffectFile(_Part):
 
 
 class BeforeAfter(_Part):
-    """RMS per axis, with the frames only and with the model."""
+    """RMS per axis.
+
+    Attributes:
+        before: with the frames only.
+        after: with the model.
+    """
 
     before: Number
     after: Number
@@ -89,7 +94,11 @@ class HeldOutFile(BeforeAfter):
 
 
 class OrientationFile(_Part):
-    """What measured orientations say; RMS per axis, mrad."""
+    """What measured orientations say; RMS per axis, mrad.
+
+    Attributes:
+        held_out_rms_mrad: on rows that took no part.
+    """
 
     rows: int
     noise_mrad: Number
@@ -99,7 +108,14 @@ class OrientationFile(_Part):
 
 
 class VerdictFile(_Part):
-    """The content of verdict.json; the attributes of `armscope.verdict.schema.Verdict`."""
+    """The content of verdict.json; the attributes of `armscope.verdict.schema.Verdict`.
+
+    Attributes:
+        format: the file's kind and version.
+        held_out_rms_mm: errors on rows that took no part.
+        orientation: what measured orientations say; null where none were measured.
+        fitted_rms_mm: on the fitted rows, mm.
+    """
 
     format: Format = FORMAT
     mismatch: bool | None

@@ -18,7 +18,7 @@ from armscope.physics.model import FittedModel
 from armscope.physics.placing import varies
 from armscope.physics.registry import effects
 from armscope.recordings import Recordings
-from armscope.verdict.schema import TOGETHER, Atlas
+from armscope.verdict.diagnosis import TOGETHER, Atlas
 
 DIRECTIONS = (*AXES, TOGETHER)
 Cell = tuple[int, int, int]

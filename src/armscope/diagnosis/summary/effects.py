@@ -28,7 +28,8 @@ from armscope.inference.search import Search
 from armscope.physics.backgrounds import FAMILIES, GEOMETRIC, TRANSMISSION
 from armscope.physics.effect import Placed
 from armscope.physics.scene import Part, Scene
-from armscope.verdict.schema import INDISTINGUISHABLE_NATS, Background, FoundEffect, Parameter
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS, FoundEffect, Parameter
+from armscope.verdict.schema import Background
 
 NOTHING = "nothing in the table"
 """What scatter follows."""

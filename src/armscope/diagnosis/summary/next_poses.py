@@ -19,7 +19,8 @@ from armscope.physics.scene import Scene
 from armscope.poses.obstacles import Surroundings, refusals
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-from armscope.verdict.schema import INDISTINGUISHABLE_NATS, NextPoses
+from armscope.verdict.diagnosis import NextPoses
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
 
 def next_poses(

@@ -17,7 +17,8 @@ from armscope.inference.problem import background_sizes
 from armscope.measurement.constants import WEIGHTS
 from armscope.physics.backgrounds import FAMILIES
 from armscope.physics.loads import STATED_MASSES
-from armscope.verdict.schema import Background, FoundEffect, Notice, Unexplained
+from armscope.verdict.effects import FoundEffect
+from armscope.verdict.schema import Background, Notice, Unexplained
 
 
 def background_summaries(

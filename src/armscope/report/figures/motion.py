@@ -16,7 +16,7 @@ from armscope.report.figures.effect_curve import DrawnCurve, draw_curves
 from armscope.report.motion_subject import MotionSubject, liveliest_piece
 from armscope.report.sectioning import Drawn
 from armscope.report.svg import Drawing, Panel
-from armscope.verdict.schema import INTERVAL
+from armscope.verdict.effects import INTERVAL
 
 WIDE, HIGH = 500.0, 200.0
 """Of one joint's picture, px."""

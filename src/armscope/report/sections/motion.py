@@ -20,7 +20,7 @@ from armscope.report.motion_subject import MotionSubject
 from armscope.report.sectioning import Drawn, Section
 from armscope.report.sections.effect_cards import ShownAlternative, gap_in_words
 from armscope.robot.arm import build_arm
-from armscope.verdict.schema import INDISTINGUISHABLE_NATS, Parameter
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS, Parameter
 from armscope.verdict.wording import Reading, capitalised, evidence_in_words, percent, read_parameter
 
 RELATIVE = Quantity("error on held-out motion, relative to its torque (%)", lambda value: f"{value:.3g} %")

@@ -7,7 +7,7 @@ from typing import Any
 
 from armscope.report.sectioning import Section
 from armscope.report.subject import Subject
-from armscope.verdict.schema import Diagnosis
+from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.wording import millimetres
 
 
