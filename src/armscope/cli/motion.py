@@ -59,10 +59,8 @@ def diagnose_motions(table: Path, robot: Path, output: Path, asked: Asked, tell:
     arm, motions, problems = _read_and_checked(table, robot, asked)
     from armscope.cli.robots import print_json
     from armscope.core.files import writable
-    from armscope.motion.export import export_motion
-    from armscope.motion.model_file import save_motion_model
+    from armscope.motion.export import write_motion
     from armscope.motion.pipeline import MotionSettings, diagnose_motion
-    from armscope.motion.verdict import write_motion_verdict
     from armscope.verdict.schema import Notice
 
     writable(output, *FILES, *(("report.html",) if asked.report else ()))
@@ -70,9 +68,7 @@ def diagnose_motions(table: Path, robot: Path, output: Path, asked: Asked, tell:
     if problems:
         notices = (*found.verdict.notices, *(Notice("check", each.text()) for each in problems))
         found = replace(found, verdict=replace(found.verdict, notices=notices))
-    write_motion_verdict(found.verdict, output)
-    save_motion_model(output / "model.yaml", found.model)
-    export_motion(found.model, found.selected, found.sure.factor, output)
+    write_motion(found, output)
     if asked.report:
         from armscope.report.pages.motion import write_motion_report
 
