@@ -31,6 +31,12 @@ def test_standard_output_holds_the_file_alone(tmp_path):
     assert load_arm(tmp_path / "robot.yaml").name == "Universal Robots UR10 (CB series)"
 
 
+def test_the_list_of_arms_is_what_was_asked_for():
+    done = run("init", "--list")
+    assert "ur5e" in done.stdout
+    assert run("init").stdout == ""
+
+
 def test_a_foreign_table_becomes_a_mapping_that_import_takes(tmp_path):
     arm = load_arm_of("ur5e", tmp_path)
     q = np.random.default_rng(0).uniform(-2, 2, (40, 6))

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, TextIO
 
 import typer
 
 from armscope.cli.commands import Commands
 from armscope.core.inputs import InputError
+from armscope.core.outputs import current
 
 app = Commands()
 
@@ -32,7 +33,7 @@ def init(
     from armscope.robot.library import nominal_names
 
     if list_ or not what:
-        _show_library()
+        _show_library(sys.stdout if not list_ or (delivery := current()) is None else delivery.stdout)
         if not list_:
             raise InputError("WHAT", "", "nothing", WHAT, "Arms: " + ", ".join(nominal_names()) + ".")
         return
@@ -70,10 +71,11 @@ def _first_file(what: str, output: Path, tip: str | None, name: str, modified: b
     return as_yaml(described, output.parent), guesses(described)
 
 
-def _show_library() -> None:
+def _show_library(to: TextIO) -> None:
+    """The arms, one a line: asked for, they are the command's output, else they stand beside an error."""
     from armscope.robot.library import nominal_description, nominal_names
 
     for each in nominal_names():
         described = nominal_description(each)
         basis = described.source["dh"]
-        print(f"{each:10s} {described.name}: {basis}")
+        print(f"{each:10s} {described.name}: {basis}", file=to)
