@@ -11,6 +11,7 @@ import typer
 from armscope.cli.commands import Commands
 from armscope.core.inputs import InputError
 from armscope.core.outputs import current
+from armscope.recordings.opening import UTF_16
 
 app = Commands()
 
@@ -54,7 +55,7 @@ def _first_file(what: str, output: Path, tip: str | None, name: str, modified: b
     if what == "-":
         from armscope.robot.dh_table import parse_dh_table
 
-        described = parse_dh_table(sys.stdin.read(), name, "modified" if modified else "standard")
+        described = parse_dh_table(_pasted(), name, "modified" if modified else "standard")
     elif is_xml(what):
         described = describe_urdf(what, tip)
     elif Path(what).exists() or not is_nominal(what):
@@ -69,6 +70,20 @@ def _first_file(what: str, output: Path, tip: str | None, name: str, modified: b
         text = file.read_text(encoding="utf-8")
         return text, [line.strip() for line in text.splitlines() if "unsure" in line or "from memory" in line]
     return as_yaml(described, output.parent), guesses(described)
+
+
+def _pasted() -> str:
+    """Standard input as text, whatever its bytes are.
+
+    Raises:
+        InputError: it is no text.
+    """
+    content = sys.stdin.buffer.read()
+    try:
+        return content.decode("utf-16" if content.startswith(UTF_16) else "utf-8-sig")
+    except UnicodeDecodeError as error:
+        found = f"byte 0x{content[error.start]:02x}" if error.start < len(content) else "half a character"
+        raise InputError("D-H table", "standard input", found, "text in UTF-8 is needed here") from error
 
 
 def _show_library(to: TextIO) -> None:
