@@ -77,6 +77,10 @@ def test_degrees_in_a_column_of_radians_are_a_problem(good: Motions) -> None:
     assert "problem q2_rad reaches" in words
 
 
+def test_a_table_of_a_moment_is_looked_at_all_the_same(good: Motions) -> None:
+    assert "tau" not in said(good.rows(slice(0, 60)))
+
+
 def test_dead_and_saturated_channels_are_named(good: Motions) -> None:
     dead, cut = good.effort.copy(), good.effort.copy()
     dead[:, 2] = 0.5
