@@ -18,7 +18,10 @@ from armscope.core.types import Array
 from armscope.motion.constants import EXPORT
 from armscope.motion.layout import OWN
 from armscope.motion.model import MotionModel
+from armscope.motion.model_file import save_motion_model
+from armscope.motion.pipeline import MotionDiagnosis
 from armscope.motion.selection import SelectedCauses
+from armscope.motion.verdict import write_motion_verdict
 from armscope.robot.dynamics import PARAMETERS, UNITS, MovingArm
 from armscope.robot.model import TIP
 from armscope.robot.urdf_file import root_of
@@ -33,6 +36,18 @@ WRITTEN = (
     "armscope: inertias, damping and friction as fitted, a tool load in the last link; rotors' inertia stands in "
     "mujoco.xml (armature)"
 )
+
+
+def write_motion(found: MotionDiagnosis, folder: Path | str) -> None:
+    """Write all of a diagnosis of a motion but its page: verdict.json, model.yaml, and what `export_motion` writes.
+
+    Args:
+        found: the diagnosis.
+        folder: where to.
+    """
+    write_motion_verdict(found.verdict, folder)
+    save_motion_model(Path(folder) / "model.yaml", found.model)
+    export_motion(found.model, found.selected, found.sure.factor, folder)
 
 
 def export_motion(model: MotionModel, selected: SelectedCauses, factor: Array, folder: Path | str) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from armscope.core.numerals import rounded
 from armscope.core.types import Array
 from armscope.inference.model_space import Candidate
 from armscope.inference.shapley import shares
@@ -170,10 +171,23 @@ def unexplained(found: Sequence[FoundCause]) -> UnexplainedTorque:
     return UnexplainedTorque(True, curves[0].location, curves[0].driver, curves[0].title)
 
 
-def answer_of(found: Sequence[FoundCause], left: UnexplainedTorque) -> tuple[Answer, bool]:
-    """The answer in two words, and whether there is a mismatch."""
+def answer_of(
+    found: Sequence[FoundCause], left: UnexplainedTorque, held_out: tuple[float, float] = (np.inf, 0.0)
+) -> tuple[Answer, bool]:
+    """The answer in two words, and whether there is a mismatch.
+
+    Args:
+        found: the causes.
+        left: what has none.
+        held_out: error on motion that took no part, with friction and rotors alone and with the causes.
+
+    Returns:
+        Both; names that make motion that took no part worse are no answer.
+    """
     if not found:
         return "nothing missing", False
+    if held_out[1] >= held_out[0]:
+        return "cannot tell", True
     named = [cause for cause in found if cause.effect != "unknown" and not cause.minor]
     if left.present:
         return ("partly explained" if named else "cannot tell"), True
@@ -182,13 +196,16 @@ def answer_of(found: Sequence[FoundCause], left: UnexplainedTorque) -> tuple[Ans
 
 def headline(found: Sequence[FoundCause], held_out: tuple[float, float]) -> str:
     """The largest causes with what each has of the torque that friction and rotors leave, the others by family."""
-    before, after = (f"{100 * error:.2g} %" for error in held_out)
+    before, after = (f"{rounded(100 * error)} %" for error in held_out)
     better = f"{ON_HELD_OUT} the torque is met to {after} instead of {before}."
     main = [cause for cause in found if not cause.minor]
     if not found:
         return f"Nothing is missing beyond friction and rotors of the joints. {better}"
     told, rest = (main or found)[: TELLING.in_headline], main[TELLING.in_headline :]
     of_what = (" of what friction and rotors leave", *[""] * len(told))
+    if held_out[1] >= held_out[0]:
+        worse = f"torque on motion that took no part is met to {after} with all that was found, to {before} without"
+        return f"Cannot tell what is missing: {worse}. The reading that fits best: {clause(told[0])}."
     causes = "; ".join(f"{clause(c)} – {percent(c.share)}{of_what[n]}" for n, c in enumerate(told))
     return f"{capitalised(causes)}. {_further(rest)}{better}"
 

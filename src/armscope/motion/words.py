@@ -7,6 +7,7 @@ beyond the stated model, so a cure that changes the model adds it, and one that 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -163,6 +164,14 @@ def _as(words: str) -> Callable[[FoundCause, Numbers], str]:
     return lambda cause, numbers: f"{words.format(cause.location)} ({_rms(cause)})"
 
 
+def _between(words: str) -> Callable[[FoundCause, Numbers], str]:
+    def say(cause: FoundCause, numbers: Numbers) -> str:
+        joints = " and ".join(sorted(re.findall(r"\d+", cause.location), key=int))
+        return f"{words.format(f'joints {joints}')} ({_rms(cause)})"
+
+    return say
+
+
 def _offset(cause: FoundCause, numbers: Numbers) -> str:
     offset = numbers["offset"]
     side = "high" if offset.value > 0 else "low"
@@ -180,8 +189,8 @@ _CLAUSES: dict[str, Callable[[FoundCause, Numbers], str]] = {
     "load_friction": _grows,
     "viscous_curve": _as("friction of {} is not in proportion to speed"),
     "thermal_friction": _as("friction of {} changes with temperature"),
-    "coupled_friction": _as("something rubs between {}"),
-    "coupled_inertia": _as("something heavy turns between {}"),
+    "coupled_friction": _between("something rubs between {}"),
+    "coupled_inertia": _between("something heavy turns between {}"),
     "motor_constant": _gain,
     "torque_delay": _delay,
     "gravity_balance": _balance,

@@ -126,7 +126,10 @@ class MovingArm:
         data, configurations = model.createData(), self.configurations(q)
         v, a = dq @ self.actuation.T, ddq @ self.actuation.T
         moved = zip(configurations, v, a, strict=True)
-        return np.array([pin.rnea(model, data, *row).copy() for row in moved]).reshape(len(q), -1) @ self.actuation
+        return (
+            np.array([pin.rnea(model, data, *row).copy() for row in moved]).reshape(len(q), self.n_links)
+            @ self.actuation
+        )
 
     def gravity_torques(self, q: Array, gravity: Array) -> Array:
         """(N, m) N m that hold the stated masses at motor positions q (N, m) in gravity (3,), m/s^2."""

@@ -14,7 +14,7 @@ import yaml
 from armscope.core.inputs import InputError, validate
 from armscope.core.types import Array
 from armscope.recordings.importing.mapping import Mapping
-from armscope.recordings.opening import open_text, start_of
+from armscope.recordings.opening import open_text, refuse_other_than_text, start_of
 
 LOOKED_AT = 2000
 """Lines of the file that guesses rest on."""
@@ -36,6 +36,9 @@ ANGLE_WORDS = (
     "theta",
     "th",
     "axis",
+    "axe",
+    "achse",
+    "gelenk",
     "a",
     "angle",
     "ang",
@@ -97,8 +100,9 @@ _NEXT = "# armscope import TABLE --mapping mapping.yaml -o recordings.csv"
 
 
 def _look(path: Path) -> _Table:
-    start_of(path, "a table of recordings")
     encoding = "utf-8-sig"
+    start = start_of(path, "a table of recordings")
+    refuse_other_than_text(path, start, encoding, "Save it as UTF-8, or write `encoding: utf-16` in the mapping.")
     try:
         lines = _first_lines(path, encoding)
     except UnicodeDecodeError:
