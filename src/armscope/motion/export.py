@@ -28,9 +28,6 @@ from armscope.robot.urdf_file import root_of
 
 URDF, MUJOCO, TABLE = "corrected.urdf", "mujoco.xml", "parameters.csv"
 FILES = (URDF, MUJOCO, TABLE)
-HELD = ("coulomb_friction", "viscous_friction", "rotor_inertia", "link_mass", "link_first_moment", "link_inertia",
-        "payload_error", "attached_body")  # fmt: skip
-"""Causes that masses, friction and armature of a joint can say."""
 
 WRITTEN = (
     "armscope: inertias, damping and friction as fitted, a tool load in the last link; rotors' inertia stands in "
@@ -101,7 +98,7 @@ def joint_numbers(model: MotionModel) -> tuple[Array, list[str]]:
 
 def not_in_a_file(model: MotionModel) -> list[str]:
     """Causes and numbers of the model for which a URDF has no place."""
-    causes = [str(each.placed) for each in model.causes if each.placed.cause.name not in HELD or each.placed.runs]
+    causes = [str(each.placed) for each in model.causes if not each.placed.cause.in_bodies or each.placed.runs]
     gains = [f"gain of joint {j + 1} {gain:+.3g}" for j, gain in enumerate(model.gains) if gain]
     return [*causes, *gains]
 

@@ -19,7 +19,7 @@ from armscope.motion.layout import OWN
 from armscope.motion.selection import SelectedCauses
 from armscope.motion.verdict import FoundCause, JointBackground, UnexplainedTorque
 from armscope.motion.words import clause, cure
-from armscope.verdict.effects import Alternative, Parameter
+from armscope.verdict.effects import UNKNOWN, Alternative, Parameter
 from armscope.verdict.schema import Answer
 from armscope.verdict.wording import capitalised, percent, spelled
 
@@ -73,7 +73,7 @@ def _found(
 def title(placed: PlacedCause) -> str:
     """The name in words."""
     where = f" in run {placed.runs[0]}" if placed.runs else ""
-    if placed.cause.name == "unknown":
+    if placed.cause.nameless:
         return f"an unknown torque at {placed.location} that follows the {placed.driver}"
     name = placed.cause.name.replace("_", " ")
     place = "" if placed.location == "payload" else f" at {placed.location}"
@@ -165,7 +165,7 @@ def joint_backgrounds(selected: SelectedCauses, sure: Sureness) -> tuple[JointBa
 
 def unexplained(found: Sequence[FoundCause]) -> UnexplainedTorque:
     """The largest free curve, if one is not minor."""
-    curves = [cause for cause in found if cause.effect == "unknown" and not cause.minor]
+    curves = [cause for cause in found if cause.nameless and not cause.minor]
     if not curves:
         return UnexplainedTorque(False)
     return UnexplainedTorque(True, curves[0].location, curves[0].driver, curves[0].title)
@@ -188,7 +188,7 @@ def answer_of(
         return "nothing missing", False
     if held_out[1] >= held_out[0]:
         return "cannot tell", True
-    named = [cause for cause in found if cause.effect != "unknown" and not cause.minor]
+    named = [cause for cause in found if not cause.nameless and not cause.minor]
     if left.present:
         return ("partly explained" if named else "cannot tell"), True
     return "explained", True
@@ -221,7 +221,7 @@ def _further(causes: Sequence[FoundCause]) -> str:
     places: dict[str, list[str]] = {}
     for cause in causes:
         places.setdefault(cause.family, []).append(cause.location)
-    kinds = {"unknown": "torque without a known law"}
+    kinds = {UNKNOWN: "torque without a known law"}
     told = [f"{kinds.get(family, family)} ({', '.join(dict.fromkeys(where))})" for family, where in places.items()]
     count = f"{spelled(len(causes))} more cause{'s' if len(causes) > 1 else ''}"
     return f"{capitalised(count)}: {', '.join(told)} – {percent(sum(c.share for c in causes))}. "

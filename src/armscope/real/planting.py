@@ -34,6 +34,10 @@ TRIES = 4
 """Places among which that with the fewest alternatives is taken."""
 
 
+SPRING = KINDS["joint_compliance"]
+"""What gives way under the recorded torque where there is one."""
+
+
 @dataclass(frozen=True, eq=False)
 class Planted:
     """An effect in real recordings.
@@ -89,7 +93,7 @@ class Theatre:
         torque = self.stage.recordings.torque
         for rows, scene in zip(self.rows, self.scenes, strict=True):
             hidden = Hidden.nothing(scene.geometry, scene.session)
-            if effect.kind.effect == "joint_compliance" and torque is not None:
+            if effect.kind is SPRING and torque is not None:
                 joint = number(effect.location)
                 hidden.motor[:, joint] += effect.values["compliance"] * np.nan_to_num(torque[rows, joint])
             else:

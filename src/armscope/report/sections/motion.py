@@ -11,8 +11,9 @@ import pandas as pd
 
 from armscope.core.inputs import InputError
 from armscope.core.location import Location
+from armscope.motion.clauses import amount
 from armscope.motion.verdict import FoundCause, JointBackground
-from armscope.motion.words import amount, clause
+from armscope.motion.words import clause
 from armscope.report.figures.arm_picture import draw_arm
 from armscope.report.figures.motion import curve_figures, friction_figures, left_figures, trace_figures
 from armscope.report.figures.waterfall import Quantity, draw_waterfall
@@ -20,7 +21,7 @@ from armscope.report.motion_subject import MotionSubject
 from armscope.report.sectioning import Drawn, Section
 from armscope.report.sections.effect_cards import ShownAlternative, gap_in_words
 from armscope.robot.arm import build_arm
-from armscope.verdict.effects import INDISTINGUISHABLE_NATS, Parameter
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS, Alternative, Parameter
 from armscope.verdict.wording import Reading, capitalised, evidence_in_words, percent, read_parameter
 
 RELATIVE = Quantity("error on held-out motion, relative to its torque (%)", lambda value: f"{value:.3g} %")
@@ -83,7 +84,7 @@ def motion_card(cause: FoundCause, number: int) -> MotionCard:
         evidence=f"{capitalised(evidence_in_words(cause.evidence_nats))} ({cause.evidence_nats:.0f} nats).",
         alternatives=tuple(
             ShownAlternative(
-                _named(other.effect, other.location, other.driver),
+                _named(other),
                 gap_in_words(other),
                 other.discriminability_nats < INDISTINGUISHABLE_NATS,
             )
@@ -103,10 +104,10 @@ def signed(parameter: Parameter) -> Reading:
     return replace(reading, value=f"+{reading.value}") if fitted and parameter.value > 0 else reading
 
 
-def _named(effect: str, location: str, driver: str) -> str:
-    follows = f" that follows the {driver}" if effect == "unknown" and driver else ""
-    name = "an unknown torque" if effect == "unknown" else effect.replace("_", " ")
-    return f"{name} at {location}{follows}" if location != "payload" else name
+def _named(other: Alternative) -> str:
+    follows = f" that follows the {other.driver}" if other.nameless and other.driver else ""
+    name = "an unknown torque" if other.nameless else other.effect.replace("_", " ")
+    return f"{name} at {other.location}{follows}" if other.location != "payload" else name
 
 
 def _cards(subject: MotionSubject) -> dict[str, Any]:
