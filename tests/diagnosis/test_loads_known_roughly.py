@@ -17,7 +17,7 @@ from armscope.robot import Arm
 from armscope.robot.description import RobotDescription
 from armscope.verdict.effects import FoundEffect
 from armscope.verdict.schema import Verdict
-from armscope.world.mechanism import Geometry
+from armscope.world.layout import Geometry
 from armscope.world.statics import Hidden, Session, balance
 
 from ..physics.scenes import arm_named

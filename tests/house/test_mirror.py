@@ -37,7 +37,6 @@ STILL_FROM_ELSEWHERE = [
     "core/types.py",
     "diagnosis/row_noise.py",
     "diagnosis/scans/change_points.py",
-    "diagnosis/scans/context.py",
     "diagnosis/scans/gear_mesh.py",
     "diagnosis/scans/pauses.py",
     "diagnosis/state.py",
@@ -112,7 +111,6 @@ STILL_FROM_ELSEWHERE = [
     "report/text/compliances.py",
     "robot/centre_line.py",
     "swarm/kernel_data.py",
-    "verdict/sentences.py",
     "verdict/wording.py",
     "world/choice.py",
 ]

@@ -20,10 +20,10 @@ from armscope.core.averages import rms
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.real.staging import Stage
-from armscope.world.catalogue import KINDS
 from armscope.world.choice import LARGEST_FACTOR
 from armscope.world.kinds import LEAST_TORQUE, LOAD, Concealed, Kind, number, second_number
 from armscope.world.rivals import Judge, Visibility
+from armscope.world.spec import KINDS
 from armscope.world.statics import Hidden, Session, balance
 from armscope.world.strength import LARGEST_RAW_M, SEEN_SHARE, Sized, frame_columns, make_scene
 
