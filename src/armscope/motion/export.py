@@ -169,7 +169,7 @@ def parameter_table(model: MotionModel, selected: SelectedCauses, factor: Array)
     errors = [np.sqrt(np.maximum(np.einsum("ip,pq,iq->i", each[:, columns], covariance, each[:, columns]), 0.0))
               for each in (of_links, of_joints)]  # fmt: skip
     fitted = model.followed().inertial
-    rows = [
+    rows: list[tuple[str, str, str, float, float, float]] = [
         (f"link {n // 10 + 1}", PARAMETERS[n % 10], UNITS[n % 10], arm.inertial[n], fitted[n], errors[0][n])
         for n in range(len(fitted))
     ]
@@ -221,7 +221,7 @@ def _kept(source: Path, arm: MovingArm, folder: Path) -> ET.Element:
         if "://" not in name and not Path(name).is_absolute():  # beside the nominal file: seen from the new one
             mesh.set("filename", Path(os.path.relpath(source.parent / name, folder.resolve())).as_posix())
     moving = set(arm.joint_names)
-    children = {joint.find("child").get("link"): joint for joint in robot.findall("joint")}  # type: ignore[union-attr]
+    children = {child.get("link"): joint for joint in robot.findall("joint") for child in joint.findall("child")}
     for link in robot.findall("link"):
         joint = children.get(link.get("name"))
         if joint is not None and joint.get("name") not in moving and _hangs_on(joint, children, moving):

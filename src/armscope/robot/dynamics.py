@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal, get_args
 
 import numpy as np
 import pinocchio as pin
@@ -15,7 +16,8 @@ from armscope.robot.description import RobotDescription
 from armscope.robot.description_file import load_description
 from armscope.robot.model import TIP, pinocchio_model
 
-PARAMETERS = ("m", "mx", "my", "mz", "Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz")
+InertialName = Literal["m", "mx", "my", "mz", "Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz"]
+PARAMETERS: tuple[InertialName, ...] = get_args(InertialName)
 """Inertial parameters of a link about its joint's frame, in the order of pinocchio's regressor."""
 UNITS = ("kg", *("kg m",) * 3, *("kg m^2",) * 6)
 

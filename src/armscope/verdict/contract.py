@@ -6,7 +6,7 @@ Keys of the contract stay; more may come. A reader takes no offence at a key tha
 from __future__ import annotations
 
 from dataclasses import fields
-from typing import Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import numpy as np
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field
@@ -27,9 +27,12 @@ from armscope.verdict.schema import (
     WaterfallStep,
 )
 
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
 Format = Literal["armscope verdict 2"]
 FORMAT: Format = "armscope verdict 2"
-Made = TypeVar("Made")
+Made = TypeVar("Made", bound="DataclassInstance")
 
 
 class _Part(BaseModel):
@@ -199,5 +202,5 @@ def _effect(effect: EffectFile) -> FoundEffect:
 
 def _as(kind: type[Made], part: BaseModel, **changes: Any) -> Made:
     """A part of the file as what it is in memory, without what is said twice."""
-    known = {field.name for field in fields(kind)}  # type: ignore[arg-type]
+    known = {field.name for field in fields(kind)}
     return kind(**{**{name: value for name, value in part if name in known}, **changes})
