@@ -26,6 +26,7 @@ from armscope.motion.holding_out import (
 )
 from armscope.motion.intervals import Sureness, covariance_of, level_told, sureness
 from armscope.motion.judgement import (
+    HeldOutErrors,
     answer_of,
     found_causes,
     headline,
@@ -191,7 +192,7 @@ def _judged(
     found = [cause for _, cause in numbered]
     steps = waterfall(selected, parts, [number for number, _ in numbered], [cause.title for cause in found])
     left = unexplained(found)
-    errors = (held_out.background, held_out.model)
+    errors = HeldOutErrors(held_out.background, held_out.model, steps[-1].held_out)
     answer, mismatch = answer_of(found, left, errors)
     sizes = {family.name: share for family, share in zip(selected.space.families, _sizes(selected), strict=True)}
     verdict = MotionVerdict(
