@@ -12,6 +12,7 @@ import typer
 
 from armscope.cli.commands import Commands, Threads
 from armscope.cli.endings import MISMATCH, UNUSABLE
+from armscope.core.types import unheard
 
 if TYPE_CHECKING:
     import numpy as np
@@ -145,7 +146,7 @@ def _rows_from(table: Recordings, first_id: int) -> NDArray[np.bool_]:
 def _progress(title: str) -> Iterator[Callable[[str, float], None]]:
     """A bar on a terminal's standard error; nothing where there is none."""
     if not sys.stderr.isatty():
-        yield lambda text, share: None
+        yield unheard
         return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn

@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass, replace
 import numpy as np
 
 from armscope.core.inputs import InputError, nearest
-from armscope.core.types import Progress
+from armscope.core.types import Progress, unheard
 from armscope.motion.check import check_motions, check_rows
 from armscope.motion.constants import LIBRARY
 from armscope.motion.cutoff import chosen_cutoff
@@ -101,7 +101,7 @@ def diagnose_motion(
     arm: MovingArm,
     motions: Motions,
     settings: MotionSettings | None = None,
-    progress: Progress = lambda text, share: None,
+    progress: Progress = unheard,
 ) -> MotionDiagnosis:
     """Find which causes make recorded torques differ from those of the arm's model.
 
