@@ -202,7 +202,7 @@ class HeldOutErrors:
         if not self.worse:
             return f"{ON_HELD_OUT} the torque is met to {anew} instead of {without}."
         told = f"{ON_HELD_OUT} the torque is met to {named} instead of {without} by these causes"
-        return f"{told}; to {anew} by what that motion's rest alone names."
+        return f"{told}; to {anew} where the causes, too, are found without it."
 
 
 def answer_of(found: Sequence[FoundCause], left: UnexplainedTorque, errors: HeldOutErrors) -> tuple[Answer, bool]:
