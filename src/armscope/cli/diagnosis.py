@@ -6,7 +6,7 @@ import contextlib
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -65,14 +65,15 @@ def diagnose(
     from armscope.cli.cost import DIAGNOSE, announce
     from armscope.cli.motion import Asked, diagnose_motions
     from armscope.cli.robots import arm_and_tables, print_json
-    from armscope.core.inputs import InputError
     from armscope.recordings.first_lines import is_motion_table
 
-    if is_motion_table(recordings):
-        if priors is not None:
-            raise InputError(
-                "--priors", "", priors, f"{recordings} is a table of motions, for which no sizes are learned"
-            )
+    moving = is_motion_table(recordings)
+    of_points = {"--priors": priors, "--first-id": first_id, "--tool-per-run": tool_per_run or None}
+    of_points["--estimate-gravity"] = estimate_gravity or None
+    _refuse_of_the_other(
+        of_points if moving else {"--cutoff": cutoff, "--held-out": held_out or None}, recordings, moving
+    )
+    if moving:
         with _progress("diagnosing") as tell:
             asked = Asked(cutoff, held_out or [], run or [], json, report, anyway)
             mismatch = diagnose_motions(recordings, robot, output, asked, tell)
@@ -117,6 +118,17 @@ def diagnose(
         print(f"{output}/{'report.html' if report else 'verdict.json'}")
     if exit_code and verdict.mismatch is not False:
         raise typer.Exit(MISMATCH if verdict.mismatch else UNUSABLE)
+
+
+def _refuse_of_the_other(options: dict[str, Any], table: Path, moving: bool) -> None:
+    """Options that a table of this kind would silently do without."""
+    from armscope.core.inputs import InputError
+
+    for name, value in options.items():
+        if value is not None:
+            kind, other = ("motions", "measured points") if moving else ("measured points", "motions")
+            rule = f"{table} is a table of {kind}, and this option is for tables of {other}"
+            raise InputError(name, "", value, rule, "Leave it out.")
 
 
 def _rows_of_runs(table: Recordings, runs: list[str]) -> NDArray[np.bool_]:

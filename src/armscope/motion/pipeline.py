@@ -168,6 +168,9 @@ def _parted(arm: MovingArm, motions: Motions, held_out: Sequence[str]) -> tuple[
         if len(stretch) > 4 * FILTER.edge_s * stretch.rate:
             as_torque = replace(stretch, effort=torque_of(arm, stretch.effort, motions.kind))
             (test if stretch.run in held_out else train).append(as_torque)
+    if not train and test:
+        rule = "a run at least takes part in the fit"
+        raise InputError("--held-out", "", ", ".join(held_out), rule, "Hold out fewer.")
     if not train:
         rule = f"a motion without gaps lasts at least {4 * FILTER.edge_s:g} s"
         raise InputError(motions.source, "column time_s", "no such motion", rule, "Record a longer motion.")
