@@ -14,6 +14,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+from armscope.motion import contract as motion_contract
+from armscope.motion import verdict as motion_verdict
 from armscope.physics import model_file
 from armscope.recordings.columns import COLUMNS, LARGEST_NUMBER, Column
 from armscope.robot.description import RobotDescription
@@ -27,6 +29,9 @@ TWINS: dict[str, type[Any]] = {
     "OrientationFile": verdict_schema.Orientations,
     "ParameterFile": verdict_effects.Parameter,
     "VerdictFile": verdict_schema.Verdict,
+    "FoundCauseFile": motion_verdict.FoundCause,
+    "JointBackgroundFile": motion_verdict.JointBackground,
+    "MotionVerdictFile": motion_verdict.MotionVerdict,
 }
 """What parts of verdict.json are in memory, where their attributes are explained."""
 
@@ -84,6 +89,12 @@ Keys of this version stay; more may come. `armscope.read_verdict(path)` reads it
 schema verdict`.
 """
 
+MOTION_VERDICT = """\
+What `armscope diagnose motions.csv` found, beside its report. Every key is always there; a number that is not known is
+`null`. Torques are N m (N of a sliding joint), errors relative to the torque. Keys of this version stay; more may come.
+The JSON schema: `armscope schema motion-verdict`.
+"""
+
 MODEL = """\
 The fitted model: the robot as described, frames, and effects as terms that are linear in their values. `armscope
 predict` and `compensate` read it. Values are SI units. The JSON schema: `armscope schema model`.
@@ -98,6 +109,13 @@ def robot() -> str:
 def verdict() -> str:
     """The page about verdict.json."""
     return _page("verdict.json", VERDICT, contract.schema(), contract.VerdictFile)
+
+
+def verdict_of_motion() -> str:
+    """The page about verdict.json of a motion."""
+    return _page(
+        "verdict.json of an arm in motion", MOTION_VERDICT, motion_contract.schema(), motion_contract.MotionVerdictFile
+    )
 
 
 def model() -> str:
@@ -136,7 +154,7 @@ def _told_of(name: str, main: type[Any]) -> dict[str, str]:
 
 
 def _class_of(main: type[Any], name: str) -> type[Any] | None:
-    homes = (sys.modules[main.__module__], verdict_schema, verdict_effects)
+    homes = (sys.modules[main.__module__], motion_verdict, contract, verdict_schema, verdict_effects)
     return next((getattr(home, name) for home in homes if hasattr(home, name)), None)
 
 
@@ -212,6 +230,7 @@ MAKERS: dict[str, Callable[[], str]] = {
     "robot-yaml.md": robot,
     "recordings-csv.md": recordings,
     "verdict-json.md": verdict,
+    "motion-verdict-json.md": verdict_of_motion,
     "model-yaml.md": model,
 }
 

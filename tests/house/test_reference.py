@@ -9,7 +9,7 @@ def test_pages_are_what_the_code_is(name: str) -> None:
     assert (reference.PAGES / name).read_text(encoding="utf-8") == reference.MAKERS[name]()
 
 
-@pytest.mark.parametrize("name", ["robot-yaml.md", "verdict-json.md", "model-yaml.md"])
+@pytest.mark.parametrize("name", ["robot-yaml.md", "verdict-json.md", "motion-verdict-json.md", "model-yaml.md"])
 def test_every_key_has_a_meaning(name: str) -> None:
     rows = [line.split(" | ") for line in reference.MAKERS[name]().splitlines() if line.startswith("| `")]
     assert len(rows) > 15

@@ -27,12 +27,12 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_what_the_example_conceals_is_found_and_nothing_else(folder: Path) -> None:
     truth = yaml.safe_load((EXAMPLE / "truth.yaml").read_text(encoding="utf-8"))
-    found = {(e["effect"], e["location"]): e for e in read_motion_verdict(folder / "verdict.json")["effects"]}
+    found = {(e.effect, e.location): e for e in read_motion_verdict(folder / "verdict.json").effects}
     assert found.keys() == {(e["effect"], e["location"]) for e in truth["effects"]}
     for effect in truth["effects"]:
         (wanted,) = effect["parameters"]
-        (told,) = found[effect["effect"], effect["location"]]["parameters"]
-        low, high = told["interval_95"]
+        (told,) = found[effect["effect"], effect["location"]].parameters
+        low, high = told.interval
         assert low - (high - low) < wanted["value"] < high + (high - low)
 
 
@@ -58,5 +58,5 @@ def test_a_table_that_the_check_calls_unusable_is_not_diagnosed_unless_asked_for
     assert "sign opposite" in str(refused.exception)
     assert not (out / "verdict.json").exists()
     assert CliRunner().invoke(app, [*words, "--anyway"]).exit_code == 0
-    told = read_motion_verdict(out / "verdict.json")["notices"]
-    assert [each["kind"] for each in told].count("check") == 5
+    told = read_motion_verdict(out / "verdict.json").notices
+    assert [each.kind for each in told].count("check") == 5

@@ -9,10 +9,10 @@ import pandas as pd
 import pytest
 
 from armscope.core.inputs import InputError
-from armscope.motion.verdict import FORMAT
 from armscope.report.pages.motion_docs import cause_lines, fill_motion_page
 
 PAGE = Path(__file__).parents[2] / "docs" / "motion.md"
+VERDICT = Path(__file__).parents[1] / "fuzz" / "corpus" / "motion-verdict" / "moving-arm.json"
 
 
 def test_the_page_names_every_cause_of_the_library_as_it_is() -> None:
@@ -28,8 +28,9 @@ def test_rates_and_real_arms_come_from_results(tmp_path: Path) -> None:
     pd.DataFrame(rates, columns=names).to_csv(tmp_path / "summary.csv", index=False)
     pd.DataFrame({"world": range(12)}).to_csv(tmp_path / "proof.csv", index=False)
     (tmp_path / "arm").mkdir()
-    held = {"stated": 0.5, "background": 0.1, "model": 0.034, "what": "each run in turn"}
-    content = {"format": FORMAT, "held_out": held, "headline": "Nothing. On held-out motion"}
+    content = json.loads(VERDICT.read_text(encoding="utf-8"))
+    content["held_out"] |= {"stated": 0.5, "background": 0.1, "model": 0.034, "what": "each run in turn"}
+    content["headline"] = "Nothing. On held-out motion"
     (tmp_path / "arm" / "verdict.json").write_text(json.dumps(content), encoding="utf-8")
     fill_motion_page(page, tmp_path, tmp_path, "commit abc")
     text = page.read_text(encoding="utf-8")

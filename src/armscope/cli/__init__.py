@@ -78,18 +78,22 @@ def options(
 
 @app.command("schema", rich_help_panel=EXPERIMENTS)
 def print_schema(
-    of: Annotated[Literal["config", "verdict", "model", "motion-model"], typer.Argument(help="the file")] = "config",
+    of: Annotated[
+        Literal["config", "verdict", "model", "motion-verdict", "motion-model"], typer.Argument(help="the file")
+    ] = "config",
 ) -> None:
-    """Print the JSON schema of config.yaml, verdict.json or model.yaml (motion-model: of an arm in motion)."""
+    """Print the JSON schema of config.yaml, verdict.json or model.yaml (motion-...: of an arm in motion)."""
     import json
 
     from armscope.core import config
+    from armscope.motion import contract as motion_contract
     from armscope.motion import model_file as motion_model_file
     from armscope.physics import model_file
     from armscope.verdict import contract
 
     schemas = {"config": config.schema, "verdict": contract.schema, "model": model_file.schema}
-    print(json.dumps({**schemas, "motion-model": motion_model_file.schema}[of](), indent=2))
+    schemas |= {"motion-verdict": motion_contract.schema, "motion-model": motion_model_file.schema}
+    print(json.dumps(schemas[of](), indent=2))
 
 
 def main() -> None:

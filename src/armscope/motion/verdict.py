@@ -6,19 +6,16 @@ are torque, N m (N of a sliding joint), and errors relative to the torque.
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from armscope.core.files import read_json, write_json
-from armscope.core.inputs import InputError
-from armscope.core.types import Array
+from armscope.core.types import Array, Number
 from armscope.verdict.effects import UNKNOWN, Alternative, Parameter
 from armscope.verdict.schema import Answer, Notice
-
-FORMAT = "armscope motion verdict 1"
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,17 +23,24 @@ class FoundCause:
     """A cause that the evidence asks for.
 
     Attributes:
-        effect, location, family, driver: what and where, and what it follows.
+        effect: its name; "unknown" where no known law explains it.
+        location: where it is.
+        family: what kind of physics it is.
+        driver: what it follows.
         title: the name in words.
         minor: worth little of the mismatch.
         parameters: with standard errors.
-        rms: of its torque at the joint where it is largest, `unit` (N m or N) at `joint`.
+        rms: of its torque at the joint where it is largest.
+        unit: of that: N m, or N of a sliding joint.
+        joint: at which it is largest.
         share: of what friction and rotors leave, averaged over the orders in which causes come in.
         evidence_nats: what is lost by leaving it out.
         alternatives: what could stand in its place, nearest first.
-        carries_over: what other paths say of it; `consistent`: whether they agree on it (None: not tested).
-        physics, confirm, cure: one sentence each.
-        curve: for a free curve and friction laws: driver's values, torque and its standard error.
+        carries_over: what other paths say of it; empty where that was not tested.
+        consistent: whether they agree on it; None where that was not tested.
+        physics: what happens, in one sentence.
+        confirm: how to confirm it on the arm.
+        cure: how to take it out.
     """
 
     effect: str
@@ -72,24 +76,31 @@ class JointBackground:
         joint: its name.
         parameters: coulomb, viscous, inertia, and an offset where the evidence asks for one, with standard errors; of a
             joint that stands still none.
-        noise: what the model leaves, RMS while it moves; `unit`: N m or N.
+        noise: what the model leaves, RMS while it moves.
+        unit: of that: N m, or N of a sliding joint.
         independent_rows: of how many independent rows its torque tells.
     """
 
     joint: str
     parameters: tuple[Parameter, ...]
-    noise: float
+    noise: Number
     unit: str
     independent_rows: int
 
 
 @dataclass(frozen=True)
 class Step:
-    """The error with one cause more: RMS residual over RMS torque, on fitted rows and on held-out rows."""
+    """The error with one cause more: RMS residual over RMS torque.
+
+    Attributes:
+        label: what is in the model from this step on.
+        fitted: on the fitted rows.
+        held_out: on held-out rows.
+    """
 
     label: str
-    fitted: float
-    held_out: float
+    fitted: Number
+    held_out: Number
 
 
 @dataclass(frozen=True)
@@ -107,17 +118,24 @@ class HeldOutMotion:
         by_run: the model's error on each run that was held out, those too that the others leave out.
     """
 
-    stated: float
-    background: float
-    model: float
-    by_joint: tuple[float, ...]
+    stated: Number
+    background: Number
+    model: Number
+    by_joint: tuple[Number, ...]
     what: str
-    by_run: dict[str, float] = field(default_factory=dict)
+    by_run: dict[str, Number] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class UnexplainedTorque:
-    """Structure for which the library has no cause: where, and what it follows."""
+    """Structure for which the library has no cause.
+
+    Attributes:
+        present: whether there is any.
+        location: where.
+        driver: what it follows.
+        description: in words.
+    """
 
     present: bool
     location: str | None = None
@@ -127,7 +145,29 @@ class UnexplainedTorque:
 
 @dataclass(frozen=True, eq=False)
 class MotionVerdict:
-    """What verdict.json of a motion holds."""
+    """What verdict.json of a motion holds.
+
+    Attributes:
+        answer: in two words.
+        headline: the answer in one sentence.
+        mismatch: whether the model misses something; None where the motion cannot tell.
+        effects: the causes, largest share first; those with `minor` true are apart from the story.
+        unexplained: what no cause of the library explains.
+        background: friction and rotor of every joint.
+        masses_share: of what friction and rotors leave that masses near the stated ones explain.
+        held_out: errors on motion that took no part.
+        fitted: errors on the fitted rows.
+        waterfall: how the error falls as causes come in, one by one.
+        identifiable: how many inertial parameters there are, how many combinations of them the motion tells, and the
+            condition number of these.
+        preparation: what was done to the samples, in words.
+        notices: what the verdict must not hide.
+        rows: of torque and model that were fitted.
+        samples: that were recorded.
+        runs: which runs they are of.
+        seconds: how long it took.
+        settings: what was asked for.
+    """
 
     answer: Answer
     headline: str
@@ -150,29 +190,33 @@ class MotionVerdict:
 
     def to_json(self) -> dict[str, Any]:
         """The content of verdict.json."""
-        content = asdict(self)
-        for effect, told in zip(content["effects"], self.effects, strict=True):
-            effect["parameters"] = [_with_interval(each) for each in told.parameters]
-        for joint, of in zip(content["background"], self.background, strict=True):
-            joint["parameters"] = [_with_interval(each) for each in of.parameters]
-        return {"format": FORMAT, **content}
+        from armscope.motion.contract import to_json
+
+        return to_json(self)
+
+    @staticmethod
+    def from_json(content: Any, source: object = "verdict.json") -> MotionVerdict:
+        """A verdict from the content of verdict.json: all that `to_json` writes.
+
+        Args:
+            content: as JSON gives it.
+            source: the file, for an error.
+
+        Raises:
+            InputError: it is none, or of another version.
+        """
+        from armscope.motion.contract import from_json
+
+        return from_json(content, source)
 
 
-def _with_interval(parameter: Parameter) -> dict[str, Any]:
-    return {**asdict(parameter), "interval_95": list(parameter.interval)}
-
-
-def read_motion_verdict(path: Path | str) -> dict[str, Any]:
-    """The content of verdict.json of a motion.
+def read_motion_verdict(path: Path | str) -> MotionVerdict:
+    """The verdict of a verdict.json of a motion.
 
     Raises:
         InputError: it is none, or of another version.
     """
-    content = read_json(path, "verdict.json of a diagnosis of a motion")
-    if not isinstance(content, dict) or content.get("format") != FORMAT:
-        found = content.get("format", "no key format") if isinstance(content, dict) else "no mapping"
-        raise InputError(path, "format", found, f'a verdict on a motion says "format": "{FORMAT}"')
-    return content
+    return MotionVerdict.from_json(read_json(path, "verdict.json of a diagnosis of a motion"), path)
 
 
 def write_motion_verdict(verdict: MotionVerdict, folder: Path | str) -> None:

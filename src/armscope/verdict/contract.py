@@ -35,11 +35,13 @@ FORMAT: Format = "armscope verdict 2"
 Made = TypeVar("Made", bound="DataclassInstance")
 
 
-class _Part(BaseModel):
+class FilePart(BaseModel):
+    """A part of a verdict's file, made of what it is in memory."""
+
     model_config = ConfigDict(from_attributes=True)
 
 
-class ParameterFile(_Part):
+class ParameterFile(FilePart):
     """A fitted number in its unit.
 
     Attributes:
@@ -53,7 +55,7 @@ class ParameterFile(_Part):
     interval_95: tuple[Number, Number] = Field(validation_alias=AliasChoices("interval_95", "interval"))
 
 
-class EffectFile(_Part):
+class EffectFile(FilePart):
     """An effect that the evidence asks for; the attributes of `armscope.verdict.effects.FoundEffect`."""
 
     effect: str
@@ -74,7 +76,7 @@ class EffectFile(_Part):
     undetermined: tuple[str, ...] = ()
 
 
-class BeforeAfter(_Part):
+class BeforeAfter(FilePart):
     """RMS per axis.
 
     Attributes:
@@ -96,7 +98,7 @@ class HeldOutFile(BeforeAfter):
     grouped_by: str
 
 
-class OrientationFile(_Part):
+class OrientationFile(FilePart):
     """What measured orientations say; RMS per axis, mrad.
 
     Attributes:
@@ -110,7 +112,7 @@ class OrientationFile(_Part):
     held_out_rms_mrad: BeforeAfter
 
 
-class VerdictFile(_Part):
+class VerdictFile(FilePart):
     """The content of verdict.json; the attributes of `armscope.verdict.schema.Verdict`.
 
     Attributes:
@@ -149,19 +151,21 @@ _SAME = (
 """Keys that a verdict's attributes are called by, too."""
 
 
-class _Written(GenerateJsonSchema):
+class AlwaysThere(GenerateJsonSchema):
     """Every key is always there: the defaults are those of the classes in memory."""
 
     def field_is_required(self, *_: Any, **__: Any) -> bool:
+        """They all are."""
         return True
 
     def default_schema(self, schema: Any) -> Any:
+        """Without the default."""
         return self.generate_inner(schema["schema"])
 
 
 def schema() -> dict[str, Any]:
     """The JSON schema of verdict.json."""
-    return VerdictFile.model_json_schema(mode="serialization", schema_generator=_Written)
+    return VerdictFile.model_json_schema(mode="serialization", schema_generator=AlwaysThere)
 
 
 def to_json(verdict: Verdict) -> dict[str, Any]:
@@ -189,18 +193,27 @@ def from_json(content: Any, source: object) -> Verdict:
     return Verdict(
         **{name: getattr(file, name) for name in _SAME if name != "effects"},
         effects=tuple(_effect(effect) for effect in file.effects),
-        held_out=_as(HeldOut, file.held_out_rms_mm, turn_before=turned.before, turn_after=turned.after),
+        held_out=in_memory(HeldOut, file.held_out_rms_mm, turn_before=turned.before, turn_after=turned.after),
         residual_before_mm=file.fitted_rms_mm.before,
         residual_after_mm=file.fitted_rms_mm.after,
-        orientations=_as(Orientations, seen) if seen else None,
+        orientations=in_memory(Orientations, seen) if seen else None,
     )
 
 
 def _effect(effect: EffectFile) -> FoundEffect:
-    return _as(FoundEffect, effect, parameters=tuple(_as(Parameter, each) for each in effect.parameters))
+    return in_memory(FoundEffect, effect, parameters=tuple(in_memory(Parameter, each) for each in effect.parameters))
 
 
-def _as(kind: type[Made], part: BaseModel, **changes: Any) -> Made:
-    """A part of the file as what it is in memory, without what is said twice."""
+def in_memory(kind: type[Made], part: BaseModel, **changes: Any) -> Made:
+    """A part of the file as what it is in memory, without what is said twice.
+
+    Args:
+        kind: of what it is.
+        part: of the file.
+        changes: attributes that the file has in another shape.
+
+    Returns:
+        It.
+    """
     known = {field.name for field in fields(kind)}
     return kind(**{**{name: value for name, value in part if name in known}, **changes})

@@ -80,9 +80,9 @@ def real_lines(folder: Path, of: str) -> list[str]:
     rows = []
     for path in sorted(folder.glob("*/verdict.json")):
         verdict = read_motion_verdict(path)
-        held = verdict["held_out"]
-        errors = (f"{significant(100 * held[name], 2)} %" for name in ("stated", "background", "model"))
-        said = verdict["headline"].partition(f" {ON_HELD_OUT}")[0]
-        rows.append((path.parent.name, held["what"], *errors, said))
+        held = verdict.held_out
+        errors = (f"{significant(100 * error, 2)} %" for error in (held.stated, held.background, held.model))
+        said = verdict.headline.partition(f" {ON_HELD_OUT}")[0]
+        rows.append((path.parent.name, held.what, *errors, said))
     head = ("set", "held out", "as stated", "friction and rotors", "with masses and causes", "said")
     return [f"Measured at {of}:", "", *table_lines(head, rows)]
