@@ -30,8 +30,9 @@ ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 
 def world(arm: str, rows: int, folder: Path) -> Path:
     """A virtual arm with two concealed effects, as files."""
-    from armscope.world.catalogue import WorldSpec, catalogue
+    from armscope.world.catalogue import catalogue
     from armscope.world.folder import build
+    from armscope.world.spec import WorldSpec
 
     model = next(spec for spec in catalogue(1, "full") if spec.category == "multiple" and spec.arm == arm)
     content = model.model_dump() | {"id": f"{arm}-{rows}", "rows": rows}

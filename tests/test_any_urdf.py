@@ -17,9 +17,9 @@ from armscope.recordings import as_recordings
 from armscope.robot.arm import build_arm
 from armscope.robot.denavit_hartenberg import as_dh
 from armscope.robot.description import RobotDescription
-from armscope.world.catalogue import KINDS
 from armscope.world.kinds import Concealed
 from armscope.world.session import random_session
+from armscope.world.spec import KINDS
 from armscope.world.strength import make_scene, sized, stand
 
 ARMS = {

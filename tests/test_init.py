@@ -31,6 +31,19 @@ def test_standard_output_holds_the_file_alone(tmp_path):
     assert load_arm(tmp_path / "robot.yaml").name == "Universal Robots UR10 (CB series)"
 
 
+def test_the_list_of_arms_is_what_was_asked_for():
+    done = run("init", "--list")
+    assert "ur5e" in done.stdout
+    assert run("init").stdout == ""
+
+
+def test_bytes_that_are_no_text_are_one_error():
+    done = CliRunner().invoke(app, ["init", "-"], input=b"a alpha d theta\n\xff\x80 0 0 0\n")
+    assert isinstance(done.exception, InputError)
+    assert "0xff" in str(done.exception)
+    assert CliRunner().invoke(app, ["init", "-"], input=PASTED.encode("utf-16")).exit_code == 0
+
+
 def test_a_foreign_table_becomes_a_mapping_that_import_takes(tmp_path):
     arm = load_arm_of("ur5e", tmp_path)
     q = np.random.default_rng(0).uniform(-2, 2, (40, 6))

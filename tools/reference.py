@@ -18,13 +18,15 @@ from armscope.physics import model_file
 from armscope.recordings.columns import COLUMNS, LARGEST_NUMBER, Column
 from armscope.robot.description import RobotDescription
 from armscope.verdict import contract
+from armscope.verdict import effects as verdict_effects
 from armscope.verdict import schema as verdict_schema
 
 TWINS: dict[str, type[Any]] = {
-    "EffectFile": verdict_schema.FoundEffect,
+    "EffectFile": verdict_effects.FoundEffect,
     "HeldOutFile": verdict_schema.HeldOut,
     "OrientationFile": verdict_schema.Orientations,
-    "ParameterFile": verdict_schema.Parameter,
+    "ParameterFile": verdict_effects.Parameter,
+    "VerdictFile": verdict_schema.Verdict,
 }
 """What parts of verdict.json are in memory, where their attributes are explained."""
 
@@ -95,7 +97,7 @@ def robot() -> str:
 
 def verdict() -> str:
     """The page about verdict.json."""
-    return _page("verdict.json", VERDICT, contract.schema(), verdict_schema.Verdict)
+    return _page("verdict.json", VERDICT, contract.schema(), contract.VerdictFile)
 
 
 def model() -> str:
@@ -121,16 +123,20 @@ def _column(column: Column) -> str:
 
 
 def _page(title: str, head: str, schema: dict[str, Any], main: type[Any]) -> str:
-    parts = [f"# {title}\n\n{MADE}\n", head, "## Keys\n", *_table(schema, _told(main))]
+    parts = [f"# {title}\n\n{MADE}\n", head, "## Keys\n", *_table(schema, _told_of(main.__name__, main))]
     for name, part in sorted(schema.get("$defs", {}).items()):
         if "properties" in part:
-            told = _told(TWINS.get(name) or _class_of(main, name))
-            parts += [f"\n## {name}\n", f"{_first_paragraph(part)}\n", *_table(part, told)]
+            parts += [f"\n## {name}\n", f"{_first_paragraph(part)}\n", *_table(part, _told_of(name, main))]
     return "\n".join([*parts, ""])
 
 
+def _told_of(name: str, main: type[Any]) -> dict[str, str]:
+    """What a part of a file, and what it is in memory, say of its attributes."""
+    return {**_told(TWINS.get(name)), **_told(_class_of(main, name))}
+
+
 def _class_of(main: type[Any], name: str) -> type[Any] | None:
-    homes = (sys.modules[main.__module__], verdict_schema)
+    homes = (sys.modules[main.__module__], verdict_schema, verdict_effects)
     return next((getattr(home, name) for home in homes if hasattr(home, name)), None)
 
 

@@ -38,8 +38,8 @@ from armscope.physics.backgrounds import FAMILIES, TOLERANCE
 from armscope.recordings import read_recordings
 from armscope.report.style import BLUE, GREY, ORANGE, VERMILION, save_figure, styled
 from armscope.robot import load_arm
-from armscope.world.catalogue import Wish, WorldSpec
 from armscope.world.folder import build
+from armscope.world.spec import Wish, WorldSpec
 from tools import bench
 
 ROOT = Path(__file__).parents[1]

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from armscope.check.motion_readings import Samples, explained, read_otherwise
 from armscope.check.motions import check_moving
 from armscope.core.inputs import InputError
 from armscope.recordings.motions import Motions
@@ -45,6 +46,39 @@ def test_a_late_speed_is_told_with_its_lag_and_degrees_with_their_factor(good: M
 def test_a_torque_of_the_load_or_before_the_gear_is_a_problem(good: Motions) -> None:
     assert "problem tau2_nm has the sign opposite" in said(replace(good, effort=good.effort * np.array([1, -1, 1])))
     assert "problem tau2_nm is 0.00997 times" in said(replace(good, effort=good.effort * np.array([1, 0.01, 1])))
+
+
+def test_one_wrist_that_carries_more_is_a_hint_and_all_joints_are_a_problem(good: Motions) -> None:
+    assert "hint tau3_nm is" in said(replace(good, effort=good.effort * np.array([1, 1, 5.0])))
+    assert "problem tau3_nm is" in said(replace(good, effort=5.0 * good.effort))
+
+
+@pytest.mark.parametrize("both", [True, False])
+def test_another_order_of_the_joints_is_told_with_the_order_that_fits(good: Motions, both: bool) -> None:
+    mixed = replace(good, q=good.q[:, ::-1], dq=None, effort=good.effort[:, ::-1] if both else good.effort)
+    words = said(mixed)
+    assert f"{'joints' if both else 'positions'} in the order 3 2 1" in words
+    assert "problem masses explain" in words
+
+
+def test_a_table_that_masses_explain_is_not_read_otherwise() -> None:
+    arm, rng = robot(), np.random.default_rng(0)
+    q, dq, ddq = (rng.normal(size=(200, 3)) for _ in range(3))
+    torque = arm.torques(q, dq, ddq, arm.inertial)
+    noisy = torque + 0.3 * torque.std(axis=0) * rng.normal(size=torque.shape)
+    assert explained(Samples(q, dq, ddq, torque), arm) == pytest.approx(1.0)
+    assert not list(read_otherwise(Samples(q, dq, ddq, noisy), arm))
+    assert not list(read_otherwise(Samples(q, dq, ddq, rng.normal(size=torque.shape)), arm))
+
+
+def test_degrees_in_a_column_of_radians_are_a_problem(good: Motions) -> None:
+    words = said(replace(good, q=np.degrees(good.q), dq=None))
+    assert "if positions are degrees" in words
+    assert "problem q2_rad reaches" in words
+
+
+def test_a_table_of_a_moment_is_looked_at_all_the_same(good: Motions) -> None:
+    assert "tau" not in said(good.rows(slice(0, 60)))
 
 
 def test_dead_and_saturated_channels_are_named(good: Motions) -> None:

@@ -15,8 +15,9 @@ from armscope.physics.model_file import load_model, save_model
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.robot.description import RobotDescription
-from armscope.verdict.schema import FoundEffect, Verdict
-from armscope.world.mechanism import Geometry
+from armscope.verdict.effects import FoundEffect
+from armscope.verdict.schema import Verdict
+from armscope.world.layout import Geometry
 from armscope.world.statics import Hidden, Session, balance
 
 from ..physics.scenes import arm_named

@@ -14,7 +14,7 @@ from armscope.physics.model_file import load_model, save_model
 from armscope.recordings import Recordings
 from armscope.robot import Arm, forward_kinematics
 from armscope.robot.arm import build_arm
-from armscope.verdict.schema import Diagnosis
+from armscope.verdict.diagnosis import Diagnosis
 
 from ..physics.scenes import arm_named
 from .planted import one_run, recorded

@@ -16,19 +16,23 @@ from armscope.core.inputs import read_yaml, validate
 from armscope.core.variants import read_variants
 from armscope.fleet.members import read_fleet
 from armscope.motion.predicting import predict_motions
+from armscope.motion.verdict import read_motion_verdict
 from armscope.physics.model import predict
 from armscope.physics.model_file import load_model
 from armscope.physics.registry import library
+from armscope.poses.exciting.output import pairs_of
 from armscope.real.reference import load_reference
 from armscope.recordings import read_recordings
 from armscope.recordings.importing.draft import draft_mapping
 from armscope.recordings.importing.fetching import load_source
 from armscope.recordings.importing.mapping import load_mapping
+from armscope.recordings.importing.motions import load_any_mapping
 from armscope.recordings.importing.tables import import_recordings
 from armscope.recordings.motions import read_motions
 from armscope.robot import chain, load_arm
 from armscope.robot.arm_type import read_arm_type
 from armscope.robot.dh_table import parse_dh_table
+from armscope.robot.dynamics import load_moving_arm
 from armscope.verdict.files import read_verdict
 
 ROOT = Path(__file__).parents[2]
@@ -123,6 +127,17 @@ def _seeds(*patterns: str) -> tuple[Path, ...]:
     return found
 
 
+def _pairs(path: Path) -> None:
+    pairs_of(path)
+    read_motion_verdict(path)
+
+
+def _moving_arm(path: Path) -> None:
+    arm = load_moving_arm(path)
+    still = np.zeros((1, arm.n_motors))
+    assert np.isfinite(arm.torques(still, still, still, arm.inertial)).all()
+
+
 def _first_urdf(path: Path) -> None:
     _arm(path)
 
@@ -161,6 +176,9 @@ READERS = {
     "motions.csv": Reader(read_motions, _seeds("tests/fuzz/corpus/motions/*")),
     "motion model.yaml": Reader(_played, _seeds("tests/fuzz/corpus/motion-model/*")),
     "fleet.csv": Reader(read_fleet, _seeds("tests/fuzz/corpus/fleet/*")),
+    "motion mapping.yaml": Reader(load_any_mapping, _seeds("config/motions/*/mapping.yaml")),
+    "motion verdict.json": Reader(_pairs, _seeds("tests/fuzz/corpus/motion-verdict/*")),
+    "moving robot.yaml": Reader(_moving_arm, _seeds("config/motion/*.yaml", "examples/moving-arm/robot.yaml")),
     "verdict.json": Reader(read_verdict, _seeds("tests/fuzz/corpus/verdict/*")),
     "priors.yaml": Reader(_type_of_arm, _seeds("tests/fuzz/corpus/priors/*")),
     "sweep.csv": Reader(read_variants, _seeds("config/sweeps/*")),

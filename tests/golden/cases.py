@@ -20,8 +20,9 @@ from typing import Any
 from armscope.diagnosis import Settings, Verdict, diagnose, write_verdict
 from armscope.recordings import read_recordings
 from armscope.robot import load_arm
-from armscope.world.catalogue import WorldSpec, catalogue
+from armscope.world.catalogue import catalogue
 from armscope.world.folder import build
+from armscope.world.spec import WorldSpec
 
 ROOT = Path(__file__).parents[2]
 REAL = ROOT.parent / "shared" / "recordings" / "iiwa7-payload"

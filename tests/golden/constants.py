@@ -34,9 +34,9 @@ SAME = 1e-6
 
 
 class Threshold(NamedTuple):
-    """A field of a room's constants."""
+    """A field of one of a room's modules of constants."""
 
-    room: str
+    module: str
     group: str
     name: str
 
@@ -61,7 +61,7 @@ def thresholds() -> list[Threshold]:
     from armscope.core.constants import entries
 
     return [
-        Threshold(group.__module__.split(".")[1], group.__name__, each.name)
+        Threshold(group.__module__.removeprefix("armscope."), group.__name__, each.name)
         for group in groups()
         for each in entries(group)
     ]
@@ -107,7 +107,7 @@ def _content(verdict: Any) -> Any:
 def _install(together: Sequence[Threshold], factor: float) -> None:
     """Before anything else is imported, so that defaults follow."""
     for each in together:
-        module = importlib.import_module(f"armscope.{each.room}.constants")
+        module = importlib.import_module(f"armscope.{each.module}")
         for held in vars(module).values():
             if type(held).__name__ == each.group:
                 object.__setattr__(held, each.name, scaled(getattr(held, each.name), factor))
@@ -194,7 +194,7 @@ def _table(lines: Path) -> None:
             words = "; ".join(sorted(change["words"]))
             largest = max(change["numbers"].values(), default=0.0)
             says.append(f"{case}: {words}{' ' if words else ''}numbers by {largest:.1e}")
-        print(f"| {trial['room']} | {trial['name']} | x{trial['factor']:g} | {' / '.join(says) or 'nothing'} |")
+        print(f"| {trial['module']} | {trial['name']} | x{trial['factor']:g} | {' / '.join(says) or 'nothing'} |")
 
 
 def main() -> None:
@@ -215,7 +215,7 @@ def main() -> None:
         with multiprocessing.get_context("fork").Pool(1) as elsewhere:
             chosen = [each for each in elsewhere.apply(thresholds) if asked.only in ("", each.name)]
         tried = map(json.loads, asked.lines.read_text(encoding="utf-8").splitlines())
-        done = {(trial["room"], trial["group"], trial["name"]) for trial in tried}
+        done = {(trial["module"], trial["group"], trial["name"]) for trial in tried}
         left = [each for each in chosen if each not in done]
         for first in range(0, len(left), TOGETHER):
             without: set[Threshold] = set(left[first : first + TOGETHER])
@@ -224,7 +224,7 @@ def main() -> None:
                     out.write(json.dumps(trial) + "\n")
                     out.flush()
                     if trial["changed"]:
-                        without.discard(Threshold(trial["room"], trial["group"], trial["name"]))
+                        without.discard(Threshold(trial["module"], trial["group"], trial["name"]))
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ from scipy.stats import chi
 from tools import constants
 
 from armscope.core.constants import BASES, Constants, constant, entries
-from armscope.diagnosis.constants import NEXT_POSES
+from armscope.diagnosis.summary.constants import NEXT_POSES
 from armscope.inference.constants import BUDGET, PRIORS
 from armscope.measurement.constants import NOISE, WEIGHTS
 

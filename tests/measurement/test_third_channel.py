@@ -30,7 +30,7 @@ from armscope.physics.scene import Part
 from armscope.recordings import Recordings
 from armscope.robot import Arm, forward_kinematics
 from armscope.robot.gravity import gravity_torques
-from armscope.verdict.schema import Diagnosis
+from armscope.verdict.diagnosis import Diagnosis
 
 from ..diagnosis.planted import one_run, recorded
 from ..physics.scenes import arm_named

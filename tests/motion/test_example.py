@@ -45,3 +45,18 @@ def test_its_test_path_is_predicted_as_well_as_noise_allows(folder: Path) -> Non
     names = [f"tau{j}_nm" for j in range(1, 7)]
     off = pd.read_csv(folder / "p.csv")[names] - pd.read_csv(EXAMPLE / "test.csv.gz")[names]
     assert np.sqrt(np.mean((off / truth["left_on_test_nm"]).to_numpy() ** 2)) < 1.2
+
+
+def test_a_table_that_the_check_calls_unusable_is_not_diagnosed_unless_asked_for(tmp_path: Path) -> None:
+    table = pd.read_csv(EXAMPLE / "motions.csv.gz")
+    torques = [f"tau{j}_nm" for j in range(1, 7)]
+    table[torques] = -table[torques]
+    table.to_csv(tmp_path / "turned.csv", index=False)
+    robot, out = str(EXAMPLE / "robot.yaml"), tmp_path / "out"
+    words = ["diagnose", str(tmp_path / "turned.csv"), "--robot", robot, "-o", str(out), "--no-report"]
+    refused = CliRunner().invoke(app, words)
+    assert "sign opposite" in str(refused.exception)
+    assert not (out / "verdict.json").exists()
+    assert CliRunner().invoke(app, [*words, "--anyway"]).exit_code == 0
+    told = read_motion_verdict(out / "verdict.json")["notices"]
+    assert [each["kind"] for each in told].count("check") == 5

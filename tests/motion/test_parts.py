@@ -18,7 +18,7 @@ from armscope.motion.constants import LIBRARY
 from armscope.motion.cutoff import chosen_cutoff
 from armscope.motion.first_look import first_look
 from armscope.motion.holding_out import folds
-from armscope.motion.judgement import answer_of
+from armscope.motion.judgement import answer_of, headline
 from armscope.motion.layout import TorqueLayout
 from armscope.motion.library import place_causes
 from armscope.motion.masses import place_masses
@@ -29,9 +29,10 @@ from armscope.motion.seen import seen_in
 from armscope.motion.selection import select_causes
 from armscope.motion.space import build_space
 from armscope.motion.timing import Stretch, mended, stretches
-from armscope.motion.verdict import UnexplainedTorque, relative
+from armscope.motion.verdict import FoundCause, UnexplainedTorque, relative
 from armscope.motion.weights import estimate_weights, fitted_together, weighed
 from armscope.recordings.motions import Motions
+from armscope.verdict.schema import Parameter
 from tests.motion.moving import COULOMB, moved, robot
 
 
@@ -194,6 +195,15 @@ def test_sizes_that_differ_from_path_to_path_are_no_physics() -> None:
 
 def test_nothing_found_is_an_answer() -> None:
     assert answer_of([], UnexplainedTorque(False)) == ("nothing missing", False)
+
+
+def test_causes_that_make_held_out_motion_worse_are_no_answer() -> None:
+    rest = (False, (Parameter("mass", "kg", 1.0, 0.1),), 0.5, "N m", "joint 4", 0.3, 9.0)
+    found = [FoundCause("link_mass", "link 4", "masses", "load", "link mass at link 4", *rest)]
+    assert answer_of(found, UnexplainedTorque(False), (0.2, 0.1)) == ("explained", True)
+    assert answer_of(found, UnexplainedTorque(False), (0.2, 0.3)) == ("cannot tell", True)
+    assert headline(found, (0.2, 0.1)).startswith("Link 4 is 1.00 ± 0.20 kg heavier than stated – 30 %")
+    assert headline(found, (0.2, 0.3)).startswith("Cannot tell what is missing: torque on motion that took no part")
 
 
 def test_tables_that_show_nothing_are_refused_and_doubts_are_told() -> None:

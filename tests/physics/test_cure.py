@@ -25,8 +25,8 @@ from armscope.physics.transmission import mesh
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.robot.kinematics import joint_jacobian
-from armscope.world.catalogue import KINDS
 from armscope.world.kinds import Concealed
+from armscope.world.spec import KINDS
 from armscope.world.statics import Hidden, Session, balance
 from armscope.world.strength import make_scene, stand
 

@@ -90,3 +90,21 @@ def test_what_looks_like_no_recordings_is_one_error(text, words, tmp_path):
     file.write_text(text)
     with pytest.raises(InputError, match=words):
         draft_mapping(file)
+
+
+def test_another_encoding_and_other_files_are_named(tmp_path):
+    file = tmp_path / "foreign.csv"
+    file.write_text("Achse 1;Achse 2;X;Y;Z\n1;2;3;4;5\n", encoding="utf-16")
+    with pytest.raises(InputError, match="UTF-16"):
+        draft_mapping(file)
+    file.write_bytes(b"PK\x03\x04" + bytes(40))
+    with pytest.raises(InputError, match="workbook"):
+        draft_mapping(file)
+
+
+def test_motors_are_known_by_other_words_too(tmp_path):
+    file = tmp_path / "foreign.csv"
+    file.write_text("Achse 1;Achse 2;X [m];Y [m];Z [m]\n10,5;20,5;0,3;0,4;0,5\n")
+    columns = yaml.safe_load(draft_mapping(file))["columns"]
+    assert columns["angles"] == {"columns": ["Achse 1", "Achse 2"], "unit": "deg"}
+    assert columns["position"] == {"columns": ["X [m]", "Y [m]", "Z [m]"], "unit": "m"}

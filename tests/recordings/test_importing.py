@@ -6,73 +6,16 @@ from collections import Counter
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.spatial.transform import Rotation
 
 from armscope.core.inputs import InputError
 from armscope.recordings import read_recordings
-from armscope.recordings.importing.fetching import fetch_recordings
 from armscope.recordings.importing.formats import TextFormat
 from armscope.recordings.importing.rawfiles import read_pieces
-from armscope.recordings.importing.tables import import_recordings
 
-from .raw import SIMPLE, TEXT, convert, convert_files, with_columns, with_format
-
-ROOT = Path(__file__).parents[2]
-SHARED = ROOT.parent / "shared" / "recordings"
-
-# ---- the real sets
-
-
-@pytest.mark.shared
-@pytest.mark.parametrize("name", ["ur10-ipa", "iiwa7-payload", "ma1400-leica", "irb120-offsets"])
-def test_a_real_set_converts_to_the_reference_table_within_its_rounding(name, tmp_path):
-    if not SHARED.is_dir():
-        pytest.skip("../shared/recordings is not here, so there is nothing to compare with")
-    folder = ROOT / "config" / "recordings" / name
-    fetched = fetch_recordings(folder / "source.yaml", tmp_path / "raw", recordings_dir=SHARED)
-    import_recordings(list(fetched.paths), folder / "mapping.yaml", tmp_path / "out.csv.gz")
-    ours, theirs = (
-        pd.read_csv(path, dtype=dict.fromkeys(TEXT, str))
-        for path in (tmp_path / "out.csv.gz", SHARED / name / "recordings.csv.gz")
-    )
-    assert list(ours.columns) == list(theirs.columns)
-    assert len(ours) == len(theirs)
-    for column in theirs:
-        if column in TEXT:
-            assert (ours[column] == theirs[column]).all(), column
-        else:
-            # the reference prints 9 digits of angles, 5 decimals of mm and N m, 7 of quaternions, 4 of temperatures
-            step = {"x": 1e-5, "y": 1e-5, "z": 1e-5, "t": 1e-5, "s": 1e-5}.get(column[0], 1e-7)
-            tolerance = 1e-8 if column.endswith("_rad") else step
-            np.testing.assert_allclose(ours[column], theirs[column], atol=0.51 * tolerance, rtol=0, err_msg=column)
-
-
-@pytest.mark.parametrize("folder", sorted((ROOT / "config" / "recordings").iterdir()), ids=lambda path: path.name)
-def test_every_real_set_has_an_arm_and_a_mapping_or_a_reason_for_none(folder):
-    from armscope.recordings.importing.fetching import load_source
-    from armscope.recordings.importing.mapping import load_mapping
-    from armscope.robot import load_arm
-
-    arm, source = load_arm(folder / "robot.yaml"), load_source(folder / "source.yaml")
-    if source.not_importable:
-        assert not (folder / "mapping.yaml").exists()
-    else:
-        mapping = load_mapping(folder / "mapping.yaml")
-        assert len(mapping.columns.angles.columns) == arm.n_motors
-        mapped = {name for run in mapping.runs for name in (run.file, *(other.file for other in run.beside))}
-        assert mapped == {file.name for file in source.files}
-
-
-def test_the_panda_set_says_that_its_source_is_a_pickle(tmp_path):
-    with pytest.raises(InputError, match="pickle"):
-        fetch_recordings(ROOT / "config/recordings/panda-charuco/source.yaml", tmp_path)
-
-
-# ---- text as it comes
+from .raw import SIMPLE, convert, convert_files, with_columns, with_format
 
 
 def test_units_end_up_in_radians_and_millimetres(tmp_path):
@@ -309,63 +252,3 @@ def test_a_long_file_is_read_piece_by_piece(tmp_path, monkeypatch):
     assert next(pieces).numbers_of_rows[0] == 11
     with pytest.raises(InputError, match=r"line 27.*cut off"):
         next(pieces)
-
-
-# ---- orientations
-
-
-def test_euler_angles_turn_about_moving_or_fixed_axes_as_declared(tmp_path):
-    def about(axis, degrees):
-        return Rotation.from_rotvec(np.radians(degrees) * np.eye(3)["xyz".index(axis)]).as_matrix()
-
-    raw = "j1,j2,x,y,z,a,b,c\n0,0,1,2,3,10,20,30\n"
-    for sequence, expected in [
-        ("XYZ", about("x", 10) @ about("y", 20) @ about("z", 30)),
-        ("xyz", about("z", 30) @ about("y", 20) @ about("x", 10)),
-        ("ZYX", about("z", 10) @ about("y", 20) @ about("x", 30)),
-    ]:
-        mapping = with_columns(orientation={"euler": ["a", "b", "c"], "sequence": sequence, "unit": "deg"})
-        _, table = convert(tmp_path, raw, mapping)
-        w, x, y, z = table[["qw", "qx", "qy", "qz"]].to_numpy()[0]
-        np.testing.assert_allclose(Rotation.from_quat([x, y, z, w]).as_matrix(), expected, atol=1e-9)
-
-
-POSE = {
-    "columns": {
-        "angles": {"columns": ["j1", "j2"], "unit": "rad"},
-        "pose": {"matrix": [f"m{r}{c}" for r in range(4) for c in range(4)], "unit": "m"},
-    }
-}
-POSE_HEADER = "j1,j2," + ",".join(f"m{r}{c}" for r in range(4) for c in range(4)) + "\n"
-
-
-def pose_row(matrix):
-    return POSE_HEADER + "0,0," + ",".join(map(repr, np.asarray(matrix, dtype=float).ravel().tolist())) + "\n"
-
-
-def test_a_homogeneous_matrix_gives_position_and_quaternion(tmp_path):
-    turn = Rotation.from_euler("XYZ", [0.3, -0.5, 2.0])
-    matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = turn.as_matrix(), [0.1, 0.2, 0.3]
-    _, table = convert(tmp_path, pose_row(matrix), POSE)
-    np.testing.assert_allclose(table[["x_mm", "y_mm", "z_mm"]].to_numpy()[0], [100, 200, 300], rtol=1e-9)
-    x, y, z, w = turn.as_quat(canonical=True)
-    np.testing.assert_allclose(table[["qw", "qx", "qy", "qz"]].to_numpy()[0], [w, x, y, z], atol=1e-9)
-
-
-def test_matrices_that_are_no_poses_are_refused(tmp_path):
-    mirrored = np.diag([1.0, 1.0, -1.0, 1.0])
-    with pytest.raises(InputError, match="right-handed"):
-        convert(tmp_path, pose_row(mirrored), POSE)
-    by_columns = np.eye(4)
-    by_columns[3, :3] = 1
-    with pytest.raises(InputError, match="column by column"):
-        convert(tmp_path, pose_row(by_columns), POSE)
-    with pytest.raises(InputError, match="unit axes"):
-        convert(tmp_path, pose_row(np.diag([1.0, 2.0, 1.0, 1.0])), POSE)
-
-
-def test_a_quaternion_that_is_not_of_unit_length_is_refused(tmp_path):
-    mapping = with_columns(orientation={"quaternion": ["a", "b", "c", "w"], "order": "xyzw"})
-    with pytest.raises(InputError, match=r"line 2.*length 1, this one 1\.26"):
-        convert(tmp_path, "j1,j2,x,y,z,a,b,c,w\n0,0,1,2,3,0.6,0,0,1.1091\n", mapping)

@@ -6,7 +6,9 @@ import numpy as np
 import pandas as pd
 import pytest
 import yaml
+from typer.testing import CliRunner
 
+from armscope.cli import app
 from armscope.core.inputs import InputError
 from armscope.recordings.importing.fetching import fetch_recordings, load_source
 from armscope.recordings.importing.motions import load_any_mapping
@@ -57,6 +59,15 @@ def test_columns_are_scaled_windows_kept_and_flat_lists_cut(tmp_path: Path) -> N
     assert motions.kind == "current"
     assert motions.payload is not None
     assert motions.payload[0] == 1.5
+
+
+def test_the_command_converts_them_too(tmp_path: Path) -> None:
+    imported(tmp_path)
+    (tmp_path / "motions.csv").unlink()
+    places = [str(tmp_path / name) for name in (*FILES, "mapping.yaml", "motions.csv")]
+    done = CliRunner().invoke(app, ["import", *places[:2], "--mapping", places[2], "-o", places[3]])
+    assert done.exit_code == 0, done.output
+    assert len(pd.read_csv(tmp_path / "motions.csv")) == 3
 
 
 @pytest.mark.parametrize(

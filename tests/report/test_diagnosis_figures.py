@@ -15,7 +15,7 @@ from armscope.report.figures.next_poses import draw_poses
 from armscope.report.figures.waterfall import draw_waterfall, gathered, waterfall_steps
 from armscope.report.svg import Drawing, nice, ticks
 from armscope.robot import load_arm
-from armscope.verdict.schema import Parameter
+from armscope.verdict.effects import Parameter
 from tests.report import verdicts
 from tests.report.verdicts import ROBOTS, found
 

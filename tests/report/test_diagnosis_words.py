@@ -13,7 +13,8 @@ from armscope.report.figures.arm import location_shares
 from armscope.report.html import unbroken
 from armscope.report.sections.effect_cards import card, chosen_how_often, title_of, told_parameters
 from armscope.robot import forward_kinematics
-from armscope.verdict.schema import Alternative, Curve, Notice, Parameter, Unexplained
+from armscope.verdict.effects import Alternative, Curve, Parameter
+from armscope.verdict.schema import Notice, Unexplained
 from armscope.verdict.sentences import ANOTHER_MODEL, exact_phrase, headline
 from armscope.verdict.wording import (
     evidence_in_words,

@@ -29,13 +29,13 @@ def test_rates_and_real_arms_come_from_results(tmp_path: Path) -> None:
     pd.DataFrame({"world": range(12)}).to_csv(tmp_path / "proof.csv", index=False)
     (tmp_path / "arm").mkdir()
     held = {"stated": 0.5, "background": 0.1, "model": 0.034, "what": "each run in turn"}
-    content = {"format": FORMAT, "held_out": held, "headline": "Nothing; on held-out motion"}
+    content = {"format": FORMAT, "held_out": held, "headline": "Nothing. On held-out motion"}
     (tmp_path / "arm" / "verdict.json").write_text(json.dumps(content), encoding="utf-8")
     fill_motion_page(page, tmp_path, tmp_path, "commit abc")
     text = page.read_text(encoding="utf-8")
     assert "| clean silent | 8 | 88 % (40 %–99 %) | not met |" in text
     assert "commit abc, 12 worlds" in text
-    assert "| arm | each run in turn | 50 % | 10 % | 3.4 % | Nothing |" in text
+    assert "| arm | each run in turn | 50 % | 10 % | 3.4 % | Nothing. |" in text
     assert text.count("clean silent") == 1
 
 

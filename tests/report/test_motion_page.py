@@ -11,11 +11,11 @@ import pytest
 from armscope.core.types import Array
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
 from armscope.report.figures.motion import draw_friction, draw_trace
-from armscope.report.motion_subject import MotionSubject, longest_piece
+from armscope.report.motion_subject import MotionSubject, liveliest_piece
 from armscope.report.pages.motion import write_motion_report
 from armscope.report.sectioning import write_sections
 from armscope.report.sections.motion import MOTION_SECTIONS, arm_of_motion, motion_card, relative_steps, signed
-from armscope.verdict.schema import Parameter
+from armscope.verdict.effects import Parameter
 from tests.motion.moving import moved, robot
 
 
@@ -92,8 +92,7 @@ def test_figures_hold_what_they_are_given() -> None:
 
 
 def test_the_shown_piece_has_no_gap(found: MotionDiagnosis) -> None:
-    part = found.held[0]
-    piece = longest_piece(part, 50)
+    part, piece = liveliest_piece(found.held, 50)
     assert piece.stop - piece.start == 50
     assert len(set(part.rows.stretch[part.which][piece].tolist())) == 1
     assert len(list(arm_of_motion(MotionSubject(found, "")))) == 1

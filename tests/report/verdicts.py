@@ -12,22 +12,9 @@ from armscope.fitting.registration import fit_frames
 from armscope.physics.registry import effect_named
 from armscope.recordings.table import Recordings, as_recordings
 from armscope.robot import Arm, forward_kinematics, load_arm
-from armscope.verdict.schema import (
-    Alternative,
-    Atlas,
-    Background,
-    Curve,
-    Diagnosis,
-    FoundEffect,
-    HeldOut,
-    NextPoses,
-    Notice,
-    Parameter,
-    Residuals,
-    SuspectRow,
-    Unexplained,
-    WaterfallStep,
-)
+from armscope.verdict.diagnosis import Atlas, Diagnosis, NextPoses, Residuals
+from armscope.verdict.effects import Alternative, Curve, FoundEffect, Parameter
+from armscope.verdict.schema import Background, HeldOut, Notice, SuspectRow, Unexplained, WaterfallStep
 from armscope.verdict.sentences import headline
 
 ROBOTS = Path(__file__).parents[2] / "config" / "robots"

@@ -21,8 +21,9 @@ from armscope.physics import model_file
 from armscope.recordings import read_recordings
 from armscope.robot import load_arm
 from armscope.verdict import contract
+from armscope.verdict.effects import Parameter
 from armscope.verdict.files import read_verdict
-from armscope.verdict.schema import Background, Notice, Orientations, Parameter, Unexplained, Verdict, WaterfallStep
+from armscope.verdict.schema import Background, Notice, Orientations, Unexplained, Verdict, WaterfallStep
 from tests.report.verdicts import CASES
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

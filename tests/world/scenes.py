@@ -7,9 +7,9 @@ import functools
 import numpy as np
 
 from armscope.robot.description_file import load_description
-from armscope.world.catalogue import KINDS, LARGEST_PAYLOAD_KG
 from armscope.world.kinds import Concealed, Scene
 from armscope.world.session import random_session
+from armscope.world.spec import KINDS, LARGEST_PAYLOAD_KG
 from armscope.world.strength import make_scene
 from tests.world.by_hand import ROBOTS
 

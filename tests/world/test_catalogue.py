@@ -7,9 +7,10 @@ from collections import Counter
 import pytest
 import yaml
 
-from armscope.world.catalogue import KINDS, STRENGTHS, WorldSpec, catalogue
+from armscope.world.catalogue import STRENGTHS, catalogue
 from armscope.world.effects import LIBRARY
 from armscope.world.outside import OUTSIDE
+from armscope.world.spec import KINDS, WorldSpec
 from tests.world.by_hand import ARMS
 
 CATEGORIES = {"clean", "single", "multiple", "outside", "misleading", "inseparable", "rough", "bad_shots"}

@@ -5,7 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from armscope.world.effects import LIBRARY, SOFT_SIDE, linear_numbers
+from armscope.world.effects import LIBRARY, linear_numbers
+from armscope.world.effects_around import BASE
+from armscope.world.effects_of_joints import SOFT_SIDE
+from armscope.world.effects_of_links import close_loop
 from armscope.world.outside import OUTSIDE
 from armscope.world.statics import Hidden
 from armscope.world.strength import stand
@@ -60,6 +63,16 @@ CHECKED_BELOW = {
 
 def test_no_effect_of_the_library_goes_unchecked():
     assert set(MOTOR_ERRORS) | set(BASE_TWISTS) | CHECKED_BELOW == {kind.name for kind in LIBRARY}
+    assert set(BASE_TWISTS) < {kind.name for kind in BASE}
+
+
+def test_a_closed_loop_has_bars_of_their_lengths_and_bars_too_short_do_not_close():
+    crank_angle = np.linspace(0.5, 2.5, 9)
+    angle = close_loop(crank_angle, 0.4, 1.02, 0.41, 1.0)
+    rod = 1.0 + 0.41 * np.exp(1j * angle) - 0.4 * np.exp(1j * crank_angle)
+    np.testing.assert_allclose(np.abs(rod), 1.02, rtol=1e-12)
+    with pytest.raises(RuntimeError, match="joined"):
+        close_loop(crank_angle, 0.4, 0.1, 0.41, 1.0)
 
 
 @pytest.mark.parametrize("name", ARMS)

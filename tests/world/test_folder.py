@@ -11,8 +11,9 @@ import yaml
 
 from armscope.recordings import read_recordings
 from armscope.robot.description_file import load_description
-from armscope.world.catalogue import WorldSpec, catalogue
+from armscope.world.catalogue import catalogue
 from armscope.world.folder import build
+from armscope.world.spec import WorldSpec
 from armscope.world.virtual_arm import conceal, measure_session
 from tests.world.by_hand import ROBOTS, HandArm
 from tests.world.measuring import measure_at

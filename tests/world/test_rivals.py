@@ -12,10 +12,10 @@ from armscope.physics import scene as physics
 from armscope.physics.frames import free_frames as contract_frames
 from armscope.recordings import Recordings
 from armscope.robot import load_arm
-from armscope.world.catalogue import KINDS
 from armscope.world.effects import LIBRARY
 from armscope.world.kinds import Concealed
 from armscope.world.rivals import Judge, rivals
+from armscope.world.spec import KINDS
 from armscope.world.strength import free_frames, sized, stand
 from tests.world.by_hand import ARMS, ROBOTS
 from tests.world.scenes import drawn, scene_of

@@ -11,12 +11,12 @@ import yaml
 
 from armscope.core.averages import rms
 from armscope.world.blemishes import OF, PAYLOAD_SHARE, PEDESTAL, RUNS, WANDER, lagging, waves
-from armscope.world.catalogue import WorldSpec
 from armscope.world.constants import ROUGH
 from armscope.world.folder import build
 from armscope.world.kinds import Concealed
 from armscope.world.oracle import oracle_rms
 from armscope.world.rough import BLEMISHES, as_stated, blemishes, draw_broken, rough_noise
+from armscope.world.spec import WorldSpec
 from armscope.world.strength import stand
 from armscope.world.virtual_arm import conceal, measure_session
 from tests.world.by_hand import ROBOTS

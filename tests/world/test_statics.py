@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 from armscope.robot.description import RobotDescription
-from armscope.world.mechanism import Geometry
+from armscope.world.layout import Geometry
 from armscope.world.statics import Hidden, Session, balance
 from armscope.world.strength import make_scene, stand
 from tests.world.by_hand import ARMS, HandArm

@@ -13,8 +13,8 @@ from scipy.spatial.transform import Rotation
 
 from armscope.core.averages import rms
 from armscope.robot.description_file import load_description
-from armscope.world.catalogue import KINDS
 from armscope.world.kinds import Concealed
+from armscope.world.spec import KINDS
 from armscope.world.statics import Session
 from armscope.world.strength import Frames, carried, fit_frames, make_scene, rms_after_frames, sized, stand
 from tests.world.scenes import drawn, scene_of

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
-from scipy.spatial import cKDTree
 
-from armscope.check.report import verdict_lines
-from armscope.check.suspicion import Suspicion
+from armscope.check.motion_readings import Samples, beyond_friction, read_otherwise
+from armscope.check.suspicion import Suspicion, verdict_lines
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.motion.check import doubts_about, refuse_other_joints
@@ -33,8 +32,8 @@ COARSE_S, FEWEST = 0.05, 20
 """Over which positions are differenced, and of how many such samples at least."""
 TOLD = 0.8
 """Share of a joint's torque, beyond friction, that masses must explain for its sign and size to be judged."""
-OTHER_SIZE = 3.0
-"""Factor between recorded torque and the masses' from which it is another quantity."""
+OTHER_SIZE, NO_LOAD = 3.0, 30.0
+"""Factor between recorded torque and the masses' from which it is another quantity: of most joints, and of one."""
 
 
 @dataclass(frozen=True)
@@ -78,8 +77,11 @@ def check_moving(motions: Motions, arm: MovingArm | None = None) -> MotionCheck:
     told = [Suspicion("hint", notice.text.rstrip(".")) for notice in [*notices, *doubts_about(motions)]]
     even = motions.rows(kept).at_times(time)
     found = [*told, *_dead(motions), *_saturated(motions), *_units(motions), *_speeds(even), *_same_paths(even)]
-    if arm is not None and motions.kind == "torque":
-        found += _torques(even, arm)
+    if arm is not None:
+        samples = _samples(even)
+        if motions.kind == "torque":
+            found += _torques(even, samples, arm)
+        found += read_otherwise(samples, arm)
     return MotionCheck(tuple(_contents(even)), tuple(found))
 
 
@@ -124,11 +126,13 @@ def _saturated(motions: Motions) -> Iterator[Suspicion]:
 
 
 def _units(motions: Motions) -> Iterator[Suspicion]:
-    for j in np.flatnonzero(~motions.sliding):
-        far = float(np.abs(motions.q[:, j]).max())
-        if far > FAR_TURNS_RAD:
-            statement = f"q{j + 1}_rad reaches {far:.4g} rad, {far / (2 * np.pi):.3g} turns"
-            yield Suspicion("hint", statement, f"Are these degrees? Then call the column q{j + 1}_deg.")
+    reached = np.where(motions.sliding, 0.0, np.abs(motions.q).max(axis=0))
+    far = np.flatnonzero(reached > FAR_TURNS_RAD)
+    for j in far:
+        statement = f"q{j + 1}_rad reaches {reached[j]:.4g} rad, {reached[j] / (2 * np.pi):.3g} turns"
+        # one joint may turn on and on, an arm does not
+        weight: Literal["problem", "hint"] = "problem" if len(far) > 1 else "hint"
+        yield Suspicion(weight, statement, f"Are these degrees? Then call the column q{j + 1}_deg.")
 
 
 def _speeds(motions: Motions) -> Iterator[Suspicion]:
@@ -178,6 +182,8 @@ def _speed_of_run(motions: Motions, run: str, joint: int) -> tuple[float, float]
 def _same_paths(motions: Motions) -> Iterator[Suspicion]:
     if motions.n_motors == 1:
         return  # every path of one axis passes where another one did
+    from scipy.spatial import cKDTree  # takes long to import: a table that is refused needs none
+
     span = np.maximum(np.ptp(motions.q, axis=0), 1e-9)
     paths = {run: motions.q[motions.run == run] / span for run in motions.runs}
     for one, other in combinations(paths, 2):
@@ -188,28 +194,33 @@ def _same_paths(motions: Motions) -> Iterator[Suspicion]:
             yield Suspicion("hint", statement, "Held out, it tests the noise and not the model: hold out another path.")
 
 
-def _torques(motions: Motions, arm: MovingArm) -> Iterator[Suspicion]:
+def _torques(motions: Motions, samples: Samples, arm: MovingArm) -> Iterator[Suspicion]:
     """Sign and size of recorded torques against what the stated masses ask for, with friction and a rotor fitted."""
-    parts = [_coarse(motions, run) for run in motions.runs]
-    q, dq, ddq, effort = (np.concatenate([part[k] for part in parts]) for k in range(4))
-    few = spread_evenly(len(q), MOST_ROWS)
-    rigid = arm.regressor(q[few], dq[few], ddq[few]) @ arm.inertial
-    for j in range(motions.n_motors):
-        ordinary = np.column_stack([np.ones(len(few)), np.sign(dq[few, j]), dq[few, j], ddq[few, j]])
-        left, asked = (
-            each - ordinary @ np.linalg.lstsq(ordinary, each, rcond=None)[0] for each in (effort[few, j], rigid[:, j])
-        )
+    few = samples.rows(spread_evenly(len(samples.q), MOST_ROWS))
+    rigid = arm.torques(few.q, few.dq, few.ddq, arm.inertial)
+    factors: dict[int, float] = {}
+    for j, (left, asked) in enumerate(beyond_friction(few, rigid)):
         power = float(asked @ asked)
-        if power <= 0 or (asked @ left) ** 2 < TOLD * power * float(left @ left):
-            continue
-        factor = float(asked @ left) / power
+        if power > 0 and (asked @ left) ** 2 >= TOLD * power * float(left @ left):
+            factors[j] = float(asked @ left) / power
+    most = float(np.median(np.abs(list(factors.values())))) if factors else 1.0
+    for j, factor in factors.items():
         name = _channels(motions)[j]
         if factor < 0:
             cure = "Is it the load's torque? Turn its sign: torque is the motor's, positive along the motion it drives."
             yield Suspicion("problem", f"{name} has the sign opposite to what moves the stated masses", cure)
         elif not 1 / OTHER_SIZE < factor < OTHER_SIZE:
-            cure = "Is it the torque before the gear, or another unit?"
-            yield Suspicion("problem", f"{name} is {factor:.3g} times what the stated masses ask for", cure)
+            # a load that nobody stated does that to a wrist, and is no mistake of the table
+            far = max(abs(np.log(factor)), abs(np.log(most))) > np.log(NO_LOAD)
+            weight: Literal["problem", "hint"] = "problem" if far or not 1 / OTHER_SIZE < most < OTHER_SIZE else "hint"
+            cure = "Is it the torque before the gear, another unit, or another load than stated?"
+            yield Suspicion(weight, f"{name} is {factor:.3g} times what the stated masses ask for", cure)
+
+
+def _samples(motions: Motions) -> Samples:
+    """Of all runs, differenced over a twentieth of a second: to see sign, size and order."""
+    parts = [_coarse(motions, run) for run in motions.runs]
+    return Samples(*(np.concatenate([part[k] for part in parts]) for k in range(4)))
 
 
 def _coarse(motions: Motions, run: str) -> tuple[Array, Array, Array, Array]:

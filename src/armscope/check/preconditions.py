@@ -11,7 +11,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from armscope.check.report import check
-from armscope.check.suspicion import Suspicion
+from armscope.check.suspicion import Suspicion, refuse_problems
 from armscope.check.suspicions import explanation
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
@@ -76,11 +76,7 @@ def refuse_unusable(arm: Arm, recordings: Recordings) -> None:
         InputError: it holds a problem.
     """
     suspicions = suspected(arm, replace(recordings, orientation=None))
-    problems = [each for each in suspicions if each.weight == "problem"]
-    if problems:
-        more = f" ({len(problems) - 1} more: see `armscope check`)" if len(problems) > 1 else ""
-        cure = f"{problems[0].cure} --anyway diagnoses it all the same.".strip()
-        raise InputError(recordings.source, "", problems[0].statement, f"no result of it would hold{more}", cure)
+    refuse_problems(suspicions, recordings.source)
 
 
 def as_notices(problems: Sequence[Suspicion], obstacle: Notice | None) -> tuple[Notice, ...]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from armscope.check.contents import Contents, Context, RunContents, contents_of
 from armscope.check.quantities import of_quantities
-from armscope.check.suspicion import Suspicion
+from armscope.check.suspicion import Suspicion, verdict_lines
 from armscope.check.suspicions import Consistency, against_arm
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -178,11 +178,3 @@ def _arm_lines(consistency: Consistency | None, rows: int) -> list[str]:
         f"nominal arm, base and tool fitted: {consistency.rms * 1e3:.4g} mm RMS distance "
         f"of a {consistency.spread * 1e3:.4g} mm spread, over {consistency.rows} of {rows} rows"
     ]
-
-
-def verdict_lines(suspicions: tuple[Suspicion, ...]) -> list[str]:
-    """Suspicions in words, problems first."""
-    if not suspicions:
-        return ["nothing looks wrong"]
-    ordered = sorted(suspicions, key=lambda each: each.weight != "problem")
-    return [f"{each.weight}: {each.text()}" for each in ordered]

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
+
+from armscope.core.inputs import InputError
 
 
 @dataclass(frozen=True)
@@ -18,3 +21,28 @@ class Suspicion:
     def text(self) -> str:
         """In words."""
         return f"{self.statement}. {self.cure}".strip() if self.cure else f"{self.statement}."
+
+
+def verdict_lines(suspicions: tuple[Suspicion, ...]) -> list[str]:
+    """Suspicions in words, problems first."""
+    if not suspicions:
+        return ["nothing looks wrong"]
+    ordered = sorted(suspicions, key=lambda each: each.weight != "problem")
+    return [f"{each.weight}: {each.text()}" for each in ordered]
+
+
+def refuse_problems(suspicions: Sequence[Suspicion], source: object) -> None:
+    """Where something makes results meaningless, none are made.
+
+    Args:
+        suspicions: what the check found.
+        source: the table, for the error.
+
+    Raises:
+        InputError: there is a problem among them.
+    """
+    problems = [each for each in suspicions if each.weight == "problem"]
+    if problems:
+        more = f" ({len(problems) - 1} more: see `armscope check`)" if len(problems) > 1 else ""
+        cure = f"{problems[0].cure} --anyway diagnoses it all the same.".strip()
+        raise InputError(source, "", problems[0].statement, f"no result of it would hold{more}", cure)

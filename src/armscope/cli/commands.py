@@ -9,7 +9,7 @@ import os
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
-from typing import Annotated, Any, get_type_hints
+from typing import Annotated, Any, cast, get_type_hints
 
 import typer
 from typer.core import TyperCommand
@@ -96,7 +96,7 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
                 raise
             delivery.put()
 
-    run.__signature__ = signature.replace(parameters=[*parameters, *added])  # type: ignore[attr-defined]
+    cast(Any, run).__signature__ = signature.replace(parameters=[*parameters, *added])
     run.__annotations__ = {each.name: each.annotation for each in [*parameters, *added]} | {"return": None}
     return run
 

@@ -73,7 +73,7 @@ def diagnose(
                 "--priors", "", priors, f"{recordings} is a table of motions, for which no sizes are learned"
             )
         with _progress("diagnosing") as tell:
-            asked = Asked(cutoff, held_out or [], run or [], json, report)
+            asked = Asked(cutoff, held_out or [], run or [], json, report, anyway)
             mismatch = diagnose_motions(recordings, robot, output, asked, tell)
         if exit_code and mismatch is not False:
             raise typer.Exit(MISMATCH if mismatch else UNUSABLE)

@@ -38,12 +38,6 @@ def excite(
 ) -> None:
     """Plan a motion that shows masses and friction best, inside all limits and clear of floor and arm."""
     from armscope.core.streams import is_stream
-    from armscope.poses.exciting.output import pairs_of, trajectory_table, write_excitation
-    from armscope.poses.exciting.search import MotionWish
-    from armscope.poses.exciting.search import excite as find
-    from armscope.poses.obstacles import Surroundings
-    from armscope.report.figures.exciting_motion import motion_figure
-    from armscope.report.style import save_figure
     from armscope.robot import load_arm
 
     if output.suffix != ".csv" and not is_stream(output):
@@ -52,6 +46,14 @@ def excite(
         rule = "a wave needs two samples at least: twice --harmonics / --period-s"
         raise InputError("--rate-hz", "", rate_hz, rule)
     arm = load_arm(robot)
+
+    from armscope.poses.exciting.output import pairs_of, trajectory_table, write_excitation
+    from armscope.poses.exciting.search import MotionWish
+    from armscope.poses.exciting.search import excite as find
+    from armscope.poses.obstacles import Surroundings
+    from armscope.report.figures.exciting_motion import motion_figure
+    from armscope.report.style import save_figure
+
     pairs = () if separate is None else pairs_of(separate)
     radius, floor = (None if each is None else each * 1e-3 for each in (radius_mm, floor_mm))
     around = Surroundings(radius, floor)

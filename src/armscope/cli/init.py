@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, TextIO
 
 import typer
 
 from armscope.cli.commands import Commands
 from armscope.core.inputs import InputError
+from armscope.core.outputs import current
+from armscope.recordings.opening import UTF_16
 
 app = Commands()
 
@@ -32,7 +34,7 @@ def init(
     from armscope.robot.library import nominal_names
 
     if list_ or not what:
-        _show_library()
+        _show_library(sys.stdout if not list_ or (delivery := current()) is None else delivery.stdout)
         if not list_:
             raise InputError("WHAT", "", "nothing", WHAT, "Arms: " + ", ".join(nominal_names()) + ".")
         return
@@ -53,7 +55,7 @@ def _first_file(what: str, output: Path, tip: str | None, name: str, modified: b
     if what == "-":
         from armscope.robot.dh_table import parse_dh_table
 
-        described = parse_dh_table(sys.stdin.read(), name, "modified" if modified else "standard")
+        described = parse_dh_table(_pasted(), name, "modified" if modified else "standard")
     elif is_xml(what):
         described = describe_urdf(what, tip)
     elif Path(what).exists() or not is_nominal(what):
@@ -70,10 +72,25 @@ def _first_file(what: str, output: Path, tip: str | None, name: str, modified: b
     return as_yaml(described, output.parent), guesses(described)
 
 
-def _show_library() -> None:
+def _pasted() -> str:
+    """Standard input as text, whatever its bytes are.
+
+    Raises:
+        InputError: it is no text.
+    """
+    content = sys.stdin.buffer.read()
+    try:
+        return content.decode("utf-16" if content.startswith(UTF_16) else "utf-8-sig")
+    except UnicodeDecodeError as error:
+        found = f"byte 0x{content[error.start]:02x}" if error.start < len(content) else "half a character"
+        raise InputError("D-H table", "standard input", found, "text in UTF-8 is needed here") from error
+
+
+def _show_library(to: TextIO) -> None:
+    """The arms, one a line: asked for, they are the command's output, else they stand beside an error."""
     from armscope.robot.library import nominal_description, nominal_names
 
     for each in nominal_names():
         described = nominal_description(each)
         basis = described.source["dh"]
-        print(f"{each:10s} {described.name}: {basis}")
+        print(f"{each:10s} {described.name}: {basis}", file=to)

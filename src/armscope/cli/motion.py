@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     import pandas as pd
+
+    from armscope.check.suspicion import Suspicion
+    from armscope.recordings.motions import Motions
+    from armscope.robot.dynamics import MovingArm
 
 Tell = Callable[[str, float], None]
 FILES = ("verdict.json", "model.yaml", "corrected.urdf", "mujoco.xml", "parameters.csv")
@@ -25,6 +29,7 @@ class Asked:
         held_out, runs: runs that are held out, and runs that are used (none: all).
         as_json: whether verdict.json is printed in place of words.
         report: whether the page is written.
+        anyway: go on though the check says that the table is unusable.
     """
 
     cutoff: float | None
@@ -32,6 +37,7 @@ class Asked:
     runs: list[str]
     as_json: bool
     report: bool
+    anyway: bool
 
 
 def diagnose_motions(table: Path, robot: Path, output: Path, asked: Asked, tell: Tell) -> bool | None:
@@ -50,30 +56,19 @@ def diagnose_motions(table: Path, robot: Path, output: Path, asked: Asked, tell:
     Raises:
         InputError: a run that is asked for is not there, or the table can't be used.
     """
-    import numpy as np
-
+    arm, motions, problems = _read_and_checked(table, robot, asked)
     from armscope.cli.robots import print_json
     from armscope.core.files import writable
-    from armscope.core.inputs import InputError, nearest
-    from armscope.motion.export import export_motion
-    from armscope.motion.model_file import save_motion_model
+    from armscope.motion.export import write_motion
     from armscope.motion.pipeline import MotionSettings, diagnose_motion
-    from armscope.motion.verdict import write_motion_verdict
-    from armscope.recordings.motions import read_motions
-    from armscope.robot.dynamics import load_moving_arm
+    from armscope.verdict.schema import Notice
 
     writable(output, *FILES, *(("report.html",) if asked.report else ()))
-    arm = load_moving_arm(robot)
-    motions = read_motions(table, arm.n_motors)
-    for run in asked.runs:
-        if run not in motions.runs:
-            raise InputError("--run", "", run, f"{table} has no such run", nearest(run, motions.runs))
-    if asked.runs:
-        motions = motions.rows(np.isin(motions.run, [*asked.runs, *asked.held_out]))
     found = diagnose_motion(arm, motions, MotionSettings(asked.cutoff, tuple(asked.held_out)), tell)
-    write_motion_verdict(found.verdict, output)
-    save_motion_model(output / "model.yaml", found.model)
-    export_motion(found.model, found.selected, found.sure.factor, output)
+    if problems:
+        notices = (*found.verdict.notices, *(Notice("check", each.text()) for each in problems))
+        found = replace(found, verdict=replace(found.verdict, notices=notices))
+    write_motion(found, output)
     if asked.report:
         from armscope.report.pages.motion import write_motion_report
 
@@ -87,6 +82,31 @@ def diagnose_motions(table: Path, robot: Path, output: Path, asked: Asked, tell:
         print(found.verdict.headline)
         print(f"{output}/{'report.html' if asked.report else 'verdict.json'}")
     return found.verdict.mismatch
+
+
+def _read_and_checked(table: Path, robot: Path, asked: Asked) -> tuple[MovingArm, Motions, list[Suspicion]]:
+    """Arm, samples and what is wrong with them, before anything is imported that only a good table needs."""
+    import numpy as np
+
+    from armscope.core.inputs import InputError, nearest
+    from armscope.recordings.motions import read_motions
+    from armscope.robot.dynamics import load_moving_arm
+
+    arm = load_moving_arm(robot)
+    motions = read_motions(table, arm.n_motors)
+    for run in (*asked.runs, *asked.held_out):
+        if run not in motions.runs:
+            option = "--run" if run in asked.runs else "--held-out"
+            raise InputError(option, "", run, f"{table} has no such run", nearest(run, motions.runs))
+    if asked.runs:
+        motions = motions.rows(np.isin(motions.run, [*asked.runs, *asked.held_out]))
+    from armscope.check.motions import check_moving
+    from armscope.check.suspicion import refuse_problems
+
+    problems = [each for each in check_moving(motions, arm).suspicions if each.weight == "problem"]
+    if not asked.anyway:
+        refuse_problems(problems, table)
+    return arm, motions, problems
 
 
 def predicted_motions(model: Path, motions: Path) -> tuple[pd.DataFrame, list[str]] | None:
@@ -123,13 +143,19 @@ def check_motions_table(table: Path, robot: Path | None, as_json: bool) -> bool:
     Raises:
         InputError: the table can't be used.
     """
-    from armscope.check.motions import check_moving
     from armscope.cli.robots import print_json
     from armscope.recordings.motions import read_motions
-    from armscope.robot.dynamics import load_moving_arm
 
-    arm = None if robot is None else load_moving_arm(robot)
-    found = check_moving(read_motions(table, None if arm is None else arm.n_motors), arm)
+    arm = None
+    if robot is not None:
+        from armscope.robot.dynamics import load_moving_arm
+
+        arm = load_moving_arm(robot)
+    motions = read_motions(table, None if arm is None else arm.n_motors)
+
+    from armscope.check.motions import check_moving
+
+    found = check_moving(motions, arm)
     if as_json:
         print_json(found.to_json())
     else:

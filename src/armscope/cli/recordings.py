@@ -20,6 +20,10 @@ def import_(
     output: Annotated[Path, typer.Option("--output", "-o", help="the recordings table to write (.gz compresses)")],
 ) -> None:
     """Convert raw files to a recordings table by a declarative mapping."""
+    from armscope.recordings.importing.motions import load_any_mapping
+
+    load_any_mapping(mapping)  # what is wrong with it is told before all that reads tables is imported
+
     from armscope.recordings.importing.tables import import_recordings
 
     print(import_recordings(files, mapping, output).text())

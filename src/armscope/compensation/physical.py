@@ -14,9 +14,10 @@ from armscope.compensation.domain import Domain
 from armscope.core.files import read_json, write_json
 from armscope.core.inputs import InputError, mapping, validate
 from armscope.core.types import Array
-from armscope.physics.drivers import COLUMNS, KINDS, kinds_in
+from armscope.physics.drivers import KINDS, kinds_in
 from armscope.physics.frames import TOOL_FRAME, tool_key
 from armscope.physics.model import FittedModel
+from armscope.physics.recorded_drivers import COLUMNS
 from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain
 from armscope.robot.gravity import gravity_torques, mass_moment_regressor

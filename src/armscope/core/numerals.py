@@ -30,7 +30,7 @@ def shown_unit(unit: str, size: float) -> tuple[float, str]:
     for least, factor, shown in UNITS.get(unit, ()):
         if size >= least:
             return factor, shown
-    return 1.0, unit
+    return 1.0, unit.replace("^2", "²").replace("^3", "³")
 
 
 def rounded(value: float) -> str:

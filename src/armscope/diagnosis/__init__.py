@@ -2,7 +2,8 @@
 
 from armscope.diagnosis.pipeline import Settings, diagnose
 from armscope.fitting.transfer import Transferred, transfer
+from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.files import write_verdict
-from armscope.verdict.schema import Diagnosis, Verdict
+from armscope.verdict.schema import Verdict
 
 __all__ = ["Diagnosis", "Settings", "Transferred", "Verdict", "diagnose", "transfer", "write_verdict"]

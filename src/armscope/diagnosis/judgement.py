@@ -9,12 +9,12 @@ import numpy as np
 
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Progress
-from armscope.diagnosis.constants import TELLING
 from armscope.diagnosis.held_out import Rows, cross_validate
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary import alternatives as certainty
 from armscope.diagnosis.summary.attribution_map import atlas
 from armscope.diagnosis.summary.causes import causes
+from armscope.diagnosis.summary.constants import TELLING
 from armscope.diagnosis.summary.effects import (
     Weighed,
     as_far_as_it_carries,
@@ -47,16 +47,15 @@ from armscope.physics.freeform import held
 from armscope.physics.model import FittedModel
 from armscope.physics.wander import is_of_rows
 from armscope.recordings import Recordings
+from armscope.verdict.diagnosis import Diagnosis, Residuals
+from armscope.verdict.effects import FoundEffect
 from armscope.verdict.importance import with_importance
 from armscope.verdict.schema import (
     Answer,
     Background,
-    Diagnosis,
-    FoundEffect,
     HeldOut,
     Notice,
     Orientations,
-    Residuals,
     SuspectRow,
     Unexplained,
     WaterfallStep,

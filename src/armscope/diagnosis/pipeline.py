@@ -31,7 +31,8 @@ from armscope.physics.model import FittedModel
 from armscope.physics.set_ups import SetUps
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-from armscope.verdict.schema import Diagnosis, Notice
+from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.schema import Notice
 
 
 @dataclass(frozen=True)

@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Indices, Progress
-from armscope.diagnosis.constants import LOOP, SCANS
+from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.earning import earned
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.row_noise import NoiseOfRows
-from armscope.diagnosis.scans.change_points import jumps
+from armscope.diagnosis.scans.constants import SCANS
 from armscope.diagnosis.scans.context import ScanContext
-from armscope.diagnosis.scans.gear_mesh import mesh_lines
-from armscope.diagnosis.scans.pauses import pauses
+from armscope.diagnosis.scans.new_candidates import scanned_candidates
 from armscope.fitting.joint_scatter import Scattered
 from armscope.fitting.linearisation import LinearisedTable, Measured, linearised, normal_equations_by_block, residuals
 from armscope.fitting.refit import Refit, refit
@@ -29,9 +28,9 @@ from armscope.inference.problem import Problem, background_sizes, build_problem
 from armscope.inference.search import Search
 from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.noise import Growth, Noise
-from armscope.physics.backgrounds import DRIFT, FAMILIES, TRANSMISSION, backgrounds, gear_waves
+from armscope.physics.backgrounds import FAMILIES, TRANSMISSION, backgrounds, gear_waves
 from armscope.physics.constants import PLAUSIBLE
-from armscope.physics.drift import BASE_DRIFT, base_shifts_of_runs
+from armscope.physics.drift import base_shifts_of_runs
 from armscope.physics.effect import Effect, Placed
 from armscope.physics.elastic import TWO_AXES, stiffest_of_two
 from armscope.physics.frames import set_ups_of
@@ -250,32 +249,11 @@ class SelectionLoop:
         return any(c in self.space.requires for c in self.best.candidates)
 
     def _scanned(self, search: Search) -> list[Placed]:
-        """New candidates whose scanned numbers promise something, given the best hypothesis and given none."""
-        known = {(candidate.key, candidate.variant) for candidate in self.space.candidates}
-        new: dict[tuple[tuple[str, str], str], Placed] = {}
-        given = (self.best, search.empty()) if self.best.chosen else (self.best,)
-        context = ScanContext(self.problem, self.space, self.point, self.recordings, self.noise.weights)
+        """New candidates whose scanned numbers promise something."""
         self.scans += 1
         most = MESH_COUNTS[-1] if self.scans == SCANS.scan_of_fine_lines else SCANS.ordinary_lines
-        # a jump is most of what a wander would be: it is looked for where none is allowed for
-        steady = [search.with_background(each, FAMILIES.index(DRIFT), 0) for each in given]
-        for found in (mesh_lines(context, given, most), jumps(context, steady), self._paused(search, context)):
-            for placed in found:
-                if (placed.key, placed.variant) not in known:
-                    new[(placed.key, placed.variant)] = placed
-        return list(new.values())
-
-    def _paused(self, search: Search, context: ScanContext) -> Iterator[Placed]:
-        """Drifts with one pause more, where the best hypothesis has a drift by the order of rows."""
-        chosen = {c: self.space.placed[c] for c in self.best.candidates}
-        drifts = [
-            c for c, placed in chosen.items() if placed.effect is BASE_DRIFT and placed.variant.startswith("rows")
-        ]
-        if drifts:
-            # what else moves the base may be the drift's pauses: all of it, or one of it beside a jump that is one
-            beside = [c for c, placed in chosen.items() if placed.location == "base" and c not in drifts]
-            for replaced in sorted({(), tuple(beside), *((one,) for one in beside)}):
-                yield from pauses(context, search.without(self.best, replaced), drifts[0])
+        context = ScanContext(self.problem, self.space, self.point, self.recordings, self.noise.weights)
+        return scanned_candidates(context, search, self.best, most)
 
 
 def _on_loads(model: FittedModel, recordings: Recordings) -> tuple[FittedModel, list[Placed], list[Placed]]:

@@ -11,7 +11,8 @@ from armscope.diagnosis.summary.unexplained import together
 from armscope.measurement.noise import Noise
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
-from armscope.verdict.schema import Diagnosis, HeldOut, Notice, Residuals, Unexplained
+from armscope.verdict.diagnosis import Diagnosis, Residuals
+from armscope.verdict.schema import HeldOut, Notice, Unexplained
 from armscope.verdict.sentences import headline
 
 

@@ -9,8 +9,8 @@ import numpy as np
 import pandas as pd
 
 from armscope.core.files import copy_file, new_folder, write_table
-from armscope.world.catalogue import NOISE_MM, Wish, WorldSpec
 from armscope.world.folder import build
+from armscope.world.spec import NOISE_MM, Wish, WorldSpec
 
 WEAKNESSES = {
     "six-axis": ("joint_compliance", "joint 2"),

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from armscope.motion import clauses, remedies
 from armscope.motion.causes import Cause
+from armscope.verdict.effects import UNKNOWN
 
-FRICTION, DRIVE, MASSES, SPRINGS, UNKNOWN = "friction", "drive", "masses", "springs", "unknown"
+FRICTION, DRIVE, MASSES, SPRINGS = "friction", "drive", "masses", "springs"
 
 COULOMB = Cause(
     "coulomb_friction",
@@ -12,6 +14,9 @@ COULOMB = Cause(
     "Dry friction is not as stated.",
     "Drive the joint slowly to and fro: half the difference of the torques is its dry friction.",
     "Correct `coulomb_nm` of the drive.",
+    in_bodies=True,
+    clause=clauses.than_stated("dry friction of {} is", "more", "less"),
+    remedy=remedies.add_to_stated,
 )
 VISCOUS = Cause(
     "viscous_friction",
@@ -19,6 +24,9 @@ VISCOUS = Cause(
     "Viscous friction is not as stated.",
     "Drive the joint at several constant speeds.",
     "Correct `viscous_nm_s_rad` of the drive.",
+    in_bodies=True,
+    clause=clauses.than_stated("viscous friction of {} is", "more", "less"),
+    remedy=remedies.add_to_stated,
 )
 ROTOR = Cause(
     "rotor_inertia",
@@ -26,6 +34,9 @@ ROTOR = Cause(
     "The rotor's inertia, seen through the gear, is not as stated.",
     "Accelerate the joint alone in two poses of the rest of the arm.",
     "Correct `rotor_inertia_kg_m2` of the drive.",
+    in_bodies=True,
+    clause=clauses.than_stated("the rotor inertia of {} is", "more", "less"),
+    remedy=remedies.add_to_stated,
 )
 OFFSET = Cause(
     "torque_offset",
@@ -33,6 +44,8 @@ OFFSET = Cause(
     "The recorded torque is off by a constant.",
     "Turn the joint slowly either way: the mean of the two torques, less gravity's, is the offset.",
     "Subtract the offset from the recorded torque.",
+    clause=clauses.offset_clause,
+    remedy=remedies.off_the_recording,
 )
 ASYMMETRY = Cause(
     "asymmetric_friction",
@@ -40,6 +53,8 @@ ASYMMETRY = Cause(
     "Viscous friction differs by the direction of motion.",
     "Drive the joint to and fro at several constant speeds and compare the torques of both directions.",
     "Give the friction model one viscous coefficient for each direction.",
+    clause=clauses.asymmetric_clause,
+    remedy=remedies.each_direction,
 )
 STRIBECK = Cause(
     "stribeck_friction",
@@ -47,6 +62,7 @@ STRIBECK = Cause(
     "Friction falls from its value near rest as lubrication sets in.",
     "Drive the joint at many constant slow speeds, either way.",
     "Add a Stribeck term exp(-(speed/width)^2) to the friction model.",
+    clause=clauses.stribeck_clause,
 )
 LOAD_FRICTION = Cause(
     "load_friction",
@@ -55,6 +71,8 @@ LOAD_FRICTION = Cause(
     "Repeat one motion with and without a payload: friction must grow with the load.",
     "Let dry friction in the model grow with the absolute torque of the joint.",
     nonnegative=True,
+    clause=clauses.grows_clause,
+    remedy=remedies.per_load,
 )
 VISCOUS_CURVE = Cause(
     "viscous_curve",
@@ -62,6 +80,7 @@ VISCOUS_CURVE = Cause(
     "Viscous friction is not proportional to speed.",
     "Drive the joint at constant speeds up to its fastest.",
     "Use a curve of friction over speed instead of one coefficient.",
+    clause=clauses.at_place("friction of {} is not in proportion to speed"),
 )
 TEMPERATURE_FRICTION = Cause(
     "thermal_friction",
@@ -69,6 +88,7 @@ TEMPERATURE_FRICTION = Cause(
     "Friction changes as the gear warms up.",
     "Repeat one motion cold and warm.",
     "Let friction follow the temperature, or warm the arm up first.",
+    clause=clauses.at_place("friction of {} changes with temperature"),
 )
 COUPLED_FRICTION = Cause(
     "coupled_friction",
@@ -76,6 +96,7 @@ COUPLED_FRICTION = Cause(
     "Something between two joints rubs with the sum or difference of their speeds.",
     "Move one of the joints alone and watch the other one's torque.",
     "Let the friction of both joints follow the sum of their speeds, too.",
+    clause=clauses.between_joints("something rubs between {}"),
 )
 COUPLED_INERTIA = Cause(
     "coupled_inertia",
@@ -84,6 +105,7 @@ COUPLED_INERTIA = Cause(
     "Accelerate one of the joints alone and watch the other one's torque.",
     "State how the two joints' motors are coupled (`actuation`), with their rotor inertias.",
     nonnegative=True,
+    clause=clauses.between_joints("something heavy turns between {}"),
 )
 GAIN = Cause(
     "motor_constant",
@@ -91,13 +113,17 @@ GAIN = Cause(
     "The motor gives another torque than its stated constant says: all of the joint's torque is off by one factor.",
     "Hang a known mass on the arm: torque must change by its weight times its lever.",
     "Correct the joint's torque constant.",
+    clause=clauses.gain_clause,
+    remedy=remedies.by_factor,
 )
 DELAY = Cause(
     "torque_delay",
     DRIVE,
-    "Torque was recorded later than the motion that it belongs to.",
+    "Torque was recorded at another time than the motion that it belongs to.",
     "Shift the recorded torque against the motion and watch the difference.",
     "Shift the torque back by the delay, or simulate the delay.",
+    clause=clauses.delay_clause,
+    remedy=remedies.shifted,
 )
 BALANCER = Cause(
     "gravity_balance",
@@ -105,6 +131,7 @@ BALANCER = Cause(
     "A spring or a counterweight pulls the joint toward one position.",
     "Hold the joint still at several positions and compare its torque with gravity's.",
     "Add the spring's or counterweight's torque to the model.",
+    clause=clauses.balance_clause,
 )
 RIPPLE = Cause(
     "torque_ripple",
@@ -112,6 +139,7 @@ RIPPLE = Cause(
     "Gear or motor give torque that repeats several times per turn.",
     "Turn the joint slowly at constant speed and look at the torque over its angle.",
     "Add the waves to the model.",
+    clause=clauses.ripple_clause,
 )
 CABLE = Cause(
     "cable_torque",
@@ -119,6 +147,7 @@ CABLE = Cause(
     "Cables or hoses pull with a torque that follows the joint's position.",
     "Turn the joint slowly either way with the cables unplugged and plugged.",
     "Add the curve to the model, or lay the cables otherwise.",
+    clause=clauses.at_place("cables or hoses pull at {}"),
 )
 LINK_MASS = Cause(
     "link_mass",
@@ -126,6 +155,9 @@ LINK_MASS = Cause(
     "A link is heavier or lighter than stated, with its centre of mass where it is stated.",
     "Weigh the link, or hold the arm still with it level.",
     "Correct the link's mass and inertia.",
+    in_bodies=True,
+    clause=clauses.than_stated("{} is", "heavier", "lighter"),
+    remedy=remedies.add_to_stated,
 )
 LINK_CENTRE = Cause(
     "link_first_moment",
@@ -133,6 +165,8 @@ LINK_CENTRE = Cause(
     "A link's centre of mass lies elsewhere than stated.",
     "Hold the arm still in many poses.",
     "Correct the link's centre of mass.",
+    in_bodies=True,
+    clause=clauses.moment_clause,
 )
 LINK_INERTIA = Cause(
     "link_inertia",
@@ -140,6 +174,8 @@ LINK_INERTIA = Cause(
     "A link's inertia differs from the stated one.",
     "Repeat one motion at several accelerations.",
     "Correct the link's inertia.",
+    in_bodies=True,
+    clause=clauses.at_place("the inertia of {} is not as stated"),
 )
 PAYLOAD = Cause(
     "payload_error",
@@ -147,6 +183,9 @@ PAYLOAD = Cause(
     "The arm carries more or less at its last link than stated, or carries it elsewhere.",
     "Weigh what is mounted on the flange; run the same motion with nothing mounted.",
     "State the mass and centre of mass of what is mounted.",
+    in_bodies=True,
+    clause=clauses.payload_clause,
+    remedy=remedies.as_stated_and,
 )
 BODY = Cause(
     "attached_body",
@@ -154,6 +193,8 @@ BODY = Cause(
     "A body of the model is not on the arm, or is there more than once.",
     "Look whether it is mounted.",
     "Take the body out of the model, or mount it.",
+    in_bodies=True,
+    clause=clauses.body_clause,
 )
 GRAVITY = Cause(
     "gravity_direction",
@@ -161,8 +202,10 @@ GRAVITY = Cause(
     "Gravity pulls in another direction than stated: the base is tilted.",
     "Put a level on the base.",
     "Correct `gravity_m_s2`.",
+    clause=clauses.tilt_clause,
+    remedy=remedies.gravity_vector,
 )
-WAY, PLAY, SCALE = "way since the last reversal", "torque since its last reversal", "torque"
+WAY, PLAY, SCALE = "way since the last reversal", "torque since its last reversal", clauses.SCALE
 """What laws follow that no cause has: hysteresis of friction, play between motor and sensor, a sensor that bends."""
 CURVE = Cause(
     "unknown",
@@ -170,6 +213,7 @@ CURVE = Cause(
     "Torque follows something in a way that no cause of the library has.",
     "Look at its curve, and repeat the motion with only that joint moving.",
     "Use the curve in the prediction.",
+    clause=clauses.nameless_clause,
 )
 BACKGROUND = (OFFSET, COULOMB, VISCOUS, ROTOR)
 """What every joint has, one column each: free where robot.yaml does not state it; an offset is always a cause."""
@@ -179,3 +223,8 @@ CAUSES = (
     DELAY, BALANCER, RIPPLE, CABLE, LINK_MASS, LINK_CENTRE, LINK_INERTIA, PAYLOAD, BODY,
     GRAVITY, CURVE,
 )  # fmt: skip
+
+
+def cause_named(name: str) -> Cause | None:
+    """A cause by its name; None where the library has none of that name."""
+    return next((cause for cause in CAUSES if cause.name == name), None)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,11 @@ from armscope.core.types import Array
 from armscope.motion.preparation import Signals
 from armscope.motion.sampling_constants import FILTER
 from armscope.robot.dynamics import MovingArm
+from armscope.verdict.effects import UNKNOWN
+
+if TYPE_CHECKING:
+    from armscope.motion.clauses import Clause
+    from armscope.motion.remedies import Remedy
 
 
 @dataclass(frozen=True)
@@ -26,6 +32,9 @@ class Cause:
         name, family: as the verdict has them.
         physics, confirm, cure: one sentence each.
         nonnegative: its one parameter can't be negative.
+        in_bodies: masses, dry and viscous friction and armature of a simulator's joint can say it.
+        clause: what a headline says of it; its title and size where not given.
+        remedy: its cure with the numbers found; the cure as it stands where not given.
     """
 
     name: str
@@ -34,6 +43,14 @@ class Cause:
     confirm: str
     cure: str
     nonnegative: bool = False
+    in_bodies: bool = False
+    clause: Clause | None = field(default=None, repr=False, compare=False)
+    remedy: Remedy | None = field(default=None, repr=False, compare=False)
+
+    @property
+    def nameless(self) -> bool:
+        """Whether no known law explains it: it is known by what it follows alone."""
+        return self.family == UNKNOWN
 
 
 @dataclass(frozen=True, eq=False)

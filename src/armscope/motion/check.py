@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from armscope.core.inputs import InputError
 from armscope.motion.constants import CHECK, LIBRARY
-from armscope.motion.rows import MotionRows
 from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.schema import Notice
+
+if TYPE_CHECKING:
+    from armscope.motion.rows import MotionRows
 
 
 def check_motions(arm: MovingArm, motions: Motions) -> list[Notice]:

@@ -13,7 +13,7 @@ from armscope.motion import catalogue
 from armscope.motion.causes import PlacedCause
 from armscope.motion.constants import PRIOR
 from armscope.motion.selection import SelectedCauses
-from armscope.verdict.schema import Alternative
+from armscope.verdict.effects import Alternative
 
 EVERY_JOINT = "every joint"
 

@@ -238,10 +238,7 @@ class MotionTelling(Constants):
         "judgement: models are a little wrong, and among thousands of nats that costs tens",
     )
     listed: int = constant(4, "rivals of a cause", "judgement: nobody reads more", unit="causes")
-    doubtful: float = constant(
-        0.3, "of a size, from which half of its 95 % interval stands in the headline, too", "judgement: a third is much"
-    )
-    in_headline: int = constant(4, "causes", "judgement: a sentence holds no more", unit="causes")
+    in_headline: int = constant(3, "causes", "judgement: a sentence holds no more", unit="causes")
 
 
 @dataclass(frozen=True)

@@ -18,21 +18,33 @@ from armscope.core.types import Array
 from armscope.motion.constants import EXPORT
 from armscope.motion.layout import OWN
 from armscope.motion.model import MotionModel
+from armscope.motion.model_file import save_motion_model
+from armscope.motion.pipeline import MotionDiagnosis
 from armscope.motion.selection import SelectedCauses
+from armscope.motion.verdict import write_motion_verdict
 from armscope.robot.dynamics import PARAMETERS, UNITS, MovingArm
 from armscope.robot.model import TIP
 from armscope.robot.urdf_file import root_of
 
 URDF, MUJOCO, TABLE = "corrected.urdf", "mujoco.xml", "parameters.csv"
 FILES = (URDF, MUJOCO, TABLE)
-HELD = ("coulomb_friction", "viscous_friction", "rotor_inertia", "link_mass", "link_first_moment", "link_inertia",
-        "payload_error", "attached_body")  # fmt: skip
-"""Causes that masses, friction and armature of a joint can say."""
 
 WRITTEN = (
     "armscope: inertias, damping and friction as fitted, a tool load in the last link; rotors' inertia stands in "
     "mujoco.xml (armature)"
 )
+
+
+def write_motion(found: MotionDiagnosis, folder: Path | str) -> None:
+    """Write all of a diagnosis of a motion but its page: verdict.json, model.yaml, and what `export_motion` writes.
+
+    Args:
+        found: the diagnosis.
+        folder: where to.
+    """
+    write_motion_verdict(found.verdict, folder)
+    save_motion_model(Path(folder) / "model.yaml", found.model)
+    export_motion(found.model, found.selected, found.sure.factor, folder)
 
 
 def export_motion(model: MotionModel, selected: SelectedCauses, factor: Array, folder: Path | str) -> None:
@@ -86,7 +98,7 @@ def joint_numbers(model: MotionModel) -> tuple[Array, list[str]]:
 
 def not_in_a_file(model: MotionModel) -> list[str]:
     """Causes and numbers of the model for which a URDF has no place."""
-    causes = [str(each.placed) for each in model.causes if each.placed.cause.name not in HELD or each.placed.runs]
+    causes = [str(each.placed) for each in model.causes if not each.placed.cause.in_bodies or each.placed.runs]
     gains = [f"gain of joint {j + 1} {gain:+.3g}" for j, gain in enumerate(model.gains) if gain]
     return [*causes, *gains]
 
@@ -157,7 +169,7 @@ def parameter_table(model: MotionModel, selected: SelectedCauses, factor: Array)
     errors = [np.sqrt(np.maximum(np.einsum("ip,pq,iq->i", each[:, columns], covariance, each[:, columns]), 0.0))
               for each in (of_links, of_joints)]  # fmt: skip
     fitted = model.followed().inertial
-    rows = [
+    rows: list[tuple[str, str, str, float, float, float]] = [
         (f"link {n // 10 + 1}", PARAMETERS[n % 10], UNITS[n % 10], arm.inertial[n], fitted[n], errors[0][n])
         for n in range(len(fitted))
     ]
@@ -209,7 +221,7 @@ def _kept(source: Path, arm: MovingArm, folder: Path) -> ET.Element:
         if "://" not in name and not Path(name).is_absolute():  # beside the nominal file: seen from the new one
             mesh.set("filename", Path(os.path.relpath(source.parent / name, folder.resolve())).as_posix())
     moving = set(arm.joint_names)
-    children = {joint.find("child").get("link"): joint for joint in robot.findall("joint")}  # type: ignore[union-attr]
+    children = {child.get("link"): joint for joint in robot.findall("joint") for child in joint.findall("child")}
     for link in robot.findall("link"):
         joint = children.get(link.get("name"))
         if joint is not None and joint.get("name") not in moving and _hangs_on(joint, children, moving):

@@ -23,7 +23,8 @@ from armscope.motion import catalogue
 from armscope.motion.constants import INTERVALS, PRIOR, TELLING
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.selection import SelectedCauses
-from armscope.verdict.schema import INTERVAL, Notice
+from armscope.verdict.effects import INTERVAL
+from armscope.verdict.schema import Notice
 
 Rivals = Mapping[int, Sequence[Hypothesis]]
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from armscope.core.numerals import rounded
 from armscope.core.types import Array
 from armscope.inference.model_space import Candidate
 from armscope.inference.shapley import shares
@@ -17,7 +18,10 @@ from armscope.motion.intervals import Sureness, covariance_of
 from armscope.motion.layout import OWN
 from armscope.motion.selection import SelectedCauses
 from armscope.motion.verdict import FoundCause, JointBackground, UnexplainedTorque
-from armscope.verdict.schema import Alternative, Answer, Parameter
+from armscope.motion.words import clause, cure
+from armscope.verdict.effects import UNKNOWN, Alternative, Parameter
+from armscope.verdict.schema import Answer
+from armscope.verdict.wording import capitalised, percent, spelled
 
 
 def found_causes(selected: SelectedCauses, sure: Sureness) -> list[tuple[int, FoundCause]]:
@@ -43,6 +47,7 @@ def _found(
     rms = np.sqrt(np.mean(selected.rows.modelled(coefficients) ** 2, axis=0))
     relative = rms / selected.weights.sigma
     joint = int(np.argmax(relative))
+    parameters = cause_parameters(selected, number, sure.factor)
     return FoundCause(
         effect=placed.cause.name,
         location=placed.location,
@@ -50,7 +55,7 @@ def _found(
         driver=placed.driver,
         title=title(placed),
         minor=share < TELLING.minor_share,
-        parameters=cause_parameters(selected, number, sure.factor),
+        parameters=parameters,
         rms=float(rms[joint]),
         unit="N" if layout.arm.sliding[joint] else "N m",
         joint=f"joint {joint + 1}",
@@ -61,14 +66,14 @@ def _found(
         consistent=agreed.consistent,
         physics=placed.cause.physics,
         confirm=placed.cause.confirm,
-        cure=placed.cause.cure,
+        cure=cure(placed, parameters, layout.arm),
     )
 
 
 def title(placed: PlacedCause) -> str:
     """The name in words."""
     where = f" in run {placed.runs[0]}" if placed.runs else ""
-    if placed.cause.name == "unknown":
+    if placed.cause.nameless:
         return f"an unknown torque at {placed.location} that follows the {placed.driver}"
     name = placed.cause.name.replace("_", " ")
     place = "" if placed.location == "payload" else f" at {placed.location}"
@@ -160,46 +165,63 @@ def joint_backgrounds(selected: SelectedCauses, sure: Sureness) -> tuple[JointBa
 
 def unexplained(found: Sequence[FoundCause]) -> UnexplainedTorque:
     """The largest free curve, if one is not minor."""
-    curves = [cause for cause in found if cause.effect == "unknown" and not cause.minor]
+    curves = [cause for cause in found if cause.nameless and not cause.minor]
     if not curves:
         return UnexplainedTorque(False)
     return UnexplainedTorque(True, curves[0].location, curves[0].driver, curves[0].title)
 
 
-def answer_of(found: Sequence[FoundCause], left: UnexplainedTorque) -> tuple[Answer, bool]:
-    """The answer in two words, and whether there is a mismatch."""
+def answer_of(
+    found: Sequence[FoundCause], left: UnexplainedTorque, held_out: tuple[float, float] = (np.inf, 0.0)
+) -> tuple[Answer, bool]:
+    """The answer in two words, and whether there is a mismatch.
+
+    Args:
+        found: the causes.
+        left: what has none.
+        held_out: error on motion that took no part, with friction and rotors alone and with the causes.
+
+    Returns:
+        Both; names that make motion that took no part worse are no answer.
+    """
     if not found:
         return "nothing missing", False
-    named = [cause for cause in found if cause.effect != "unknown" and not cause.minor]
+    if held_out[1] >= held_out[0]:
+        return "cannot tell", True
+    named = [cause for cause in found if not cause.nameless and not cause.minor]
     if left.present:
         return ("partly explained" if named else "cannot tell"), True
     return "explained", True
 
 
 def headline(found: Sequence[FoundCause], held_out: tuple[float, float]) -> str:
-    """The answer in one sentence."""
-    before, after = (f"{100 * error:.2g} %" for error in held_out)
-    better = f"on held-out motion the torque is met to {after} instead of {before}"
+    """The largest causes with what each has of the torque that friction and rotors leave, the others by family."""
+    before, after = (f"{rounded(100 * error)} %" for error in held_out)
+    better = f"{ON_HELD_OUT} the torque is met to {after} instead of {before}."
     main = [cause for cause in found if not cause.minor]
     if not found:
-        return f"Nothing is missing beyond friction and rotors of the joints: {better}."
-    told = "; ".join(f"{cause.title} ({_first(cause)})" for cause in (main or found)[: TELLING.in_headline])
-    return f"{told[:1].upper()}{told[1:]}{_further(main[TELLING.in_headline :])}; {better}."
+        return f"Nothing is missing beyond friction and rotors of the joints. {better}"
+    told, rest = (main or found)[: TELLING.in_headline], main[TELLING.in_headline :]
+    of_what = (" of what friction and rotors leave", *[""] * len(told))
+    if held_out[1] >= held_out[0]:
+        worse = f"torque on motion that took no part is met to {after} with all that was found, to {before} without"
+        return f"Cannot tell what is missing: {worse}. The reading that fits best: {clause(told[0])}."
+    causes = "; ".join(f"{clause(c)} – {percent(c.share)}{of_what[n]}" for n, c in enumerate(told))
+    return f"{capitalised(causes)}. {_further(rest)}{better}"
+
+
+ON_HELD_OUT = "On held-out motion"
+"""How the sentence of a headline begins that says how well torque is met."""
 
 
 def _further(causes: Sequence[FoundCause]) -> str:
     """What a headline doesn't name, by family: where there is more of it."""
+    if not causes:
+        return ""
     places: dict[str, list[str]] = {}
     for cause in causes:
         places.setdefault(cause.family, []).append(cause.location)
-    told = [f"{family} ({', '.join(dict.fromkeys(where))})" for family, where in places.items()]
-    return f"; besides, {', '.join(told)}" if told else ""
-
-
-def _first(cause: FoundCause) -> str:
-    if cause.effect == "unknown" or cause.effect == "cable_torque":
-        return f"{cause.rms:.2g} {cause.unit} RMS"
-    parameter = cause.parameters[0]
-    half = parameter.interval[1] - parameter.value
-    reach = f" ± {half:.2g}" if half > TELLING.doubtful * abs(parameter.value) else ""
-    return f"{parameter.name.replace('_', ' ')} {parameter.value:+.3g}{reach} {parameter.unit}".strip()
+    kinds = {UNKNOWN: "torque without a known law"}
+    told = [f"{kinds.get(family, family)} ({', '.join(dict.fromkeys(where))})" for family, where in places.items()]
+    count = f"{spelled(len(causes))} more cause{'s' if len(causes) > 1 else ''}"
+    return f"{capitalised(count)}: {', '.join(told)} – {percent(sum(c.share for c in causes))}. "

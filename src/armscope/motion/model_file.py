@@ -18,7 +18,7 @@ from armscope.motion.model import FittedCause, MotionModel
 from armscope.motion.model_check import CauseReader
 from armscope.motion.preparation import Preparation
 from armscope.robot.description import RobotDescription
-from armscope.robot.dynamics import PARAMETERS, build_moving_arm
+from armscope.robot.dynamics import PARAMETERS, InertialName, build_moving_arm
 
 Format = Literal["armscope motion model 1"]
 FORMAT: Format = "armscope motion model 1"
@@ -93,7 +93,7 @@ class InertialFile(Strict):
 
     parameter: JointNumber
     link: JointNumber
-    what: Literal[PARAMETERS]  # type: ignore[valid-type]
+    what: InertialName
     per_unit: Number
 
 

@@ -191,11 +191,12 @@ def _judged(
     found = [cause for _, cause in numbered]
     steps = waterfall(selected, parts, [number for number, _ in numbered], [cause.title for cause in found])
     left = unexplained(found)
-    answer, mismatch = answer_of(found, left)
+    errors = (held_out.background, held_out.model)
+    answer, mismatch = answer_of(found, left, errors)
     sizes = {family.name: share for family, share in zip(selected.space.families, _sizes(selected), strict=True)}
     verdict = MotionVerdict(
         answer=answer,
-        headline=headline(found, (held_out.background, held_out.model)),
+        headline=headline(found, errors),
         mismatch=mismatch,
         effects=tuple(found),
         unexplained=left,

@@ -34,12 +34,27 @@ def predict_motions(model: Path, motions: Path) -> tuple[pd.DataFrame, list[str]
         InputError: a file that can't be used, or a temperature that the model follows and the table lacks.
     """
     fitted = load_motion_model(model)
-    rows = read_motions(motions, fitted.arm.n_motors, measured=False)
+    return torque_table(fitted, read_motions(motions, fitted.arm.n_motors, measured=False))
+
+
+def torque_table(fitted: MotionModel, rows: Motions) -> tuple[pd.DataFrame, list[str]]:
+    """The torques that a model says, as `armscope predict` writes them; and notes.
+
+    Args:
+        fitted: the model.
+        rows: of a motion; its torques are not looked at.
+
+    Returns:
+        As `predict_motions`.
+
+    Raises:
+        InputError: as `predict_motions`.
+    """
     refuse_other_joints(fitted.arm, rows)
     follows = {getattr(cause.placed.columns, "kind", "") for cause in fitted.causes}
     if rows.temperature is None and follows & set(WARM):
         rule = "a cause in the model follows it, so it must be known in every row"
-        raise InputError(motions, "line 1", "no column temperature_c", rule, "Add it to the table.")
+        raise InputError(rows.source, "line 1", "no column temperature_c", rule, "Add it to the table.")
     torque, notes = torque_of_rows(fitted, rows)
     table = (
         pd.DataFrame({"run": rows.run, "time_s": rows.time}) if rows.run.any() else pd.DataFrame({"time_s": rows.time})

@@ -14,7 +14,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import make_interp_spline
-from scipy.signal import butter, sosfiltfilt
 
 from armscope.core.types import Array, Indices
 from armscope.motion.sampling_constants import FILTER
@@ -53,6 +52,8 @@ class Preparation:
     def smoothed(self, positions: Array) -> Array:
         """(N, m) positions through a zero-phase low-pass at their own cut-off."""
         sections = _sections(self.position_cutoff, self.rate)
+        from scipy.signal import sosfiltfilt  # takes long to import: a table that is refused needs none
+
         return np.asarray(sosfiltfilt(sections, positions, axis=0, padlen=min(15 * self.every, len(positions) - 1)))
 
     def low_passed(self, values: Array, kept: Indices, stride: int = 1) -> Array:
@@ -91,6 +92,8 @@ class Preparation:
 
 @functools.lru_cache(maxsize=8)
 def _sections(cutoff: float, rate: float) -> Array:
+    from scipy.signal import butter
+
     return np.asarray(butter(FILTER.order, min(cutoff, 0.49 * rate), fs=rate, output="sos"))
 
 
@@ -100,6 +103,8 @@ def _weights(cutoff: float, rate: float, every: int, stride: int) -> tuple[Array
     reach = int(np.ceil(FILTER.reach * rate / cutoff))
     impulse = np.zeros(6 * reach + 1)
     impulse[3 * reach] = 1.0
+    from scipy.signal import sosfiltfilt
+
     response = sosfiltfilt(_sections(cutoff, rate), impulse, padlen=0)[2 * reach : 4 * reach + 1]
     response = response[reach % stride :: stride]
     response /= response.sum()

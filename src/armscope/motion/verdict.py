@@ -15,7 +15,8 @@ import numpy as np
 from armscope.core.files import read_json, write_json
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
-from armscope.verdict.schema import Alternative, Answer, Notice, Parameter
+from armscope.verdict.effects import UNKNOWN, Alternative, Parameter
+from armscope.verdict.schema import Answer, Notice
 
 FORMAT = "armscope motion verdict 1"
 
@@ -56,6 +57,11 @@ class FoundCause:
     physics: str = ""
     confirm: str = ""
     cure: str = ""
+
+    @property
+    def nameless(self) -> bool:
+        """Whether no known law explains it: it is known by what it follows alone."""
+        return self.family == UNKNOWN
 
 
 @dataclass(frozen=True)

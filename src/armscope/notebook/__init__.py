@@ -11,11 +11,13 @@ from armscope.notebook.commands import (
     read_recordings,
     read_robot,
 )
+from armscope.notebook.motion import MotionDiagnosed
 from armscope.notebook.result import Diagnosed
 from armscope.verdict.files import read_verdict
 
 __all__ = [
     "Diagnosed",
+    "MotionDiagnosed",
     "calibrate",
     "check",
     "choose_poses",

@@ -13,6 +13,7 @@ from armscope.calibration import Calibration
 from armscope.calibration import calibrate as calibrate_arm
 from armscope.check import CheckReport
 from armscope.check import check as check_table
+from armscope.check.motions import MotionCheck
 from armscope.check.preconditions import check_table as usable_rows
 from armscope.comparison import Comparison
 from armscope.comparison import compare as compare_recordings
@@ -28,6 +29,8 @@ from armscope.compensation.task import Options
 from armscope.core.inputs import InputError
 from armscope.diagnosis import Settings
 from armscope.diagnosis import diagnose as diagnose_arm
+from armscope.motion.predicting import predict_motions
+from armscope.notebook.motion import MotionDiagnosed, check_motions, diagnose_moving, of_motion
 from armscope.notebook.result import Diagnosed
 from armscope.physics.model import FittedModel
 from armscope.physics.model import predict as predicted_points
@@ -35,11 +38,13 @@ from armscope.physics.model_file import load_model
 from armscope.poses.choose import Choice, choose
 from armscope.recordings import Recordings, as_recordings
 from armscope.recordings import read_recordings as read_table
+from armscope.recordings.first_lines import is_motion_table
+from armscope.recordings.motions import Motions
 from armscope.robot import Arm, load_arm
 
 Robot = Arm | Path | str
-Table = Recordings | pd.DataFrame | Path | str
-Model = Diagnosed | FittedModel | Path | str
+Table = Recordings | Motions | pd.DataFrame | Path | str
+Model = Diagnosed | MotionDiagnosed | FittedModel | Path | str
 
 
 def read_robot(robot: Robot) -> Arm:
@@ -84,24 +89,29 @@ def read_recordings(recordings: Table, robot: Robot | None = None, measured: boo
     return read_table(recordings, n_motors, measured)
 
 
-def check(recordings: Table, robot: Robot | None = None) -> CheckReport:
-    """What a table holds and what looks wrong in it: `armscope check`.
+def check(recordings: Table, robot: Robot | None = None) -> CheckReport | MotionCheck:
+    """What a table, of points or of motions, holds and what looks wrong in it: `armscope check`.
 
     Raises:
         InputError: a file can't be used.
     """
+    if of_motion(recordings):
+        return check_motions(recordings, None if robot is None else _described(robot))
     arm = None if robot is None else read_robot(robot)
     return check_table(read_recordings(recordings), arm)
 
 
-def diagnose(recordings: Table, robot: Robot, settings: Settings | None = None, **options: Any) -> Diagnosed:
+def diagnose(
+    recordings: Table, robot: Robot, settings: Settings | None = None, **options: Any
+) -> Diagnosed | MotionDiagnosed:
     """Where simulation and recordings differ, and which physics was left out: `armscope diagnose`.
 
     Args:
-        recordings: the table.
+        recordings: the table, of points or of motions.
         robot: the nominal arm.
         settings: all settings at once, or
-        options: some of them by name, see `armscope.diagnosis.Settings` (``seed=1, resamples=0``).
+        options: some of them by name, see `armscope.diagnosis.Settings` (``seed=1, resamples=0``); of a table of
+            motions `armscope.motion.pipeline.MotionSettings` (``cutoff=8.0``).
 
     Returns:
         The verdict.
@@ -111,6 +121,9 @@ def diagnose(recordings: Table, robot: Robot, settings: Settings | None = None, 
     """
     if settings is not None and options:
         raise InputError("diagnose", "", sorted(options)[0], "settings, or single options: one of the two")
+    if of_motion(recordings):
+        with threadpool_limits(1):
+            return diagnose_moving(recordings, _described(robot), **options)
     known = set(Settings.__dataclass_fields__)
     if wrong := sorted(set(options) - known):
         raise InputError("diagnose", "", wrong[0], f"one of {', '.join(sorted(known))}")
@@ -147,16 +160,20 @@ def predict(model: Model, poses: Table, pose: bool = False) -> pd.DataFrame:
         pose: whether orientations come, too (of paths only).
 
     Returns:
-        id, run, x_mm, y_mm, z_mm.
+        id, run, x_mm, y_mm, z_mm; of a motion tau1_nm ....
 
     Raises:
         InputError: something that can't be used.
     """
+    if isinstance(model, MotionDiagnosed):
+        if isinstance(poses, Recordings):
+            raise InputError("poses", "", "recorded points", "this model predicts torques of a table of motions")
+        return model.predict(poses)
     if isinstance(model, str | Path) and isinstance(poses, str | Path):
+        if is_motion_table(poses):
+            return predict_motions(Path(model), Path(poses))[0]
         return predict_file(Path(model), Path(poses), pose)[0]
-    fitted = (
-        model.model if isinstance(model, Diagnosed) else load_model(model) if isinstance(model, str | Path) else model
-    )
+    fitted = _fitted(model)
     rows = read_recordings(poses, fitted.arm, measured=False)
     return points_table(predicted_points(fitted, rows), None, rows)
 
@@ -182,9 +199,7 @@ def compensate(
     if isinstance(model, str | Path) and str(model).endswith(".json"):
         error_model: ErrorModel = load_error_model(model)
         return compensate_black_box(error_model, _wanted(path, error_model.arm), chosen)
-    fitted = (
-        model.model if isinstance(model, Diagnosed) else load_model(model) if isinstance(model, str | Path) else model
-    )
+    fitted = _fitted(model)
     if recordings is not None:
         identified = identified_on(fitted.arm, usable_rows(fitted.arm, read_recordings(recordings)).recordings)
     elif isinstance(model, Diagnosed):
@@ -221,6 +236,13 @@ def compare(*recordings: Table, robot: Robot, names: Sequence[str] = (), of_arms
     tables = [read_recordings(each, arm) for each in recordings]
     with threadpool_limits(1):
         return compare_recordings(arm, dict(zip(named, tables, strict=True)), of_arms)
+
+
+def _described(robot: Robot) -> Path | str:
+    """The file of a robot: inverse dynamics needs what an `Arm` does not hold."""
+    if not isinstance(robot, str | Path):
+        raise InputError("robot", "", type(robot).__name__, "the path of robot.yaml, for a table of motions")
+    return robot
 
 
 def _fitted(model: Model) -> FittedModel:

@@ -10,16 +10,16 @@ import pandas as pd
 
 from armscope.compensation.physical import FILE, identified_on, save_identified
 from armscope.compensation.predicting import points_table
-from armscope.core.inputs import InputError, nearest
 from armscope.core.outputs import Delivery
 from armscope.physics.model import predict
 from armscope.recordings import Recordings, as_recordings, read_recordings
 from armscope.report.pages.diagnosis import write_report
+from armscope.report.sectioning import figure_named
 from armscope.report.sections.registry import SECTIONS
 from armscope.report.subject import Subject
 from armscope.report.svg import Drawing
+from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.files import write_verdict
-from armscope.verdict.schema import Diagnosis
 from armscope.verdict.wording import millimetres, percent
 
 
@@ -85,14 +85,7 @@ class Diagnosed(Diagnosis):
         Raises:
             InputError: this diagnosis has no figure of that name.
         """
-        subject, names = Subject(self), []
-        for section in (section for section in SECTIONS if section.applies(self)):
-            for figure in section.figures:
-                for drawn in figure(subject):
-                    if drawn.name == name:
-                        return drawn.figure
-                    names.append(drawn.name)
-        raise InputError("plot", "", name, f"one of {', '.join(names)}", nearest(name, names))
+        return figure_named(SECTIONS, Subject(self), name)
 
     def predict(self, poses: Recordings | pd.DataFrame | Path | str) -> pd.DataFrame:
         """Where the tool point will be at other poses, mm, in the measurement frame.

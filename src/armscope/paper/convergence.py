@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -11,7 +12,7 @@ import pandas as pd
 from armscope.errormodels import FitProblem, SwarmFit, fit_random_search, fit_swarms
 from armscope.swarm import SwarmSettings
 
-RULES: dict[str, dict[str, object]] = {
+RULES: dict[str, dict[str, Any]] = {
     "constriction": {"update": "constriction", "neighbourhood": "gbest", "velocity_clamp": None},
     "inertia": {"update": "inertia", "neighbourhood": "gbest", "velocity_clamp": None},
     "constriction, ring": {"update": "constriction", "neighbourhood": "ring", "velocity_clamp": None},
@@ -43,7 +44,7 @@ def convergence(
     """
     tables = []
     for rule, choice in RULES.items():
-        chosen = replace(settings, threshold=None, **choice)  # type: ignore[arg-type]
+        chosen = replace(settings, threshold=None, **choice)
         tables += [_history(rule, fit) for fit in fit_swarms(problems, seeds, chosen, basis, engine)]
     baseline = fit_random_search(problems, seeds, replace(settings, threshold=None), basis)
     return pd.concat([*tables, *(_history(RANDOM_SEARCH, fit) for fit in baseline)], ignore_index=True)

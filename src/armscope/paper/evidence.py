@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 import pandas as pd
 
@@ -37,7 +38,8 @@ def gather(
     for method, fits in ((AS_PRINTED, as_printed), (IMPROVED, improved)):
         progress(f"random search beside the method {method}")
         found[method] = Evidence.of(measurements, fits, random_search_beside(measurements, fits))
-    found[IMPROVED] = replace(found[IMPROVED], **tables)  # type: ignore[arg-type]
+    of_the_method: dict[str, Any] = dict(tables)
+    found[IMPROVED] = replace(found[IMPROVED], **of_the_method)
     return found
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import pandas as pd
 
@@ -134,12 +135,12 @@ def _sizes(factor: float) -> Change:
     return change
 
 
-def _poses(**values: float) -> Change:
-    return lambda plan: replace(plan, poses=replace(plan.poses, **values))  # type: ignore[arg-type]
+def _poses(**values: Any) -> Change:
+    return lambda plan: replace(plan, poses=replace(plan.poses, **values))
 
 
-def _paths(**values: object) -> Change:
-    return lambda plan: replace(plan, paths=replace(plan.paths, **values))  # type: ignore[arg-type]
+def _paths(**values: Any) -> Change:
+    return lambda plan: replace(plan, paths=replace(plan.paths, **values))
 
 
 def _repeat(size_m: float) -> Change:

@@ -8,7 +8,7 @@ base that moved) is cured in the model: the inverse kinematics of the corrected 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from armscope.core.location import Location
@@ -35,6 +35,9 @@ class Cure:
 
     Attributes:
         words: for the card; names the formula with its sign.
+        change: what is changed, in two words, for a work order.
+        instruction: how, as a work order says it: a template over {location} and what is known of the effect
+            (`armscope.verdict.work_order`).
         commanded: (scene at the wanted angles, fitted part) -> (N, m) angles to command, rad.
         statement: (scene, part) -> the scene with what was stated wrongly put right.
         readings: ((N, 3) readings in base axes, part) -> corrected readings.
@@ -43,11 +46,22 @@ class Cure:
     """
 
     words: str
+    change: str = field(default="", kw_only=True)
+    instruction: str = field(default="", kw_only=True)
     commanded: Callable[[Scene, Part], Array] | None = None
     statement: Callable[[Scene, Part], Scene] | None = None
     readings: Callable[[Array, Part], Array] | None = None
 
 
-def command(words: str) -> Cure:
-    """A cure by other commands: the motors' angles less what the effect adds to them."""
-    return Cure(words, commanded=from_commands)
+def command(words: str, change: str = "", instruction: str = "") -> Cure:
+    """A cure by other commands: the motors' angles less what the effect adds to them.
+
+    Args:
+        words: as in `Cure`.
+        change: as in `Cure`.
+        instruction: as in `Cure`.
+
+    Returns:
+        The cure.
+    """
+    return Cure(words, commanded=from_commands, change=change, instruction=instruction)

@@ -128,7 +128,9 @@ BASE_DRIFT = Effect(
     "Measure fixed reference points on the base at the start and the end.",
     Cure(
         "Let the set-up settle and warm up; measure references in between and correct. Until then the base frame is, "
-        "at each time, stated frame + drift x time: command what the corrected model's inverse kinematics asks for."
+        "at each time, stated frame + drift x time: command what the corrected model's inverse kinematics asks for.",
+        change="set-up",
+        instruction="Fix base and instrument, and measure again.",
     ),
     clauses=(_drifts, "the base drifts"),
     atlas="time",
@@ -238,9 +240,13 @@ BASE_SHIFT = Effect(
     "Look into the log for what happened at that time; measure reference points on the base.",
     Cure(
         "Fasten the base and the instrument and register again; or move the base frame by the jump for all that "
-        "comes after it (base = stated base + jump) and command what the corrected model's inverse kinematics asks for."
+        "comes after it (base = stated base + jump) and command what the corrected model's inverse kinematics asks "
+        "for.",
+        change="set-up",
+        instruction="Fasten base and instrument, and register the base anew from the jump on{jump}.",
     ),
     clauses=(_jumped, "the {location} jumped"),
+    jumps=True,
     several=True,
 )
 
@@ -252,9 +258,12 @@ TOOL_SHIFT = Effect(
     "Look into the log for what happened at that time; measure the tool point again.",
     Cure(
         "Fasten the tool and calibrate the tool point again; or move the tool point by the jump for all that comes "
-        "after it (tool = stated tool + jump) and command what the corrected model's inverse kinematics asks for."
+        "after it (tool = stated tool + jump) and command what the corrected model's inverse kinematics asks for.",
+        change="fastening",
+        instruction="Fasten the tool, and measure its tool point anew from the jump on{jump}.",
     ),
     clauses=(_jumped, "the {location} jumped"),
+    jumps=True,
     several=True,
 )
 

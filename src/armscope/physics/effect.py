@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from armscope.core.types import Array
     from armscope.physics.clause import Clause, Told
     from armscope.physics.cure import Cure
-    from armscope.physics.drivers import DriverKind
     from armscope.physics.scene import Part, Scene
     from armscope.recordings import Recordings
     from armscope.robot import Arm
@@ -57,6 +56,25 @@ class Driver:
         value = self.arguments[place]
         assert isinstance(value, Real), self
         return float(value)
+
+
+@dataclass(frozen=True)
+class DriverKind:
+    """How a driver is evaluated, and all that anybody else asks about it.
+
+    Attributes:
+        values: (scene, *arguments of the driver) -> (N,) values, SI units (time in hours).
+        needs: the field of the recordings without which it can't be evaluated ("temperature"; "" for none).
+        follows: what it depends on: "load" (where the arm stands under gravity), "payload", "weight" (it is a load,
+            proportional to what hangs there), "torque" (recorded where it was), "run" (it describes a recording, not
+            the arm).
+        unit: of its values where an effect is drawn as a curve over it; "" where it is not.
+    """
+
+    values: Callable[..., Array]
+    needs: str = ""
+    follows: frozenset[str] = frozenset()
+    unit: str = ""
 
 
 ONE = Driver("one")
@@ -195,6 +213,8 @@ class Effect:
         drivers: kinds of drivers that it brings along, by name (`armscope.physics.drivers`).
         needs: context columns without which it can't be seen.
         requires: family without which it does nothing: a payload's error shows through what gives way.
+        departs: its values are departures from what is stated, which carry their sign.
+        jumps: it holds from a moment on, before which it is not there.
         nonnegative: its one value is not negative: what gives way does so along its load.
         several: whether several of it (mesh lines, jumps, curves of different drivers) may stand at one place.
         contained_in: free curves, by driver, that hold it as a special case at the same location.
@@ -213,6 +233,8 @@ class Effect:
     drivers: Mapping[str, DriverKind] = field(default_factory=dict, repr=False, compare=False)
     needs: tuple[str, ...] = ()
     requires: str = ""
+    departs: bool = False
+    jumps: bool = False
     nonnegative: bool = False
     several: bool = False
     contained_in: tuple[str, ...] = ()

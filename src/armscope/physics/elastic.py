@@ -139,7 +139,10 @@ JOINT_COMPLIANCE = Effect(
     "Hang a known weight on the tool in the same pose and measure how far this joint turns.",
     command(
         "Let the controller's elastic model hold against it, or command it away: "
-        "commanded = wanted - compliance x load (load: gravity's torque on this motor, positive along its pull)."
+        "commanded = wanted - compliance x load (load: gravity's torque on this motor, positive along its pull).",
+        change="elastic model",
+        instruction="Add to the command what gravity takes, so that {opposite}{size}; or let the controller's elastic "
+        "model do so.",
     ),
     clauses=("{location} gives way by {compliance} under gravity", "{location} gives way under gravity"),
     atlas="gravity load",
@@ -178,7 +181,9 @@ BEARING_COMPLIANCE = Effect(
     "Hang a known weight on the outstretched arm and measure the tilt on both sides of the bearing.",
     Cure(
         "Preload or replace the bearing. No motor turns across its axis: otherwise command what the inverse kinematics "
-        "of the corrected model asks for (axis tilted by + compliance x moment; `armscope compensate`)."
+        "of the corrected model asks for (axis tilted by + compliance x moment; `armscope compensate`).",
+        change="bearing",
+        instruction="Preload or replace the bearing of {location}.",
     ),
     clauses=(
         "the bearing of {location} tilts by {compliance} under gravity",
@@ -234,7 +239,9 @@ BASE_COMPLIANCE = Effect(
     "Put a reflector or an inclinometer on the base and swing the outstretched arm around.",
     Cure(
         "Stiffen the mounting. No motor turns the base: otherwise command what the inverse kinematics of the corrected "
-        "model asks for (base tilted by + compliance x moment; `armscope compensate`)."
+        "model asks for (base tilted by + compliance x moment; `armscope compensate`).",
+        change="mounting",
+        instruction="Tighten and stiffen the mounting of the base.",
     ),
     clauses=(
         "the base tilts by {compliance} under the arm's moment",
@@ -273,7 +280,9 @@ LINK_BENDING = Effect(
     "Put reflectors on both ends of the link and load the arm.",
     Cure(
         "Stiffen the link. No motor bends it back: otherwise command what the inverse kinematics of the corrected "
-        "model asks for (link's end moved by + flexibility x the beam's shape; `armscope compensate`)."
+        "model asks for (link's end moved by + flexibility x the beam's shape; `armscope compensate`).",
+        change="elastic model",
+        instruction="Put the bending of {location} into the model, or stiffen it.",
     ),
     clauses=("{location} bends under its load",),
     labels={"flexibility": "flexibility 1/(E·I)"},

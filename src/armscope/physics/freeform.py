@@ -224,7 +224,11 @@ UNKNOWN = Effect(
     _place,
     "Something here follows its driver in a way that none of the library's effects explains.",
     "Measure this joint alone in fine steps over the driver's range.",
-    command("Correct by the fitted curve until its cause is found: commanded = wanted - curve."),
+    command(
+        "Correct by the fitted curve until its cause is found: commanded = wanted - curve.",
+        change="correction table",
+        instruction="Find what it follows; until then store its curve as a correction table.",
+    ),
     clauses=(
         "{location} scatters by {scatter} for a reason that the table does not record",
         "something unexplained at {location} follows the {driver}, by up to {reaches}",

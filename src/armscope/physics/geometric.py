@@ -62,12 +62,15 @@ JOINT_OFFSET = Effect(
     "Bring the joint to its calibration mark or level its link with an inclinometer at zero and read the angle.",
     command(
         "Correct the encoder's zero (mastering) by the angle found, or command it away: commanded = wanted - offset. "
-        "In the controller's model: theta = stated theta + offset."
+        "In the controller's model: theta = stated theta + offset.",
+        change="mastering",
+        instruction="Set the zero of {location} anew: {zero}.",
     ),
     clauses=("the zero of {location} is off by {offset:+}",),
     labels={"offset": "zero is off by"},
     atlas="constant",
     contained_in=("angle", "load", "time", "temperature"),
+    departs=True,
 )
 
 
@@ -98,11 +101,14 @@ LINK_GEOMETRY = Effect(
     "Measure the two neighbouring joint axes with the tracker by turning one joint at a time (circle-point analysis).",
     Cure(
         "No command of one joint undoes it: put the corrected D-H row into the controller's model (a = stated a + a, "
-        "and so on for every number told), whose inverse kinematics then reaches the wanted point."
+        "and so on for every number told), whose inverse kinematics then reaches the wanted point.",
+        change="D-H row",
+        instruction="Enter the corrected row of {location} in the controller's model: {row}.",
     ),
     clauses=(_differs,),
     labels=_ROW,
     atlas="constant",
+    departs=True,
 )
 
 
@@ -169,7 +175,9 @@ AXIS_WOBBLE = Effect(
     "Turn the joint alone through a full turn with a dial gauge against a ground surface near its bearing.",
     Cure(
         "Replace or re-seat the bearing. No motor turns across its axis: until then command what the inverse "
-        "kinematics of the corrected model asks for (nominal axis + fitted tilt; `armscope compensate`)."
+        "kinematics of the corrected model asks for (nominal axis + fitted tilt; `armscope compensate`).",
+        change="bearing",
+        instruction="Re-seat or replace the bearing of {location}.",
     ),
     clauses=(swings("the axis of {location} tilts"),),
     atlas=waves_column,
@@ -245,11 +253,14 @@ PARALLELOGRAM_GEOMETRY = Effect(
     Cure(
         "Adjust the rod by minus its error, or put the true lengths into the controller's model (rod = stated rod + "
         "rod, rocker = stated rocker + rocker; errors without a unit are shares of the rocker's length), whose inverse "
-        "kinematics then reaches the wanted point."
+        "kinematics then reaches the wanted point.",
+        change="linkage",
+        instruction="Adjust the rod of the parallelogram by minus its error.",
     ),
     clauses=("the parallelogram's bars differ: rod by {rod:+} and rocker by {rocker:+}",),
     atlas="constant",
     exact=_closed_loop,
+    departs=True,
 )
 
 EFFECTS = [JOINT_OFFSET, LINK_GEOMETRY, AXIS_WOBBLE, PARALLELOGRAM_GEOMETRY]

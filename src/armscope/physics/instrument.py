@@ -31,6 +31,8 @@ INSTRUMENT_SCALE = Effect(
     Cure(
         "Correct the instrument's scale, not the arm: reading = measured / (1 + scale).",
         readings=lambda measured, part: measured / (1 + float(part.values[0])),
+        change="instrument",
+        instruction="Have the instrument's scale calibrated, and measure again.",
     ),
     clauses=(_measures,),
     labels={"scale": "lengths too long by"},

@@ -13,7 +13,7 @@ from armscope.core.inputs import InputError, nearest
 from armscope.physics import drivers
 from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term
 from armscope.physics.frames import BASE_FRAME, TOOL_FRAME
-from armscope.physics.geometric import BACKGROUND, is_parallelogram
+from armscope.physics.geometric import BACKGROUND, PARALLELOGRAM_GEOMETRY, is_parallelogram
 from armscope.physics.loads import STATED_MASSES
 from armscope.physics.registry import effects
 from armscope.physics.scene import Part
@@ -58,7 +58,7 @@ class Reader:
         if content.effect not in self._definitions:
             cure = nearest(content.effect, self._definitions)
             raise InputError(self.source, f"{place}.effect", content.effect, "no effect of that name", cure)
-        if content.effect == "parallelogram_geometry":
+        if content.effect == PARALLELOGRAM_GEOMETRY.name:
             self._check_linkage(content, place)
         terms = tuple(
             Term(

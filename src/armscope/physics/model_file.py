@@ -55,14 +55,25 @@ ProductFile = Annotated[
 
 
 class BaseFile(Strict):
-    """Measurement frame from base frame: measured = rotation @ tool + translation."""
+    """Measurement frame from base frame: measured = rotation @ tool + translation.
+
+    Attributes:
+        rotation: its rows.
+        translation_m: from the measurement frame's origin to the base, in its axes.
+    """
 
     rotation: Rotation
     translation_m: Vector
 
 
 class ScannedFile(Strict):
-    """A number that was found by trying values: waves per turn, the moment of a jump."""
+    """A number that was found by trying values: waves per turn, the moment of a jump.
+
+    Attributes:
+        name: as its effect calls it.
+        unit: of the value; empty for a pure number.
+        value: as found.
+    """
 
     name: Word
     unit: Word
@@ -70,7 +81,15 @@ class ScannedFile(Strict):
 
 
 class TermFile(Strict):
-    """A linear parameter: its value in SI units, SI units per file unit, and what one SI unit of it does."""
+    """A linear parameter.
+
+    Attributes:
+        name: as its effect calls it.
+        unit: in which a verdict tells it.
+        si: SI units per such unit.
+        value: as fitted, in SI units.
+        products: what one SI unit of it does, added up.
+    """
 
     name: Word
     unit: Word
@@ -80,7 +99,17 @@ class TermFile(Strict):
 
 
 class PartFile(Strict):
-    """An effect at its place."""
+    """An effect at its place.
+
+    Attributes:
+        effect: its name.
+        location: where it is.
+        driver: what it follows, in words.
+        scanned: its numbers that were found by trying values.
+        reading: how its values are told: as they are, (sine, cosine) pairs as a wave, or as a free curve.
+        variant: which of several forms of the effect at this place it is.
+        terms: its linear parameters.
+    """
 
     effect: Word
     location: Word
@@ -92,7 +121,13 @@ class PartFile(Strict):
 
 
 class ToolTurnFile(Strict):
-    """The arm's last frame from a measured tool frame; ``run`` null: in every run."""
+    """The arm's last frame from a measured tool frame.
+
+    Attributes:
+        target: whose orientation was measured.
+        run: in which it holds; null: in every run.
+        rotation: its rows.
+    """
 
     target: Name
     run: Name | None
@@ -100,7 +135,17 @@ class ToolTurnFile(Strict):
 
 
 class ModelFile(Strict):
-    """The content of model.yaml; the attributes of `armscope.physics.model.FittedModel`."""
+    """The content of model.yaml; the attributes of `armscope.physics.model.FittedModel`.
+
+    Attributes:
+        format: the file's kind and version.
+        robot: the nominal arm.
+        bases: the measurement frame by run.
+        tools: tool points by target, as offsets of the stated one.
+        tool_turns: how measured tool frames are turned, where orientations were measured.
+        effects: what was found.
+        background: small errors everywhere, which have no name.
+    """
 
     format: Format
     robot: RobotDescription

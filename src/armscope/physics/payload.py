@@ -15,9 +15,10 @@ from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import Cure
 from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term
 from armscope.physics.elastic import UNKNOWN_MASSES
+from armscope.physics.loaded_arm import Misstated
 from armscope.physics.loads import givings
 from armscope.physics.placing import varies
-from armscope.physics.scene import Misstated, Part, Scene
+from armscope.physics.scene import Part, Scene
 from armscope.recordings import Recordings
 
 LEAST_PAYLOAD_KG = 1e-6
@@ -104,6 +105,8 @@ PAYLOAD_ERROR = Effect(
         "Correct the payload's data in the controller: mass = stated mass + mass, centre = stated centre + com. What "
         "gives way is then commanded away with the right load.",
         statement=_restated,
+        change="payload data",
+        instruction="Weigh the load and correct mass and centre of mass in the controller.",
     ),
     clauses=(_not_as_stated,),
     atlas="gravity load",

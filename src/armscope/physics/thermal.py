@@ -49,7 +49,9 @@ THERMAL_EXPANSION = Effect(
     "Measure one pose cold and warm, with a thermometer on the link.",
     Cure(
         "Warm up before measuring, or correct the link's length in the controller's model: length = stated length x "
-        "(1 + coefficient x (temperature - 20 C)); its inverse kinematics then reaches the wanted point."
+        "(1 + coefficient x (temperature - 20 C)); its inverse kinematics then reaches the wanted point.",
+        change="temperature",
+        instruction="Warm the arm up before work, or scale {location} with its temperature.",
     ),
     clauses=("{location} grows by {coefficient} with temperature",),
     labels={"coefficient": "expansion coefficient"},

@@ -52,12 +52,15 @@ GEAR_RATIO = Effect(
     "Turn the joint alone by a large angle and back and measure the angle turned with the tracker.",
     command(
         "Correct the gear ratio (or the belt's or encoder's scale) in the controller, or command it away: "
-        "commanded = wanted - ratio x wanted."
+        "commanded = wanted - ratio x wanted.",
+        change="gear ratio",
+        instruction="Multiply the stated ratio (motor turns per joint turn) of {location} by {ratio}.",
     ),
     clauses=(_turns,),
     labels={"ratio": "turns further by"},
     atlas="own angle",
     contained_in=("angle",),
+    departs=True,
 )
 
 
@@ -89,7 +92,9 @@ GEAR_ECCENTRICITY = Effect(
     "Turn the joint alone in steps of 10 degrees over a full turn and look for one or two waves.",
     command(
         "Re-centre the encoder disc or gear, or store the wave as a correction table: "
-        "commanded = wanted - amplitude x cos(per_turn x wanted - phase)."
+        "commanded = wanted - amplitude x cos(per_turn x wanted - phase).",
+        change="encoder or gear",
+        instruction="Re-centre the encoder disc or gear of {location}, or command the wave away: {opposite}.",
     ),
     clauses=(swings("the angle of {location} swings"),),
     atlas=waves_column,
@@ -115,7 +120,9 @@ GEAR_MESH = Effect(
     "Turn the joint alone in steps much finer than the period found and look for the wave.",
     command(
         "Compare the period with the gear stages' tooth counts; replace the stage, or store the wave as a correction: "
-        "commanded = wanted - amplitude x cos(per_turn x wanted - phase)."
+        "commanded = wanted - amplitude x cos(per_turn x wanted - phase).",
+        change="gear stage",
+        instruction="Find the gear stage of {location} that has so many waves per turn, and replace it.",
     ),
     clauses=(swings("the angle of {location} swings"),),
     several=True,
@@ -148,7 +155,9 @@ BACKLASH = Effect(
     command(
         "Adjust or preload the gear; until then approach from one side, or command the play away: where the motion "
         "decides, commanded = wanted + approach x gap / 2 (approach: +1 after a positive motion); where gravity does, "
-        "commanded = wanted - side x gap / 2 (side: sign of the load along gravity's pull)."
+        "commanded = wanted - side x gap / 2 (side: sign of the load along gravity's pull).",
+        change="gear play",
+        instruction="Adjust or preload the gear of {location}.",
     ),
     clauses=("{location} has {gap} of play", "{location} has play"),
     labels={"gap": "play"},
@@ -171,7 +180,9 @@ SERVO_LAG = Effect(
     "Measure one point at several speeds, or at standstill: the error must vanish there.",
     command(
         "Add velocity feed-forward, or give the instrument the right time stamp. By command: "
-        "commanded = wanted + delay x speed."
+        "commanded = wanted + delay x speed.",
+        change="controller",
+        instruction="Add velocity feed-forward at {location}, or mend the instrument's time stamps.",
     ),
     clauses=("{location} runs behind by {delay}",),
     labels={"delay": "runs behind by"},
@@ -198,9 +209,12 @@ JOINT_COUPLING = Effect(
     "Turn the other motor alone over its range and watch this joint.",
     command(
         "Put minus the coefficient into the controller's wrist coupling table: "
-        "commanded = wanted - coupling x other (other: the angle of the motor it follows)."
+        "commanded = wanted - coupling x other (other: the angle of the motor it follows).",
+        change="coupling table",
+        instruction="Put minus the coefficient into the coupling table for {location}.",
     ),
     clauses=("{joint} turns by {coupling} of {source}",),
+    departs=True,
 )
 
 EFFECTS = [GEAR_RATIO, GEAR_ECCENTRICITY, GEAR_MESH, BACKLASH, SERVO_LAG, JOINT_COUPLING]

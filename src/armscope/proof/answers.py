@@ -9,8 +9,8 @@ import pandas as pd
 
 from armscope.core.files import read_table
 from armscope.proof.definitions import Name
+from armscope.verdict.effects import FoundEffect
 from armscope.verdict.files import VERDICT, read_verdict
-from armscope.verdict.schema import FoundEffect
 
 PREDICTED, FAILURE = "test_predicted.csv", "failed.txt"
 

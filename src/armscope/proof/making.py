@@ -11,8 +11,9 @@ import pandas as pd
 from armscope.core.files import copy_file, new_folder, write_table
 from armscope.proof.definitions import AXES_MM
 from armscope.proof.truth import seal
-from armscope.world.catalogue import WorldSpec, catalogue
+from armscope.world.catalogue import catalogue
 from armscope.world.folder import build
+from armscope.world.spec import WorldSpec
 
 TEST_POSES = "test_poses.csv"
 

@@ -90,7 +90,7 @@ def curve_table(verdicts: Mapping[str, Verdict]) -> pd.DataFrame:
         pd.DataFrame({"run": run, "joint": e.location, "angle_rad": c.at, "turn_rad": c.value, "stderr_rad": c.stderr})
         for run, verdict in verdicts.items()
         for e in verdict.effects
-        if (c := e.curve) is not None and e.effect == "unknown" and e.driver == f"angle of {e.location}"
+        if (c := e.curve) is not None and e.nameless and e.driver == f"angle of {e.location}"
     ]
     return pd.concat(pieces, ignore_index=True) if pieces else pd.DataFrame(columns=columns)
 

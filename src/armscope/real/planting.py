@@ -20,10 +20,10 @@ from armscope.core.averages import rms
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.real.staging import Stage
-from armscope.world.catalogue import KINDS
 from armscope.world.choice import LARGEST_FACTOR
 from armscope.world.kinds import LEAST_TORQUE, LOAD, Concealed, Kind, number, second_number
 from armscope.world.rivals import Judge, Visibility
+from armscope.world.spec import KINDS
 from armscope.world.statics import Hidden, Session, balance
 from armscope.world.strength import LARGEST_RAW_M, SEEN_SHARE, Sized, frame_columns, make_scene
 
@@ -32,6 +32,10 @@ MOVES_RAD = 0.05
 ROUNDS = 3
 TRIES = 4
 """Places among which that with the fewest alternatives is taken."""
+
+
+SPRING = KINDS["joint_compliance"]
+"""What gives way under the recorded torque where there is one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +93,7 @@ class Theatre:
         torque = self.stage.recordings.torque
         for rows, scene in zip(self.rows, self.scenes, strict=True):
             hidden = Hidden.nothing(scene.geometry, scene.session)
-            if effect.kind.effect == "joint_compliance" and torque is not None:
+            if effect.kind is SPRING and torque is not None:
                 joint = number(effect.location)
                 hidden.motor[:, joint] += effect.values["compliance"] * np.nan_to_num(torque[rows, joint])
             else:

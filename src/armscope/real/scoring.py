@@ -37,6 +37,7 @@ import pandas as pd
 from armscope.core.averages import rms_distance
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
+from armscope.physics.elastic import JOINT_COMPLIANCE
 from armscope.proof.answers import Answer, NamedEffect, read_answer
 from armscope.proof.definitions import AXES_MM, Name, place
 from armscope.proof.intervals import Compared, compare_numbers
@@ -267,7 +268,7 @@ def _listed(names: Sequence[Name]) -> str:
 def _withheld(world: Sealed) -> dict[str, Any]:
     """What is still said about giving way under load where columns are missing."""
     loaded = [c for c in world.answer.claims if any(word in c.driver for word in LOAD_WORDS)]
-    compliant = [c for c in loaded if c.effect == "joint_compliance"]
+    compliant = [c for c in loaded if c.effect == JOINT_COMPLIANCE.name]
     return {
         "set": world.set,
         "rows": world.truth["rows"],

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import re
 import zlib
+from collections.abc import Sequence
 from pathlib import Path
 
 from armscope.recordings.opening import GZIP, open_text
@@ -36,5 +37,10 @@ def is_motion_table(path: Path | str) -> bool:
             names = next(csv.reader(stream), [])
     except (OSError, EOFError, UnicodeDecodeError, csv.Error, zlib.error):
         return False  # whoever reads the table says what is wrong with it
+    return is_motion(names)
+
+
+def is_motion(names: Sequence[str]) -> bool:
+    """Whether columns of these names are of an arm in motion."""
     drives = any(re.fullmatch(DRIVE_COLUMN, name) for name in names)
     return drives and not {"x_mm", "x_m"} & set(names)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -76,16 +77,32 @@ class HeldOutRows:
     model: Array
 
 
-def longest_piece(part: HeldOutTorque, most: int) -> slice:
-    """Of the rows that were held out, the piece without a gap in which most happens, at most so many rows."""
+def liveliest_piece(parts: Sequence[HeldOutTorque], most: int) -> tuple[HeldOutTorque, slice]:
+    """Of all rows that were held out, the piece without a gap in which most happens while joints move.
+
+    Args:
+        parts: what was held out, part by part.
+        most: rows that the piece has at most.
+
+    Returns:
+        The part, and which of its rows.
+    """
+    found = [(*_liveliest(part, most), part) for part in parts]
+    _, piece, part = max(found, key=lambda each: each[0])
+    return part, piece
+
+
+def _liveliest(part: HeldOutTorque, most: int) -> tuple[float, slice]:
     stretch = part.rows.stretch[part.which]
     best, where = -1.0, slice(0, len(stretch))
     scale = np.maximum(np.std(part.measured, axis=0), 1e-12)
+    moving = ~part.rows.still[part.which]
     for number in np.unique(stretch):
         rows = np.flatnonzero(stretch == number)
         for start in range(int(rows[0]), int(rows[-1]) + 1, most):
             piece = slice(start, min(start + most, int(rows[-1]) + 1))
-            lively = float(np.sum(np.std(part.measured[piece] / scale, axis=0))) * (piece.stop - piece.start)
+            swing = np.std(part.measured[piece] / scale, axis=0) * np.mean(moving[piece], axis=0)
+            lively = float(np.sum(swing)) * (piece.stop - piece.start)
             if lively > best:
                 best, where = lively, piece
-    return where
+    return best, where

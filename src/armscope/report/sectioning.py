@@ -10,6 +10,7 @@ from typing import Any, Generic, Protocol, TypeVar
 from markupsafe import Markup
 
 from armscope.core.files import write_text
+from armscope.core.inputs import InputError, nearest
 from armscope.report.html import render_page
 from armscope.report.svg import Drawing
 
@@ -93,6 +94,30 @@ def write_sections(sections: Sequence[Section[S]], subject: S, templates: str, f
         html = Markup(render_page(f"{templates}/{section.name}.html.j2", **context))
         written.append(Written(section.name, section.link, section.title, section.folded, html))
     return written
+
+
+def figure_named(sections: Sequence[Section[S]], subject: S, name: str) -> Drawing:
+    """One figure of a page, drawn as it is asked for.
+
+    Args:
+        sections: of the page.
+        subject: what the page is about.
+        name: of the figure.
+
+    Returns:
+        The figure.
+
+    Raises:
+        InputError: there is none of that name; it lists those that there are.
+    """
+    names = []
+    for section in (section for section in sections if section.applies(subject.verdict)):
+        for figure in section.figures:
+            for drawn in figure(subject):
+                if drawn.name == name:
+                    return drawn.figure
+                names.append(drawn.name)
+    raise InputError("plot", "", name, f"one of {', '.join(names)}", nearest(name, names))
 
 
 def _saved(drawn: Drawn, folder: Path) -> Markup:

@@ -9,8 +9,8 @@ from armscope.errormodels.reference_models import held_out_rms
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.verdict.contributions import Contributions, contributions
+from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.importance import expected
-from armscope.verdict.schema import Diagnosis
 from armscope.verdict.work_order import WorkOrder, work_order
 
 

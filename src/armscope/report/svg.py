@@ -175,11 +175,11 @@ class Panel:
             y_ticks: whether the numbers of the y axis are written.
         """
         low, end = self.top + self.high, self.left + self.wide
-        for tick in ticks(*self.x):
+        for tick in ticks(*self.x, self._room(self.wide, 90)):
             ((px, _),) = self.at(np.array([tick]), np.array([self.y[0]]))
             self.drawing.line(np.array([[px, self.top], [px, low]]), LINE, 0.8, -2)
             self.drawing.text((px, low + 11), number(tick), size=11, anchor="middle", fill=QUIET)
-        for tick in ticks(*self.y):
+        for tick in ticks(*self.y, self._room(self.high, 33)):
             ((_, py),) = self.at(np.array([self.x[0]]), np.array([tick]))
             self.drawing.line(np.array([[self.left, py], [end, py]]), LINE, 0.8, -2)
             if y_ticks:
@@ -189,6 +189,11 @@ class Panel:
         if y_label:
             middle = (self.left - 42, self.top + self.high / 2)
             self.drawing.text(middle, y_label, size=12, anchor="middle", turn=-90)
+
+    @staticmethod
+    def _room(length: float, each: float) -> int:
+        """How many ticks to ask for, so that the two and a half times as many that there may be stand apart."""
+        return int(np.clip(length / each, 1, 5))
 
 
 def ticks(low: float, high: float, wanted: int = 5) -> list[float]:

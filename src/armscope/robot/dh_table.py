@@ -10,6 +10,8 @@ from typing import Literal
 from armscope.core.inputs import InputError, validate
 from armscope.robot.description import RobotDescription
 
+HEADING = re.compile(r"\s*(.*?)[\s_]*[\[(]?(mm|m|deg|rad|°)?[\])]?\s*", re.DOTALL)
+"""A column's word, and its unit in brackets."""
 COLUMNS = {
     "theta_offset_deg": r"(theta|θ|offset|th)",
     "alpha_deg": r"(alpha|α|twist|al)",
@@ -106,7 +108,9 @@ def _named(header: Sequence[str], number: int) -> tuple[tuple[str, ...], dict[st
     """What the header's columns are, and the units that it states."""
     names, units = [], {}
     for cell in header:
-        word, unit = re.fullmatch(r"\s*(.*?)[\s_]*[\[(]?(mm|m|deg|rad|°)?[\])]?\s*", cell.lower()).groups()  # type: ignore[union-attr]
+        parts = HEADING.fullmatch(cell.lower())
+        assert parts is not None  # whatever stands before a unit is the word
+        word, unit = parts.groups()
         word = re.sub(r"[\s_]*(i|j|offset)?$", "", word) or word
         found = next((key for key, pattern in COLUMNS.items() if re.fullmatch(pattern, word)), None)
         if found is None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal, get_args
 
 import numpy as np
 import pinocchio as pin
@@ -15,7 +16,8 @@ from armscope.robot.description import RobotDescription
 from armscope.robot.description_file import load_description
 from armscope.robot.model import TIP, pinocchio_model
 
-PARAMETERS = ("m", "mx", "my", "mz", "Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz")
+InertialName = Literal["m", "mx", "my", "mz", "Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz"]
+PARAMETERS: tuple[InertialName, ...] = get_args(InertialName)
 """Inertial parameters of a link about its joint's frame, in the order of pinocchio's regressor."""
 UNITS = ("kg", *("kg m",) * 3, *("kg m^2",) * 6)
 
@@ -126,7 +128,10 @@ class MovingArm:
         data, configurations = model.createData(), self.configurations(q)
         v, a = dq @ self.actuation.T, ddq @ self.actuation.T
         moved = zip(configurations, v, a, strict=True)
-        return np.array([pin.rnea(model, data, *row).copy() for row in moved]).reshape(len(q), -1) @ self.actuation
+        return (
+            np.array([pin.rnea(model, data, *row).copy() for row in moved]).reshape(len(q), self.n_links)
+            @ self.actuation
+        )
 
     def gravity_torques(self, q: Array, gravity: Array) -> Array:
         """(N, m) N m that hold the stated masses at motor positions q (N, m) in gravity (3,), m/s^2."""

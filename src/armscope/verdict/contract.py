@@ -6,34 +6,33 @@ Keys of the contract stay; more may come. A reader takes no offence at a key tha
 from __future__ import annotations
 
 from dataclasses import fields
-from typing import Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import numpy as np
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field
 from pydantic.json_schema import GenerateJsonSchema
 
 from armscope.core.inputs import InputError, validate
+from armscope.core.types import Number
+from armscope.verdict.effects import Alternative, Cause, FoundEffect, Parameter, Specific
 from armscope.verdict.schema import (
-    Alternative,
     Answer,
     Background,
-    Cause,
-    FoundEffect,
     HeldOut,
     Notice,
-    Number,
     Orientations,
-    Parameter,
-    Specific,
     SuspectRow,
     Unexplained,
     Verdict,
     WaterfallStep,
 )
 
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
 Format = Literal["armscope verdict 2"]
 FORMAT: Format = "armscope verdict 2"
-Made = TypeVar("Made")
+Made = TypeVar("Made", bound="DataclassInstance")
 
 
 class _Part(BaseModel):
@@ -41,7 +40,11 @@ class _Part(BaseModel):
 
 
 class ParameterFile(_Part):
-    """A fitted number in its unit, with its standard error (null: found by trying values) and 95 % interval."""
+    """A fitted number in its unit.
+
+    Attributes:
+        interval_95: the 95 % interval, from its standard error.
+    """
 
     name: str
     unit: str
@@ -51,7 +54,7 @@ class ParameterFile(_Part):
 
 
 class EffectFile(_Part):
-    """An effect that the evidence asks for; the attributes of `armscope.verdict.schema.FoundEffect`."""
+    """An effect that the evidence asks for; the attributes of `armscope.verdict.effects.FoundEffect`."""
 
     effect: str
     location: str
@@ -72,7 +75,12 @@ class EffectFile(_Part):
 
 
 class BeforeAfter(_Part):
-    """RMS per axis, with the frames only and with the model."""
+    """RMS per axis.
+
+    Attributes:
+        before: with the frames only.
+        after: with the model.
+    """
 
     before: Number
     after: Number
@@ -89,7 +97,11 @@ class HeldOutFile(BeforeAfter):
 
 
 class OrientationFile(_Part):
-    """What measured orientations say; RMS per axis, mrad."""
+    """What measured orientations say; RMS per axis, mrad.
+
+    Attributes:
+        held_out_rms_mrad: on rows that took no part.
+    """
 
     rows: int
     noise_mrad: Number
@@ -99,7 +111,14 @@ class OrientationFile(_Part):
 
 
 class VerdictFile(_Part):
-    """The content of verdict.json; the attributes of `armscope.verdict.schema.Verdict`."""
+    """The content of verdict.json; the attributes of `armscope.verdict.schema.Verdict`.
+
+    Attributes:
+        format: the file's kind and version.
+        held_out_rms_mm: errors on rows that took no part.
+        orientation: what measured orientations say; null where none were measured.
+        fitted_rms_mm: on the fitted rows, mm.
+    """
 
     format: Format = FORMAT
     mismatch: bool | None
@@ -183,5 +202,5 @@ def _effect(effect: EffectFile) -> FoundEffect:
 
 def _as(kind: type[Made], part: BaseModel, **changes: Any) -> Made:
     """A part of the file as what it is in memory, without what is said twice."""
-    known = {field.name for field in fields(kind)}  # type: ignore[arg-type]
+    known = {field.name for field in fields(kind)}
     return kind(**{**{name: value for name, value in part if name in known}, **changes})

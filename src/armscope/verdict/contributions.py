@@ -20,7 +20,8 @@ from armscope.physics.backgrounds import DRIFT, GEOMETRIC
 from armscope.physics.effect import AXES, Direction
 from armscope.physics.posture import Posture
 from armscope.physics.scene import Part
-from armscope.verdict.schema import Diagnosis, FoundEffect
+from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.effects import FoundEffect
 from armscope.verdict.wording import SMALL, main_and_minor
 
 MOST_ROWS = 1500
@@ -190,7 +191,7 @@ def parts_of(verdict: Diagnosis) -> dict[int, tuple[Part, ...]]:
         alike = [p for p in waiting if p.placed.key == (effect.effect, effect.location)]
         same = [p for p in alike if p.placed.driver == effect.driver and _same_scanned(p, effect)]
         # scatter, which no part stands for, is no curve that follows something
-        parts[id(effect)] = tuple((same or (alike if effect.effect != "unknown" else []))[:1])
+        parts[id(effect)] = tuple((same or ([] if effect.nameless else alike))[:1])
         waiting = [p for p in waiting if not any(p is taken for taken in parts[id(effect)])]
     return parts
 

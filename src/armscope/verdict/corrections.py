@@ -6,7 +6,9 @@ import math
 
 import pandas as pd
 
-from armscope.verdict.schema import INTERVAL, Diagnosis
+from armscope.physics.geometric import JOINT_OFFSET, LINK_GEOMETRY
+from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.effects import INTERVAL
 from armscope.verdict.wording import implausible
 
 NUMBERS = ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg")
@@ -20,7 +22,7 @@ def zero_offsets(verdict: Diagnosis) -> pd.DataFrame:
     """
     rows = []
     for j in range(1, verdict.model.arm.n_motors + 1):
-        found = [p for e in verdict.effects if (e.effect, e.location) == ("joint_offset", f"joint {j}")
+        found = [p for e in verdict.effects if (e.effect, e.location) == (JOINT_OFFSET.name, f"joint {j}")
                  for p in e.parameters if p.name == "offset" and not implausible(p, e)]  # fmt: skip
         value, half = (found[0].value, INTERVAL * found[0].stderr) if found else (0.0, float("nan"))
         rows.append((f"joint {j}", math.degrees(value), 1e3 * value, 1e3 * half, "named" if found else "not named"))
@@ -35,7 +37,7 @@ def corrected_rows(verdict: Diagnosis) -> pd.DataFrame | None:
         return None
     rows = []
     for j, stated in enumerate(dh.joints, start=1):
-        found = {p.name: p for e in verdict.effects if (e.effect, e.location) == ("link_geometry", f"link {j}")
+        found = {p.name: p for e in verdict.effects if (e.effect, e.location) == (LINK_GEOMETRY.name, f"link {j}")
                  for p in e.parameters if not implausible(p, e)}  # fmt: skip
         row: dict[str, object] = {"row": j, "convention": dh.convention}
         numbers = (stated.a_mm, stated.alpha_deg, stated.d_mm, stated.theta_offset_deg)

@@ -10,7 +10,8 @@ import pandas as pd
 from armscope.core.files import read_json, write_json, write_table
 from armscope.physics.model_file import save_model
 from armscope.recordings.columns import angle_columns
-from armscope.verdict.schema import Atlas, Diagnosis, Verdict
+from armscope.verdict.diagnosis import Atlas, Diagnosis
+from armscope.verdict.schema import Verdict
 
 VERDICT = "verdict.json"
 

@@ -17,7 +17,9 @@ import numpy as np
 from armscope.core.averages import rms
 from armscope.core.types import Array
 from armscope.verdict.contributions import Contributions, ground_of, parts_of
-from armscope.verdict.schema import Background, Cause, Diagnosis, FoundEffect
+from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.effects import Cause, FoundEffect
+from armscope.verdict.schema import Background
 from armscope.verdict.sentences import cause_in_words, cure_of_family, headline
 
 

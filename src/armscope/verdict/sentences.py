@@ -7,7 +7,9 @@ from collections.abc import Iterator, Sequence
 
 from armscope.physics.clause import Number, Told, say
 from armscope.physics.registry import effect_named
-from armscope.verdict.schema import Cause, Diagnosis, FoundEffect, Verdict
+from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.effects import Cause, FoundEffect
+from armscope.verdict.schema import Verdict
 from armscope.verdict.wording import (
     SMALL,
     capitalised,

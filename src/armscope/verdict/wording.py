@@ -10,7 +10,7 @@ import numpy as np
 
 from armscope.core.numerals import shown_unit
 from armscope.physics.registry import effect_named
-from armscope.verdict.schema import INTERVAL, Curve, FoundEffect, Parameter
+from armscope.verdict.effects import INTERVAL, Curve, FoundEffect, Parameter
 
 LABELS = {
     "amplitude": "swing (± about the mean)",

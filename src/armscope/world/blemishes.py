@@ -23,7 +23,7 @@ from armscope.world.kinds import (
     number,
     only,
 )
-from armscope.world.mechanism import BASE_FREEDOMS
+from armscope.world.layout import BASE_FREEDOMS
 from armscope.world.statics import Hidden
 
 OF = {kind.name: kind for kind in LIBRARY}

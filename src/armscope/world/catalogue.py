@@ -12,18 +12,12 @@ from typing import Literal
 
 import numpy as np
 
-from armscope.core.inputs import Strict
 from armscope.world.effects import LIBRARY
-from armscope.world.kinds import Kind
+from armscope.world.kinds import PAYLOAD
 from armscope.world.outside import OUTSIDE
 from armscope.world.rough import draw_broken
-from armscope.world.session import PoseRule
+from armscope.world.spec import ARMS, KINDS, NOISE_MM, Category, WorldSpec
 
-KINDS: dict[str, Kind] = {kind.name: kind for kind in LIBRARY + OUTSIDE}
-
-ARMS = ("parallelogram-120kg", "six-axis", "seven-axis")
-LARGEST_PAYLOAD_KG = {"parallelogram-120kg": 120.0, "six-axis": 20.0, "seven-axis": 12.0}
-NOISE_MM = {"parallelogram-120kg": (0.02, 0.06), "six-axis": (0.012, 0.04), "seven-axis": (0.008, 0.025)}
 STRENGTHS = (0.5, 1.0, 2.0, 3.0, 5.0, 10.0)
 FAINT = (2.0, 3.0, 4.0, 5.0, 6.5, 9.0)
 """Sizes of faint effects: in noise of a single reading, summed over all readings (square root of the noncentrality)."""
@@ -36,76 +30,6 @@ COMMON_KINDS = (
     "axis_wobble", "link_bending", "base_compliance", "joint_coupling", "base_drift", "gear_mesh", "servo_lag",
 )  # fmt: skip
 """What real arms have together, the usual suspects twice."""
-
-Category = Literal[
-    "clean",
-    "single",
-    "multiple",
-    "outside",
-    "misleading",
-    "inseparable",
-    "real",
-    "bad_shots",
-    "faint",
-    "rough",
-    "rough_misleading",
-]
-
-
-class Wish(Strict):
-    """An effect that a world is to conceal.
-
-    Attributes:
-        kind: key of `KINDS`.
-        strength: RMS at the tool in multiples of the noise.
-        location: where; drawn among the places where it can be seen if left out.
-        minor: belongs to the background of a real arm, not to the story.
-    """
-
-    kind: str
-    strength: float
-    location: str | None = None
-    minor: bool = False
-
-
-class WorldSpec(Strict):
-    """All that a world is made from.
-
-    Attributes:
-        id: its folder's name; it says nothing about what is inside.
-        category: what it is there to show.
-        arm: file in config/robots without its ending.
-        seed: of everything random in it.
-        fresh: whether the seed comes from the proof's seed.
-        rows: recorded poses.
-        sigma_mm: 1-sigma noise per axis.
-        wishes: what it conceals.
-        poses: rule of `armscope.world.session.POSE_RULES`.
-        columns: context in recordings.csv: `some` (all that is needed, others at random), `missing` (what the effects
-            need is left out), `irrelevant` (everything, and columns that mean nothing).
-        masses: what robot.yaml says about the links' masses.
-        noise: `gaussian`, `outliers` (2 % bad shots), `heavy_tails` (Student's t with 3 degrees of freedom), `rough`
-            (see `armscope.world.rough.rough_noise`).
-        rough: what the arm has everywhere, names of `armscope.world.rough.BLEMISHES`.
-        noise_stated: whether robot.yaml states the instrument's sigma.
-    """
-
-    id: str
-    category: Category
-    arm: str
-    seed: int
-    fresh: bool
-    rows: int
-    sigma_mm: float
-    wishes: tuple[Wish, ...] = ()
-    poses: PoseRule = "free"
-    columns: Literal["some", "missing", "irrelevant"] = "some"
-    masses: Literal["right", "wrong", "absent"] = "right"
-    noise: Literal["gaussian", "outliers", "heavy_tails", "rough"] = "gaussian"
-    rough: tuple[str, ...] = ()
-    noise_stated: bool = True
-
-
 Details = dict[str, object]
 Recipe = Callable[[np.random.Generator], Details]
 
@@ -164,7 +88,7 @@ def _full() -> Iterator[tuple[Category, Recipe]]:
     for number in range(16):
         yield "bad_shots", _bad_shots("outliers" if number < 8 else "heavy_tails", 1 + number % 3)
     for kind in LIBRARY:
-        if kind.effect != "payload_error":  # it never stands alone
+        if kind.driver != PAYLOAD:  # it never stands alone
             for size in FAINT:
                 yield "faint", _faint(kind.name, size)
     for number in range(48):
@@ -217,7 +141,7 @@ def _faint(kind: str, size: float) -> Recipe:
 
 def _arm_for(kind: str) -> Details:
     """A linkage's errors need an arm that has one."""
-    return {"arm": "parallelogram-120kg"} if kind == "parallelogram_geometry" else {}
+    return {"arm": KINDS[kind].arm} if KINDS[kind].arm else {}
 
 
 def _several(count: int, weak: bool) -> Recipe:

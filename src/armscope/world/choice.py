@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.location import Location
-from armscope.world.catalogue import KINDS, Wish, WorldSpec
-from armscope.world.kinds import CONSTANT, LOAD, Concealed, Kind, Scene, number
+from armscope.world.kinds import CONSTANT, LOAD, PAYLOAD, Concealed, Kind, Scene, number
 from armscope.world.rivals import Judge, Visibility
+from armscope.world.spec import KINDS, Wish, WorldSpec
 from armscope.world.strength import Sized, carried, sized
 
 LARGEST_FACTOR = 15.0
@@ -79,7 +79,7 @@ def _of_the_story(
     story = [size for size in chosen if not size.minor]
     places = [place for place in places if not _taken(kind, place, story) and _loaded(scene, kind, place)]
     wanted = max(wish.strength * sigma, _standing_out(kind, chosen))
-    if kind.effect == "payload_error":
+    if kind.driver == PAYLOAD:
         return _payload_error(scene, kind, wanted, rng)
     tries = TRIES_FOR_AMBIGUITY if ambiguous else TRIES
     for largest_factor in (LARGEST_FACTOR, np.inf):
@@ -124,7 +124,7 @@ def _taken(kind: Kind, place: str, chosen: list[Sized]) -> bool:
 
 def _loaded(scene: Scene, kind: Kind, place: str) -> bool:
     """Whether gravity turns the motor that an effect of load is to sit at."""
-    if kind.driver != LOAD or Location.of(place).kind != "joint" or kind.effect == "bearing_compliance":
+    if kind.driver != LOAD or Location.of(place).kind != "joint" or kind.unloaded:
         return True
     return scene.loads(number(place))
 

@@ -21,13 +21,13 @@ import yaml
 
 from armscope.core.averages import rms
 from armscope.core.files import write_table, write_yaml
-from armscope.world.catalogue import WorldSpec
 from armscope.world.choice import visibilities
 from armscope.world.effects import linear_numbers
-from armscope.world.kinds import CONSTANT, LOAD
+from armscope.world.kinds import CONSTANT, LOAD, PAYLOAD
 from armscope.world.oracle import oracle_rms
-from armscope.world.rivals import Visibility
-from armscope.world.rough import as_stated
+from armscope.world.rivals import D_H_VALUES, Visibility
+from armscope.world.rough import NOT_WRONG, as_stated
+from armscope.world.spec import WorldSpec
 from armscope.world.strength import Sized, fit_frames
 from armscope.world.virtual_arm import Measured, VirtualArm, conceal, measure_session, seen_in_runs
 
@@ -81,7 +81,7 @@ def _columns(arm: VirtualArm, rng: np.random.Generator) -> tuple[list[str], list
     moves = [size for size in chosen if size.effect.location == "base" and size.effect.kind.driver == "time"]
     if any(not size.minor for size in moves):
         shown = [column for column in shown if column != "run"]  # free base frames per run would hide it
-    if any(size.effect.kind.effect == "payload_error" and not size.minor for size in chosen):
+    if any(size.effect.kind.driver == PAYLOAD and not size.minor for size in chosen):
         shown = [column for column in shown if column != "torque"]  # recorded torques hold the true payload already
     left_out = sorted(needed) if spec.columns == "missing" else []
     return [column for column in shown if column not in left_out], left_out
@@ -173,19 +173,16 @@ def _seen_beside(arm: VirtualArm) -> dict[int, Visibility]:
 
 def _roughness(arm: VirtualArm, measured: Measured, columns: list[str]) -> dict[str, Any]:
     """What is rough, what naming it isn't wrong, what frames and D-H values leave, and what an oracle on test rows."""
-    # who carries what weighs more than is stated may blame the payload; an arm that is warm all over is a scale
-    allowed = [["payload_error", "payload"]] if "masses" in arm.spec.rough else []
-    allowed += [["instrument_scale", "instrument"]] if "day" in arm.spec.rough else []
     placed = arm.frames.place(arm.nominal, arm.scene.tool_turn)[arm.recorded]
     free = np.concatenate(
-        [arm.judge.frames, *(r.columns for r in arm.judge.rivals if r.effect in ("joint_offset", "link_geometry"))],
+        [arm.judge.frames, *(r.columns for r in arm.judge.rivals if r.effect in D_H_VALUES)],
         axis=1,
     )
     missing = (measured.readings[arm.recorded] - placed).reshape(-1)
     left = missing - free @ np.linalg.lstsq(free, missing, rcond=1e-9)[0]
     return {
         "rough": list(arm.spec.rough),
-        "also_allowed": allowed,
+        "also_allowed": [list(NOT_WRONG[name]) for name in NOT_WRONG if name in arm.spec.rough],
         "left_mm": round(rms(left) * 1e3, 5),
         "oracle_on_test_mm": round(oracle_rms(arm, measured, columns) * 1e3, 5),
     }
@@ -201,7 +198,7 @@ def _comparable(size: Sized, spec: WorldSpec, visibility: Visibility | None) -> 
     if not spec.rough:
         return spec.masses == "right" or kind.driver != LOAD
     twins = kind.driver == LOAD and visibility is not None and bool(visibility.alternatives)
-    in_shares = kind.effect == "parallelogram_geometry" and "bars" in spec.rough
+    in_shares = size.effect.location == "parallelogram" and "bars" in spec.rough
     leaning = kind.driver == CONSTANT and "geometry" in spec.rough
     return not (size.minor or twins or in_shares or leaning)
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.robot.description import RobotDescription
-from armscope.world.mechanism import Geometry
+from armscope.world.layout import Geometry
 from armscope.world.statics import Hidden, Session
 
 Values = Mapping[str, float]
@@ -93,6 +93,8 @@ class Kind:
         places: where in an arm it can sit.
         draw: its numbers at some natural size, in SI units, at random.
         hide: builds it into a mechanism, numbers in SI units.
+        unloaded: an effect of load that is there whether or not gravity turns the joint's motor.
+        arm: the only one of the proof's arms that has such a place; "" where all have one.
         sentence: what it is, for whoever opens the seal.
     """
 
@@ -105,6 +107,8 @@ class Kind:
     draw: Draw
     hide: Hide
     sentence: str = ""
+    unloaded: bool = False
+    arm: str = ""
 
     @property
     def name(self) -> str:
@@ -173,3 +177,25 @@ def links_longer_than(metres: float) -> Callable[[RobotDescription], list[str]]:
 def only(place: str) -> Callable[[RobotDescription], list[str]]:
     """One place that every arm has."""
     return lambda description: [place]
+
+
+def compliance_for(scene: Scene, torque: float) -> float:
+    """A compliance by which ``torque`` turns half a milliradian."""
+    return 5e-4 / max(torque, 1e-3)
+
+
+def compliance_across(rng: np.random.Generator, scene: Scene, location: str) -> dict[str, float]:
+    """A compliance that the arm's largest torque turns by half a milliradian.
+
+    Args:
+        rng: not asked.
+        scene: the arm in its session.
+        location: not asked.
+
+    Returns:
+        It by its name, rad/(N m).
+    """
+    return {"compliance": compliance_for(scene, float(np.abs(scene.torque).max()))}
+
+
+COMPLIANCE = (Parameter("compliance", "rad/(N m)"),)

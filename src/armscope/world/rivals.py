@@ -16,13 +16,16 @@ from scipy.linalg import orth
 
 from armscope.core.location import Location
 from armscope.core.types import Array
-from armscope.world.effects import REFERENCE_C, close_loop
+from armscope.world.effects_of_links import REFERENCE_C, close_loop
 from armscope.world.kinds import Scene, joints, links_longer_than
-from armscope.world.mechanism import BASE_FREEDOMS, SEGMENTS, Layout, Mechanism, all_freedoms, segment_hinges
+from armscope.world.layout import BASE_FREEDOMS, SEGMENTS, Layout, all_freedoms, segment_hinges
+from armscope.world.mechanism import Mechanism
 from armscope.world.strength import Sized, free_frames
 
 ALTERNATIVE_NATS = 5.0
 """A rival whose evidence falls short by less than this is an acceptable answer."""
+D_H_VALUES = ("joint_offset", "link_geometry")
+"""Rivals that a geometric calibration fits."""
 CURVE_COLUMNS = 3
 """Columns charged for a free curve that stands for an effect outside the library."""
 

@@ -181,6 +181,11 @@ BLEMISHES: dict[str, tuple[float, Callable[[np.random.Generator, Scene], Drawn]]
 """
 
 
+NOT_WRONG = {"masses": ("payload_error", "payload"), "day": ("instrument_scale", "instrument")}
+"""Names that are as good as the blemish's own: who carries what weighs more than is stated may blame the payload, and
+an arm that is warm all over is a scale."""
+
+
 def draw_broken(rng: np.random.Generator) -> list[str]:
     """Names of what is rough in an arm, each drawn on its own."""
     return [name for name, (share, _) in BLEMISHES.items() if rng.random() < share]

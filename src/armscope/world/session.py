@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array
 from armscope.robot.description import RobotDescription
-from armscope.world.mechanism import Geometry, Layout, Mechanism
+from armscope.world.layout import Geometry, Layout
+from armscope.world.mechanism import Mechanism
 from armscope.world.statics import Session
 
 PoseRule = Literal["free", "lockstep", "narrow", "no_payload", "constant_speed", "warming_in_step", "in_order", "few"]

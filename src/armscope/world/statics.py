@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
-from armscope.world.mechanism import Geometry, Layout, Mechanism, segment_hinges
+from armscope.world.layout import Geometry, Layout, segment_hinges
+from armscope.world.mechanism import Mechanism
 
 LoadCurve = Callable[[float], float]
 

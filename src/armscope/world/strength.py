@@ -13,7 +13,8 @@ from armscope.core.averages import rms
 from armscope.core.types import Array
 from armscope.robot.description import RobotDescription
 from armscope.world.kinds import Concealed, Scene
-from armscope.world.mechanism import Geometry, Layout, Mechanism
+from armscope.world.layout import Geometry, Layout
+from armscope.world.mechanism import Mechanism
 from armscope.world.statics import Balance, Hidden, Session, balance
 
 

@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array
 from armscope.robot.description_file import load_description
-from armscope.world.catalogue import LARGEST_PAYLOAD_KG, WorldSpec
 from armscope.world.choice import choose, visibilities, visibilities_in_runs
 from armscope.world.constants import ROUGH
 from armscope.world.kinds import Scene
 from armscope.world.rivals import Judge, Visibility
 from armscope.world.rough import blemishes, rough_description, rough_noise
 from armscope.world.session import random_session
+from armscope.world.spec import LARGEST_PAYLOAD_KG, WorldSpec
 from armscope.world.statics import Hidden, balance
 from armscope.world.strength import Frames, Sized, make_scene
 

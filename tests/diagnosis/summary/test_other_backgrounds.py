@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose, judgement
-from armscope.verdict.schema import INTERVAL, FoundEffect
+from armscope.verdict.effects import INTERVAL, FoundEffect
 from tests.diagnosis.planted import one_run, planted, recorded
 from tests.physics.scenes import arm_named
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from armscope.design.fourier import Limits, random_path
 from armscope.robot.description_file import load_description
-from armscope.world.mechanism import Geometry
+from armscope.world.layout import Geometry
 from armscope.world.motion.mechanism import stated_dynamics
 
 FOLDER = Path(__file__).parents[3] / "config" / "motion"

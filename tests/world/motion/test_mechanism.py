@@ -8,7 +8,7 @@ import pytest
 
 from armscope.robot import load_arm
 from armscope.robot.description import RobotDescription
-from armscope.world.mechanism import Geometry
+from armscope.world.layout import Geometry
 from armscope.world.motion.mechanism import Coupling, MovingArm, Spring, stated_dynamics
 from tests.world.motion.arms import FOLDER, NAMES, arm, motion
 

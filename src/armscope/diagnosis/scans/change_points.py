@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from armscope.core.types import Indices
-from armscope.diagnosis.constants import SCANS
+from armscope.diagnosis.scans.constants import SCANS
 from armscope.diagnosis.scans.context import ScanContext, columns_of, scores_given
 from armscope.fitting.column_blocks import active_effects
 from armscope.fitting.design_matrix import columns

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from armscope.diagnosis.constants import SCANS
+from armscope.diagnosis.scans.constants import SCANS
 from armscope.diagnosis.scans.context import ScanContext, columns_of, scores_given
 from armscope.fitting.column_blocks import column_blocks
 from armscope.inference.evidence import Hypothesis

@@ -8,8 +8,8 @@ from functools import partial
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.diagnosis.constants import SCANS
 from armscope.diagnosis.scans.change_points import pieces_of, step_sums
+from armscope.diagnosis.scans.constants import SCANS
 from armscope.diagnosis.scans.context import ScanContext
 from armscope.inference.additions import unscaled_factor
 from armscope.inference.evidence import Hypothesis

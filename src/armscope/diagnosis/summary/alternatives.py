@@ -18,7 +18,7 @@ from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import Candidate
 from armscope.inference.normal_equations import weighted_total
 from armscope.inference.search import Search
-from armscope.verdict.schema import Alternative, Specific
+from armscope.verdict.effects import Alternative, Specific
 
 
 class Rival(NamedTuple):

@@ -6,7 +6,7 @@ import numpy as np
 
 from armscope.core.location import Location
 from armscope.core.sampling import spread_evenly
-from armscope.diagnosis.constants import TELLING
+from armscope.diagnosis.summary.constants import TELLING
 from armscope.fitting.column_blocks import column_blocks
 from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.fitting.parameter_layout import ParameterLayout
@@ -18,7 +18,7 @@ from armscope.physics.model import FittedModel
 from armscope.physics.placing import varies
 from armscope.physics.registry import effects
 from armscope.recordings import Recordings
-from armscope.verdict.schema import TOGETHER, Atlas
+from armscope.verdict.diagnosis import TOGETHER, Atlas
 
 DIRECTIONS = (*AXES, TOGETHER)
 Cell = tuple[int, int, int]

@@ -15,7 +15,8 @@ from armscope.diagnosis.earning import held_out_gains, without_members
 from armscope.diagnosis.state import DiagnosisState
 from armscope.inference.search import Search
 from armscope.physics.backgrounds import FAMILIES
-from armscope.verdict.schema import Background, Cause, CauseLevel, FoundEffect
+from armscope.verdict.effects import Cause, CauseLevel, FoundEffect
+from armscope.verdict.schema import Background
 from armscope.verdict.sentences import cause_in_words, cure_of_family
 
 PAYLOAD = "payload"

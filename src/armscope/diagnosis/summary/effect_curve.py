@@ -7,11 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.diagnosis.constants import TELLING
+from armscope.diagnosis.summary.constants import TELLING
 from armscope.physics.drivers import KINDS, cubic_spline
 from armscope.physics.effect import ONE, Driver, Placed
 from armscope.physics.scene import Scene
-from armscope.verdict.schema import Curve
+from armscope.verdict.effects import Curve
 
 
 def source_of(placed: Placed) -> Driver | None:

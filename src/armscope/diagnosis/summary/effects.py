@@ -8,12 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.diagnosis.constants import NAMING, TELLING
+from armscope.diagnosis.constants import NAMING
 from armscope.diagnosis.promotion import nested_log_odds
 from armscope.diagnosis.scans.change_points import when_stderr
 from armscope.diagnosis.scans.context import ScanContext
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary import alternatives as certainty
+from armscope.diagnosis.summary.constants import TELLING
 from armscope.diagnosis.summary.effect_curve import curve_of
 from armscope.diagnosis.summary.homogeneity import SameSize
 from armscope.diagnosis.summary.parameters import parameters, undetermined
@@ -27,7 +28,8 @@ from armscope.inference.search import Search
 from armscope.physics.backgrounds import FAMILIES, GEOMETRIC, TRANSMISSION
 from armscope.physics.effect import Placed
 from armscope.physics.scene import Part, Scene
-from armscope.verdict.schema import INDISTINGUISHABLE_NATS, Background, FoundEffect, Parameter
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS, FoundEffect, Parameter
+from armscope.verdict.schema import Background
 
 NOTHING = "nothing in the table"
 """What scatter follows."""

@@ -10,8 +10,9 @@ from scipy.special import chdtri
 
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Indices
-from armscope.diagnosis.constants import FOLDING, TELLING
+from armscope.diagnosis.constants import FOLDING
 from armscope.diagnosis.state import DiagnosisState
+from armscope.diagnosis.summary.constants import TELLING
 from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.normal_equations import NormalEquations, total

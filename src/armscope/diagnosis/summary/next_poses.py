@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.design.separation import nats_apart, separating
-from armscope.diagnosis.constants import NEXT_POSES
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.alternatives import Rival, discriminability
+from armscope.diagnosis.summary.constants import NEXT_POSES
 from armscope.fitting.design_matrix import point_columns
 from armscope.inference.constants import PRIORS
 from armscope.physics.drift import six_terms
@@ -19,7 +19,8 @@ from armscope.physics.scene import Scene
 from armscope.poses.obstacles import Surroundings, refusals
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-from armscope.verdict.schema import INDISTINGUISHABLE_NATS, NextPoses
+from armscope.verdict.diagnosis import NextPoses
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
 
 def next_poses(

@@ -7,11 +7,12 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.diagnosis.constants import TELLING
+from armscope.diagnosis.summary.constants import TELLING
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.effect import Placed
 from armscope.physics.scene import Part
-from armscope.verdict.schema import Notice, Parameter
+from armscope.verdict.effects import Parameter
+from armscope.verdict.schema import Notice
 
 Reading = Callable[[Array], Array]
 

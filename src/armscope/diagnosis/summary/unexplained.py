@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from armscope.diagnosis.constants import TELLING
 from armscope.diagnosis.state import DiagnosisState
+from armscope.diagnosis.summary.constants import TELLING
 from armscope.inference.detection import Detection
 from armscope.inference.edits import Edits
 from armscope.inference.evidence import savage_dickey
@@ -17,7 +17,8 @@ from armscope.inference.problem import background_sizes
 from armscope.measurement.constants import WEIGHTS
 from armscope.physics.backgrounds import FAMILIES
 from armscope.physics.loads import STATED_MASSES
-from armscope.verdict.schema import Background, FoundEffect, Notice, Unexplained
+from armscope.verdict.effects import FoundEffect
+from armscope.verdict.schema import Background, Notice, Unexplained
 
 
 def background_summaries(

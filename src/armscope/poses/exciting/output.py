@@ -94,6 +94,19 @@ def collisions_in_words(found: Excitation) -> str:
     return f"links as capsules of {found.around.radius_of(found.arm) * 1e3:.0f} mm radius, {floor}"
 
 
+def _cause(content: object, verdict: Path, place: str) -> tuple[str, str]:
+    """Name and place of a cause of a verdict.
+
+    Raises:
+        InputError: it has none.
+    """
+    if isinstance(content, dict):
+        name, location = content.get("effect"), content.get("location")
+        if isinstance(name, str) and isinstance(location, str):
+            return name, location
+    raise InputError(verdict, place, content, "a cause has its name in `effect` and its place in `location`")
+
+
 def pairs_of(verdict: Path) -> tuple[Pair, ...]:
     """The causes that a verdict on a motion could not tell apart: each with each of its alternatives.
 
@@ -104,9 +117,13 @@ def pairs_of(verdict: Path) -> tuple[Pair, ...]:
     if not isinstance(content, dict) or not isinstance(content.get("effects"), list):
         raise InputError(verdict, "", "no list of effects", "verdict.json of a diagnosis of a motion is needed here")
     pairs = []
-    for effect in content["effects"]:
-        own = (str(effect.get("effect")), str(effect.get("location")))
-        pairs += [(own, (str(o["effect"]), str(o["location"]))) for o in effect.get("alternatives", [])]
+    for number, effect in enumerate(content["effects"]):
+        own = _cause(effect, verdict, f"effects[{number}]")
+        others = effect.get("alternatives") or []
+        if not isinstance(others, list):
+            raise InputError(verdict, f"effects[{number}].alternatives", others, "a list of causes stands here")
+        places = (f"effects[{number}].alternatives[{n}]" for n in range(len(others)))
+        pairs += [(own, _cause(other, verdict, place)) for other, place in zip(others, places, strict=True)]
     if not pairs:
         rule = "no cause in it has an alternative, so there is nothing to separate"
         raise InputError(verdict, "effects", "no alternatives", rule, "Leave --separate out: everything shall show.")

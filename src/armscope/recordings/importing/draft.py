@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -13,19 +11,13 @@ import yaml
 
 from armscope.core.inputs import InputError, validate
 from armscope.core.types import Array
+from armscope.recordings.importing.first_table import ForeignTable, first_table
 from armscope.recordings.importing.mapping import Mapping
-from armscope.recordings.opening import open_text, start_of
 
-LOOKED_AT = 2000
-"""Lines of the file that guesses rest on."""
-LONGEST_NAME = 200
-"""Characters of a column's name: nobody writes more, and guessing looks through it again and again."""
 FEWEST_MOTORS = 2
 RADIANS_UP_TO = 2 * np.pi + 0.01
 METRES_UP_TO = 30.0
 """Coordinates whose largest is below this are metres: no arm stays within 30 mm of the origin."""
-DELIMITERS = {";": ";", "\t": "tab", "|": "|", ",": ","}
-NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 
 _UNIT = r"[\s_.\-]*[\[(]?\s*(rad|deg|degrees|°|mm|m|millimeters|meters|rad/s|deg/s|nm|n\s?m|s|ms|kg|c|°c|degc)\s*[\])]?"
 JOINT = re.compile(r"(?P<word>.*?)[\s_.\[(\-]*(?P<number>\d{1,2})[\])]?(?P<unit>" + _UNIT + r")?", re.IGNORECASE)
@@ -36,6 +28,9 @@ ANGLE_WORDS = (
     "theta",
     "th",
     "axis",
+    "axe",
+    "achse",
+    "gelenk",
     "a",
     "angle",
     "ang",
@@ -56,20 +51,6 @@ COMMANDED = ("target", "cmd", "command", "commanded", "set", "desired", "nominal
 MEASURED = ("measured", "meas", "actual", "act", "ist", "tracker", "laser", "leica", "faro", "mcs")
 
 
-@dataclass
-class _Table:
-    """The first lines of a foreign table: how they are cut, their names, their numbers (NaN where none is)."""
-
-    delimiter: str
-    decimal: str
-    skip: int
-    names: list[str]
-    header: bool
-    values: Array
-    encoding: str = "utf-8-sig"
-    notes: dict[str, str] = field(default_factory=dict)
-
-
 def draft_mapping(path: Path | str) -> str:
     """The text of a mapping.yaml that reads this file, with a comment on every guess.
 
@@ -83,7 +64,7 @@ def draft_mapping(path: Path | str) -> str:
         InputError: it is no text table, or no columns look like motor angles and points.
     """
     path = Path(path)
-    table = _look(path)
+    table = first_table(path)
     lines = list(_format_lines(table))
     columns = _guess_columns(path, table)
     lines += ["columns:", *columns]
@@ -96,68 +77,7 @@ def draft_mapping(path: Path | str) -> str:
 _NEXT = "# armscope import TABLE --mapping mapping.yaml -o recordings.csv"
 
 
-def _look(path: Path) -> _Table:
-    start_of(path, "a table of recordings")
-    encoding = "utf-8-sig"
-    try:
-        lines = _first_lines(path, encoding)
-    except UnicodeDecodeError:
-        encoding = "latin-1"
-        lines = _first_lines(path, encoding)
-    filled = [line for line in lines if line.strip()]
-    if len(filled) < 2:
-        raise InputError(path, "", f"{len(filled)} lines", "a table has a header or a row, and rows")
-    delimiter, cut = _delimiter(filled)
-    width = Counter(len(_split(line, cut)) for line in filled).most_common(1)[0][0]
-    first = next(number for number, line in enumerate(lines) if line.strip() and len(_split(line, cut)) == width)
-    rows = [cells for line in lines[first:] if len(cells := _split(line, cut)) == width]
-    decimal = "," if cut != "," and _has_decimal_commas(rows) else "."
-    header = not any(NUMBER.fullmatch(_plain(cell, decimal)) for cell in rows[0])
-    names = rows[0] if header else [str(number) for number in range(1, width + 1)]
-    for name in names:
-        if len(name) > LONGEST_NAME:
-            raise InputError(path, f"line {first + 1}", name, f"column names of at most {LONGEST_NAME} characters")
-    numbers = np.array([[_value(cell, decimal) for cell in row] for row in rows[1 if header else 0 :]], dtype=float)
-    if not len(numbers):
-        raise InputError(path, "", "a header alone", "rows are needed to guess units from")
-    return _Table(delimiter, decimal, first, names, header, numbers, encoding)
-
-
-def _first_lines(path: Path, encoding: str) -> list[str]:
-    with open_text(path, encoding) as stream:
-        return [line.rstrip("\r\n") for line, _ in zip(stream, range(LOOKED_AT), strict=False)]
-
-
-def _delimiter(lines: Sequence[str]) -> tuple[str, str | None]:
-    """What the mapping calls the delimiter that cuts most lines alike, and the sign itself (None: white space)."""
-    best, most = ("whitespace", None), 0.0
-    for sign in (*DELIMITERS, None):
-        width, alike = Counter(len(_split(line, sign)) for line in lines).most_common(1)[0]
-        found = alike / len(lines) * (width > 3)
-        if found > most + 0.05:
-            best, most = ("whitespace" if sign is None else DELIMITERS[sign], sign), found  # type: ignore[assignment]
-    return best
-
-
-def _split(line: str, sign: str | None) -> list[str]:
-    return [cell.strip().strip('"') for cell in line.split(sign)]
-
-
-def _has_decimal_commas(rows: Sequence[Sequence[str]]) -> bool:
-    cells = [cell for row in rows for cell in row]
-    return sum(bool(re.fullmatch(r"[+-]?\d+,\d+([eE][+-]?\d+)?", cell)) for cell in cells) > 0.1 * len(cells)
-
-
-def _plain(cell: str, decimal: str) -> str:
-    return cell.replace(",", ".") if decimal == "," else cell
-
-
-def _value(cell: str, decimal: str) -> float:
-    plain = _plain(cell, decimal)
-    return float(plain) if NUMBER.fullmatch(plain) else np.nan
-
-
-def _format_lines(table: _Table) -> Iterator[str]:
+def _format_lines(table: ForeignTable) -> Iterator[str]:
     stated = {"delimiter": table.delimiter, "decimal": table.decimal}
     parts = [f'{key}: "{value}"' for key, value in stated.items()]
     parts += ["header: false"] if not table.header else []
@@ -166,7 +86,7 @@ def _format_lines(table: _Table) -> Iterator[str]:
     yield f"format: {{{', '.join(parts)}}}   # guessed: most lines are cut alike by it"
 
 
-def _guess_columns(path: Path, table: _Table) -> Iterator[str]:
+def _guess_columns(path: Path, table: ForeignTable) -> Iterator[str]:
     angles = _motor_columns(table)
     points = _triple(table, taken=angles)
     for what, found in (("the motor angles", angles), ("measured x, y, z", points)):
@@ -193,7 +113,7 @@ def _largest(values: Array) -> float:
     return float(np.abs(known).max()) if len(known) else 0.0
 
 
-def _listed(table: _Table, columns: Sequence[int]) -> str:
+def _listed(table: ForeignTable, columns: Sequence[int]) -> str:
     if not table.header:
         return "[" + ", ".join(str(column + 1) for column in columns) + "]"
     return "[" + ", ".join(_quoted(table.names[column]) for column in columns) + "]"
@@ -208,7 +128,7 @@ def _stated_unit(name: str, units: dict[str, str]) -> str | None:
     return units.get(found[1].lower()) if found else None
 
 
-def _numbered(table: _Table) -> dict[str, dict[int, int]]:
+def _numbered(table: ForeignTable) -> dict[str, dict[int, int]]:
     """Columns that are numbered, by what stands before the number: {word: {number: column}}."""
     groups: dict[str, dict[int, int]] = {}
     for column, name in enumerate(table.names):
@@ -225,7 +145,7 @@ def _in_a_row(group: dict[int, int]) -> list[int]:
     return [group[start + n] for n in range(count)] if count >= FEWEST_MOTORS else []
 
 
-def _motor_columns(table: _Table) -> list[int]:
+def _motor_columns(table: ForeignTable) -> list[int]:
     if not table.header:
         return _leading(table)
     ranked = []
@@ -240,14 +160,14 @@ def _motor_columns(table: _Table) -> list[int]:
     return max(ranked)[-1] if ranked else []
 
 
-def _leading(table: _Table) -> list[int]:
+def _leading(table: ForeignTable) -> list[int]:
     """Without names: columns from the left that stay within a turn, the three behind them being the point."""
     spans = [_largest(table.values[:, [column]]) for column in range(table.values.shape[1])]
     count = len(spans) - 3
     return list(range(count)) if count >= FEWEST_MOTORS and max(spans[:count]) <= 720 else []
 
 
-def _triple(table: _Table, taken: Sequence[int]) -> list[int]:
+def _triple(table: ForeignTable, taken: Sequence[int]) -> list[int]:
     if not table.header:
         return list(range(len(taken), len(taken) + 3)) if taken else []
     found: dict[str, dict[str, int]] = {}
@@ -264,7 +184,7 @@ def _triple(table: _Table, taken: Sequence[int]) -> list[int]:
     return max(score)[-1] if score else []
 
 
-def _further(table: _Table, n_motors: int, taken: set[int]) -> Iterator[str]:
+def _further(table: ForeignTable, n_motors: int, taken: set[int]) -> Iterator[str]:
     """Context by names alone."""
     if not table.header:
         return
@@ -288,7 +208,7 @@ def _further(table: _Table, n_motors: int, taken: set[int]) -> Iterator[str]:
             yield f"  {line.format(_quoted(table.names[match]))}   # guessed by name"
 
 
-def _per_motor(table: _Table, n_motors: int, taken: set[int]) -> dict[str, list[int]]:
+def _per_motor(table: ForeignTable, n_motors: int, taken: set[int]) -> dict[str, list[int]]:
     found: dict[str, list[int]] = {}
     for word, group in _numbered(table).items():
         parts = {part for part in re.split(r"[^a-z]+", word) if part}

@@ -22,7 +22,7 @@ def location_shares(verdict: Verdict) -> dict[str, float]:
     for effect in verdict.effects:
         shares[effect.location] = shares.get(effect.location, 0.0) + min(max(effect.share, 0.0), 1.0)
     left = verdict.unexplained
-    told = any(effect.effect == "unknown" and effect.location == left.location for effect in verdict.effects)
+    told = any(effect.nameless and effect.location == left.location for effect in verdict.effects)
     if left.present and left.location and not told and verdict.residual_before_mm > 0:
         share = (left.rms_mm / verdict.residual_before_mm) ** 2
         shares[left.location] = shares.get(left.location, 0.0) + min(share, 1.0)

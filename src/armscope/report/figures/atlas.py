@@ -10,7 +10,8 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.report.colours import SHARES, share_level
-from armscope.verdict.schema import Atlas, Diagnosis, FoundEffect
+from armscope.verdict.diagnosis import Atlas, Diagnosis
+from armscope.verdict.effects import FoundEffect
 from armscope.verdict.sentences import atlas_column
 
 WORTH_A_NUMBER = 0.03

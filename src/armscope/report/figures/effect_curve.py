@@ -13,7 +13,7 @@ from armscope.report.colours import AFTER, OUTLINE, PALE
 from armscope.report.sectioning import Drawn
 from armscope.report.subject import Subject
 from armscope.report.svg import Drawing, Panel
-from armscope.verdict.schema import INTERVAL, Curve, FoundEffect
+from armscope.verdict.effects import INTERVAL, Curve, FoundEffect
 
 WIDTH, HEIGHT = 440.0, 220.0
 """Of a curve's picture, px."""
@@ -69,7 +69,7 @@ def effect_curves(subject: Subject) -> Iterator[Drawn]:
 
 def worth_drawing(effect: FoundEffect) -> bool:
     """Whether an effect's curve says more than its one number does."""
-    return effect.curve is not None and (effect.effect == "unknown" or len(effect.parameters) > 1)
+    return effect.curve is not None and (effect.nameless or len(effect.parameters) > 1)
 
 
 def drawn_curve(effect: FoundEffect, found: Curve) -> DrawnCurve:

@@ -13,15 +13,17 @@ from armscope.motion.shapes import free_curve, friction_over_speed, limits_of
 from armscope.report.colours import AFTER, BEFORE, INK, OUTLINE, QUIET
 from armscope.report.figures.along_joints import running_mean
 from armscope.report.figures.effect_curve import DrawnCurve, draw_curves
-from armscope.report.motion_subject import MotionSubject, longest_piece
+from armscope.report.motion_subject import MotionSubject, liveliest_piece
 from armscope.report.sectioning import Drawn
 from armscope.report.svg import Drawing, Panel
-from armscope.verdict.schema import INTERVAL
+from armscope.verdict.effects import INTERVAL
 
 WIDE, HIGH = 500.0, 200.0
 """Of one joint's picture, px."""
-SMALL = 330.0
-"""Width of a picture of what is left, px."""
+SMALL, LOW = 330.0, 165.0
+"""Of a picture of which three stand beside each other, px; what is left is as high as the wide ones."""
+FEW = 2
+"""Joints up to which a picture has the width of half a page."""
 MOST_ROWS, MOST_DOTS = 450, 500
 BEYOND = 1.6
 """A simulated torque is drawn up to so many times the measured ones' range."""
@@ -31,17 +33,28 @@ Key = tuple[str, str]
 
 def trace_figures(subject: MotionSubject) -> Iterator[Drawn]:
     """Torques of every joint over a piece of motion that took no part: measured, as stated, corrected."""
-    part = max(subject.found.held, key=lambda each: len(each.which))
-    piece = longest_piece(part, MOST_ROWS)
+    part, piece = liveliest_piece(subject.found.held, MOST_ROWS)
     time = part.rows.time[part.which][piece]
+    wide = _wide(subject)
     for joint in range(subject.arm.n_motors):
         lines = [(each[piece, joint], colour, width) for each, colour, width in (
             (part.measured, INK, 3.2), (part.stated, BEFORE, 1.4), (part.model, AFTER, 1.6),
         )]  # fmt: skip
-        yield Drawn(f"trace_{joint + 1}", draw_trace(f"joint {joint + 1}", subject.unit(joint), time, lines))
+        yield Drawn(f"trace_{joint + 1}", draw_trace(f"joint {joint + 1}", subject.unit(joint), time, lines, wide))
 
 
-def draw_trace(title: str, unit: str, time: Array, lines: Sequence[tuple[Array, str, float]]) -> Drawing:
+def _wide(subject: MotionSubject) -> float:
+    """Width of a picture, px: two of them stand beside each other, or three."""
+    return WIDE if subject.arm.n_motors <= FEW else SMALL
+
+
+def _high(wide: float) -> float:
+    return HIGH if wide >= WIDE else LOW
+
+
+def draw_trace(
+    title: str, unit: str, time: Array, lines: Sequence[tuple[Array, str, float]], wide: float = WIDE
+) -> Drawing:
     """Measured, simulated and corrected torque over time.
 
     Args:
@@ -49,6 +62,7 @@ def draw_trace(title: str, unit: str, time: Array, lines: Sequence[tuple[Array, 
         unit: of torque.
         time: (K,) s.
         lines: torque (K,), colour and width of each: measured first, then as stated, then corrected.
+        wide: px; a narrow one has no room for what the colours stand for, which its page says.
 
     Returns:
         The figure.
@@ -56,12 +70,15 @@ def draw_trace(title: str, unit: str, time: Array, lines: Sequence[tuple[Array, 
     measured = lines[0][0]
     middle, half = (measured.max() + measured.min()) / 2, max(float(np.ptp(measured)) / 2, 1e-9)
     shown = np.clip(np.concatenate([each for each, _, _ in lines]), middle - BEYOND * half, middle + BEYOND * half)
-    drawing = Drawing(WIDE, HIGH, f"Torque of {title} over time on held-out motion: measured, as stated, corrected")
-    panel = _panel(drawing, WIDE, (float(time[0]), float(time[-1])), _range(shown))
+    drawing = Drawing(
+        wide, _high(wide), f"Torque of {title} over time on held-out motion: measured, as stated, corrected"
+    )
+    panel = _panel(drawing, wide, (float(time[0]), float(time[-1])), _range(shown))
     panel.frame("", "time (s)", f"torque ({unit})")
     for values, colour, width in lines:
         drawing.line(panel.at(time, values), colour, width)
-    _head(drawing, title, ((INK, "measured"), (BEFORE, "as stated"), (AFTER, "corrected")))
+    keys = ((INK, "measured"), (BEFORE, "as stated"), (AFTER, "corrected"))
+    _head(drawing, title, keys if wide >= WIDE else ())
     return drawing
 
 
@@ -84,11 +101,14 @@ def friction_figures(subject: MotionSubject) -> Iterator[Drawn]:
             (factor * speed[few], cloud),
             (factor * grid, curve),
             (f"speed ({unit}/s)", f"friction ({subject.unit(joint)})"),
+            _wide(subject),
         )
         yield Drawn(f"friction_{joint + 1}", drawn)
 
 
-def draw_friction(title: str, cloud: tuple[Array, Array], curve: tuple[Array, Array], labels: Key) -> Drawing:
+def draw_friction(
+    title: str, cloud: tuple[Array, Array], curve: tuple[Array, Array], labels: Key, wide: float = WIDE
+) -> Drawing:
     """A cloud of friction over speed, and the model's curve.
 
     Args:
@@ -96,13 +116,14 @@ def draw_friction(title: str, cloud: tuple[Array, Array], curve: tuple[Array, Ar
         cloud: (K,) speeds and friction of rows.
         curve: (N,) speeds and friction by the model.
         labels: of both axes.
+        wide: px.
 
     Returns:
         The figure.
     """
-    drawing = Drawing(WIDE, HIGH, f"Friction of {title} over its speed: rows and the model's curve")
+    drawing = Drawing(wide, _high(wide), f"Friction of {title} over its speed: rows and the model's curve")
     values = np.concatenate([np.percentile(cloud[1], [0.5, 99.5]), curve[1]])
-    panel = _panel(drawing, WIDE, (float(curve[0][0]), float(curve[0][-1])), _range(values))
+    panel = _panel(drawing, wide, (float(curve[0][0]), float(curve[0][-1])), _range(values))
     panel.frame("", *labels)
     for ends in ((np.array(panel.x), np.zeros(2)), (np.zeros(2), np.array(panel.y))):
         drawing.line(panel.at(*ends), OUTLINE, 0.8, -1)
@@ -174,7 +195,7 @@ def _driver_unit(subject: MotionSubject, driver: str, joint: int) -> tuple[float
 
 
 def _panel(drawing: Drawing, wide: float, x: tuple[float, float], y: tuple[float, float]) -> Panel:
-    return Panel(drawing, 62, 26, wide - 74, HIGH - 68, x, y)
+    return Panel(drawing, 62, 26, wide - 74, drawing.height - 68, x, y)
 
 
 def _range(values: Array) -> tuple[float, float]:

@@ -15,6 +15,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import LogFormatter
 
+from armscope.proof.matching import UNKNOWN
+from armscope.proof.scoring import NOTHING
 from armscope.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, SKY, VERMILION, YELLOW, legend_above, styled
 
 HALVES = {"fixed": (GREY, "s"), "fresh": (BLUE, "o")}
@@ -152,8 +154,8 @@ def _curves(axes: Axes, table: pd.DataFrame, over: str) -> None:
 def confusion(tables: dict[str, pd.DataFrame]) -> Figure:
     """What was concealed against what was said, counts; shaded by the share of the row."""
     table = tables["confusion"]
-    names = sorted({*table["true"], *table["said"]} - {"unknown", "nothing"})
-    names += ["unknown", "nothing"]
+    names = sorted({*table["true"], *table["said"]} - {UNKNOWN, NOTHING})
+    names += [UNKNOWN, NOTHING]
     counts = table.pivot_table(index="true", columns="said", values="effects", aggfunc="sum").reindex(
         index=names, columns=names
     )
@@ -178,7 +180,7 @@ def per_effect(tables: dict[str, pd.DataFrame]) -> Figure:
     """Recall, precision, right location and coverage of each effect with 95 % intervals, all seeds."""
     table = tables["per_effect"]
     table = table[(table["seeds"] == "all") & table["score"].isin(SCORES)]
-    names = sorted(set(table["effect"]), key=lambda name: (name == "unknown", name))
+    names = sorted(set(table["effect"]), key=lambda name: (name == UNKNOWN, name))
     figure, panels = plt.subplots(
         1, len(SCORES), figsize=(9.6, 1.3 + 0.25 * len(names)), sharey=True, layout="constrained"
     )

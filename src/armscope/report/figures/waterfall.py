@@ -17,7 +17,7 @@ from armscope.verdict.wording import plain
 
 WIDTH, ROW, BAR, LETTERS = 860.0, 27.0, 17.0, 12.0
 """Of the picture, of a row and of its bar, and of the words, px."""
-WIDEST_NAMES = 330.0
+WIDEST_NAMES = 390.0
 BEYOND = 1.6
 """Other models' errors are drawn up to so many times the largest of the steps."""
 

@@ -18,7 +18,8 @@ from armscope.report.sections.effects import findings
 from armscope.report.sections.registry import SECTIONS
 from armscope.report.subject import Subject
 from armscope.verdict.corrections import corrected_rows, zero_offsets
-from armscope.verdict.schema import Diagnosis, Notice
+from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.schema import Notice
 from armscope.verdict.sentences import another_model, more_than_noise, unusable
 from armscope.verdict.wording import millimetres, percent
 

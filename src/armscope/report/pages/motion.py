@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.metadata
+from dataclasses import replace
 from pathlib import Path
 
 from markupsafe import Markup
@@ -16,7 +17,7 @@ from armscope.report.pages.diagnosis import ANSWERS, REPORT
 from armscope.report.sectioning import write_sections
 from armscope.report.sections.motion import MOTION_SECTIONS
 
-QUIET = ("table", "joint stands")
+QUIET = ("table", "joint stands", "uneven time")
 """Kinds of notices that lie folded."""
 
 
@@ -34,7 +35,7 @@ def write_motion_report(found: MotionDiagnosis, source: str, folder: Path | str)
     folder, subject = Path(folder), MotionSubject(found, source)
     sections = write_sections(MOTION_SECTIONS, subject, "motion", folder)
     verdict = found.verdict
-    headline, _, rest = verdict.headline.partition("; on held-out motion ")
+    causes, _, rest = verdict.headline.partition(". ")
     tag, answer = ANSWERS[verdict.answer]
     page = render_page(
         "motion.html.j2",
@@ -44,9 +45,11 @@ def write_motion_report(found: MotionDiagnosis, source: str, folder: Path | str)
         verdict=verdict,
         tag=tag,
         answer=answer,
-        headline=f"{headline.removesuffix('.')}.",
-        rest=f"On held-out motion {rest}" if rest else "",
-        warnings=[notice for notice in verdict.notices if notice.kind not in QUIET],
+        headline=f"{causes}." if rest else causes,
+        rest=rest,
+        warnings=[
+            replace(notice, text=notice.text.replace("`", "")) for notice in verdict.notices if notice.kind not in QUIET
+        ],
         tiles=_tiles(subject),
         sections=sections,
         shades=Markup(page_variables()),

@@ -9,6 +9,7 @@ import pandas as pd
 from armscope.core.files import read_table, write_text
 from armscope.core.markdown import table_lines
 from armscope.motion.catalogue import CAUSES
+from armscope.motion.judgement import ON_HELD_OUT
 from armscope.motion.verdict import read_motion_verdict
 from armscope.report.html import significant
 from armscope.report.pages.readme import filled
@@ -81,7 +82,7 @@ def real_lines(folder: Path, of: str) -> list[str]:
         verdict = read_motion_verdict(path)
         held = verdict["held_out"]
         errors = (f"{significant(100 * held[name], 2)} %" for name in ("stated", "background", "model"))
-        said = verdict["headline"].partition("; on held-out")[0]
+        said = verdict["headline"].partition(f" {ON_HELD_OUT}")[0]
         rows.append((path.parent.name, held["what"], *errors, said))
     head = ("set", "held out", "as stated", "friction and rotors", "with masses and causes", "said")
     return [f"Measured at {of}:", "", *table_lines(head, rows)]

@@ -12,6 +12,7 @@ import pandas as pd
 
 from armscope.core.files import write_text
 from armscope.core.markdown import table_lines
+from armscope.physics.registry import EFFECTS
 from armscope.real.curves import shared
 from armscope.real.protocol import ARMSCOPE, ORIENTED, UNCORRECTED
 from armscope.real.reference import Reference, ReferenceRun, load_reference
@@ -38,7 +39,7 @@ it. What that does not exclude: these recordings were in view while armscope was
 bearing is expected to give half as much as its drive, not a third) was settled on the iiwa's 2016-11-18. The recordings
 are not part of this repository: `snakemake -j2 fetch_recordings`."""
 PAPER = "The paper's models at 85 identification rows (chosen as in the paper, least squares; the rest tests them):"
-JUMPS = ("base_shift", "tool_shift")
+JUMPS = [effect.name for effect in EFFECTS if effect.jumps]
 
 
 @dataclass(frozen=True)

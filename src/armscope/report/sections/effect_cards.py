@@ -7,7 +7,8 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from armscope.verdict.schema import INDISTINGUISHABLE_NATS, Alternative, FoundEffect, Parameter
+from armscope.physics.registry import effect_named
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS, Alternative, FoundEffect, Parameter
 from armscope.verdict.wording import (
     Reading,
     capitalised,
@@ -22,8 +23,6 @@ from armscope.verdict.wording import (
 )
 
 MOST_PARAMETERS = 8
-EITHER_WAY = ("joint_offset", "link_geometry", "parallelogram_geometry", "gear_ratio", "joint_coupling")
-"""Their values are departures from what is stated, which carry their sign."""
 UNKNOWN_MASSES = "compliance_times_moment"
 LEFT_OPEN = 10.0
 """A parameter whose standard error would move the tool so many times as far as its effect does is left open."""
@@ -94,7 +93,7 @@ def card(effect: FoundEffect, number: int, figure: str = "") -> Card:
         evidence_words=evidence_in_words(effect.evidence_nats),
         alternatives=tuple(
             ShownAlternative(
-                effect_in_words(other.effect, other.location) + _followed(other.effect, other.driver),
+                effect_in_words(other.effect, other.location) + _followed(other),
                 gap_in_words(other),
                 other.discriminability_nats < INDISTINGUISHABLE_NATS,
             )
@@ -112,15 +111,16 @@ def card(effect: FoundEffect, number: int, figure: str = "") -> Card:
 
 def title_of(effect: FoundEffect) -> str:
     """The name at the level that the evidence allows; a free curve is told by what it follows."""
-    if effect.effect == "unknown" and effect.named_as == "effect" and effect.curve is not None:
+    if effect.nameless and effect.named_as == "effect" and effect.curve is not None:
         return f"{effect.location}: unexplained curve that follows the {effect.driver}"
     return (plain(effect.title) or effect_in_words(effect.effect, effect.location)) + _since(effect)
 
 
 def _since(effect: FoundEffect) -> str:
     """From when on a jump holds: several of one kind differ in nothing else."""
+    known = effect_named(effect.effect)
     moment = next((p for p in effect.parameters if p.name in ("row", "time")), None)
-    if not effect.effect.endswith("_shift") or moment is None:
+    if moment is None or known is None or not known.jumps:
         return ""
     run = effect.driver.partition(", run ")[2]
     at = f"row {moment.value:g}" if moment.name == "row" else f"{moment.value:g} s"
@@ -134,25 +134,25 @@ def reading_of(parameter: Parameter, effect: FoundEffect) -> Reading:
     cancelled by others in these poses (d of neighbouring parallel axes, for instance).
     """
     reading = read_parameter(parameter, effect.effect)
-    if effect.effect in EITHER_WAY and parameter.value > 0:
+    known = effect_named(effect.effect)
+    if known and known.departs and parameter.value > 0:
         also = f"+{reading.also}" if reading.also else ""
         reading = replace(reading, value=f"+{reading.value}", also=also)
     if implausible(parameter, effect):
         return Reading(reading.label, "undetermined", "beyond what arms have: it stands in for others")
     lever_mm = {"mm": 1.0, "rad": 1e3}.get(parameter.unit)  # an angle acts at about a metre
     open_mm = parameter.stderr * lever_mm if lever_mm is not None and math.isfinite(parameter.stderr) else 0.0
-    if len(effect.parameters) < 2 or open_mm < LEFT_OPEN * effect.rms_at_tool_mm or effect.effect == "unknown":
+    if len(effect.parameters) < 2 or open_mm < LEFT_OPEN * effect.rms_at_tool_mm or effect.nameless:
         return reading
     return Reading(reading.label, "undetermined", "in these poses others take its place")
 
 
 def what_kind(effect: FoundEffect) -> str:
     """What a title leaves open: the best single reading, and the kind of physics."""
-    family = "" if effect.family == "unknown" else f"{effect.family}"
-    if effect.effect == "unknown":
-        return family or "no known physics"
+    if effect.nameless:
+        return "no known physics"
     name = effect_in_words(effect.effect, effect.location)
-    return family if title_of(effect).replace(" at ", ", ") == name else f"{name} · {family}"
+    return effect.family if title_of(effect).replace(" at ", ", ") == name else f"{name} · {effect.family}"
 
 
 def told_parameters(effect: FoundEffect) -> Sequence[Parameter]:
@@ -160,7 +160,7 @@ def told_parameters(effect: FoundEffect) -> Sequence[Parameter]:
 
     A free curve's coefficients don't, but how far it reaches does; nor do products with unknown mass moments.
     """
-    if effect.effect != "unknown" or effect.curve is None:
+    if not effect.nameless or effect.curve is None:
         return [p for p in effect.parameters if not p.name.startswith(UNKNOWN_MASSES)]
     return [reach(effect.curve)]
 
@@ -217,6 +217,6 @@ def gap_in_words(other: Alternative) -> str:
     return f"{told}; other rows do not exclude it" if other.excluded is False else told
 
 
-def _followed(effect: str, driver: str) -> str:
+def _followed(other: Alternative) -> str:
     """A free curve says what it follows, since its name doesn't."""
-    return f" (follows {driver})" if effect == "unknown" and driver else ""
+    return f" (follows {other.driver})" if other.nameless and other.driver else ""

@@ -10,7 +10,8 @@ from armscope.report.figures.effect_curve import effect_curves, worth_drawing
 from armscope.report.sectioning import Section
 from armscope.report.sections.effect_cards import Card, card
 from armscope.report.subject import Subject
-from armscope.verdict.schema import Diagnosis, FoundEffect, NextPoses
+from armscope.verdict.diagnosis import Diagnosis, NextPoses
+from armscope.verdict.effects import FoundEffect
 from armscope.verdict.wording import main_and_minor, millimetres, percent
 
 

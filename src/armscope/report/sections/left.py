@@ -20,7 +20,7 @@ def _left_is_told(verdict: Verdict) -> str:
     """The anchor of the card that already shows what is left unexplained; empty where there is none."""
     left = verdict.unexplained
     for number, effect in enumerate(verdict.effects, start=1):
-        if left.present and effect.effect == "unknown" and effect.location == left.location:
+        if left.present and effect.nameless and effect.location == left.location:
             return card(effect, number).anchor
     return ""
 

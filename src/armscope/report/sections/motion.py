@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
@@ -10,7 +11,9 @@ import pandas as pd
 
 from armscope.core.inputs import InputError
 from armscope.core.location import Location
+from armscope.motion.clauses import amount
 from armscope.motion.verdict import FoundCause, JointBackground
+from armscope.motion.words import clause
 from armscope.report.figures.arm_picture import draw_arm
 from armscope.report.figures.motion import curve_figures, friction_figures, left_figures, trace_figures
 from armscope.report.figures.waterfall import Quantity, draw_waterfall
@@ -18,11 +21,25 @@ from armscope.report.motion_subject import MotionSubject
 from armscope.report.sectioning import Drawn, Section
 from armscope.report.sections.effect_cards import ShownAlternative, gap_in_words
 from armscope.robot.arm import build_arm
-from armscope.verdict.schema import INDISTINGUISHABLE_NATS, Parameter
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS, Alternative, Parameter
 from armscope.verdict.wording import Reading, capitalised, evidence_in_words, percent, read_parameter
 
 RELATIVE = Quantity("error on held-out motion, relative to its torque (%)", lambda value: f"{value:.3g} %")
 KNOT = "knot "
+LABELS = {
+    "mx": "mass × x, in its frame",
+    "my": "mass × y, in its frame",
+    "mz": "mass × z, in its frame",
+    "x": "about x of the base",
+    "y": "about y of the base",
+    "times": "times what it weighs",
+    "viscous_difference": "forward, beyond the mean",
+    "per_load": "friction per torque",
+    "gain": "recorded / true torque − 1",
+}
+"""What parameters are called on cards, where their own names don't say it."""
+SEEN = 0.005
+"""Share from which what no cause explains has a line of its own."""
 BY_VALUES = "found by trying values"
 
 
@@ -32,6 +49,7 @@ class MotionCard:
 
     anchor: str
     title: str
+    said: str
     share: str
     share_width: float
     size: str
@@ -55,17 +73,18 @@ def motion_card(cause: FoundCause, number: int) -> MotionCard:
     return MotionCard(
         anchor=f"cause-{number}",
         title=capitalised(cause.title),
+        said=f"{capitalised(clause(cause))}.",
         share=percent(cause.share),
         share_width=min(100.0, max(0.0, 100 * cause.share)),
         size=f"{cause.rms:.2g} {cause.unit} RMS at {cause.joint}",
         readings=tuple(signed(each) for each in cause.parameters if not each.name.startswith(KNOT)),
         physics=cause.physics,
         confirm=cause.confirm,
-        cure=cause.cure,
+        cure=cause.cure.replace("`", ""),
         evidence=f"{capitalised(evidence_in_words(cause.evidence_nats))} ({cause.evidence_nats:.0f} nats).",
         alternatives=tuple(
             ShownAlternative(
-                _named(other.effect, other.location, other.driver),
+                _named(other),
                 gap_in_words(other),
                 other.discriminability_nats < INDISTINGUISHABLE_NATS,
             )
@@ -80,14 +99,15 @@ def motion_card(cause: FoundCause, number: int) -> MotionCard:
 def signed(parameter: Parameter) -> Reading:
     """A parameter as a card shows it: departures carry their sign."""
     reading = read_parameter(parameter)
+    reading = replace(reading, label=LABELS.get(parameter.name, reading.label))
     fitted = reading.interval != BY_VALUES
     return replace(reading, value=f"+{reading.value}") if fitted and parameter.value > 0 else reading
 
 
-def _named(effect: str, location: str, driver: str) -> str:
-    follows = f" that follows the {driver}" if effect == "unknown" and driver else ""
-    name = "an unknown torque" if effect == "unknown" else effect.replace("_", " ")
-    return f"{name} at {location}{follows}" if location != "payload" else name
+def _named(other: Alternative) -> str:
+    follows = f" that follows the {other.driver}" if other.nameless and other.driver else ""
+    name = "an unknown torque" if other.nameless else other.effect.replace("_", " ")
+    return f"{name} at {other.location}{follows}" if other.location != "payload" else name
 
 
 def _cards(subject: MotionSubject) -> dict[str, Any]:
@@ -97,7 +117,8 @@ def _cards(subject: MotionSubject) -> dict[str, Any]:
 
 
 def _where(subject: MotionSubject) -> dict[str, Any]:
-    return {**_cards(subject), "joints": subject.arm.n_motors}
+    rest = 1 - sum(cause.share for cause in subject.verdict.effects)
+    return {**_cards(subject), "joints": subject.arm.n_motors, "rest": percent(rest) if rest > SEEN else ""}
 
 
 def arm_of_motion(subject: MotionSubject) -> Iterator[Drawn]:
@@ -130,9 +151,15 @@ def waterfall_of_motion(subject: MotionSubject) -> Iterator[Drawn]:
 def relative_steps(subject: MotionSubject) -> list[tuple[str, float, float]]:
     """(what entered, error on held-out motion, error on fitted motion), %; the arm as stated first."""
     steps = [("as stated, nothing fitted", 100 * subject.verdict.held_out.stated, float("nan"))]
-    for number, step in enumerate(subject.verdict.waterfall):
-        label = step.label if number == 0 else f"+ {step.label}"
-        steps.append((label, 100 * step.held_out, 100 * step.fitted))
+    small = {cause.title for cause in subject.minor}
+    known = enumerate(subject.verdict.waterfall)
+    for minor, group in itertools.groupby(known, lambda each: each[1].label in small):
+        members = list(group)
+        if minor and len(members) > 1:  # one by one they are hardly to be seen
+            members = [(members[-1][0], replace(members[-1][1], label=f"{len(members)} minor causes"))]
+        for number, step in members:
+            label = step.label.replace("an unknown torque at", "unknown torque,").replace("that follows the", "over")
+            steps.append((f"+ {label}" if number else label, 100 * step.held_out, 100 * step.fitted))
     return steps
 
 
@@ -144,12 +171,19 @@ def _better(subject: MotionSubject) -> dict[str, Any]:
 
 def _friction(subject: MotionSubject) -> dict[str, Any]:
     names = ("offset", "coulomb", "viscous", "inertia")
-    return {"joints": [(each, _told(each, names)) for each in subject.verdict.background]}
+    joints = subject.verdict.background
+    below = [joint.joint for joint in joints if _below_zero(joint)]
+    return {"joints": [(each, _told(each, names)) for each in joints], "below_zero": below, "n": len(joints)}
 
 
-def _told(joint: JointBackground, names: tuple[str, ...]) -> list[Reading | None]:
-    known = {parameter.name: read_parameter(parameter) for parameter in joint.parameters}
-    return [known.get(name) for name in names]
+def _told(joint: JointBackground, names: tuple[str, ...]) -> list[str]:
+    known = {each.name: f"{'−' if each.value < 0 else ''}{amount(each)}" for each in joint.parameters}
+    return [known.get(name, "–") for name in names]
+
+
+def _below_zero(joint: JointBackground) -> bool:
+    """Whether its rotor comes out as less than nothing: then what it moves is stated too heavy."""
+    return any(each.name == "inertia" and each.interval[1] < 0 for each in joint.parameters)
 
 
 def _left(subject: MotionSubject) -> dict[str, Any]:

@@ -11,7 +11,7 @@ from armscope.report.figures.next_poses import next_poses_figure
 from armscope.report.sectioning import Section
 from armscope.report.sections.effects import findings
 from armscope.report.subject import Subject
-from armscope.verdict.schema import NextPoses
+from armscope.verdict.diagnosis import NextPoses
 
 
 def _context(subject: Subject) -> dict[str, Any]:

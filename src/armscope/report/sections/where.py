@@ -10,7 +10,7 @@ from armscope.report.figures.arm_picture import NAMED_SHARE
 from armscope.report.sectioning import Section
 from armscope.report.sections.effects import findings
 from armscope.report.subject import Subject
-from armscope.verdict.schema import Diagnosis
+from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.wording import SMALL, capitalised, main_and_minor, percent
 
 LEAST_AGAINST = 5e-4

@@ -7,13 +7,17 @@ from typing import Any
 
 from armscope.report.sectioning import Section
 from armscope.report.subject import Subject
-from armscope.verdict.schema import Diagnosis
+from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.wording import millimetres
+
+SHOWN = 6
+"""Steps that stand open: those that pay most; the others unfold, and all stand in the work order to print."""
 
 
 def _context(subject: Subject) -> dict[str, Any]:
     return {
         "order": subject.order,
+        "shown": SHOWN if len(subject.order.tasks) > SHOWN + 1 else len(subject.order.tasks),
         "mm": lambda mm: millimetres(subject.expected(mm)),
         "held_out": math.isfinite(subject.verdict.held_out.after),
     }

@@ -166,7 +166,7 @@ def _truth(world: World) -> dict[str, Any]:
             "stated": spec.stated,
             "current": spec.current,
             "rule": spec.rule,
-            "outside_library": any(each.concealed.kind.effect == "unknown" for each in world.concealed),
+            "outside_library": any(each.concealed.kind.outside for each in world.concealed),
         },
     }
 

@@ -10,14 +10,19 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.robot.description import RobotDescription
+from armscope.world.motion.limits import centre_may_be, mass_may_be, resists_either_way, resists_when_warm
 from armscope.world.motion.mechanism import Coupling, Dynamics, Spring
 from armscope.world.motion.session import COLD_C, GRID_HZ, Session
+
+if TYPE_CHECKING:
+    from armscope.world.motion.virtual_arm import VirtualArm
 
 Numbers = Mapping[str, float]
 STANDSTILL = 2e-3
@@ -62,6 +67,7 @@ class Kind:
         needs: columns of motions.csv without which nobody could see it.
         stated: whether robot.yaml states what it departs from (ordinary friction is in every arm).
         shape: of a kind outside the library.
+        possible: (arm, joint from 0, its numbers) whether a body can be so; anything can where it is not given.
     """
 
     effect: str
@@ -77,6 +83,12 @@ class Kind:
     needs: tuple[str, ...] = ()
     stated: bool = False
     shape: str = ""
+    possible: Callable[[VirtualArm, int, Numbers], bool] | None = None
+
+    @property
+    def outside(self) -> bool:
+        """Whether no cause of the library is this one."""
+        return bool(self.shape)
 
     @property
     def name(self) -> str:
@@ -228,7 +240,8 @@ LIBRARY: tuple[Kind, ...] = (
          changes=_added("viscous", "viscous"), stated=True),
     Kind("asymmetric_friction", joints, _either("viscous_difference"), {"viscous_difference": "N m s/rad"},
          ("viscous_difference",), {},
-         pulls=lambda stage, j, x: x["viscous_difference"] * np.abs(stage.session.speed[:, j])),
+         pulls=lambda stage, j, x: x["viscous_difference"] * np.abs(stage.session.speed[:, j]),
+         possible=resists_either_way),
     Kind("stribeck_friction", joints, _more("stribeck", speed=0.15), {"stribeck": "N m", "speed": "rad/s"},
          ("stribeck",), {}, pulls=_stribeck),
     Kind("load_friction", loaded_joints, _more("per_load"), {"per_load": ""}, ("per_load",), {"per_load": 0.3},
@@ -236,7 +249,8 @@ LIBRARY: tuple[Kind, ...] = (
     Kind("thermal_friction", joints, lambda rng, _: {"per_kelvin": -1.0}, {"per_kelvin": "N m s/(rad K)"},
          ("per_kelvin",), {}, needs=("temperature_c",), driver="temperature",
          pulls=lambda stage, j, x: (
-             x["per_kelvin"] * (stage.session.temperature - COLD_C) * stage.session.speed[:, j])),
+             x["per_kelvin"] * (stage.session.temperature - COLD_C) * stage.session.speed[:, j]),
+         possible=resists_when_warm),
     Kind("rotor_inertia", joints, _more("inertia"), {"inertia": "kg m^2"}, ("inertia",), {},
          changes=_added("rotor", "inertia"), driver="acceleration", stated=True),
     Kind("torque_offset", joints, _either("offset"), {"offset": "N m"}, ("offset",), {},
@@ -245,9 +259,10 @@ LIBRARY: tuple[Kind, ...] = (
          driver="load"),
     Kind("torque_delay", joints, _more("delay"), {"delay": "s"}, ("delay",), {"delay": 0.05}, records=_late,
          driver="time"),
-    Kind("link_mass", _links, _either("mass"), {"mass": "kg"}, ("mass",), {}, changes=_heavier, driver="load"),
+    Kind("link_mass", _links, _either("mass"), {"mass": "kg"}, ("mass",), {}, changes=_heavier, driver="load",
+         possible=mass_may_be),
     Kind("link_first_moment", _links, _direction("mx", "my", "mz"), dict.fromkeys(("mx", "my", "mz"), "kg m"),
-         ("mx", "my", "mz"), {}, changes=_off_centre, driver="load"),
+         ("mx", "my", "mz"), {}, changes=_off_centre, driver="load", possible=centre_may_be),
     Kind("link_inertia", _links, _more("inertia"), {"inertia": "kg m^2"}, ("inertia",), {}, changes=_thicker,
          driver="acceleration"),
     Kind("payload_error", lambda _: ["payload"], _more("mass"), {"mass": "kg"}, ("mass",), {}, changes=_carries,

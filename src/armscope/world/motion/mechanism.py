@@ -15,7 +15,8 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.robot.description import RobotDescription
-from armscope.world.mechanism import Geometry
+from armscope.world.layout import Geometry
+from armscope.world.mjcf import numbers, placed
 
 STIFF_FRICTION = 'solimpfriction="0.999 0.999 0.001" solreffriction="0.004 1"'
 """Dry friction that is fully there from about a milliradian per second on."""
@@ -162,19 +163,17 @@ class MovingArm:
 def _mjcf(geometry: Geometry, dynamics: Dynamics) -> str:
     parts, depth = ["<body>"], 1
     for j in range(geometry.n_joints):
-        to_joint, to_link = (
-            step(j, geometry.rows).attributes() for step in (geometry.step_to_joint, geometry.step_to_link)
-        )
+        to_joint, to_link = (placed(step(j, geometry.rows)) for step in (geometry.step_to_joint, geometry.step_to_link))
         parts.append(f"<body {to_joint}>{_joint(geometry, dynamics, j)}<body {to_link}>{_link(dynamics, j)}")
         depth += 3
     if dynamics.load:
         place = geometry.tool + (0 if dynamics.load_centre is None else dynamics.load_centre)
         point = 'diaginertia="1e-12 1e-12 1e-12"'
-        parts.append(f'<body><inertial pos="{_numbers(place)}" mass="{float(dynamics.load)!r}" {point}/></body>')
+        parts.append(f'<body><inertial pos="{numbers(place)}" mass="{float(dynamics.load)!r}" {point}/></body>')
     tendons = "".join(_tendon(number, coupling) for number, coupling in enumerate(dynamics.couplings))
     return (
         '<mujoco><compiler angle="radian"/>'
-        f'<option gravity="{_numbers(dynamics.gravity)}"><flag energy="enable" contact="disable"/></option>'
+        f'<option gravity="{numbers(dynamics.gravity)}"><flag energy="enable" contact="disable"/></option>'
         f"<worldbody>{''.join(parts)}{'</body>' * depth}</worldbody>"
         f"{f'<tendon>{tendons}</tendon>' if tendons else ''}</mujoco>"
     )
@@ -183,7 +182,7 @@ def _mjcf(geometry: Geometry, dynamics: Dynamics) -> str:
 def _joint(geometry: Geometry, dynamics: Dynamics, j: int) -> str:
     """Hinge j; MuJoCo's angle counts from the D-H row's theta offset, so that qpos is the motor's angle."""
     half = geometry.rows[j, 3] / 2
-    turned = f'<body quat="{_numbers([np.cos(half), 0, 0, np.sin(half)])}">'
+    turned = f'<body quat="{numbers([np.cos(half), 0, 0, np.sin(half)])}">'
     springs = [spring for spring in dynamics.springs if spring.joint == j]
     spring = f' stiffness="{springs[0].stiffness!r}" springref="{springs[0].rest!r}"' if springs else ""
     rubs = f' frictionloss="{float(dynamics.coulomb[j])!r}" {STIFF_FRICTION}' if dynamics.coulomb[j] > LEAST else ""
@@ -192,7 +191,7 @@ def _joint(geometry: Geometry, dynamics: Dynamics, j: int) -> str:
 
 
 def _link(dynamics: Dynamics, j: int) -> str:
-    place, inertia = _numbers(dynamics.centre[j]), _numbers(dynamics.inertia[j])
+    place, inertia = numbers(dynamics.centre[j]), numbers(dynamics.inertia[j])
     return f'<inertial pos="{place}" mass="{float(dynamics.mass[j])!r}" fullinertia="{inertia}"/>'
 
 
@@ -201,7 +200,3 @@ def _tendon(number: int, coupling: Coupling) -> str:
     joints = "".join(f'<joint joint="joint {j + 1}" coef="1"/>' for j in (coupling.joint, coupling.source))
     attributes = f'damping="{coupling.viscous!r}" armature="{coupling.inertia!r}"{rubs}'
     return f'<fixed name="coupling {number}" {attributes}>{joints}</fixed>'
-
-
-def _numbers(values: Array | list[float]) -> str:
-    return " ".join(repr(float(value)) for value in values)

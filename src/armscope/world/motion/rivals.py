@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
-from armscope.world.mechanism import Geometry
+from armscope.world.layout import Geometry
 from armscope.world.motion.kinds import Stage, joints, sign
 from armscope.world.motion.mechanism import Dynamics, MovingArm
 from armscope.world.motion.recording import independent_share

@@ -9,7 +9,7 @@ import numpy as np
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.robot.description import RobotDescription
-from armscope.world.mechanism import Geometry
+from armscope.world.layout import Geometry
 from armscope.world.motion.kinds import Concealed, Kind, Stage, sign
 from armscope.world.motion.mechanism import Dynamics, MovingArm
 from armscope.world.motion.session import Session
@@ -171,7 +171,8 @@ def measure(arm: VirtualArm, concealed: Concealed, plain: Array) -> Sized | None
     Returns:
         Its size; None where no body can be so.
     """
-    if not _possible(arm, concealed):
+    may_be = concealed.kind.possible
+    if may_be is not None and not may_be(arm, concealed.joint, concealed.numbers):
         return None
     try:
         change = arm.torques([concealed]) - plain
@@ -181,23 +182,3 @@ def measure(arm: VirtualArm, concealed: Concealed, plain: Array) -> Sized | None
     rms = np.sqrt(np.mean(left**2, axis=0))
     most = int(np.argmax(rms / arm.sigma))
     return Sized(concealed, float((rms / arm.sigma)[most]), float(rms[most]), change)
-
-
-WRONG_MASS, WRONG_CENTRE = 0.6, 0.1
-"""How wrong a drawing may be: share of a link's mass, and of the arm's longest link for its centre."""
-
-
-def _possible(arm: VirtualArm, concealed: Concealed) -> bool:
-    """Masses stay positive, friction resists, and a wrong drawing is no fantasy."""
-    kind, numbers, j = concealed.kind, concealed.numbers, concealed.joint
-    if kind.effect == "link_mass":
-        return bool(abs(numbers["mass"]) < WRONG_MASS * arm.dynamics.mass[j])
-    if kind.effect == "link_first_moment":
-        moved = np.linalg.norm([numbers[name] for name in ("mx", "my", "mz")]) / arm.dynamics.mass[j]
-        return bool(moved < WRONG_CENTRE * Geometry(arm.description).rows[:, [0, 2]].max())
-    if kind.effect == "thermal_friction":
-        warmest = arm.session.temperature.max() - arm.session.temperature.min()
-        return bool(arm.dynamics.viscous[j] + numbers["per_kelvin"] * warmest > 0)
-    if kind.effect == "asymmetric_friction":
-        return bool(abs(numbers["viscous_difference"]) < arm.dynamics.viscous[j])
-    return True

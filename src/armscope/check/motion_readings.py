@@ -1,0 +1,126 @@
+"""Whether positions of a moving arm are in other units or in another order of joints: what the masses' torque says."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.check.suspicion import Suspicion
+from armscope.core.sampling import spread_evenly
+from armscope.core.types import Array, Indices
+from armscope.robot.dynamics import MovingArm
+
+ROWS, FEWEST = 300, 60
+"""Rows that a reading is tried on, and the fewest that tell anything."""
+EXPLAINED, CLEARLY = 0.8, 5.0
+"""Share of the torque beyond friction that masses explain, below which a table is read otherwise; and a reading that
+explains so much is told if what it leaves is so many times less."""
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """(N, m) positions, velocities, accelerations and torque or current, as the table has them."""
+
+    q: Array
+    dq: Array
+    ddq: Array
+    effort: Array
+
+    def rows(self, which: Indices) -> Samples:
+        """Some of the samples."""
+        return Samples(self.q[which], self.dq[which], self.ddq[which], self.effort[which])
+
+    def scaled(self, factor: float, turning: NDArray[np.bool_]) -> Samples:
+        """With the positions of turning joints in another unit."""
+        by = np.where(turning, factor, 1.0)
+        return Samples(by * self.q, by * self.dq, by * self.ddq, self.effort)
+
+    def reordered(self, order: tuple[int, ...], effort_too: bool) -> Samples:
+        """With columns in another order: of positions, or of torque, too."""
+        to = list(order)
+        return Samples(
+            self.q[:, to], self.dq[:, to], self.ddq[:, to], self.effort[:, to] if effort_too else self.effort
+        )
+
+
+def beyond_friction(samples: Samples, rigid: Array) -> Iterator[tuple[Array, Array]]:
+    """By joint, (N,) torque as recorded and as the masses ask for, each without offset, friction and a rotor."""
+    for j in range(rigid.shape[1]):
+        dq, ddq = samples.dq[:, j], samples.ddq[:, j]
+        ordinary = np.column_stack([np.ones(len(dq)), np.sign(dq), dq, ddq])
+        recorded, asked = (
+            each - ordinary @ np.linalg.lstsq(ordinary, each, rcond=None)[0]
+            for each in (samples.effort[:, j], rigid[:, j])
+        )
+        yield recorded, asked
+
+
+def explained(samples: Samples, arm: MovingArm) -> float:
+    """Share of the torque beyond friction that the stated masses explain, each joint by a factor of its own."""
+    rigid = arm.torques(samples.q, samples.dq, samples.ddq, arm.inertial)
+    told = total = 0.0
+    for recorded, asked in beyond_friction(samples, rigid):
+        power = float(asked @ asked)
+        along = max(float(asked @ recorded), 0.0)
+        total += float(recorded @ recorded)
+        told += along**2 / power if power > 0 else 0.0
+    return told / total if total > 0 else 1.0
+
+
+def read_otherwise(samples: Samples, arm: MovingArm) -> Iterator[Suspicion]:
+    """What the table means if it is not what its columns say: degrees, or another order of the joints.
+
+    Args:
+        samples: of all runs.
+        arm: the robot that it should belong to.
+
+    Yields:
+        A problem, where the masses explain the torque only if the table is read otherwise.
+    """
+    if len(samples.q) < FEWEST or not np.any(arm.inertial):
+        return
+    few = samples.rows(spread_evenly(len(samples.q), ROWS))
+    stated = explained(few, arm)
+    if stated >= EXPLAINED:
+        return
+
+    def better(share: float) -> bool:
+        return share > EXPLAINED and CLEARLY * (1 - share) < 1 - stated
+
+    as_degrees = explained(few.scaled(np.pi / 180, ~arm.sliding), arm)
+    if better(as_degrees):
+        yield Suspicion(
+            "problem",
+            f"masses explain {_share(stated)} of the torque, and {_share(as_degrees)} if positions are degrees",
+            "Call their columns q1_deg ... and dq1_deg_s ....",
+        )
+        return
+    found = [(explained(few.reordered(order, both), arm), both, order) for order, both in _orders(arm)]
+    best, both, order = max(found, default=(0.0, False, ()))
+    if better(best):
+        told = " ".join(f"{j + 1}" for j in order)
+        what = "joints" if both else "positions"
+        yield Suspicion(
+            "problem",
+            f"masses explain {_share(stated)} of the torque, and {_share(best)} with {what} in the order {told}",
+            "Number the columns in the order of the arm's joints, from the base.",
+        )
+
+
+def _share(of: float) -> str:
+    return f"{100 * of:.0f} %"
+
+
+def _orders(arm: MovingArm) -> Iterator[tuple[tuple[int, ...], bool]]:
+    """Orders of joints that people mix up: reversed, moved on by one, two swapped."""
+    own = tuple(range(arm.n_motors))
+    pairs = (dict([pair, pair[::-1]]) for pair in combinations(own, 2))
+    swapped = [tuple(pair.get(j, j) for j in own) for pair in pairs]
+    for order in dict.fromkeys((own[::-1], (*own[1:], own[0]), (own[-1], *own[:-1]), *swapped)):
+        if order != own and np.array_equal(arm.sliding[list(order)], arm.sliding):
+            yield order, True
+            yield order, False

@@ -1,0 +1,86 @@
+"""Numbers that decide what is told of a finished selection; see `armscope.core.constants`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from armscope.core.constants import Constants, constant
+
+
+@dataclass(frozen=True)
+class TellingRules(Constants):
+    """What is told of the effects and of the rows."""
+
+    listed_suspects: int = constant(200, "at most", "judgement: nobody reads more", unit="rows")
+    noise_excess: float = constant(
+        1.15,
+        "times the stated noise beyond which a residual is more than the noise",
+        "judgement: statements are rounded",
+    )
+    same_size: float = constant(
+        0.05,
+        "of an effect's size by which parts of the rows may differ and still give the same",
+        "judgement: seen with bench cases in view; who cures an effect by it takes 95 % away",
+    )
+    background_seen_nats: float = constant(
+        5.0, "evidence from which a background is said to be there", "judgement: 150 to 1", unit="nats"
+    )
+    determined: float = constant(
+        0.5,
+        "of a value's prior width that its standard error must be below to be told",
+        "judgement: half of it is data",
+    )
+    most_bad_shots: float = constant(
+        0.1, "share of rows that fit nothing beyond which they are no bad shots", "judgement: a tenth is a pattern"
+    )
+    rest_of_a_curve: float = constant(
+        2.0,
+        "times a joint's scatter that a curve must exceed to be told beside it",
+        "judgement: less is the scatter's own",
+    )
+    telling_share: float = constant(
+        0.7,
+        "of a curve's variation that a simple shape must explain to be named",
+        "judgement: half of a curve is no name",
+    )
+    grid: int = constant(361, "at which a curve is told", "convention: a turn in degrees", unit="points")
+    atlas_rows: int = constant(4000, "that the atlas looks at, spread evenly", "judgement: time", unit="rows")
+    implausible_values: int = constant(3, "told at most", "judgement: nobody reads more", unit="values")
+    undetermined: float = constant(
+        0.7,
+        "of a plausible size, beyond which a value's standard error leaves it undetermined",
+        "derived: the rows then halve what was believed before, at most",
+    )
+    chance: float = constant(
+        0.99, "with which all agreeing subsets of a verdict stay below the limit", "convention: 99 %"
+    )
+    most_payloads: int = constant(6, "compared one by one", "judgement: time", unit="payloads")
+    curve_rows: int = constant(
+        50_000, "from which the range of what drives a curve is taken, spread evenly", "judgement: memory", unit="rows"
+    )
+    homogeneity_rows: int = constant(
+        3000, "on which payloads and halves of the workspace are compared", "judgement: time", unit="rows"
+    )
+
+
+@dataclass(frozen=True)
+class NextPoseRules(Constants):
+    """Which measurements are asked for next."""
+
+    tried: int = constant(400, "from which they are chosen", "judgement: time", unit="poses")
+    asked: int = constant(12, "asked for", "judgement: an hour's work", unit="poses")
+    decisive_nats: float = constant(
+        10.5,
+        "that they should tell two readings apart by on average",
+        "derived: D - 1.645 sqrt(2 D) = 3: D expected nats scatter by sqrt(2 D), so 95 of 100 cases "
+        "exceed the 3 nats of 20 to 1",
+        unit="nats",
+    )
+    most_repeats: int = constant(200, "of a pose", "judgement: nobody measures one more often", unit="visits")
+    payload_kg: float = constant(
+        10.0, "tried where the recordings never carried one", "judgement: what a mid-sized arm carries", unit="kg"
+    )
+
+
+TELLING = TellingRules()
+NEXT_POSES = NextPoseRules()

@@ -1,0 +1,186 @@
+"""Causes of a moving arm as clauses of a sentence: who does what, by how much. `armscope.motion.catalogue` says whose.
+
+Signs: torque is the motor's, positive along the motion that it drives; a parameter is what the recorded torque has
+beyond the stated model.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+
+from armscope.core.numerals import shown_unit
+from armscope.motion.verdict import FoundCause
+from armscope.verdict.effects import INTERVAL, Parameter
+from armscope.verdict.wording import decimals_for
+
+Numbers = dict[str, Parameter]
+Clause = Callable[[FoundCause, Numbers], str]
+SCALE = "torque"
+"""What a sensor that bends follows."""
+
+
+def amount(parameter: Parameter, sign: bool = False) -> str:
+    """A number with half its 95 % interval, in the unit of texts; its size, or with its sign.
+
+    Args:
+        parameter: in a unit of the files.
+        sign: whether its sign is said, too.
+
+    Returns:
+        As in "39.6 ± 2.7 N s/m".
+    """
+    factor, unit = shown_unit(parameter.unit, abs(parameter.value))
+    half = factor * INTERVAL * parameter.stderr
+    known = math.isfinite(half) and half > 0
+    decimals = decimals_for(half) if known else 3
+    size = f"{factor * abs(parameter.value):.{decimals}f}"
+    plus = ("−" if parameter.value < 0 else "+") if sign else ""
+    return f"{plus}{size}{f' ± {half:.{decimals}f}' if known else ''} {unit}".strip()
+
+
+def rms_of(cause: FoundCause) -> str:
+    """Its torque's size, as the joint where it is largest has it."""
+    return f"{cause.rms:.2g} {cause.unit} RMS"
+
+
+def _open(parameter: Parameter) -> bool:
+    """Whether its sign is open."""
+    low, high = parameter.interval
+    return low <= 0 <= high
+
+
+def than_stated(what: str, more: str, less: str) -> Clause:
+    """More or less of something than stated.
+
+    Args:
+        what: the subject and its verb, with {} for the place.
+        more: said of a positive number.
+        less: said of a negative one.
+
+    Returns:
+        The clause's function.
+    """
+
+    def say(cause: FoundCause, numbers: Numbers) -> str:
+        (parameter,) = cause.parameters[:1]
+        return f"{what.format(cause.location)} {amount(parameter)} {more if parameter.value > 0 else less} than stated"
+
+    return say
+
+
+def at_place(words: str) -> Clause:
+    """Words with {} for the place, and the size of the torque."""
+    return lambda cause, numbers: f"{words.format(cause.location)} ({rms_of(cause)})"
+
+
+def between_joints(words: str) -> Clause:
+    """Words with {} for two joints, and the size of the torque."""
+
+    def say(cause: FoundCause, numbers: Numbers) -> str:
+        joints = " and ".join(sorted(re.findall(r"\d+", cause.location), key=int))
+        return f"{words.format(f'joints {joints}')} ({rms_of(cause)})"
+
+    return say
+
+
+def asymmetric_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """Friction that differs by direction."""
+    difference = numbers["viscous_difference"]
+    forward, backward = ("higher", "lower") if difference.value > 0 else ("lower", "higher")
+    size = amount(difference)
+    told = f"viscous friction of {cause.location} is {size} {forward} forward than its mean"
+    return f"{told}, as much {backward} backward"
+
+
+def delay_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """Torque recorded late, or early."""
+    delay = numbers["delay"]
+    side = "late" if delay.value > 0 else "early"
+    return f"the torque of {cause.location} was recorded {amount(delay)} too {side}"
+
+
+def gain_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """A torque constant that is off."""
+    gain = numbers["gain"]
+    shown = Parameter("gain", "%", 100 * gain.value, 100 * gain.stderr)
+    side = "large" if gain.value > 0 else "small"
+    return f"the recorded torque of {cause.location} is {amount(shown)} too {side}"
+
+
+def balance_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """A spring or a counterweight, as far as its stiffness is known."""
+    stiffness = numbers.get("stiffness")
+    if stiffness is None:
+        return f"a counterweight or spring acts on {cause.location} ({rms_of(cause)})"
+    if _open(stiffness):
+        return f"something pulls {cause.location} to one side ({rms_of(cause)})"
+    verb = "back to one position" if stiffness.value > 0 else "away from one position"
+    return f"a spring pulls {cause.location} {verb}, by {amount(stiffness)}"
+
+
+def payload_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """A load that is heavier or lighter than stated, or sits elsewhere."""
+    mass = numbers.get("mass")
+    if mass is not None and not _open(mass):
+        return f"the arm carries {amount(mass)} {'more' if mass.value > 0 else 'less'} than stated"
+    off = rms_of(cause) if mass is None else f"its mass {amount(mass, sign=True)}"
+    return f"the load sits elsewhere than stated ({off})"
+
+
+def body_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """A body of the model that is missing, or there more than once."""
+    times = numbers["times"]
+    if times.interval[1] < -0.5:
+        whole = times.interval[0] <= -1 <= times.interval[1]
+        missing = "" if whole else f": {amount(times)} times what it weighs is missing"
+        return f"the model's {cause.location} is not on the arm{missing}"
+    if times.interval[0] > 0.5:
+        return f"the model's {cause.location} is there more than once: {amount(times)} times besides"
+    return f"the model's {cause.location} is not as stated: {amount(times, sign=True)} times itself"
+
+
+def moment_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """A centre of mass that lies elsewhere."""
+    size = math.hypot(*(parameter.value for parameter in cause.parameters))
+    return f"{cause.location} has its centre of mass elsewhere than stated: its first moment is {size:.2g} kg m off"
+
+
+def tilt_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """A base that is tilted."""
+    size = math.hypot(*(parameter.value for parameter in cause.parameters))
+    return f"the base is tilted by {math.degrees(size):.2g}° ({1e3 * size:.2g} mrad)"
+
+
+def ripple_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """Waves of torque."""
+    size = math.hypot(*(numbers[name].value for name in ("sine", "cosine")))
+    count = numbers["per_turn"].value
+    return f"the torque of {cause.location} ripples {count:.0f} times per turn, by ± {size:.2g} {cause.unit}"
+
+
+def nameless_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """What follows something by no known law."""
+    if cause.driver == SCALE:
+        return f"the torque of {cause.location} is not in proportion to the model's, by no known law ({rms_of(cause)})"
+    return f"the torque of {cause.location} follows the {cause.driver} by no known law ({rms_of(cause)})"
+
+
+def grows_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """Friction that grows with the load."""
+    per = amount(numbers["per_load"])
+    return f"dry friction of {cause.location} grows with the load, by {per} {cause.unit} per {cause.unit}"
+
+
+def stribeck_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """Friction near rest."""
+    extra = numbers["stribeck"]
+    return f"friction of {cause.location} is {amount(extra)} {'higher' if extra.value > 0 else 'lower'} near rest"
+
+
+def offset_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """A reading that is off."""
+    offset = numbers["offset"]
+    side = "high" if offset.value > 0 else "low"
+    return f"the recorded torque of {cause.location} reads {amount(offset)} too {side}"

@@ -1,0 +1,125 @@
+"""What gives way follows: weights, torques and moments of gravity, and how they change where a load is misstated."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.physics.effect import Driver, DriverKind
+from armscope.physics.recorded_drivers import recorded
+from armscope.robot.gravity import gravity_torques, mass_moment_regressor
+
+if TYPE_CHECKING:
+    from armscope.physics.scene import Scene
+
+SMALL_SHARE = 1e-3
+"""Of a link's mass, by which slopes are taken: what bends with the load hardly does so here."""
+
+
+def _payload(scene: Scene) -> Array:
+    return scene.payload
+
+
+def _force(scene: Scene, location: str, axis: int) -> Array:
+    """Weight beyond a frame, in the frame's axes, N."""
+    return scene.force(location)[:, axis]
+
+
+def _torque(scene: Scene, j: int) -> Array:
+    """Recorded torque where there is one (positive along gravity's pull), else gravity of the stated masses."""
+    return scene.torques[:, j - 1]
+
+
+def _gravity_torque(scene: Scene, j: int) -> Array:
+    """Torque of gravity by the stated masses and payload, whatever was recorded."""
+    return scene.gravity_torques[:, j - 1]
+
+
+def _payload_torque(scene: Scene, j: int) -> Array:
+    """Torque on motor j of the payload alone."""
+    return _unit_mass_torques(scene)[:, j - 1] * np.nan_to_num(recorded(scene, "payload"))
+
+
+def _unit_mass_torques(scene: Scene) -> Array:
+    """(N, m) torque of one kilogram at the tool point."""
+
+    def compute() -> Array:
+        ones = np.ones(len(scene))
+        return gravity_torques(scene.arm, scene.loaded, ones) - gravity_torques(scene.arm, scene.loaded)
+
+    return np.asarray(scene.remember("unit mass torques", compute))
+
+
+def _heavier(scene: Scene, load: Driver) -> Array:
+    """Change of a load driver per kilogram more at the tool point."""
+    more = replace(scene.misstated, payload_kg=scene.misstated.payload_kg + 1.0)
+    heavier = scene.remember("heavier", lambda: scene.loaded_as(more))
+    change: Array = heavier.driver(load) - scene.driver(load)
+    return change
+
+
+def _off_centre(scene: Scene, load: Driver, axis: int) -> Array:
+    """Change of a load driver per metre that the payload's centre lies off the tool point along a tool axis."""
+    off = replace(scene.misstated, payload_offset=np.eye(3)[axis])
+    shifted = scene.remember(("off centre", axis), lambda: scene.loaded_as(off))
+    change: Array = shifted.driver(load) - scene.driver(load)
+    return change
+
+
+def _heavier_by_share(scene: Scene, load: Driver) -> Array:
+    """Change of a load driver per share of the stated payload that it is heavier."""
+    more = replace(scene.misstated, payload_share=scene.misstated.payload_share + 1.0)
+    heavier = scene.remember("heavier by share", lambda: scene.loaded_as(more))
+    change: Array = heavier.driver(load) - scene.driver(load)
+    return change
+
+
+def _heavier_link(scene: Scene, load: Driver, link: int) -> Array:
+    """Slope of a load driver over the relative error of a link's mass; loads themselves are proportional to it."""
+    change: Array = scene.with_heavier_link(link, SMALL_SHARE).driver(load) - scene.driver(load)
+    return change / SMALL_SHARE
+
+
+def _regressor(scene: Scene, j: int, *weights: float) -> Array:
+    """Combination of the static torque regressor's columns of motor j: gravity torque of unknown mass moments."""
+    regressor = scene.remember("regressor", lambda: mass_moment_regressor(scene.arm, scene.loaded))
+    values: Array = regressor[:, j - 1] @ np.array(weights)
+    return values
+
+
+def _load_side(scene: Scene, j: int) -> Array:
+    return np.sign(_torque(scene, j))
+
+
+def _moment(scene: Scene, location: str, axis: int) -> Array:
+    """Moment of gravity about the frame's origin, in the frame's axes, N m."""
+    return scene.moment(location)[:, axis]
+
+
+def _bend(scene: Scene, link: int, axis: int) -> Array:
+    """Twist of a link's end per unit flexibility 1/(E I), Euler-Bernoulli cantilever under end force and moment."""
+    return scene.bending(link)[:, axis]
+
+
+_LOAD = frozenset({"load", "payload"})
+_WEIGHT = _LOAD | {"weight"}
+
+LOADS: dict[str, DriverKind] = {
+    "payload": DriverKind(_payload, follows=frozenset({"payload"})),
+    "force": DriverKind(_force, follows=_WEIGHT),
+    "torque": DriverKind(_torque, follows=_WEIGHT | {"torque"}, unit="N m"),
+    "gravity torque": DriverKind(_gravity_torque, follows=_WEIGHT),
+    "payload torque": DriverKind(_payload_torque, needs="payload", follows=_LOAD),
+    "heavier": DriverKind(_heavier, follows=_LOAD),
+    "heavier by share": DriverKind(_heavier_by_share, follows=_LOAD),
+    "heavier link": DriverKind(_heavier_link, follows=_LOAD),
+    "off centre": DriverKind(_off_centre, follows=_LOAD),
+    "regressor": DriverKind(_regressor, follows=frozenset({"load"})),
+    "load side": DriverKind(_load_side, follows=_LOAD | {"torque"}),
+    "moment": DriverKind(_moment, follows=_WEIGHT),
+    "bend": DriverKind(_bend, follows=_WEIGHT),
+}
+"""Kinds of drivers by name."""

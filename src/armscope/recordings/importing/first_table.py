@@ -1,0 +1,103 @@
+"""How a foreign table is cut, seen from its first lines: delimiter, decimal sign, header, encoding."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from armscope.core.inputs import InputError
+from armscope.core.types import Array
+from armscope.recordings.opening import open_text, refuse_other_than_text, start_of
+
+LOOKED_AT = 2000
+"""Lines of the file that guesses rest on."""
+LONGEST_NAME = 200
+"""Characters of a column's name: nobody writes more, and guessing looks through it again and again."""
+DELIMITERS = {";": ";", "\t": "tab", "|": "|", ",": ","}
+NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+
+
+@dataclass(frozen=True, eq=False)
+class ForeignTable:
+    """The first lines of a foreign table: how they are cut, their names, their numbers (NaN where none is)."""
+
+    delimiter: str
+    decimal: str
+    skip: int
+    names: list[str]
+    header: bool
+    values: Array
+    encoding: str = "utf-8-sig"
+
+
+def first_table(path: Path) -> ForeignTable:
+    """The first lines of a delimited text table.
+
+    Raises:
+        InputError: it is no text table, or has no rows.
+    """
+    encoding = "utf-8-sig"
+    start = start_of(path, "a table of recordings")
+    refuse_other_than_text(path, start, encoding, "Save it as UTF-8, or write `encoding: utf-16` in the mapping.")
+    try:
+        lines = _first_lines(path, encoding)
+    except UnicodeDecodeError:
+        encoding = "latin-1"
+        lines = _first_lines(path, encoding)
+    filled = [line for line in lines if line.strip()]
+    if len(filled) < 2:
+        raise InputError(path, "", f"{len(filled)} lines", "a table has a header or a row, and rows")
+    delimiter, cut = _delimiter(filled)
+    width = Counter(len(_split(line, cut)) for line in filled).most_common(1)[0][0]
+    first = next(number for number, line in enumerate(lines) if line.strip() and len(_split(line, cut)) == width)
+    rows = [cells for line in lines[first:] if len(cells := _split(line, cut)) == width]
+    decimal = "," if cut != "," and _has_decimal_commas(rows) else "."
+    header = not any(NUMBER.fullmatch(_plain(cell, decimal)) for cell in rows[0])
+    names = rows[0] if header else [str(number) for number in range(1, width + 1)]
+    for name in names:
+        if len(name) > LONGEST_NAME:
+            raise InputError(path, f"line {first + 1}", name, f"column names of at most {LONGEST_NAME} characters")
+    numbers = np.array([[_value(cell, decimal) for cell in row] for row in rows[1 if header else 0 :]], dtype=float)
+    if not len(numbers):
+        raise InputError(path, "", "a header alone", "rows are needed to guess units from")
+    return ForeignTable(delimiter, decimal, first, names, header, numbers, encoding)
+
+
+def _first_lines(path: Path, encoding: str) -> list[str]:
+    with open_text(path, encoding) as stream:
+        return [line.rstrip("\r\n") for line, _ in zip(stream, range(LOOKED_AT), strict=False)]
+
+
+def _delimiter(lines: Sequence[str]) -> tuple[str, str | None]:
+    """What the mapping calls the delimiter that cuts most lines alike, and the sign itself (None: white space)."""
+    best: tuple[str, str | None] = ("whitespace", None)
+    most = 0.0
+    for sign in (*DELIMITERS, None):
+        width, alike = Counter(len(_split(line, sign)) for line in lines).most_common(1)[0]
+        found = alike / len(lines) * (width > 3)
+        if found > most + 0.05:
+            best, most = ("whitespace" if sign is None else DELIMITERS[sign], sign), found
+    return best
+
+
+def _split(line: str, sign: str | None) -> list[str]:
+    return [cell.strip().strip('"') for cell in line.split(sign)]
+
+
+def _has_decimal_commas(rows: Sequence[Sequence[str]]) -> bool:
+    cells = [cell for row in rows for cell in row]
+    return sum(bool(re.fullmatch(r"[+-]?\d+,\d+([eE][+-]?\d+)?", cell)) for cell in cells) > 0.1 * len(cells)
+
+
+def _plain(cell: str, decimal: str) -> str:
+    return cell.replace(",", ".") if decimal == "," else cell
+
+
+def _value(cell: str, decimal: str) -> float:
+    plain = _plain(cell, decimal)
+    return float(plain) if NUMBER.fullmatch(plain) else np.nan

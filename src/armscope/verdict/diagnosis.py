@@ -1,0 +1,87 @@
+"""A verdict with what only lives in memory: the arrays that a report draws, the fitted model.
+
+Units stand in the names (mm, rad, nats); arrays are NumPy arrays.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.core.types import Array
+from armscope.physics.model import FittedModel
+from armscope.recordings import Recordings
+from armscope.verdict.schema import Verdict
+
+TOGETHER = "together"
+
+
+@dataclass(frozen=True, eq=False)
+class Atlas:
+    """Share of the residual variance that each location x direction x driver explains.
+
+    ``share`` is (locations, directions, drivers) on top of the free frames; ``left`` the same on top of the whole
+    fitted model, as a share of the same initial variance. NaN where a driver does not exist. Base and joints have the
+    six directions of a twist; links, linkage, payload and instrument `TOGETHER`: what their effect moves, as a whole.
+    """
+
+    locations: tuple[str, ...]
+    directions: tuple[str, ...]
+    drivers: tuple[str, ...]
+    share: Array
+    left: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Residuals:
+    """Per row, base axes, mm: (N, 3) tool points, and measured minus modelled, frames only and with the model."""
+
+    points: Array
+    before: Array
+    after: Array
+    weight: Array
+    id: NDArray[np.str_]
+    run: NDArray[np.str_]
+
+
+@dataclass(frozen=True, eq=False)
+class NextPoses:
+    """Poses to measure next: (K, m) motor angles (rad), and how far apart (mm) two readings predict the tool there."""
+
+    motor_angles: Array
+    payload_kg: Array
+    separation_mm: Array
+    first: str
+    second: str
+    repeats_needed: float
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Diagnosis(Verdict):
+    """A verdict with what only lives in memory.
+
+    Attributes:
+        arm: the arm's name.
+        source: the table's file.
+        recordings: the table as it was used: without the rows that can't be measurements, and without orientations
+            that are not the arm's.
+        atlas, residuals, next_poses: what a report draws (atlas.csv, predicted.csv and next_poses.csv hold most of it).
+        model: the fitted model (model.yaml).
+        seconds: how long it took.
+    """
+
+    arm: str
+    source: str
+    recordings: Recordings
+    atlas: Atlas | None
+    residuals: Residuals
+    next_poses: NextPoses | None
+    model: FittedModel
+    seconds: float = 0.0
+
+    def after(self, seconds: float, settings: dict[str, Any]) -> Diagnosis:
+        """The diagnosis with how long it took and what was asked for."""
+        return replace(self, seconds=seconds, settings=dict(settings))

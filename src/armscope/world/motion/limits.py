@@ -1,0 +1,75 @@
+"""How wrong an arm in motion can be without being absurd: masses stay positive, friction resists."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from armscope.world.layout import Geometry
+
+if TYPE_CHECKING:
+    from armscope.world.motion.virtual_arm import VirtualArm
+
+Numbers = Mapping[str, float]
+WRONG_MASS, WRONG_CENTRE = 0.6, 0.1
+"""How wrong a drawing may be: share of a link's mass, and of the arm's longest link for its centre."""
+
+
+def mass_may_be(arm: VirtualArm, link: int, numbers: Numbers) -> bool:
+    """Whether a link keeps a mass, not far from the drawing's.
+
+    Args:
+        arm: the arm.
+        link: from 0.
+        numbers: of what is concealed there.
+
+    Returns:
+        Whether a body can be so.
+    """
+    return bool(abs(numbers["mass"]) < WRONG_MASS * arm.dynamics.mass[link])
+
+
+def centre_may_be(arm: VirtualArm, link: int, numbers: Numbers) -> bool:
+    """Whether a link's centre of mass is not far from the drawing's.
+
+    Args:
+        arm: the arm.
+        link: from 0.
+        numbers: of what is concealed there.
+
+    Returns:
+        Whether a body can be so.
+    """
+    moved = np.linalg.norm([numbers[name] for name in ("mx", "my", "mz")]) / arm.dynamics.mass[link]
+    return bool(moved < WRONG_CENTRE * Geometry(arm.description).rows[:, [0, 2]].max())
+
+
+def resists_when_warm(arm: VirtualArm, joint: int, numbers: Numbers) -> bool:
+    """Whether friction resists at the warmest.
+
+    Args:
+        arm: the arm.
+        joint: from 0.
+        numbers: of what is concealed there.
+
+    Returns:
+        Whether a body can be so.
+    """
+    warmest = arm.session.temperature.max() - arm.session.temperature.min()
+    return bool(arm.dynamics.viscous[joint] + numbers["per_kelvin"] * warmest > 0)
+
+
+def resists_either_way(arm: VirtualArm, joint: int, numbers: Numbers) -> bool:
+    """Whether friction resists in both directions.
+
+    Args:
+        arm: the arm.
+        joint: from 0.
+        numbers: of what is concealed there.
+
+    Returns:
+        Whether a body can be so.
+    """
+    return bool(abs(numbers["viscous_difference"]) < arm.dynamics.viscous[joint])

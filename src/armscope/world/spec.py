@@ -1,0 +1,84 @@
+"""What a world is made from: the arm, the session, and the effects that it is to conceal."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from armscope.core.inputs import Strict
+from armscope.world.effects import LIBRARY
+from armscope.world.kinds import Kind
+from armscope.world.outside import OUTSIDE
+from armscope.world.session import PoseRule
+
+KINDS: dict[str, Kind] = {kind.name: kind for kind in LIBRARY + OUTSIDE}
+
+ARMS = ("parallelogram-120kg", "six-axis", "seven-axis")
+LARGEST_PAYLOAD_KG = {"parallelogram-120kg": 120.0, "six-axis": 20.0, "seven-axis": 12.0}
+NOISE_MM = {"parallelogram-120kg": (0.02, 0.06), "six-axis": (0.012, 0.04), "seven-axis": (0.008, 0.025)}
+Category = Literal[
+    "clean",
+    "single",
+    "multiple",
+    "outside",
+    "misleading",
+    "inseparable",
+    "real",
+    "bad_shots",
+    "faint",
+    "rough",
+    "rough_misleading",
+]
+
+
+class Wish(Strict):
+    """An effect that a world is to conceal.
+
+    Attributes:
+        kind: key of `KINDS`.
+        strength: RMS at the tool in multiples of the noise.
+        location: where; drawn among the places where it can be seen if left out.
+        minor: belongs to the background of a real arm, not to the story.
+    """
+
+    kind: str
+    strength: float
+    location: str | None = None
+    minor: bool = False
+
+
+class WorldSpec(Strict):
+    """All that a world is made from.
+
+    Attributes:
+        id: its folder's name; it says nothing about what is inside.
+        category: what it is there to show.
+        arm: file in config/robots without its ending.
+        seed: of everything random in it.
+        fresh: whether the seed comes from the proof's seed.
+        rows: recorded poses.
+        sigma_mm: 1-sigma noise per axis.
+        wishes: what it conceals.
+        poses: rule of `armscope.world.session.POSE_RULES`.
+        columns: context in recordings.csv: `some` (all that is needed, others at random), `missing` (what the effects
+            need is left out), `irrelevant` (everything, and columns that mean nothing).
+        masses: what robot.yaml says about the links' masses.
+        noise: `gaussian`, `outliers` (2 % bad shots), `heavy_tails` (Student's t with 3 degrees of freedom), `rough`
+            (see `armscope.world.rough.rough_noise`).
+        rough: what the arm has everywhere, names of `armscope.world.rough.BLEMISHES`.
+        noise_stated: whether robot.yaml states the instrument's sigma.
+    """
+
+    id: str
+    category: Category
+    arm: str
+    seed: int
+    fresh: bool
+    rows: int
+    sigma_mm: float
+    wishes: tuple[Wish, ...] = ()
+    poses: PoseRule = "free"
+    columns: Literal["some", "missing", "irrelevant"] = "some"
+    masses: Literal["right", "wrong", "absent"] = "right"
+    noise: Literal["gaussian", "outliers", "heavy_tails", "rough"] = "gaussian"
+    rough: tuple[str, ...] = ()
+    noise_stated: bool = True

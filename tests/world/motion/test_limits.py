@@ -1,0 +1,42 @@
+"""What a moving world conceals stays possible: at the limit and beyond it."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from armscope.world.motion.kinds import LIBRARY
+from armscope.world.motion.limits import (
+    WRONG_CENTRE,
+    WRONG_MASS,
+    centre_may_be,
+    mass_may_be,
+    resists_either_way,
+    resists_when_warm,
+)
+
+from .arms import arm
+
+DESCRIPTION, GEOMETRY, DYNAMICS = arm("six-axis")
+SESSION = SimpleNamespace(temperature=np.array([[20.0], [45.0]]))
+ARM = SimpleNamespace(description=DESCRIPTION, dynamics=DYNAMICS, session=SESSION)
+LONGEST = np.abs(GEOMETRY.rows[:, [0, 2]]).max()
+LIMITS = {
+    mass_may_be: {"mass": -WRONG_MASS * DYNAMICS.mass[1]},
+    centre_may_be: {"mx": WRONG_CENTRE * LONGEST * DYNAMICS.mass[1], "my": 0.0, "mz": 0.0},
+    resists_when_warm: {"per_kelvin": -DYNAMICS.viscous[1] / 25.0},
+    resists_either_way: {"viscous_difference": -DYNAMICS.viscous[1]},
+}
+
+
+@pytest.mark.parametrize("may_be", LIMITS, ids=lambda rule: rule.__name__)
+def test_what_is_just_possible_passes_and_a_little_more_does_not(may_be) -> None:
+    within, beyond = ({name: share * x for name, x in LIMITS[may_be].items()} for share in (0.99, 1.01))
+    assert may_be(ARM, 1, within)
+    assert not may_be(ARM, 1, beyond)
+
+
+def test_each_limit_is_some_kinds() -> None:
+    assert {kind.possible for kind in LIBRARY} == {None, *LIMITS}
