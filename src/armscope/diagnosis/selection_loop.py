@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from armscope.core.types import Indices, Progress
 from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.earning import earned
+from armscope.diagnosis.learned_gears import learned_gears
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.row_noise import NoiseOfRows
@@ -207,10 +208,11 @@ class SelectionLoop:
         ]
 
     def earned(self) -> Selected:
-        """Where the rounds stand, without the names that make held-out rows worse."""
-        left = earned(self.problem, self.blocks, self.best)
-        if len(left.chosen) < len(self.best.chosen):
-            self.best = left
+        """Where the rounds stand, without the names that make held-out rows worse, gears' waves as the rows say."""
+        left, gears = earned(self.problem, self.blocks, self.best), FAMILIES.index(TRANSMISSION)
+        waves = learned_gears(self.problem, self.space, self.blocks, left, self.families[gears])
+        if len(left.chosen) < len(self.best.chosen) or waves != self.families[gears]:
+            self.best, self.families[gears] = left, waves
             self.fit = self._fitted()
             self.model = self.fit.model
         return self.selected()
