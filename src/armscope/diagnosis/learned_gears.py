@@ -42,16 +42,18 @@ def learned_gears(
     if not hypothesis.background[GEARS]:
         return list(waves)
     groups = _groups(space, hypothesis, waves)
-    errors = np.zeros(1 + len(LEARNED.freedoms))
+    errors = np.zeros((len(blocks), 1 + len(LEARNED.freedoms)))
     for fold, trained in folds(problem, blocks):
         plain = evaluate(trained, hypothesis.chosen, hypothesis.background, hypothesis.noise)
         fitted = [plain, *(learned_sizes(trained, plain, groups, freedom)[1] for freedom in LEARNED.freedoms)]
         values = [each.coefficients(len(problem.scale)) / problem.scale for each in fitted]
-        errors += [sum(blocks[int(k)].rss(each) for k in fold) for each in values]
-    best = int(np.argmin(errors))
-    if best == 0:
+        errors[fold] = [[blocks[int(k)].rss(each) for each in values] for k in fold]
+    gains = errors[:, :1] - errors[:, 1:]
+    best = int(np.argmax(gains.sum(axis=0)))
+    # a gain that another draw of blocks could have taken away is none (the one-standard-error rule, Breiman 1984)
+    if not gains[:, best].sum() > np.sqrt(len(blocks)) * np.std(gains[:, best]):
         return list(waves)
-    factor, _ = learned_sizes(problem, hypothesis, groups, LEARNED.freedoms[best - 1])
+    factor, _ = learned_sizes(problem, hypothesis, groups, LEARNED.freedoms[best])
     larger = dict(zip(space.families[GEARS].columns.tolist(), factor.tolist(), strict=True))
     return [
         replace(
