@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 from armscope.core.types import Indices, Progress
 from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.earning import earned
-from armscope.diagnosis.learned_gears import learned_gears
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.row_noise import NoiseOfRows
 from armscope.diagnosis.scans.constants import SCANS
 from armscope.diagnosis.scans.context import ScanContext
 from armscope.diagnosis.scans.new_candidates import scanned_candidates
+from armscope.diagnosis.sizes_of_waves import with_sizes_of_rows
 from armscope.fitting.joint_scatter import Scattered
 from armscope.fitting.linearisation import LinearisedTable, Measured, linearised, normal_equations_by_block, residuals
 from armscope.fitting.refit import Refit, refit
@@ -210,7 +210,7 @@ class SelectionLoop:
     def earned(self) -> Selected:
         """Where the rounds stand, without the names that make held-out rows worse, gears' waves as the rows say."""
         left, gears = earned(self.problem, self.blocks, self.best), FAMILIES.index(TRANSMISSION)
-        waves = learned_gears(self.problem, self.space, self.blocks, left, self.families[gears])
+        waves = with_sizes_of_rows(self.problem, self.space, self.blocks, left, self.families[gears])
         if len(left.chosen) < len(self.best.chosen) or waves != self.families[gears]:
             self.best, self.families[gears] = left, waves
             self.fit = self._fitted()

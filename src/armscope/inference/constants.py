@@ -178,7 +178,7 @@ class ConfidenceSet(Constants):
 
 
 @dataclass(frozen=True)
-class LearnedSizes(Constants):
+class SizesByGroup(Constants):
     """How sizes of a background's values are learned."""
 
     freedoms: tuple[float, ...] = constant(
@@ -200,4 +200,4 @@ DETECTION = DetectionRules()
 BUDGET = SearchBudget()
 NUMERICS = Numerics()
 CONFIDENCE = ConfidenceSet()
-LEARNED = LearnedSizes()
+SIZES_BY_GROUP = SizesByGroup()

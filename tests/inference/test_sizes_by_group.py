@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from armscope.inference.evidence import evaluate
-from armscope.inference.learned_sizes import Groups, learned_sizes
 from armscope.inference.model_space import ModelSpace, ToleranceFamily
 from armscope.inference.normal_equations import NormalEquations
 from armscope.inference.problem import Problem, build_problem
+from armscope.inference.sizes_by_group import SizeGroups, sizes_by_group
 
 GEARS, WAVES = 3, 20
 NOISE = 0.02
@@ -40,8 +40,8 @@ def missed(values: np.ndarray, freedom: float | None) -> float:
     problem = problem_of(sums(values, 200, seed=1)[0])
     found = evaluate(problem, (), (1,), NOISE)
     if freedom is not None:
-        groups = Groups(0, SMALL, LARGE, np.full(COLUMNS, True))
-        _, found = learned_sizes(problem, found, groups, freedom)
+        groups = SizeGroups(0, SMALL, LARGE, np.full(COLUMNS, True))
+        _, found = sizes_by_group(problem, found, groups, freedom)
     X = sums(values, 2000, seed=2)[1][:, 1:]
     fitted = (found.coefficients(COLUMNS + 1) / problem.scale)[1:]
     return float(np.sqrt(np.mean((X @ (fitted - values)) ** 2)))
@@ -63,7 +63,7 @@ def test_one_bad_gear_does_not_make_the_others_look_bad():
     values = rng.normal(0, 0.02, COLUMNS) * np.repeat([1.0, 5.0, 0.2], 2 * WAVES)
     problem = problem_of(sums(values, 400, seed=1)[0])
     plain = evaluate(problem, (), (1,), NOISE)
-    factor, _ = learned_sizes(problem, plain, Groups(0, SMALL, LARGE, np.full(COLUMNS, True)), np.inf)
+    factor, _ = sizes_by_group(problem, plain, SizeGroups(0, SMALL, LARGE, np.full(COLUMNS, True)), np.inf)
     assert factor[LARGE == 0] == pytest.approx(1.0, rel=0.3)
     assert factor[LARGE == 1] == pytest.approx(5.0, rel=0.3)
     assert factor[LARGE == 2] == pytest.approx(0.35, abs=0.2)  # 0.2, drawn towards 1 by what is believed beforehand
@@ -75,6 +75,6 @@ def test_what_has_a_name_keeps_its_size_and_tells_the_rest_nothing():
     problem = problem_of(sums(values, 300, seed=5)[0])
     plain = evaluate(problem, (), (1,), NOISE)
     learned = SMALL != 0
-    factor, _ = learned_sizes(problem, plain, Groups(0, SMALL, LARGE, learned), 4.0)
+    factor, _ = sizes_by_group(problem, plain, SizeGroups(0, SMALL, LARGE, learned), 4.0)
     assert np.all(factor[:2] == 1)
     assert np.all(factor[2:] < 1)

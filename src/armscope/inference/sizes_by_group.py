@@ -14,14 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
-from armscope.inference.constants import LEARNED
+from armscope.inference.constants import SIZES_BY_GROUP
 from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.model_space import ToleranceFamily
 from armscope.inference.problem import Problem
 
 
 @dataclass(frozen=True, eq=False)
-class Groups:
+class SizeGroups:
     """Which of a family's values are of a size.
 
     Attributes:
@@ -37,7 +37,9 @@ class Groups:
     learned: NDArray[np.bool_]
 
 
-def learned_sizes(problem: Problem, hypothesis: Hypothesis, groups: Groups, freedom: float) -> tuple[Array, Hypothesis]:
+def sizes_by_group(
+    problem: Problem, hypothesis: Hypothesis, groups: SizeGroups, freedom: float
+) -> tuple[Array, Hypothesis]:
     """Sizes of a family's values as the rows have them, given all else that a hypothesis holds.
 
     Args:
@@ -54,11 +56,11 @@ def learned_sizes(problem: Problem, hypothesis: Hypothesis, groups: Groups, free
     stated = family.prior_variance(hypothesis.background[groups.family], problem.scale)
     of_small, of_large = np.ones(len(stated)), np.ones(len(stated))
     factor, found = np.ones(len(stated)), hypothesis
-    for _ in range(LEARNED.steps):
+    for _ in range(SIZES_BY_GROUP.steps):
         square = (found.means(family.columns) ** 2 + found.variances(family.columns)) / stated
         if np.isfinite(freedom):
             of_small = _usual(square / of_large, groups.small, groups.learned, freedom)
-        of_large = _usual(square / of_small, groups.large, groups.learned, LEARNED.weight_of_stated)
+        of_large = _usual(square / of_small, groups.large, groups.learned, SIZES_BY_GROUP.weight_of_stated)
         factor = np.where(groups.learned, np.sqrt(of_small * of_large), 1.0)
         found = evaluate(
             _with_sizes(problem, groups.family, family, factor), found.chosen, found.background, found.noise

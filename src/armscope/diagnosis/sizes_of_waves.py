@@ -9,18 +9,18 @@ import numpy as np
 
 from armscope.diagnosis.earning import folds
 from armscope.diagnosis.model_space import EffectSpace
-from armscope.inference.constants import LEARNED
+from armscope.inference.constants import SIZES_BY_GROUP
 from armscope.inference.evidence import Hypothesis, evaluate
-from armscope.inference.learned_sizes import Groups, learned_sizes
 from armscope.inference.normal_equations import NormalEquations
 from armscope.inference.problem import Problem
+from armscope.inference.sizes_by_group import SizeGroups, sizes_by_group
 from armscope.physics.backgrounds import FAMILIES, TRANSMISSION
 from armscope.physics.effect import Placed
 
 GEARS = FAMILIES.index(TRANSMISSION)
 
 
-def learned_gears(
+def with_sizes_of_rows(
     problem: Problem,
     space: EffectSpace,
     blocks: Sequence[NormalEquations],
@@ -42,10 +42,10 @@ def learned_gears(
     if not hypothesis.background[GEARS]:
         return list(waves)
     groups = _groups(space, hypothesis, waves)
-    errors = np.zeros((len(blocks), 1 + len(LEARNED.freedoms)))
+    errors = np.zeros((len(blocks), 1 + len(SIZES_BY_GROUP.freedoms)))
     for fold, trained in folds(problem, blocks):
         plain = evaluate(trained, hypothesis.chosen, hypothesis.background, hypothesis.noise)
-        fitted = [plain, *(learned_sizes(trained, plain, groups, freedom)[1] for freedom in LEARNED.freedoms)]
+        fitted = [plain, *(sizes_by_group(trained, plain, groups, freedom)[1] for freedom in SIZES_BY_GROUP.freedoms)]
         values = [each.coefficients(len(problem.scale)) / problem.scale for each in fitted]
         errors[fold] = [[blocks[int(k)].rss(each) for each in values] for k in fold]
     gains = errors[:, :1] - errors[:, 1:]
@@ -53,7 +53,7 @@ def learned_gears(
     # a gain that another draw of blocks could have taken away is none (the one-standard-error rule, Breiman 1984)
     if not gains[:, best].sum() > np.sqrt(len(blocks)) * np.std(gains[:, best]):
         return list(waves)
-    factor, _ = learned_sizes(problem, hypothesis, groups, LEARNED.freedoms[best])
+    factor, _ = sizes_by_group(problem, hypothesis, groups, SIZES_BY_GROUP.freedoms[best])
     larger = dict(zip(space.families[GEARS].columns.tolist(), factor.tolist(), strict=True))
     return [
         replace(
@@ -67,7 +67,7 @@ def learned_gears(
     ]
 
 
-def _groups(space: EffectSpace, hypothesis: Hypothesis, waves: Sequence[Placed]) -> Groups:
+def _groups(space: EffectSpace, hypothesis: Hypothesis, waves: Sequence[Placed]) -> SizeGroups:
     """The two values of a wave are of a size, and the waves of a gear."""
     columns = space.families[GEARS].columns
     small, large = np.zeros(len(columns), dtype=np.intp), np.zeros(len(columns), dtype=np.intp)
@@ -76,4 +76,4 @@ def _groups(space: EffectSpace, hypothesis: Hypothesis, waves: Sequence[Placed])
         at = np.searchsorted(columns, space.layout.of(wave))
         small[at], large[at] = number, gears.index(wave.location)
     named = [space.candidates[effect.candidate].columns for effect in hypothesis.chosen]
-    return Groups(GEARS, small, large, ~np.isin(columns, np.concatenate([[-1], *named])))
+    return SizeGroups(GEARS, small, large, ~np.isin(columns, np.concatenate([[-1], *named])))
