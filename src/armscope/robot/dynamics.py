@@ -198,12 +198,7 @@ def build_moving_arm(description: RobotDescription, source: Path | str = "robot.
         description.check_motors(n_links, "joints of the chain")
     except ValueError as error:
         raise InputError(source, "joints of the chain", ", ".join(list(model.names)[1:]), str(error)) from error
-    actuation = np.eye(n_links)
-    if description.actuation is not None:
-        actuation = np.zeros((n_links, description.n_motors(n_links)))
-        for joint, combination in enumerate(description.actuation):
-            for motor, coefficient in combination.items():
-                actuation[joint, int(motor[1:]) - 1] = coefficient
+    actuation = description.actuation_matrix(n_links)
     slides = np.array([model.joints[joint].shortname().startswith("JointModelP") for joint in range(1, model.njoints)])
     drives = description.drives or ()
     none = np.full(actuation.shape[1], np.nan)
