@@ -55,7 +55,7 @@ def scaled(value: Any, factor: float) -> Any:
 
 
 def thresholds() -> list[Threshold]:
-    """Every number of the rooms that decide."""
+    """Every number of the rooms that decide about positions: no golden case is an arm in motion."""
     from tools.constants import groups
 
     from armscope.core.constants import entries
@@ -64,6 +64,7 @@ def thresholds() -> list[Threshold]:
         Threshold(group.__module__.removeprefix("armscope."), group.__name__, each.name)
         for group in groups()
         for each in entries(group)
+        if not group.__module__.startswith("armscope.motion")
     ]
 
 

@@ -18,7 +18,7 @@ from armscope.motion.constants import LIBRARY
 from armscope.motion.cutoff import chosen_cutoff
 from armscope.motion.first_look import first_look
 from armscope.motion.holding_out import folds
-from armscope.motion.judgement import answer_of, headline
+from armscope.motion.judgement import HeldOutErrors, answer_of, headline
 from armscope.motion.layout import TorqueLayout
 from armscope.motion.library import place_causes
 from armscope.motion.masses import place_masses
@@ -32,7 +32,7 @@ from armscope.motion.timing import Stretch, mended, stretches
 from armscope.motion.verdict import FoundCause, UnexplainedTorque, relative
 from armscope.motion.weights import estimate_weights, fitted_together, weighed
 from armscope.recordings.motions import Motions
-from armscope.verdict.schema import Parameter
+from armscope.verdict.effects import Parameter
 from tests.motion.moving import COULOMB, moved, robot
 
 
@@ -194,16 +194,20 @@ def test_sizes_that_differ_from_path_to_path_are_no_physics() -> None:
 
 
 def test_nothing_found_is_an_answer() -> None:
-    assert answer_of([], UnexplainedTorque(False)) == ("nothing missing", False)
+    assert answer_of([], UnexplainedTorque(False), HeldOutErrors(0.1, 0.1, 0.1)) == ("nothing missing", False)
 
 
 def test_causes_that_make_held_out_motion_worse_are_no_answer() -> None:
     rest = (False, (Parameter("mass", "kg", 1.0, 0.1),), 0.5, "N m", "joint 4", 0.3, 9.0)
     found = [FoundCause("link_mass", "link 4", "masses", "load", "link mass at link 4", *rest)]
-    assert answer_of(found, UnexplainedTorque(False), (0.2, 0.1)) == ("explained", True)
-    assert answer_of(found, UnexplainedTorque(False), (0.2, 0.3)) == ("cannot tell", True)
-    assert headline(found, (0.2, 0.1)).startswith("Link 4 is 1.00 ± 0.20 kg heavier than stated – 30 %")
-    assert headline(found, (0.2, 0.3)).startswith("Cannot tell what is missing: torque on motion that took no part")
+    helps, hardly = HeldOutErrors(0.2, 0.1, 0.1), HeldOutErrors(0.2, 0.3, 0.19)
+    not_anew = HeldOutErrors(0.2, 0.3, 0.05)
+    assert [answer_of(found, UnexplainedTorque(False), each)[0] for each in (helps, hardly, not_anew)] == [
+        *("explained", "cannot tell", "explained")
+    ]
+    assert headline(found, helps).startswith("Link 4 is 1.00 ± 0.20 kg heavier than stated – 30 %")
+    assert headline(found, hardly).startswith("Cannot tell what is missing: nothing that was found helps")
+    assert "met to 5.0 % instead of 20 % by these causes; to 30 % where" in headline(found, not_anew)
 
 
 def test_tables_that_show_nothing_are_refused_and_doubts_are_told() -> None:

@@ -15,6 +15,7 @@ from armscope.report.motion_subject import MotionSubject, liveliest_piece
 from armscope.report.pages.motion import write_motion_report
 from armscope.report.sectioning import write_sections
 from armscope.report.sections.motion import MOTION_SECTIONS, arm_of_motion, motion_card, relative_steps, signed
+from armscope.report.sections.motion_work import error_in_words
 from armscope.verdict.effects import Parameter
 from tests.motion.moving import moved, robot
 
@@ -59,6 +60,21 @@ def test_each_cause_has_a_card_with_its_confirmation_and_cure(page: str, found: 
         assert cause.confirm in page
         assert cause.cure in page
     assert page.count('<article class="effect"') == len(main)
+
+
+def test_the_work_order_has_a_line_per_cause_with_its_cure_and_the_error_after_it(
+    found: MotionDiagnosis, tmp_path: Path
+) -> None:
+    write_motion_report(found, "motions.csv", tmp_path)
+    order = (tmp_path / "work-order.html").read_text(encoding="utf-8").replace("\u00a0", " ")
+    main = [cause for cause in found.verdict.effects if not cause.minor]
+    assert order.count("Confirm first:") == len(main)
+    after = {step.label: step.held_out for step in found.verdict.waterfall}
+    for number, cause in enumerate(main, start=2):
+        assert cause.cure.replace("`", "") in order
+        assert f"{error_in_words(after[cause.title])} of the torque after 1 to {number}" in order
+    assert all(f"<td>{each.joint}</td>" in order for each in found.verdict.background)
+    assert error_in_words(float("nan")) == "–"
 
 
 def test_numbers_of_the_strip_and_the_waterfall_are_the_verdicts(found: MotionDiagnosis) -> None:

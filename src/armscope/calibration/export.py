@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import xml.etree.ElementTree as ET
 from pathlib import Path
 from typing import Any
@@ -15,6 +14,15 @@ from armscope.core.files import write_text, write_yaml
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array
 from armscope.robot import Arm
+from armscope.robot.urdf_writing import (
+    WrittenJoint,
+    chain_urdf,
+    keep_meshes,
+    origin_of,
+    placement_of,
+    set_inertial,
+    urdf_text,
+)
 
 TIP = "calibrated_flange"
 FILES = ("robot.yaml", "robot.urdf", "robot_urdf.yaml", "frames.yaml")
@@ -117,46 +125,19 @@ def _row(row: dict[str, float]) -> dict[str, float]:
 
 
 def _fresh_urdf(arm: Arm) -> str:
-    """The arm's chain as a URDF: every link in the frame of its joint, whose z is the axis."""
-    robot = ET.Element("robot", name=arm.name)
-    robot.append(ET.Comment("effort and velocity limits are placeholders; masses are points, good for statics only"))
-    # MuJoCo takes no body without mass and inertia, and would melt the flange into the last link; others skip this
-    extension = ET.SubElement(robot, "mujoco")
-    ET.SubElement(extension, "compiler", boundmass="1e-9", boundinertia="1e-9", fusestatic="false")
-    ET.SubElement(robot, "link", name="base")
+    """The arm's chain as a URDF, with its masses as points."""
     ends_at_motor = arm.description.actuation is None
-    parent = "base"
-    for joint in range(arm.n_joints):
-        name = f"link_{joint + 1}"
-        link = ET.SubElement(robot, "link", name=name)
-        if arm.masses[joint] > 0:
-            _add_point_mass(link, arm.masses[joint], arm.centres[joint])
-        limits = arm.limits[joint] if ends_at_motor else np.array([-np.inf, np.inf])
-        element = _add_joint(robot, f"joint_{joint + 1}", "continuous", parent, name, arm.before[joint])
-        ET.SubElement(element, "axis", xyz="0 0 1")
-        if np.isfinite(limits).all():
-            element.set("type", "revolute")
-            lower, upper = (repr(float(limit)) for limit in limits)
-            ET.SubElement(element, "limit", lower=lower, upper=upper, effort="1000", velocity="10")
-        parent = name
-    ET.SubElement(robot, "link", name=TIP)
-    _add_joint(robot, "flange_fixed", "fixed", parent, TIP, arm.tip)
-    return _as_text(robot)
-
-
-def _add_joint(robot: ET.Element, name: str, kind: str, parent: str, child: str, placement: Array) -> ET.Element:
-    joint = ET.SubElement(robot, "joint", name=name, type=kind)
-    ET.SubElement(joint, "parent", link=parent)
-    ET.SubElement(joint, "child", link=child)
-    ET.SubElement(joint, "origin", _origin(placement))
-    return joint
-
-
-def _add_point_mass(link: ET.Element, mass: float, centre: Array) -> None:
-    inertial = ET.SubElement(link, "inertial")
-    ET.SubElement(inertial, "origin", xyz=_words(centre), rpy="0 0 0")
-    ET.SubElement(inertial, "mass", value=repr(float(mass)))
-    ET.SubElement(inertial, "inertia", ixx="0", ixy="0", ixz="0", iyy="0", iyz="0", izz="0")
+    joints = []
+    for joint, placement in enumerate(arm.before):
+        low, high = arm.limits[joint] if ends_at_motor else (-np.inf, np.inf)
+        limits = (low, high) if np.isfinite([low, high]).all() else None
+        joints.append(WrittenJoint(f"joint_{joint + 1}", placement, limits))
+    robot = chain_urdf(arm.name, joints, TIP, arm.tip)
+    for mass, centre, link in zip(arm.masses, arm.centres, robot.findall("link")[1:-1], strict=True):
+        if mass > 0:
+            set_inertial(link, mass, centre, np.zeros((3, 3)))
+    robot.insert(0, ET.Comment("effort and velocity limits are placeholders; masses are points, good for statics only"))
+    return urdf_text(robot)
 
 
 def _corrected_urdf(calibration: Calibration, folder: Path) -> str:
@@ -164,10 +145,7 @@ def _corrected_urdf(calibration: Calibration, folder: Path) -> str:
     nominal, arm = calibration.set_up.arm, calibration.arm
     file = Path(str(nominal.description.urdf))
     robot = ET.parse(file).getroot()
-    for mesh in robot.iter("mesh"):
-        name = mesh.get("filename", "")
-        if "://" not in name and not Path(name).is_absolute():  # beside the nominal file: seen from the new one
-            mesh.set("filename", Path(os.path.relpath(file.parent / name, folder.resolve())).as_posix())
+    keep_meshes(robot, file, folder)
     elements = {element.get("name"): element for element in robot.findall("joint")}
     turn = np.eye(4)
     for joint in range(arm.n_joints):
@@ -179,34 +157,6 @@ def _corrected_urdf(calibration: Calibration, folder: Path) -> str:
         origin = element.find("origin")
         if origin is None:
             origin = ET.SubElement(element, "origin")
-        for name, words in _origin(_placement_of(origin) @ correction).items():
+        for name, words in origin_of(placement_of(origin) @ correction).items():
             origin.set(name, words)
-    return _as_text(robot)
-
-
-def _placement_of(origin: ET.Element) -> Array:
-    placement = np.eye(4)
-    placement[:3, 3] = _numbers(origin.get("xyz", "0 0 0"))
-    rpy = _numbers(origin.get("rpy", "0 0 0"))
-    placement[:3, :3] = Rotation.from_euler("xyz", rpy).as_matrix()
-    return placement
-
-
-def _origin(placement: Array) -> dict[str, str]:
-    return {
-        "xyz": _words(placement[:3, 3]),
-        "rpy": _words(Rotation.from_matrix(placement[:3, :3]).as_euler("xyz", suppress_warnings=True)),
-    }
-
-
-def _numbers(words: str) -> Array:
-    return np.array([float(word) for word in words.split()])
-
-
-def _words(values: Array) -> str:
-    return " ".join(repr(float(value)) for value in values)
-
-
-def _as_text(robot: ET.Element) -> str:
-    ET.indent(robot)
-    return '<?xml version="1.0"?>\n' + ET.tostring(robot, encoding="unicode") + "\n"
+    return urdf_text(robot)

@@ -3,39 +3,26 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy.linalg
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
+from armscope.design.independence import independent_columns
 
 SMALLEST_TRACE = 1e-3
 """A constant counts as identifiable if a change of it leaves at least this share (per metre, or per radian and metre of
 reach) at the tool, beyond what the others can imitate. At a thousandth, 1 mm shows as 1 micrometre: no less helps."""
 
 
-def identifiable(jacobian: Array, tiers: NDArray[np.intp], scales: Array) -> Array:
-    """The columns that can be told apart, chosen tier by tier by QR with column pivoting (Golub 1965).
-
-    Within a tier the column with the largest part beyond those chosen enters next, until what is left of every column
-    is below `SMALLEST_TRACE`: the diagonal of the triangular factor reveals the rank. A lower tier enters first, so
-    that a redundancy between the base frame and the first joint is settled for the base.
+def identifiable(jacobian: Array, tiers: NDArray[np.intp], scales: Array) -> NDArray[np.bool_]:
+    """The columns that can be told apart, a lower tier first (`armscope.design.independence`).
 
     Args:
         jacobian: (M, P).
-        tiers: (P,) order of preference.
+        tiers: (P,) order of preference: what base frame and first joint have in common is settled for the base.
         scales: (P,) size of a unit in each column's own unit (1 m; 1 rad / reach), so that columns compare.
 
     Returns:
         (P,) boolean.
     """
     triangular = np.linalg.qr(jacobian, mode="r") if len(jacobian) > jacobian.shape[1] else jacobian
-    remaining = triangular * scales / np.sqrt(len(jacobian) / 3)
-    chosen = np.zeros(jacobian.shape[1], dtype=bool)
-    for tier in np.unique(tiers):
-        members = np.flatnonzero(tiers == tier)
-        basis, factor, order = scipy.linalg.qr(remaining[:, members], mode="economic", pivoting=True)
-        rank = int(np.sum(np.abs(np.diag(factor)) > SMALLEST_TRACE))
-        chosen[members[order[:rank]]] = True
-        span = basis[:, :rank]
-        remaining = remaining - span @ (span.T @ remaining)
-    return chosen
+    return independent_columns(triangular * scales / np.sqrt(len(jacobian) / 3), tiers, SMALLEST_TRACE)

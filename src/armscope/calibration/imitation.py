@@ -31,10 +31,6 @@ class Imitation:
     partners: tuple[str, ...]
     left: float
 
-    def is_partner(self, name: str) -> bool:
-        """Whether a fitted parameter is one of the partners, or of a run or target that these stand for."""
-        return _kind(name) in self.partners
-
     def text(self) -> str:
         """In words; of many partners only the frames and joints that they belong to."""
         if not self.partners:
@@ -67,11 +63,11 @@ def imitations(
     columns = triangular * scales / np.sqrt(len(jacobian) / 3)
     fitted = np.flatnonzero(free)
     unit = columns[:, fitted] / np.maximum(np.linalg.norm(columns[:, fitted], axis=0), 1e-300)
-    kinds = np.array([_kind(names[each]) for each in fitted])
+    kinds = np.array([kind_of(names[each]) for each in fitted])
     return tuple(_imitation(names[held], columns[:, held], unit, kinds) for held in np.flatnonzero(~free))
 
 
-def _kind(name: str) -> str:
+def kind_of(name: str) -> str:
     """Without the run or target: "base of monday rz" is "base rz"."""
     frame, _, rest = name.partition(" of ")
     return f"{frame} {rest.rpartition(' ')[2]}" if frame in ("base", "tool") and rest else name

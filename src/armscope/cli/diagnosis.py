@@ -6,12 +6,13 @@ import contextlib
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from armscope.cli.commands import Commands, Threads
 from armscope.cli.endings import MISMATCH, UNUSABLE
+from armscope.core.types import unheard
 
 if TYPE_CHECKING:
     import numpy as np
@@ -64,14 +65,15 @@ def diagnose(
     from armscope.cli.cost import DIAGNOSE, announce
     from armscope.cli.motion import Asked, diagnose_motions
     from armscope.cli.robots import arm_and_tables, print_json
-    from armscope.core.inputs import InputError
     from armscope.recordings.first_lines import is_motion_table
 
-    if is_motion_table(recordings):
-        if priors is not None:
-            raise InputError(
-                "--priors", "", priors, f"{recordings} is a table of motions, for which no sizes are learned"
-            )
+    moving = is_motion_table(recordings)
+    of_points = {"--priors": priors, "--first-id": first_id, "--tool-per-run": tool_per_run or None}
+    of_points["--estimate-gravity"] = estimate_gravity or None
+    _refuse_of_the_other(
+        of_points if moving else {"--cutoff": cutoff, "--held-out": held_out or None}, recordings, moving
+    )
+    if moving:
         with _progress("diagnosing") as tell:
             asked = Asked(cutoff, held_out or [], run or [], json, report, anyway)
             mismatch = diagnose_motions(recordings, robot, output, asked, tell)
@@ -118,6 +120,17 @@ def diagnose(
         raise typer.Exit(MISMATCH if verdict.mismatch else UNUSABLE)
 
 
+def _refuse_of_the_other(options: dict[str, Any], table: Path, moving: bool) -> None:
+    """Options that a table of this kind would silently do without."""
+    from armscope.core.inputs import InputError
+
+    for name, value in options.items():
+        if value is not None:
+            kind, other = ("motions", "measured points") if moving else ("measured points", "motions")
+            rule = f"{table} is a table of {kind}, and this option is for tables of {other}"
+            raise InputError(name, "", value, rule, "Leave it out.")
+
+
 def _rows_of_runs(table: Recordings, runs: list[str]) -> NDArray[np.bool_]:
     import numpy as np
 
@@ -145,7 +158,7 @@ def _rows_from(table: Recordings, first_id: int) -> NDArray[np.bool_]:
 def _progress(title: str) -> Iterator[Callable[[str, float], None]]:
     """A bar on a terminal's standard error; nothing where there is none."""
     if not sys.stderr.isatty():
-        yield lambda text, share: None
+        yield unheard
         return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn

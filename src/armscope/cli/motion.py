@@ -20,6 +20,9 @@ FILES = ("verdict.json", "model.yaml", "corrected.urdf", "mujoco.xml", "paramete
 """All that is written beside the page."""
 
 
+PAGES = ("report.html", "work-order.html")
+
+
 @dataclass(frozen=True)
 class Asked:
     """What a user asks of a diagnosis of a motion.
@@ -63,7 +66,7 @@ def diagnose_motions(table: Path, robot: Path, output: Path, asked: Asked, tell:
     from armscope.motion.pipeline import MotionSettings, diagnose_motion
     from armscope.verdict.schema import Notice
 
-    writable(output, *FILES, *(("report.html",) if asked.report else ()))
+    writable(output, *FILES, *(PAGES if asked.report else ()))
     found = diagnose_motion(arm, motions, MotionSettings(asked.cutoff, tuple(asked.held_out)), tell)
     if problems:
         notices = (*found.verdict.notices, *(Notice("check", each.text()) for each in problems))

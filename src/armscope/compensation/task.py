@@ -181,8 +181,7 @@ class PathTask:
             return angles
         solution = solve_commands(NominalArm(self.arm), wanted.rows(rows), angles[rows], free, rows)
         angles[rows] = solution.angles
-        for motor in np.unique(solution.limit[solution.limit > 0]):
-            refuse(refused, rows[solution.limit == motor], f"limit of joint {motor}")
+        _refuse_at_limits(refused, rows, solution)
         refuse(refused, rows[~solution.converged], "beyond reach on the branch of the given angles")
         return angles
 
@@ -206,8 +205,7 @@ class PathTask:
     ) -> None:
         named = "pole of the wrist" if self.options.pose else "pole: the tool can't be moved in all directions"
         refuse(refused, known[pole], named)
-        for motor in np.unique(solution.limit[solution.limit > 0]):
-            refuse(refused, known[solution.limit == motor], f"limit of joint {motor}")
+        _refuse_at_limits(refused, known, solution)
         refuse(refused, known[~solution.converged], "no command found: the real arm can't get there")
         worst = np.argmax(moved, axis=1)
         for row in np.flatnonzero(moved.max(axis=1) > LARGEST_CORRECTION_RAD):
@@ -251,3 +249,9 @@ def refuse(refused: NDArray[np.object_], rows: NDArray[np.bool_] | NDArray[np.in
     which = np.zeros(len(refused), dtype=bool)
     which[rows] = True
     refused[np.flatnonzero(which & np.equal(refused, ""))] = reason
+
+
+def _refuse_at_limits(refused: NDArray[np.object_], rows: NDArray[np.intp], solution: Solution) -> None:
+    """The rows whose solution ends at a joint's limit."""
+    for motor in np.unique(solution.limit[solution.limit > 0]):
+        refuse(refused, rows[solution.limit == motor], f"limit of joint {motor}")

@@ -13,6 +13,12 @@ Array: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.intp]
 Progress: TypeAlias = Callable[[str, float], None]
 """Called with a sentence and the share of the work done, 0 ... 1."""
+
+
+def unheard(*told: object) -> None:
+    """Progress that nobody listens to."""
+
+
 Number = Annotated[
     float,
     BeforeValidator(lambda value: np.nan if value is None else value),

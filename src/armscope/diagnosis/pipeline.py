@@ -10,7 +10,7 @@ import numpy as np
 
 from armscope.check.orientations import trusted_channels
 from armscope.check.preconditions import FEWEST_ROWS, as_notices, check_table, suspected, too_far
-from armscope.core.types import Progress
+from armscope.core.types import Progress, unheard
 from armscope.diagnosis.gravity_direction import lean
 from armscope.diagnosis.held_out import split
 from armscope.diagnosis.judgement import judge
@@ -78,7 +78,7 @@ def diagnose(
     Raises:
         InputError: the recordings don't fit the arm or hold no usable rows.
     """
-    settings, tell = settings or Settings(), progress or (lambda text, share: None)
+    settings, tell = settings or Settings(), progress or unheard
     started = time.perf_counter()
     checked = check_table(arm, recordings)
     table = checked.recordings if settings.orientation else replace(checked.recordings, orientation=None)

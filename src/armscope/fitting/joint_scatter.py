@@ -63,7 +63,7 @@ def find_scatter(residuals: Array, moved: Array, least_noise: float) -> list[Sca
     for _ in range(min(SCATTER.most_places, len(moved))):
         start = [_likelihood(residuals[rows], moved[:, rows], found, least_noise) for rows in (slice(None), near)]
         best: tuple[float, int, float] | None = None
-        for j, rho in _trials(residuals, moved, found, start[0][1]):
+        for j, rho in _trials(moved, found, start[0][1]):
             tried = {**found, j: rho}
             gain = min(
                 _likelihood(residuals[rows], moved[:, rows], tried, least_noise)[0] - before[0]
@@ -79,7 +79,7 @@ def find_scatter(residuals: Array, moved: Array, least_noise: float) -> list[Sca
     return told
 
 
-def _trials(residuals: Array, moved: Array, found: Mapping[int, float], noise: float) -> Iterator[tuple[int, float]]:
+def _trials(moved: Array, found: Mapping[int, float], noise: float) -> Iterator[tuple[int, float]]:
     """Motors and sizes (rad per mm of noise) to try."""
     for j, lever in enumerate(moved):
         reach = float(np.sqrt(np.mean(lever**2)))

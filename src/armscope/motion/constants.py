@@ -238,6 +238,11 @@ class MotionTelling(Constants):
         "judgement: models are a little wrong, and among thousands of nats that costs tens",
     )
     listed: int = constant(4, "rivals of a cause", "judgement: nobody reads more", unit="causes")
+    clearly_better: float = constant(
+        0.8,
+        "of the held-out error without causes, below which named causes help although they are not found anew",
+        "judgement: a fifth is more than folds differ by",
+    )
     in_headline: int = constant(3, "causes", "judgement: a sentence holds no more", unit="causes")
 
 

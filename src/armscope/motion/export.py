@@ -5,7 +5,6 @@ What these formats have no place for (springs, cables, load friction, delays, of
 
 from __future__ import annotations
 
-import os
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
@@ -25,6 +24,7 @@ from armscope.motion.verdict import write_motion_verdict
 from armscope.robot.dynamics import PARAMETERS, UNITS, MovingArm
 from armscope.robot.model import TIP
 from armscope.robot.urdf_file import root_of
+from armscope.robot.urdf_writing import WrittenJoint, chain_urdf, keep_meshes, set_inertial, urdf_text
 
 URDF, MUJOCO, TABLE = "corrected.urdf", "mujoco.xml", "parameters.csv"
 FILES = (URDF, MUJOCO, TABLE)
@@ -119,15 +119,14 @@ def corrected_urdf(model: MotionModel, folder: Path) -> str:
     for name, body, (dry, damping, _) in zip(model.arm.joint_names, made, numbers, strict=True):
         child = joints[name].find("child")
         assert child is not None
-        _set_inertial(links[child.get("link")], body)
+        set_inertial(links[child.get("link")], body.mass, body.lever, body.inertia)
         for old in joints[name].findall("dynamics"):
             joints[name].remove(old)
         ET.SubElement(joints[name], "dynamics", damping=repr(float(damping)), friction=repr(float(dry)))
     left = not_in_a_file(model)
     told = [WRITTEN, *notes, *also, *([f"not in this file: {'; '.join(left)}"] if left else [])]
     robot.insert(0, ET.Comment(_as_comment(told)))
-    ET.indent(robot)
-    return '<?xml version="1.0"?>\n' + ET.tostring(robot, encoding="unicode") + "\n"
+    return urdf_text(robot)
 
 
 def mujoco_joints(model: MotionModel) -> str:
@@ -183,43 +182,23 @@ def parameter_table(model: MotionModel, selected: SelectedCauses, factor: Array)
 
 
 def _fresh(arm: MovingArm) -> ET.Element:
-    """The chain of a D-H arm: every link in the frame of its joint, whose z is the axis."""
-    robot = ET.Element("robot", name=arm.name)
-    # MuJoCo takes no body without mass and inertia, and would melt the flange into the last link; others skip this
-    ET.SubElement(ET.SubElement(robot, "mujoco"), "compiler", boundmass="1e-9", boundinertia="1e-9", fusestatic="false")
-    ET.SubElement(robot, "link", name="base")
-    parent, limits = "base", arm.description.joint_limits_deg
-    for number, name in enumerate(arm.joint_names, start=1):
-        ET.SubElement(robot, "link", name=f"link_{number}")
-        joint = _joint(robot, name, "continuous", (parent, f"link_{number}"), arm.model.jointPlacements[number])
-        ET.SubElement(joint, "axis", xyz="0 0 1")
-        if limits is not None and len(limits) == arm.n_links:
-            joint.set("type", "revolute")
-            low, high = (repr(float(np.radians(value))) for value in limits[number - 1])
-            ET.SubElement(joint, "limit", lower=low, upper=high, effort="1000", velocity="10")
-        parent = f"link_{number}"
-    ET.SubElement(robot, "link", name="flange")
+    """The chain of a D-H arm."""
+    limits = arm.description.joint_limits_deg
+    within = None if limits is None or len(limits) != arm.n_links else np.radians(limits)
+    joints = [
+        WrittenJoint(
+            name, arm.model.jointPlacements[n + 1].homogeneous, None if within is None else (within[n][0], within[n][1])
+        )
+        for n, name in enumerate(arm.joint_names)
+    ]
     tip = arm.model.frames[arm.model.getFrameId(TIP)]
-    _joint(robot, "flange_fixed", "fixed", (parent, "flange"), tip.placement)
-    return robot
-
-
-def _joint(robot: ET.Element, name: str, kind: str, links: tuple[str, str], placement: pin.SE3) -> ET.Element:
-    joint = ET.SubElement(robot, "joint", name=name, type=kind)
-    ET.SubElement(joint, "parent", link=links[0])
-    ET.SubElement(joint, "child", link=links[1])
-    rpy = _words(pin.rpy.matrixToRpy(placement.rotation))
-    ET.SubElement(joint, "origin", xyz=_words(placement.translation), rpy=rpy)
-    return joint
+    return chain_urdf(arm.name, joints, "flange", tip.placement.homogeneous)
 
 
 def _kept(source: Path, arm: MovingArm, folder: Path) -> ET.Element:
     """The arm's own URDF, without the inertias of what is fixed to a moving link: they are part of that link's."""
     robot = root_of(str(source))
-    for mesh in robot.iter("mesh"):
-        name = mesh.get("filename", "")
-        if "://" not in name and not Path(name).is_absolute():  # beside the nominal file: seen from the new one
-            mesh.set("filename", Path(os.path.relpath(source.parent / name, folder.resolve())).as_posix())
+    keep_meshes(robot, source, folder)
     moving = set(arm.joint_names)
     children = {child.get("link"): joint for joint in robot.findall("joint") for child in joint.findall("child")}
     for link in robot.findall("link"):
@@ -238,20 +217,6 @@ def _hangs_on(joint: ET.Element | None, children: dict[str | None, ET.Element], 
         parent = joint.find("parent")
         joint = None if parent is None else children.get(parent.get("link"))
     return False
-
-
-def _set_inertial(link: ET.Element, body: pin.Inertia) -> None:
-    for old in link.findall("inertial"):
-        link.remove(old)
-    inertial = ET.SubElement(link, "inertial")
-    ET.SubElement(inertial, "origin", xyz=_words(body.lever), rpy="0 0 0")
-    ET.SubElement(inertial, "mass", value=repr(float(body.mass)))
-    names = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
-    ET.SubElement(inertial, "inertia", {name: repr(float(body.inertia[at])) for name, at in names.items()})
-
-
-def _words(values: Array) -> str:
-    return " ".join(repr(float(value)) for value in values)
 
 
 def _as_comment(lines: list[str]) -> str:

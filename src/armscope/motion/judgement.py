@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -171,22 +172,53 @@ def unexplained(found: Sequence[FoundCause]) -> UnexplainedTorque:
     return UnexplainedTorque(True, curves[0].location, curves[0].driver, curves[0].title)
 
 
-def answer_of(
-    found: Sequence[FoundCause], left: UnexplainedTorque, held_out: tuple[float, float] = (np.inf, 0.0)
-) -> tuple[Answer, bool]:
+@dataclass(frozen=True)
+class HeldOutErrors:
+    """Of torque on motion that took no part, relative to it.
+
+    Attributes:
+        without: with friction and rotors alone.
+        anew: with causes found without that motion.
+        named: with the causes that all of the motion names, their sizes found without it.
+    """
+
+    without: float
+    anew: float
+    named: float
+
+    @property
+    def worse(self) -> bool:
+        """Whether causes that are found anew help nothing."""
+        return self.anew >= self.without
+
+    @property
+    def no_answer(self) -> bool:
+        """Whether the named ones don't clearly help either."""
+        return self.worse and self.named > TELLING.clearly_better * self.without
+
+    def words(self) -> str:
+        """How well torque is met, in a sentence."""
+        without, anew, named = (f"{rounded(100 * error)} %" for error in (self.without, self.anew, self.named))
+        if not self.worse:
+            return f"{ON_HELD_OUT} the torque is met to {anew} instead of {without}."
+        told = f"{ON_HELD_OUT} the torque is met to {named} instead of {without} by these causes"
+        return f"{told}; to {anew} where the causes, too, are found without it."
+
+
+def answer_of(found: Sequence[FoundCause], left: UnexplainedTorque, errors: HeldOutErrors) -> tuple[Answer, bool]:
     """The answer in two words, and whether there is a mismatch.
 
     Args:
         found: the causes.
         left: what has none.
-        held_out: error on motion that took no part, with friction and rotors alone and with the causes.
+        errors: on motion that took no part; names that don't help there are no answer.
 
     Returns:
-        Both; names that make motion that took no part worse are no answer.
+        Both.
     """
     if not found:
         return "nothing missing", False
-    if held_out[1] >= held_out[0]:
+    if errors.no_answer:
         return "cannot tell", True
     named = [cause for cause in found if not cause.nameless and not cause.minor]
     if left.present:
@@ -194,20 +226,19 @@ def answer_of(
     return "explained", True
 
 
-def headline(found: Sequence[FoundCause], held_out: tuple[float, float]) -> str:
+def headline(found: Sequence[FoundCause], errors: HeldOutErrors) -> str:
     """The largest causes with what each has of the torque that friction and rotors leave, the others by family."""
-    before, after = (f"{rounded(100 * error)} %" for error in held_out)
-    better = f"{ON_HELD_OUT} the torque is met to {after} instead of {before}."
     main = [cause for cause in found if not cause.minor]
     if not found:
-        return f"Nothing is missing beyond friction and rotors of the joints. {better}"
+        met = f"{ON_HELD_OUT} the torque is met to {rounded(100 * errors.anew)} %."
+        return f"Nothing is missing beyond friction and rotors of the joints. {met}"
     told, rest = (main or found)[: TELLING.in_headline], main[TELLING.in_headline :]
     of_what = (" of what friction and rotors leave", *[""] * len(told))
-    if held_out[1] >= held_out[0]:
-        worse = f"torque on motion that took no part is met to {after} with all that was found, to {before} without"
-        return f"Cannot tell what is missing: {worse}. The reading that fits best: {clause(told[0])}."
+    if errors.no_answer:
+        doubt = "Cannot tell what is missing: nothing that was found helps on motion that took no part"
+        return f"{doubt}. The reading that fits best: {clause(told[0])}. {errors.words()}"
     causes = "; ".join(f"{clause(c)} – {percent(c.share)}{of_what[n]}" for n, c in enumerate(told))
-    return f"{capitalised(causes)}. {_further(rest)}{better}"
+    return f"{capitalised(causes)}. {_further(rest)}{errors.words()}"
 
 
 ON_HELD_OUT = "On held-out motion"

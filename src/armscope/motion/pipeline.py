@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass, replace
 import numpy as np
 
 from armscope.core.inputs import InputError, nearest
-from armscope.core.types import Progress
+from armscope.core.types import Progress, unheard
 from armscope.motion.check import check_motions, check_rows
 from armscope.motion.constants import LIBRARY
 from armscope.motion.cutoff import chosen_cutoff
@@ -26,6 +26,7 @@ from armscope.motion.holding_out import (
 )
 from armscope.motion.intervals import Sureness, covariance_of, level_told, sureness
 from armscope.motion.judgement import (
+    HeldOutErrors,
     answer_of,
     found_causes,
     headline,
@@ -100,7 +101,7 @@ def diagnose_motion(
     arm: MovingArm,
     motions: Motions,
     settings: MotionSettings | None = None,
-    progress: Progress = lambda text, share: None,
+    progress: Progress = unheard,
 ) -> MotionDiagnosis:
     """Find which causes make recorded torques differ from those of the arm's model.
 
@@ -167,6 +168,9 @@ def _parted(arm: MovingArm, motions: Motions, held_out: Sequence[str]) -> tuple[
         if len(stretch) > 4 * FILTER.edge_s * stretch.rate:
             as_torque = replace(stretch, effort=torque_of(arm, stretch.effort, motions.kind))
             (test if stretch.run in held_out else train).append(as_torque)
+    if not train and test:
+        rule = "a run at least takes part in the fit"
+        raise InputError("--held-out", "", ", ".join(held_out), rule, "Hold out fewer.")
     if not train:
         rule = f"a motion without gaps lasts at least {4 * FILTER.edge_s:g} s"
         raise InputError(motions.source, "column time_s", "no such motion", rule, "Record a longer motion.")
@@ -191,7 +195,7 @@ def _judged(
     found = [cause for _, cause in numbered]
     steps = waterfall(selected, parts, [number for number, _ in numbered], [cause.title for cause in found])
     left = unexplained(found)
-    errors = (held_out.background, held_out.model)
+    errors = HeldOutErrors(held_out.background, held_out.model, steps[-1].held_out)
     answer, mismatch = answer_of(found, left, errors)
     sizes = {family.name: share for family, share in zip(selected.space.families, _sizes(selected), strict=True)}
     verdict = MotionVerdict(

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.core.types import Array, Indices, Progress
+from armscope.core.types import Array, Indices, Progress, unheard
 from armscope.motion.causes import Moment, coulomb_width, sharp_width, side
 from armscope.motion.laws import FOLLOWS_MODEL, Law
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
@@ -118,7 +118,7 @@ def build_rows(
     stretches: Sequence[Stretch],
     how: Preparation,
     model: SoFar,
-    progress: Progress = lambda t, s: None,
+    progress: Progress = unheard,
     before: MotionRows | None = None,
 ) -> MotionRows:
     """All rows of a table.

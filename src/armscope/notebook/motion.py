@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 from dataclasses import fields
 from pathlib import Path
 from typing import Any, TypeGuard
@@ -15,6 +14,7 @@ from armscope.core.outputs import Delivery
 from armscope.motion.export import write_motion
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
 from armscope.motion.predicting import torque_table
+from armscope.notebook.html import paragraphs, table
 from armscope.recordings.first_lines import is_motion, is_motion_table
 from armscope.recordings.motions import Motions, as_motions, read_motions
 from armscope.report.motion_subject import MotionSubject
@@ -40,10 +40,7 @@ class MotionDiagnosed(MotionDiagnosis):
         cells = [
             (each.title, percent(each.share), f"{each.rms:.2g} {each.unit}", each.cure) for each in self.verdict.effects
         ]
-        rows = "".join("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in cells)
-        head = "".join(f"<th>{name}</th>" for name in ("cause", "share", "torque, RMS", "cure"))
-        table = f"<table><tr>{head}</tr>{rows}</table>" if rows else ""
-        return f"<p><b>{html.escape(self.verdict.headline)}</b></p>{table}"
+        return paragraphs(self.verdict.headline) + table(("cause", "share", "torque, RMS", "cure"), cells)
 
     def to_json(self) -> dict[str, Any]:
         """The content of verdict.json."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 import math
 from pathlib import Path
 
@@ -11,6 +10,7 @@ import pandas as pd
 from armscope.compensation.physical import FILE, identified_on, save_identified
 from armscope.compensation.predicting import points_table
 from armscope.core.outputs import Delivery
+from armscope.notebook.html import paragraphs, table
 from armscope.physics.model import predict
 from armscope.recordings import Recordings, as_recordings, read_recordings
 from armscope.report.pages.diagnosis import write_report
@@ -45,11 +45,8 @@ class Diagnosed(Diagnosis):
 
     def _repr_html_(self) -> str:
         cells = [(e.title, percent(e.share), millimetres(e.rms_at_tool_mm), e.cure) for e in self.effects]
-        rows = "".join("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in cells)
-        head = "".join(f"<th>{name}</th>" for name in ("cause", "share", "RMS per axis", "cure"))
         about = f"{self.arm}, {self.rows} rows; {self._left()}; noise {millimetres(self.noise_mm)} per axis"
-        table = f"<table><tr>{head}</tr>{rows}</table>" if rows else ""
-        return f"<p><b>{html.escape(self.headline)}</b></p><p>{html.escape(about)}</p>{table}"
+        return paragraphs(self.headline, about) + table(("cause", "share", "RMS per axis", "cure"), cells)
 
     def report(self, folder: Path | str = "armscope-report", force: bool = False) -> Path:
         """Write all that `armscope diagnose -o folder` writes.

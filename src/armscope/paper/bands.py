@@ -13,7 +13,6 @@ from armscope.paper.measurements import Measurements
 from armscope.paper.table2 import ENSEMBLE_RANGE
 
 TRUE = "true"
-COLUMNS = ["trajectory", "model", "point"]
 LOW, HIGH = ["low_x_mm", "low_y_mm", "low_z_mm"], ["high_x_mm", "high_y_mm", "high_z_mm"]
 
 

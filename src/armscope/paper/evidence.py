@@ -8,6 +8,7 @@ from typing import Any
 
 import pandas as pd
 
+from armscope.core.types import unheard
 from armscope.errormodels import SwarmFit, fit_random_search
 from armscope.paper.claims import AS_PRINTED, IMPROVED, Evidence
 from armscope.paper.measurements import Measurements
@@ -20,7 +21,7 @@ def gather(
     improved: Sequence[SwarmFit],
     as_printed: Sequence[SwarmFit],
     tables: Mapping[str, pd.DataFrame],
-    progress: Callable[[str], None] = lambda _: None,
+    progress: Callable[[str], None] = unheard,
 ) -> dict[str, Evidence]:
     """Evidence by method, with random search beside each in the same coordinates and with as many evaluations.
 

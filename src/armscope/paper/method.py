@@ -13,6 +13,7 @@ from itertools import product
 import numpy as np
 import pandas as pd
 
+from armscope.core.types import unheard
 from armscope.errormodels import BasisKind, Layout, SwarmFit, fit_random_search, fit_swarms
 from armscope.errormodels.features import ModelSpec
 from armscope.paper.claims.catalogue import CLAIMS
@@ -45,7 +46,7 @@ def method_table(
     robots: Sequence[str],
     seeds: Sequence[int],
     settings: SwarmSettings,
-    progress: Callable[[str], None] = lambda _: None,
+    progress: Callable[[str], None] = unheard,
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Excess over least squares for all combinations, and what becomes of the claims about the swarm.
 

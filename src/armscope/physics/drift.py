@@ -12,7 +12,7 @@ from armscope.core.numerals import rounded
 from armscope.physics.clause import Told
 from armscope.physics.cure import Cure
 from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term, term
-from armscope.physics.placing import varies
+from armscope.physics.placing import nowhere, varies
 from armscope.physics.set_ups import SetUps, in_order_of_time
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -235,7 +235,7 @@ def row_number(recordings: Recordings, row: int) -> float:
 BASE_SHIFT = Effect(
     "base_shift",
     "drift",
-    lambda arm, recordings: iter(()),  # its time is scanned by the diagnosis
+    nowhere,  # its time is scanned by the diagnosis
     "The base or the instrument jumped during the recording.",
     "Look into the log for what happened at that time; measure reference points on the base.",
     Cure(

@@ -9,13 +9,14 @@ import numpy as np
 from armscope.physics.cure import Cure
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import AXES, Driver, Effect, Placed
+from armscope.physics.placing import nowhere
 from armscope.physics.set_ups import SetUps
 from armscope.recordings import Recordings
 
 BASE_FRAME = Effect(
     "base_frame",
     "frame",
-    lambda arm, recordings: iter(()),
+    nowhere,
     "Where the arm's base stands in the measurement frame.",
     "It is fitted anew for every recording.",
     Cure("Nothing to cure."),
@@ -23,7 +24,7 @@ BASE_FRAME = Effect(
 TOOL_FRAME = Effect(
     "tool_frame",
     "frame",
-    lambda arm, recordings: iter(()),
+    nowhere,
     "Where the measured point sits in the arm's last frame.",
     "It is fitted anew for every target.",
     Cure("Nothing to cure."),
@@ -33,7 +34,7 @@ TOOL_FRAME = Effect(
 TOOL_TURN = Effect(
     "tool_turn",
     "frame",
-    lambda arm, recordings: iter(()),
+    nowhere,
     "How the measured tool frame is turned against the arm's last frame.",
     "It is fitted anew for every target whose orientation was measured.",
     Cure("Nothing to cure."),

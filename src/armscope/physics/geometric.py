@@ -13,7 +13,7 @@ from armscope.physics.clause import Told, swings, waves_column
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import Cure, command
 from armscope.physics.effect import AXES, ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
-from armscope.physics.placing import moving_joints
+from armscope.physics.placing import moving_joints, nowhere
 from armscope.physics.scene import LINKAGE_JOINT, Part, Scene
 from armscope.recordings import Recordings
 from armscope.recordings.motion import moving
@@ -133,7 +133,7 @@ def _offset(effect: Effect, j: int) -> Placed:
 BACKGROUND = Effect(
     "link_geometry",
     "geometric",
-    lambda arm, recordings: iter(()),
+    nowhere,
     "Geometric errors of tolerance size, as every arm has them.",
     "Compare with the maker's tolerances.",
     Cure("A geometric calibration takes them out."),

@@ -14,6 +14,7 @@ from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import Cure
 from armscope.physics.drivers import follows
 from armscope.physics.effect import Driver, Effect, Placed, Product, Term
+from armscope.physics.placing import nowhere
 from armscope.physics.scene import Part
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -21,7 +22,7 @@ from armscope.robot import Arm
 STATED_MASSES = Effect(
     "stated_masses",
     "elastic",
-    lambda arm, recordings: iter(()),  # it needs a model that gives way
+    nowhere,  # it needs a model that gives way
     "The mass is other than stated, so everything that gives way under it is loaded differently.",
     "Weigh it, or record the motors' torques at rest and compare them with gravity by the stated masses.",
     Cure("Correct the link's mass in robot.yaml: mass = stated mass x (1 + share)."),

@@ -192,9 +192,10 @@ def load_model(path: Path | str) -> FittedModel:
     content = read_yaml(path)
     if not isinstance(content, dict) or content.get("format") != FORMAT:
         found = content.get("format", "no key format") if isinstance(content, dict) else "no mapping"
-        raise InputError(
-            path, "format", found, f"a model file says `format: {FORMAT}`", "`armscope diagnose` writes one."
-        )
+        cure = "`armscope diagnose` writes one."
+        if "motion" in str(found):
+            cure = "It is of an arm in motion: `armscope predict` gives the torques of a table of motions by it."
+        raise InputError(path, "format", found, f"a model file says `format: {FORMAT}`", cure)
     file = validate(ModelFile, content, path)
     reader = Reader(arm := build_arm(file.robot), path)
     return FittedModel(

@@ -17,7 +17,7 @@ from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Prod
 from armscope.physics.elastic import UNKNOWN_MASSES
 from armscope.physics.loaded_arm import Misstated
 from armscope.physics.loads import givings
-from armscope.physics.placing import varies
+from armscope.physics.placing import nowhere, varies
 from armscope.physics.scene import Part, Scene
 from armscope.recordings import Recordings
 
@@ -98,7 +98,7 @@ def _not_as_stated(told: Told) -> str:
 PAYLOAD_ERROR = Effect(
     "payload_error",
     "elastic",
-    lambda arm, recordings: iter(()),  # it needs a model that gives way
+    nowhere,  # it needs a model that gives way
     "The payload's mass or centre of mass is other than stated, so everything that gives way is loaded differently.",
     "Weigh the tool and its load, and find its centre of mass by hanging it from two points.",
     Cure(

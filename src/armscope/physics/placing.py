@@ -3,12 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from armscope.core.types import Array
 from armscope.recordings import Recordings
 from armscope.recordings.motion import moving
+
+if TYPE_CHECKING:
+    from armscope.physics.effect import Placed
+    from armscope.robot import Arm
+
+
+def nowhere(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    """Places of what the library does not place: the diagnosis finds them, or it is in every model."""
+    return iter(())
 
 
 def moving_joints(recordings: Recordings) -> list[int]:

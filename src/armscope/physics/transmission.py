@@ -11,7 +11,7 @@ from armscope.physics.clause import Told, swings, waves_column
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.effect import Driver, Effect, Placed, Product, Term, motor, term
-from armscope.physics.placing import moving_joints, varying_columns
+from armscope.physics.placing import moving_joints, nowhere, varying_columns
 from armscope.physics.scene import Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -115,7 +115,7 @@ def mesh(j: int, per_turn: int) -> Placed:
 GEAR_MESH = Effect(
     "gear_mesh",
     "transmission",
-    lambda arm, recordings: iter(()),  # its counts are scanned by the diagnosis
+    nowhere,  # its counts are scanned by the diagnosis
     "The teeth of a gear stage engage unevenly, so the angle error repeats many times per joint turn.",
     "Turn the joint alone in steps much finer than the period found and look for the wave.",
     command(

@@ -12,7 +12,7 @@ from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import Cure
 from armscope.physics.drift import LEAST_SPAN_S, six_terms
 from armscope.physics.effect import Driver, Effect, Placed, Product, Term, term
-from armscope.physics.placing import varies
+from armscope.physics.placing import nowhere, varies
 from armscope.physics.scene import numbers_of_rows
 from armscope.physics.set_ups import SetUps
 from armscope.physics.thermal import growing_links
@@ -28,7 +28,7 @@ GROWTH_WAVES = 3
 BASE_WANDER = Effect(
     "base_wander",
     "drift",
-    lambda arm, recordings: iter(()),
+    nowhere,
     "The base or the instrument wanders a little in the course of the recording, as any set-up does.",
     "Measure fixed reference points on the base now and then.",
     Cure("Nothing to cure."),
@@ -38,7 +38,7 @@ BASE_WANDER = Effect(
 LINK_WANDER = Effect(
     "link_wander",
     "drift",
-    lambda arm, recordings: iter(()),
+    nowhere,
     "Links warm up and cool down a little in the course of the recording, whatever a thermometer in the hall says.",
     "Measure one pose now and then.",
     Cure("Let the arm warm up before measuring."),

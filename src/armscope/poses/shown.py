@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import scipy.linalg
 from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError, nearest
 from armscope.core.location import Location
 from armscope.core.types import Array
+from armscope.design.independence import independent_columns
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import AXES, ONE, Placed, Term
 from armscope.physics.frames import BASE_FRAME, TOOL_FRAME
@@ -140,17 +140,10 @@ def _tier(placed: Placed) -> int:
 
 
 def _told_apart(columns: Array, tiers: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Columns chosen by QR with pivoting (Golub 1965), tier by tier, until little is left."""
+    """Columns of which enough is left beyond those of lower tiers, whatever their size."""
     triangular = np.linalg.qr(columns, mode="r")
-    left = triangular / np.maximum(np.linalg.norm(triangular, axis=0), 1e-300)
-    kept = np.zeros(len(tiers), dtype=bool)
-    for tier in np.unique(tiers):
-        members = np.flatnonzero(tiers == tier)
-        basis, factor, order = scipy.linalg.qr(left[:, members], mode="economic", pivoting=True)
-        rank = int(np.sum(np.abs(np.diag(factor)) > INDEPENDENT))
-        kept[members[order[:rank]]] = True
-        left = left - basis[:, :rank] @ (basis[:, :rank].T @ left)
-    return kept
+    unit = triangular / np.maximum(np.linalg.norm(triangular, axis=0), 1e-300)
+    return independent_columns(unit, tiers, INDEPENDENT)
 
 
 def _name(placed: Placed, term: Term) -> str:

@@ -11,7 +11,7 @@ import pandas as pd
 from scipy.stats import t as t_distribution
 
 from armscope.core.location import Location
-from armscope.core.types import Array
+from armscope.core.types import Array, unheard
 from armscope.real.compliances import BLOCKS, Agreement, Give, compare_compliances, fit_give
 from armscope.real.reference import ReferenceCompliances, rows_of_run
 from armscope.recordings import Recordings
@@ -45,7 +45,7 @@ def compare_runs(
     arm: Arm,
     recordings: Recordings,
     reference: ReferenceCompliances,
-    tell: Callable[[str], None] = lambda text: None,
+    tell: Callable[[str], None] = unheard,
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """What every run says of the joints asked for, and which runs agree: from points alone, and from orientations, too.
 

@@ -18,7 +18,7 @@ import pandas as pd
 from armscope.calibration import held_out_levels
 from armscope.calibration.splits import random_split
 from armscope.core.averages import rms_distance
-from armscope.core.types import Array
+from armscope.core.types import Array, unheard
 from armscope.diagnosis import Diagnosis, Settings, diagnose
 from armscope.errormodels import PAPER_MODELS, fit_least_squares
 from armscope.measurement.orientations import ORIENTATIONS
@@ -54,7 +54,7 @@ def measure_run(
     reference: ReferenceRun,
     diagnosed_splits: int | None = None,
     oriented_splits: int | None = None,
-    tell: Callable[[str], None] = lambda text: None,
+    tell: Callable[[str], None] = unheard,
 ) -> Measured:
     """A run in the reference protocol.
 

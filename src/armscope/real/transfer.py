@@ -14,6 +14,7 @@ from armscope.calibration.model import LEVELS, Level, SetUp, set_up
 from armscope.calibration.solve import Priors, solve
 from armscope.calibration.state import State
 from armscope.core.averages import rms_distance
+from armscope.core.types import unheard
 from armscope.diagnosis import Diagnosis, Settings, diagnose
 from armscope.fitting.transfer import transfer as carry_over
 from armscope.real.curves import turned_by_curves
@@ -42,7 +43,7 @@ def calibrated_transfer(arm: Arm, recordings: Recordings, transfer: ReferenceTra
         mm by level.
     """
     learned = set_up(arm, rows_of_run(recordings, transfer.learned))
-    applied = _of_kind(learned, set_up(arm, rows_of_run(recordings, transfer.applied)))
+    applied = _of_kind(set_up(arm, rows_of_run(recordings, transfer.applied)))
     start = placed(learned)
     own = placed(applied) if "base" in transfer.refitted else None
     found = {}
@@ -121,7 +122,7 @@ def measure_transfers(
     recordings: Recordings,
     transfers: Sequence[ReferenceTransfer],
     verdicts: Mapping[str, Diagnosis],
-    tell: Callable[[str], None] = lambda text: None,
+    tell: Callable[[str], None] = unheard,
 ) -> list[tuple[ReferenceTransfer, dict[str, float]]]:
     """RMS of the 3D distance (mm) on rows of the other run, by model; ``verdicts`` as `learn` gives them.
 
@@ -150,7 +151,7 @@ def _learned_at(level: str) -> Level:
     return next((known for known in LEVELS if known == level), "compliance")
 
 
-def _of_kind(learned: SetUp, applied: SetUp) -> SetUp:
+def _of_kind(applied: SetUp) -> SetUp:
     """The other run's rows, its tool counted as the first tool of the learned run."""
     return replace(applied, tool=np.zeros_like(applied.tool), tool_names=applied.tool_names[:1])
 

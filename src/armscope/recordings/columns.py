@@ -11,6 +11,7 @@ import numpy as np
 
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array
+from armscope.recordings.first_lines import is_motion
 
 LARGEST_ANGLE_RAD = 4 * np.pi
 """Beyond two turns either way no arm's joint stands, so a larger number is not in radians."""
@@ -207,6 +208,7 @@ class Names:
                 cure = nearest(missing, self.columns)
                 raise self._error(f"no column {missing}", "x, y and z come together, in one unit", cure)
         if measured:
-            cure = nearest("x_mm", self.columns)
+            moving = "It is a table of an arm in motion: `armscope diagnose`, `check` and `predict` take it."
+            cure = moving if is_motion(list(self.columns)) else nearest("x_mm", self.columns)
             raise self._error("no column x_mm", "measured positions stand in x_mm, y_mm, z_mm (or _m)", cure)
         return []

@@ -119,7 +119,7 @@ def build_arm(description: RobotDescription) -> Arm:
             [axis_turns[joint][:3, :3].T @ model.inertias[joint].lever for joint in range(1, model.njoints)]
         ),
         gravity=np.array(description.gravity_m_s2, dtype=float),
-        actuation=_actuation_matrix(description, n_joints),
+        actuation=description.actuation_matrix(n_joints),
         limits=_limits(description, model),
         sigma=None if description.instrument is None else description.instrument.sigma_mm * 1e-3,
     )
@@ -171,16 +171,6 @@ def _link_frames(description: RobotDescription, n_joints: int) -> Array:
     return np.array([dh_halves(row, description.dh.convention)[1].homogeneous for row in description.dh.joints])
 
 
-def _actuation_matrix(description: RobotDescription, n_joints: int) -> Array:
-    if description.actuation is None:
-        return np.eye(n_joints)
-    matrix = np.zeros((n_joints, description.n_motors(n_joints)))
-    for joint, combination in enumerate(description.actuation):
-        for motor, coefficient in combination.items():
-            matrix[joint, int(motor[1:]) - 1] = coefficient
-    return matrix
-
-
 def _limits(description: RobotDescription, model: pin.Model) -> Array:
     n_motors = description.n_motors(model.njoints - 1)
     if description.joint_limits_deg is not None:
@@ -188,7 +178,7 @@ def _limits(description: RobotDescription, model: pin.Model) -> Array:
     limits = np.tile([-np.inf, np.inf], (n_motors, 1))
     if description.urdf is None:
         return limits
-    matrix = _actuation_matrix(description, model.njoints - 1)
+    matrix = description.actuation_matrix(model.njoints - 1)
     for number, row in enumerate(matrix, start=1):
         joint, motors = model.joints[number], np.flatnonzero(row)
         # a joint without limits is stored as cosine and sine; one that several motors turn limits none of them

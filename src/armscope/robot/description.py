@@ -10,6 +10,7 @@ import pydantic
 from pydantic import AfterValidator, Field
 
 from armscope.core.inputs import Strict
+from armscope.core.types import Array
 
 Vector = Annotated[tuple[float, float, float], Field(description="x, y, z")]
 Degrees = Annotated[float, Field(ge=-720, le=720)]
@@ -237,3 +238,13 @@ class RobotDescription(Strict):
         if self.actuation is None:
             return n_joints
         return max((int(motor[1:]) for row in self.actuation for motor in row), default=0)
+
+    def actuation_matrix(self, n_joints: int) -> Array:
+        """(n, m) positions of ``n_joints`` chain joints by motor positions."""
+        if self.actuation is None:
+            return np.eye(n_joints)
+        matrix = np.zeros((n_joints, self.n_motors(n_joints)))
+        for joint, combination in enumerate(self.actuation):
+            for motor, coefficient in combination.items():
+                matrix[joint, int(motor[1:]) - 1] = coefficient
+        return matrix

@@ -80,12 +80,7 @@ class MovingArm:
 
     def configurations(self, motors: Array) -> Array:
         """(N, nq) pinocchio configurations of motor positions (N, m)."""
-        chain = motors @ self.actuation.T
-        columns: list[Array] = []
-        for joint in range(self.n_links):
-            turning = self.model.joints[joint + 1].nq == 2  # cosine and sine of a joint without limits
-            columns += [np.cos(chain[:, joint]), np.sin(chain[:, joint])] if turning else [chain[:, joint]]
-        return np.column_stack(columns)
+        return configurations(self.model, motors @ self.actuation.T)
 
     def regressor(self, q: Array, dq: Array, ddq: Array) -> Array:
         """Torque of each motor per unit of each inertial parameter (Atkeson, An & Hollerbach 1986).
@@ -98,14 +93,7 @@ class MovingArm:
         Returns:
             (N, m, 10 n) N m per SI unit.
         """
-        data, configurations = self.model.createData(), self.configurations(q)
-        v, a = dq @ self.actuation.T, ddq @ self.actuation.T
-        torque = np.empty((len(q), self.n_links, len(self.inertial)))
-        for row in range(len(q)):
-            torque[row] = pin.computeJointTorqueRegressor(self.model, data, configurations[row], v[row], a[row])
-        if np.array_equal(self.actuation, np.eye(self.n_links)):
-            return torque
-        return np.asarray(np.einsum("njp,jm->nmp", torque, self.actuation))
+        return torque_regressor(self.model, self.actuation, (q, dq, ddq))
 
     def torques(self, q: Array, dq: Array, ddq: Array, inertial: Array) -> Array:
         """Torque of each motor by inverse dynamics with other inertial parameters than the stated ones.
@@ -142,6 +130,41 @@ class MovingArm:
         return np.asarray(held @ self.actuation)
 
 
+def configurations(model: pin.Model, chain: Array) -> Array:
+    """(N, nq) pinocchio configurations of the chain's positions (N, n); a joint without limits has cosine and sine."""
+    columns: list[Array] = []
+    for joint in range(chain.shape[1]):
+        turning = model.joints[joint + 1].nq == 2
+        columns += [np.cos(chain[:, joint]), np.sin(chain[:, joint])] if turning else [chain[:, joint]]
+    return np.column_stack(columns)
+
+
+def torque_regressor(model: pin.Model, actuation: Array, motion: tuple[Array, Array, Array]) -> Array:
+    """Torque of each motor per unit of each inertial parameter (Atkeson, An & Hollerbach 1986).
+
+    Args:
+        model: of the chain.
+        actuation: (n, m) chain positions by motor positions.
+        motion: (N, m) motor positions, velocities, accelerations.
+
+    Returns:
+        (N, m, 10 n) N m per SI unit.
+    """
+    data, (q, v, a) = model.createData(), (each @ actuation.T for each in motion)
+    stored = configurations(model, q)
+    torque = np.empty((len(q), len(actuation), 10 * len(actuation)))
+    for row in range(len(q)):
+        torque[row] = pin.computeJointTorqueRegressor(model, data, stored[row], v[row], a[row])
+    if np.array_equal(actuation, np.eye(len(actuation))):
+        return torque
+    return np.asarray(np.einsum("njp,jm->nmp", torque, actuation))
+
+
+def inertial_parameters(model: pin.Model) -> Array:
+    """(10 n,) stated inertial parameters, `PARAMETERS` of each link."""
+    return np.concatenate([model.inertias[joint].toDynamicParameters() for joint in range(1, model.njoints)])
+
+
 def load_moving_arm(path: Path | str) -> MovingArm:
     """The arm of a robot.yaml, for inverse dynamics.
 
@@ -175,19 +198,14 @@ def build_moving_arm(description: RobotDescription, source: Path | str = "robot.
         description.check_motors(n_links, "joints of the chain")
     except ValueError as error:
         raise InputError(source, "joints of the chain", ", ".join(list(model.names)[1:]), str(error)) from error
-    actuation = np.eye(n_links)
-    if description.actuation is not None:
-        actuation = np.zeros((n_links, description.n_motors(n_links)))
-        for joint, combination in enumerate(description.actuation):
-            for motor, coefficient in combination.items():
-                actuation[joint, int(motor[1:]) - 1] = coefficient
+    actuation = description.actuation_matrix(n_links)
     slides = np.array([model.joints[joint].shortname().startswith("JointModelP") for joint in range(1, model.njoints)])
     drives = description.drives or ()
     none = np.full(actuation.shape[1], np.nan)
     return MovingArm(
         description=description,
         model=model,
-        inertial=np.concatenate([model.inertias[j].toDynamicParameters() for j in range(1, model.njoints)]),
+        inertial=inertial_parameters(model),
         actuation=actuation,
         sliding=np.asarray((np.abs(actuation[slides]) > 0).any(axis=0)),
         gains=np.array([_known(drive.gain_nm_per_a) for drive in drives]) if drives else none,

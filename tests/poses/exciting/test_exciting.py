@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 
 from armscope.cli import app
 from armscope.core.inputs import InputError
-from armscope.poses.exciting.columns import Motion, all_columns, names, stated_friction, stated_parameters
+from armscope.poses.exciting.columns import Motion, all_columns, names, stated_friction
 from armscope.poses.exciting.criterion import motion_score, separation, shown_at_all
 from armscope.poses.exciting.limits import limits_of
 from armscope.poses.exciting.output import pairs_of, trajectory_table
@@ -18,6 +18,7 @@ from armscope.poses.exciting.search import MotionWish, excite
 from armscope.poses.obstacles import Surroundings, refusals
 from armscope.robot import load_arm
 from armscope.robot.arm import build_arm
+from armscope.robot.dynamics import inertial_parameters
 from tests.world.motion.arms import FOLDER, NAMES
 
 NOWHERE = Surroundings(radius=0.01)
@@ -57,7 +58,7 @@ def test_columns_times_parameters_are_inverse_dynamics_and_friction(name):
         for key in ("coulomb_nm", "viscous_nm_s_rad", "rotor_inertia_kg_m2")
     )
     expected = rigid + coulomb * np.tanh(states.speed / 0.01) + viscous * states.speed + rotor * states.acceleration
-    numbers = np.concatenate([stated_parameters(arm), stated_friction(arm)])
+    numbers = np.concatenate([inertial_parameters(arm.model), stated_friction(arm)])
     np.testing.assert_allclose(all_columns(arm, states) @ numbers, expected, atol=1e-8)
 
 

@@ -153,7 +153,7 @@ def _driver(model: FittedModel, recordings: Recordings, location: str, axis: str
     if kind in ("hours", "warmth", "payload"):
         return (Driver(kind, (0.0,)) if kind == "hours" else Driver(kind),)
     if kind == "load":
-        return _load(model, recordings, location, axis, number)
+        return _load(model, location, axis, number)
     if number == 0:
         return ()
     own = "" if _direction(model, location, axis).axis == "turn" else "chain "
@@ -165,7 +165,7 @@ def _driver(model: FittedModel, recordings: Recordings, location: str, axis: str
     return (Driver(kind, (int(moves[-1] if number - 1 not in moves else number - 1) + 1,)),)
 
 
-def _load(model: FittedModel, recordings: Recordings, location: str, axis: str, number: int) -> tuple[Driver, ...]:
+def _load(model: FittedModel, location: str, axis: str, number: int) -> tuple[Driver, ...]:
     """The load in the direction that it pushes: force for shifts, moment for tilts, torque for turns about the axis."""
     if axis[0] == "t":
         return (Driver("force", (location, "xyz".index(axis[1]))),)

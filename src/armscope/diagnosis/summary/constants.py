@@ -25,11 +25,6 @@ class TellingRules(Constants):
     background_seen_nats: float = constant(
         5.0, "evidence from which a background is said to be there", "judgement: 150 to 1", unit="nats"
     )
-    determined: float = constant(
-        0.5,
-        "of a value's prior width that its standard error must be below to be told",
-        "judgement: half of it is data",
-    )
     most_bad_shots: float = constant(
         0.1, "share of rows that fit nothing beyond which they are no bad shots", "judgement: a tenth is a pattern"
     )

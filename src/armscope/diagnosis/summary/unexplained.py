@@ -81,7 +81,7 @@ def masses_in_error(
     known = [
         f"{part.placed.location} {100 * value:+.0f} +- {196 * error:.0f} %"
         for part, value, error in zip(parts, off, stderr, strict=True)
-        if error < TELLING.determined * part.placed.prior_scale[0] and abs(value) > 1.96 * error
+        if error < TELLING.undetermined * part.placed.prior_scale[0] and abs(value) > 1.96 * error
     ]
     text = "Stated masses are off, as all that gives way shows"
     return [found], [Notice("stated masses", f"{text}: {', '.join(known)}." if known else f"{text}; which, is open.")]

@@ -9,11 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import pinocchio as pin
 
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.robot import Arm
+from armscope.robot.dynamics import inertial_parameters, torque_regressor
 
 LINK_NAMES = ("mass", "m x", "m y", "m z", "I xx", "I xy", "I yy", "I xz", "I yz", "I zz")
 JOINT_NAMES = ("offset", "Coulomb", "viscous", "rotor inertia")
@@ -41,19 +41,7 @@ class Motion:
 
 def link_columns(arm: Arm, motion: Motion) -> Array:
     """(N, m, 10 n) torque of the motors per unit of each inertial parameter."""
-    data = arm.model.createData()
-    chain = [values @ arm.actuation.T for values in (motion.angle, motion.speed, motion.acceleration)]
-    found = np.empty((len(motion.angle), arm.n_motors, 10 * arm.n_joints))
-    for row, (q, v, a) in enumerate(zip(*chain, strict=True)):
-        found[row] = arm.actuation.T @ pin.computeJointTorqueRegressor(arm.model, data, _as_stored(arm, q), v, a)
-    return found
-
-
-def _as_stored(arm: Arm, angle: Array) -> Array:
-    """pinocchio stores a joint without limits as cosine and sine."""
-    if arm.model.nq == arm.n_joints:
-        return angle
-    return np.asarray(pin.integrate(arm.model, pin.neutral(arm.model), angle))
+    return torque_regressor(arm.model, arm.actuation, (motion.angle, motion.speed, motion.acceleration))
 
 
 def joint_columns(motion: Motion) -> Array:
@@ -76,11 +64,6 @@ def names(arm: Arm) -> list[str]:
 def all_columns(arm: Arm, motion: Motion) -> Array:
     """(N, m, 10 n + 4 m) of links and joints."""
     return np.concatenate([link_columns(arm, motion), joint_columns(motion)], axis=2)
-
-
-def stated_parameters(arm: Arm) -> Array:
-    """(10 n,) inertial parameters of the links as stated."""
-    return np.concatenate([arm.model.inertias[joint].toDynamicParameters() for joint in range(1, arm.model.njoints)])
 
 
 def stated_friction(arm: Arm) -> Array:
@@ -112,7 +95,7 @@ def cause_columns(arm: Arm, motion: Motion, links: Array, effect: str, location:
         return links[:, :, -10:-6]
     if where.kind != "joint" or where.source:
         return None
-    patterns = _joint_patterns(motion, links @ stated_parameters(arm), where.index)
+    patterns = _joint_patterns(motion, links @ inertial_parameters(arm.model), where.index)
     if effect not in patterns:
         return None
     found = np.zeros((*motion.angle.shape, patterns[effect].shape[1]))

@@ -12,9 +12,10 @@ from armscope.core.files import read_json, write_json, write_table
 from armscope.core.inputs import InputError
 from armscope.core.streams import is_stream
 from armscope.poses.body import collision_shapes
-from armscope.poses.exciting.columns import Motion, all_columns, stated_friction, stated_parameters
+from armscope.poses.exciting.columns import Motion, all_columns, stated_friction
 from armscope.poses.exciting.criterion import MotionScore, Pair
 from armscope.poses.exciting.search import Excitation
+from armscope.robot.dynamics import inertial_parameters
 
 
 def trajectory_table(found: Excitation, rate: float) -> pd.DataFrame:
@@ -26,7 +27,7 @@ def trajectory_table(found: Excitation, rate: float) -> pd.DataFrame:
     """
     time = np.arange(round(found.path.period * rate) + 1) / rate
     angle, speed, acceleration = found.path.at(time)
-    numbers = np.concatenate([stated_parameters(found.arm), stated_friction(found.arm)])
+    numbers = np.concatenate([inertial_parameters(found.arm.model), stated_friction(found.arm)])
     torque = all_columns(found.arm, Motion(angle, speed, acceleration, 1 / rate)) @ numbers
     columns: dict[str, Any] = {"time_s": time}
     for pattern, values in (

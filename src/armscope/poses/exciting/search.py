@@ -10,11 +10,12 @@ import numpy as np
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.design.fourier import FourierPath, random_path
-from armscope.poses.exciting.columns import Motion, all_columns, stated_friction, stated_parameters
+from armscope.poses.exciting.columns import Motion, all_columns, stated_friction
 from armscope.poses.exciting.criterion import MotionScore, Pair, Showable, motion_score, shown_at_all, told_apart
 from armscope.poses.exciting.limits import MotionLimits, limits_of
 from armscope.poses.obstacles import Surroundings, refusals
 from armscope.robot import Arm
+from armscope.robot.dynamics import inertial_parameters
 
 SAMPLES = 80
 """Samples of a motion in the search; a period of 5 to 10 harmonics is smooth beyond that."""
@@ -127,7 +128,7 @@ class _Search:
         self, arm: Arm, limits: MotionLimits, around: Surroundings, shown: Showable, wanted: MotionWish
     ) -> None:
         self.arm, self.limits, self.around, self.shown, self.wanted = arm, limits, around, shown, wanted
-        self.numbers = np.concatenate([stated_parameters(arm), stated_friction(arm)])
+        self.numbers = np.concatenate([inertial_parameters(arm.model), stated_friction(arm)])
         self.tried = self.refused = 0
 
     def motion(self, path: FourierPath) -> Motion:

@@ -22,24 +22,8 @@ METRES_UP_TO = 30.0
 _UNIT = r"[\s_.\-]*[\[(]?\s*(rad|deg|degrees|°|mm|m|millimeters|meters|rad/s|deg/s|nm|n\s?m|s|ms|kg|c|°c|degc)\s*[\])]?"
 JOINT = re.compile(r"(?P<word>.*?)[\s_.\[(\-]*(?P<number>\d{1,2})[\])]?(?P<unit>" + _UNIT + r")?", re.IGNORECASE)
 ANGLE_WORDS = (
-    "q",
-    "j",
-    "joint",
-    "theta",
-    "th",
-    "axis",
-    "axe",
-    "achse",
-    "gelenk",
-    "a",
-    "angle",
-    "ang",
-    "pos",
-    "position",
-    "encoder",
-    "motor",
-    "rax",
-    "s",
+    *("q", "j", "joint", "theta", "th", "axis", "axe", "achse", "gelenk", "a", "angle", "ang", "pos", "position"),
+    *("encoder", "motor", "rax", "s"),
 )
 BESIDE = {
     "torque": ("tau", "torque", "trq", "moment", "effort"),

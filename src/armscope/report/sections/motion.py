@@ -169,7 +169,8 @@ def _better(subject: MotionSubject) -> dict[str, Any]:
     return {"steps": pd.DataFrame(relative_steps(subject), columns=names), "model": model}
 
 
-def _friction(subject: MotionSubject) -> dict[str, Any]:
+def friction_table(subject: MotionSubject) -> dict[str, Any]:
+    """Friction and rotor of every joint in words."""
     names = ("offset", "coulomb", "viscous", "inertia")
     joints = subject.verdict.background
     below = [joint.joint for joint in joints if _below_zero(joint)]
@@ -200,7 +201,7 @@ MOTION_SECTIONS: tuple[Motion, ...] = (
     Motion("where", "Where", "Where the torque goes", _where, (arm_of_motion,)),
     Motion("causes", "Causes", "What was found", _cards, (curve_figures,)),
     Motion("torque", "Torque", "Torque on motion that took no part", lambda s: {"n": s.arm.n_motors}, (trace_figures,)),
-    Motion("friction", "Friction", "Friction and rotors of every joint", _friction, (friction_figures,)),
+    Motion("friction", "Friction", "Friction and rotors of every joint", friction_table, (friction_figures,)),
     Motion("better", "Validation", "How much better the model predicts", _better, (waterfall_of_motion,)),
     Motion("left", "What is left", "What is left, over angle, speed and time", _left, (left_figures,), folded=True),
     Motion("prepared", "Preparation", "How samples became rows", _prepared, folded=True),

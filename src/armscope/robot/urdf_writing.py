@@ -1,0 +1,130 @@
+"""URDF as XML that is written: a chain of hinges, origins, masses, and meshes that stay where they are."""
+
+from __future__ import annotations
+
+import os
+import xml.etree.ElementTree as ET
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from armscope.core.types import Array
+
+BASE = "base"
+
+
+class WrittenJoint(NamedTuple):
+    """A hinge of a chain.
+
+    Attributes:
+        name: its own.
+        placement: (4, 4) its frame in that of the joint before; it turns about z.
+        limits: (low, high) rad; None where it has none.
+    """
+
+    name: str
+    placement: Array
+    limits: tuple[float, float] | None
+
+
+def chain_urdf(name: str, joints: Sequence[WrittenJoint], flange: str, tip: Array) -> ET.Element:
+    """A chain as a URDF: every link in the frame of its joint, whose z is the axis; a flange at its end.
+
+    Args:
+        name: of the arm.
+        joints: from the base on.
+        flange: what the link at its end is called.
+        tip: (4, 4) where that is in the last joint's frame.
+
+    Returns:
+        The root; links are called link_1, link_2, ...
+    """
+    robot = ET.Element("robot", name=name)
+    # MuJoCo takes no body without mass and inertia, and would melt the flange into the last link; others skip this
+    ET.SubElement(ET.SubElement(robot, "mujoco"), "compiler", boundmass="1e-9", boundinertia="1e-9", fusestatic="false")
+    ET.SubElement(robot, "link", name=BASE)
+    parent = BASE
+    for number, joint in enumerate(joints, start=1):
+        link = f"link_{number}"
+        ET.SubElement(robot, "link", name=link)
+        element = _add_joint(robot, joint.name, "continuous", (parent, link), joint.placement)
+        ET.SubElement(element, "axis", xyz="0 0 1")
+        if joint.limits is not None:
+            element.set("type", "revolute")
+            low, high = (repr(float(limit)) for limit in joint.limits)
+            ET.SubElement(element, "limit", lower=low, upper=high, effort="1000", velocity="10")
+        parent = link
+    ET.SubElement(robot, "link", name=flange)
+    _add_joint(robot, "flange_fixed", "fixed", (parent, flange), tip)
+    return robot
+
+
+def _add_joint(robot: ET.Element, name: str, kind: str, links: tuple[str, str], placement: Array) -> ET.Element:
+    joint = ET.SubElement(robot, "joint", name=name, type=kind)
+    ET.SubElement(joint, "parent", link=links[0])
+    ET.SubElement(joint, "child", link=links[1])
+    ET.SubElement(joint, "origin", origin_of(placement))
+    return joint
+
+
+def set_inertial(link: ET.Element, mass: float, centre: Array, inertia: Array) -> None:
+    """Give a link its mass.
+
+    Args:
+        link: changed; what it said of its mass before goes.
+        mass: kg.
+        centre: (3,) of mass, in the link's frame, m.
+        inertia: (3, 3) about the centre of mass, along the link's axes, kg m^2.
+    """
+    for old in link.findall("inertial"):
+        link.remove(old)
+    inertial = ET.SubElement(link, "inertial")
+    ET.SubElement(inertial, "origin", xyz=_words(centre), rpy="0 0 0")
+    ET.SubElement(inertial, "mass", value=repr(float(mass)))
+    names = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
+    ET.SubElement(inertial, "inertia", {name: repr(float(inertia[at])) for name, at in names.items()})
+
+
+def origin_of(placement: Array) -> dict[str, str]:
+    """A placement (4, 4) as the attributes of an origin."""
+    turn = Rotation.from_matrix(placement[:3, :3]).as_euler("xyz", suppress_warnings=True)
+    return {"xyz": _words(placement[:3, 3]), "rpy": _words(turn)}
+
+
+def placement_of(origin: ET.Element) -> Array:
+    """(4, 4) of an origin's attributes."""
+    placement = np.eye(4)
+    placement[:3, 3] = _numbers(origin.get("xyz", "0 0 0"))
+    placement[:3, :3] = Rotation.from_euler("xyz", _numbers(origin.get("rpy", "0 0 0"))).as_matrix()
+    return placement
+
+
+def keep_meshes(robot: ET.Element, source: Path, folder: Path) -> None:
+    """Let names of meshes beside a URDF lead there from another folder, too.
+
+    Args:
+        robot: the file's root; changed.
+        source: the file.
+        folder: where it is to be written.
+    """
+    for mesh in robot.iter("mesh"):
+        name = mesh.get("filename", "")
+        if "://" not in name and not Path(name).is_absolute():
+            mesh.set("filename", Path(os.path.relpath(source.parent / name, folder.resolve())).as_posix())
+
+
+def urdf_text(robot: ET.Element) -> str:
+    """The file's text, a line an element."""
+    ET.indent(robot)
+    return '<?xml version="1.0"?>\n' + ET.tostring(robot, encoding="unicode") + "\n"
+
+
+def _numbers(words: str) -> Array:
+    return np.array([float(word) for word in words.split()])
+
+
+def _words(values: Array) -> str:
+    return " ".join(repr(float(value)) for value in values)
