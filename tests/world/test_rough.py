@@ -133,6 +133,17 @@ def test_an_oracle_pays_for_what_it_fits_and_more_where_waves_are_many():
     assert 0.99 < ratio["geometry"] < 1.1 < ratio["gears"] < 3
 
 
+def test_an_oracle_foretells_no_wander_of_rows_whose_time_is_not_recorded():
+    """With times it is as good as without a wander; without, it is left with all of the wander but its mean."""
+    made = {"id": "o", "category": "rough", "arm": "six-axis", "seed": 8, "fresh": False, "rows": 60, "sigma_mm": 0.002}
+    arm = conceal(WorldSpec.model_validate({**made, "rough": ["wander"]}), ROBOTS)
+    (wander,) = arm.chosen
+    measured = measure_session(arm)
+    noise = rms(measured.noise[arm.held_out])
+    assert oracle_rms(arm, measured, columns=["time_s"]) < 1.1 * noise
+    assert 0.7 * wander.rms < oracle_rms(arm, measured, columns=[]) < 1.5 * wander.rms
+
+
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
     """A parallelogram arm with everything rough and one cause."""

@@ -80,20 +80,28 @@ def held_out_errors(
     Returns:
         (blocks, readings) sums of squares, mm^2; zeros where blocks are too few to hold out.
     """
-    everything, errors = total(blocks), np.zeros((len(blocks), len(readings)))
-    for fold in _folds(len(blocks)):
-        held = total([blocks[int(k)] for k in fold])
-        trained = problem.with_equations(everything - held)
+    errors = np.zeros((len(blocks), len(readings)))
+    for fold, trained in folds(problem, blocks):
         fitted = [evaluate(trained, chosen, background, noise) for chosen, background in readings]
         values = np.array([each.coefficients(len(problem.scale)) / problem.scale for each in fitted])
         errors[fold] = [[blocks[int(k)].rss(each) for each in values] for k in fold]
     return errors
 
 
-def _folds(blocks: int) -> Iterator[Indices]:
-    """Numbers of the blocks of each fold."""
-    for fold in range(FOLDING.folds if blocks >= FOLDING.folds else 0):
-        yield np.arange(fold, blocks, FOLDING.folds)
+def folds(problem: Problem, blocks: Sequence[NormalEquations]) -> Iterator[tuple[Indices, Problem]]:
+    """Blocks that are held out together, and the problem on the rows of the others.
+
+    Args:
+        problem: the sums of all rows, priors and costs.
+        blocks: sums of blocks of rows.
+
+    Yields:
+        Numbers of blocks, and a problem; nothing where blocks are too few to hold out.
+    """
+    everything = total(blocks)
+    for first in range(FOLDING.folds if len(blocks) >= FOLDING.folds else 0):
+        fold = np.arange(first, len(blocks), FOLDING.folds)
+        yield fold, problem.with_equations(everything - total([blocks[int(k)] for k in fold]))
 
 
 def without_members(

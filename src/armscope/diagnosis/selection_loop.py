@@ -17,6 +17,7 @@ from armscope.diagnosis.row_noise import NoiseOfRows
 from armscope.diagnosis.scans.constants import SCANS
 from armscope.diagnosis.scans.context import ScanContext
 from armscope.diagnosis.scans.new_candidates import scanned_candidates
+from armscope.diagnosis.sizes_of_waves import with_sizes_of_rows
 from armscope.fitting.joint_scatter import Scattered
 from armscope.fitting.linearisation import LinearisedTable, Measured, linearised, normal_equations_by_block, residuals
 from armscope.fitting.refit import Refit, refit
@@ -207,10 +208,11 @@ class SelectionLoop:
         ]
 
     def earned(self) -> Selected:
-        """Where the rounds stand, without the names that make held-out rows worse."""
-        left = earned(self.problem, self.blocks, self.best)
-        if len(left.chosen) < len(self.best.chosen):
-            self.best = left
+        """Where the rounds stand, without the names that make held-out rows worse, gears' waves as the rows say."""
+        left, gears = earned(self.problem, self.blocks, self.best), FAMILIES.index(TRANSMISSION)
+        waves = with_sizes_of_rows(self.problem, self.space, self.blocks, left, self.families[gears])
+        if len(left.chosen) < len(self.best.chosen) or waves != self.families[gears]:
+            self.best, self.families[gears] = left, waves
             self.fit = self._fitted()
             self.model = self.fit.model
         return self.selected()

@@ -177,8 +177,27 @@ class ConfidenceSet(Constants):
     )
 
 
+@dataclass(frozen=True)
+class SizesByGroup(Constants):
+    """How sizes of a background's values are learned."""
+
+    freedoms: tuple[float, ...] = constant(
+        (1.0, 4.0, float("inf")),
+        "of Student's t that compete, by what held-out rows say",
+        "judgement: seen with bench cases in view; a few waves of thirty, most of them, all alike",
+        unit="values",
+    )
+    weight_of_stated: float = constant(
+        4.0, "as which the stated size of a large group counts", "judgement: two waves", unit="values"
+    )
+    steps: int = constant(
+        10, "in turns with the fit", "judgement: time; sizes then change by less than they are uncertain", unit="steps"
+    )
+
+
 PRIORS = SelectionPriors()
 DETECTION = DetectionRules()
 BUDGET = SearchBudget()
 NUMERICS = Numerics()
 CONFIDENCE = ConfidenceSet()
+SIZES_BY_GROUP = SizesByGroup()

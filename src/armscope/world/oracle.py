@@ -9,13 +9,13 @@ import numpy as np
 from armscope.core.averages import rms
 from armscope.core.types import Array
 from armscope.world.blemishes import FINE_WAVES, LOW_WAVES
-from armscope.world.kinds import APPROACH, LOAD, PAYLOAD, SPEED, TEMPERATURE, Concealed, Scene, number
+from armscope.world.kinds import APPROACH, LOAD, PAYLOAD, SPEED, TEMPERATURE, TIME, Concealed, Scene, number
 from armscope.world.rivals import Patterns
 from armscope.world.strength import free_frames, stand
 from armscope.world.virtual_arm import Measured, VirtualArm
 
 DRIVERS = {APPROACH: "approach", TEMPERATURE: "temperature_c", SPEED: "speed"}
-"""Columns without which nobody can know how an effect went; time is in the order of rows, too."""
+"""Columns without which nobody can know how an effect went; of the recorded rows, time is in their order, too."""
 
 
 def oracle_rms(arm: VirtualArm, measured: Measured, columns: list[str]) -> float:
@@ -23,7 +23,8 @@ def oracle_rms(arm: VirtualArm, measured: Measured, columns: list[str]) -> float
 
     It fits free frames, and to every concealed effect its own displacement, of a size that it believes to be the true
     one give or take all of it; of a gear's many waves it knows the numbers and how their sizes fall, not the phases.
-    What follows a column that the table doesn't show it can't foretell either.
+    What follows a column that the table doesn't show it can't foretell either: where times are not recorded, the order
+    of the recorded rows tells it how they went, and held-out rows are foretold as the recorded ones were on average.
 
     Args:
         arm: the virtual arm.
@@ -35,8 +36,10 @@ def oracle_rms(arm: VirtualArm, measured: Measured, columns: list[str]) -> float
     """
     scene, turn = arm.scene, arm.scene.tool_turn
     frames = free_frames(arm.nominal, turn, scene.session.run if "run" in columns else None)
+    frames = frames / np.linalg.norm(frames, axis=0)
     known = [size.effect for size in arm.chosen if DRIVERS.get(size.effect.kind.driver, "time") in (*columns, "time")]
-    matrix = np.concatenate([frames / np.linalg.norm(frames, axis=0), *_displacements(known, scene)], axis=1)
+    displaced = list(_displacements(known, scene))
+    matrix = np.concatenate([frames, *displaced], axis=1)
     missing = (measured.readings - arm.frames.place(arm.nominal, turn)).reshape(-1)
     axes = np.arange(len(missing)).reshape(-1, 3)
     seen, unseen = axes[arm.recorded].ravel(), axes[arm.held_out].ravel()
@@ -44,6 +47,15 @@ def oracle_rms(arm: VirtualArm, measured: Measured, columns: list[str]) -> float
     # the frames' columns have a length of one, so a size of one of theirs, too, is as good as anywhere
     precision = matrix[seen].T @ matrix[seen] / variance + np.eye(matrix.shape[1])
     values = np.linalg.solve(precision, matrix[seen].T @ missing[seen] / variance)
+    if "time_s" not in columns:
+        timeless = np.concatenate(
+            [
+                np.zeros(frames.shape[1]),
+                *(np.full(d.shape[1], k.kind.driver != TIME) for k, d in zip(known, displaced, strict=True)),
+            ]
+        )
+        missing = missing - matrix @ (timeless * values)
+        matrix, values = frames, np.linalg.lstsq(frames[seen], missing[seen])[0]
     return rms(missing[unseen] - matrix[unseen] @ values)
 
 

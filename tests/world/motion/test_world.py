@@ -157,3 +157,23 @@ def test_half_of_the_seeds_stay_and_all_kinds_are_tried(size):
     assert {each.category for each in one} == {"clean", "single", "multiple", "outside", "confounded"}
     if size == "full":
         assert {wish.kind for each in one for wish in each.wishes} >= set(KINDS)
+
+
+def test_what_no_arm_can_hold_is_tried_with_less_noise_before_it_is_given_up(monkeypatch):
+    tried = []
+
+    def hardly(spec, robots, draw):
+        tried.append((draw, spec.arm, spec.noise))
+        if draw < 2:
+            raise ImpossibleWish("too loud")
+        return spec
+
+    monkeypatch.setattr(folder, "_make", hardly)
+    wished = spec(("torque_delay", 10.0, None))
+    found = make(wished, FOLDER)
+    assert found.noise == pytest.approx(wished.noise * folder.QUIETER**2)
+    assert [draw for draw, _, _ in tried] == [0, 0, 0, 1, 1, 1, 2]
+    assert tried[0] == (0, wished.arm, wished.noise)
+    monkeypatch.setattr(folder, "DRAWS", 2)
+    with pytest.raises(ImpossibleWish, match="too loud"):
+        make(wished, FOLDER)

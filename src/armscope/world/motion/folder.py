@@ -12,6 +12,7 @@ category, seed, circumstances.
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -32,6 +33,9 @@ from armscope.world.motion.virtual_arm import ImpossibleWish, Sized, VirtualArm,
 FRICTION = ("rotor_inertia_kg_m2", "coulomb_nm", "viscous_nm_s_rad")
 QUIETEST = 0.002
 """Noise of a joint that hardly needs torque, as a share of its largest."""
+DRAWS, QUIETER = 6, 0.7
+"""Of arms and paths that are tried before a wish is given up, each recorded with so much of the noise before: what is
+so many times the noise is less absurd then."""
 GAINS = (4.0, 14.0)
 """N m/A at the joint's side, of arms of this class."""
 
@@ -52,7 +56,8 @@ class World:
 def make(spec: MotionSpec, robots: Path) -> World:
     """Make a world; the same spec gives the same numbers.
 
-    Where the arm of the spec can't conceal what is wished without being absurd, the next arm of the catalogue does.
+    Where the arm of the spec can't conceal what is wished without being absurd, the next arm of the catalogue does, and
+    where none can, one of another draw of its make and of its paths, recorded with less noise.
 
     Args:
         spec: what to make.
@@ -65,16 +70,18 @@ def make(spec: MotionSpec, robots: Path) -> World:
         ImpossibleWish: what the spec wishes can't be on any arm.
     """
     wished: ImpossibleWish | None = None
-    for arm in dict.fromkeys([spec.arm, *ARMS]):
+    for draw, arm in itertools.product(range(DRAWS), dict.fromkeys([spec.arm, *ARMS])):
         try:
-            return _make(spec.model_copy(update={"arm": arm}), robots)
+            noise = spec.noise * QUIETER**draw
+            return _make(spec.model_copy(update={"arm": arm, "noise": noise}), robots, draw)
         except ImpossibleWish as error:
             wished = wished or error
     raise ImpossibleWish(str(wished)) from wished
 
 
-def _make(spec: MotionSpec, robots: Path) -> World:
-    arms, paths, places, noise, drives = (np.random.default_rng([spec.seed, part]) for part in range(5))
+def _make(spec: MotionSpec, robots: Path, draw: int = 0) -> World:
+    seeds = ([spec.seed, part, *([draw] if draw else [])] for part in range(5))
+    arms, paths, places, noise, drives = map(np.random.default_rng, seeds)
     description = load_description(robots / f"{spec.arm}.yaml")
     dynamics = ordinary(stated_dynamics(description), arms)
     if spec.joint is not None and spec.joint >= dynamics.n_joints:
