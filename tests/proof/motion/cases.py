@@ -1,11 +1,18 @@
 """Truths and answers of moving worlds, written by hand."""
 
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
 import pandas as pd
 
-from armscope.proof.motion.answers import MotionAnswer, _claims
+from armscope.motion.verdict import FoundCause, UnexplainedTorque, read_motion_verdict
+from armscope.proof.motion.answers import MotionAnswer, claims_of
 from armscope.proof.motion.scoring import MotionWorld
 from armscope.proof.motion.truth import MotionTruth, _effect
+from armscope.verdict.effects import Alternative, Parameter
+
+WRITTEN = Path(__file__).parents[2] / "fuzz" / "corpus" / "motion-verdict" / "moving-arm.json"
 
 LEFT = np.array([0.5, 0.1])
 ROWS = 400
@@ -22,11 +29,18 @@ def effect(name="torque_offset", location="joint 2", alternatives=(), shape="", 
 
 
 def said(name="torque_offset", location="joint 2", alternatives=(), **numbers):
-    return {
-        "effect": name, "location": location, "minor": False, "evidence_nats": 40.0, "driver": "constant",
-        "parameters": [{"name": k, "unit": "N m", "value": v, "stderr": s} for k, (v, s) in numbers.items()],
-        "alternatives": [{"effect": e, "location": place} for e, place in alternatives],
-    }  # fmt: skip
+    return FoundCause(
+        effect=name, location=location, family="drive", driver="constant", title=name, minor=False,
+        parameters=tuple(Parameter(k, "N m", v, s) for k, (v, s) in numbers.items()), rms=1.0, unit="N m",
+        joint="joint 2", share=0.5, evidence_nats=40.0,
+        alternatives=tuple(Alternative(e, place, "drive", 1.0, "constant", 1.0) for e, place in alternatives),
+    )  # fmt: skip
+
+
+def verdict_of(causes, unknown_at=None, **changes):
+    """A verdict that some program wrote, with these causes."""
+    left = UnexplainedTorque(unknown_at is not None, unknown_at)
+    return replace(read_motion_verdict(WRITTEN), effects=tuple(causes), unexplained=left, **changes)
 
 
 def table(torque):
@@ -43,9 +57,8 @@ def world(effects=(), answers=(), category="single", unknown_at=None, off=0.0, *
     )  # fmt: skip
     if changes.get("failed"):
         return MotionWorld(truth, MotionAnswer(truth.world, failed="InputError: no"))
-    verdict = {"effects": list(answers), "unexplained": {"present": unknown_at is not None, "location": unknown_at}}
     answer = MotionAnswer(
-        truth.world, claims=tuple(_claims(verdict)), mismatch=bool(answers), answer="explained",
+        truth.world, claims=claims_of(verdict_of(answers, unknown_at)), mismatch=bool(answers), answer="explained",
         background=changes.get("background", ()), predicted=table(TORQUE + off * LEFT),
     )  # fmt: skip
     return MotionWorld(truth, answer)

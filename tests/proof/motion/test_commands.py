@@ -1,17 +1,17 @@
 """The motion proof from the command line: worlds made, an answer put beside them, unsealed and scored."""
 
-import json
-
 import pandas as pd
 import pytest
 from typer.testing import CliRunner
 
 from armscope.cli import app
+from armscope.motion.verdict import write_motion_verdict
 from armscope.proof.motion import making, reading
 from armscope.proof.motion.answers import read_answer
 from armscope.proof.motion.diagnosing import diagnose_worlds
 from armscope.proof.motion.truth import unseal
 from armscope.world.motion.catalogue import MotionSpec, Wish
+from tests.proof.motion.cases import said, verdict_of
 from tests.world.motion.arms import FOLDER
 
 SPEC = MotionSpec(
@@ -45,24 +45,19 @@ def test_the_truth_itself_scores_as_right(proof):
     folder = proof / "verdicts" / "motion-000"
     folder.mkdir(parents=True)
     offset = truth.effects[0].parameters["offset"][0]
-    claim = {"effect": "torque_offset", "location": "joint 1", "alternatives": [], "minor": False,
-             "parameters": [{"name": "offset", "unit": "N m", "value": offset, "stderr": 0.1}]}  # fmt: skip
-    verdict = {"effects": [claim], "unexplained": {"present": False, "location": None}, "mismatch": True,
-               "answer": "explained"}  # fmt: skip
-    (folder / "verdict.json").write_text(json.dumps(verdict))
+    write_motion_verdict(verdict_of([said("torque_offset", "joint 1", offset=(offset, 0.1))], background=()), folder)
     truth.test.to_csv(folder / "test_predicted.csv", index=False)
     (proof / "seen.txt").write_text("visible/motion-000/motions.csv\n")
-    said = run("proof", "motion", "score", proof, "-o", proof / "tables")
+    printed = run("proof", "motion", "score", proof, "-o", proof / "tables")
     cases = pd.read_csv(proof / "tables" / "proof.csv")
     assert cases["exact"].tolist() == [True]
     assert cases["held_out_ratio"].tolist() == [0.0]
     assert pd.read_csv(proof / "tables" / "intervals.csv")["covered"].tolist() == [True]
-    assert "exact set of names, single causes" in said
+    assert "exact set of names, single causes" in printed
 
 
 def test_a_verdict_without_prediction_keeps_its_names_and_is_infinitely_wrong_on_the_test_path(tmp_path):
-    verdict = {"effects": [], "unexplained": {"present": False}, "mismatch": False, "answer": "nothing missing"}
-    (tmp_path / "verdict.json").write_text(json.dumps(verdict))
+    write_motion_verdict(verdict_of([], answer="nothing missing"), tmp_path)
     (tmp_path / "not_predicted.txt").write_text("armscope predict: no model.yaml\n")
     answer = read_answer(tmp_path)
     assert (answer.failed, answer.predicted, answer.answer) == ("", None, "nothing missing")

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 
-from armscope.core.files import read_json, read_table
+from armscope.core.files import read_table
+from armscope.motion.verdict import FoundCause, MotionVerdict, read_motion_verdict
 from armscope.proof.answers import FAILURE, NamedEffect
 from armscope.proof.definitions import Name
 from armscope.proof.matching import UNKNOWN
+from armscope.verdict.effects import Parameter
 
 VERDICT, PREDICTED = "verdict.json", "test_predicted.csv"
 NOT_PREDICTED = "not_predicted.txt"
@@ -47,43 +49,45 @@ def read_answer(folder: Path) -> MotionAnswer:
     if (folder / FAILURE).is_file():
         return MotionAnswer(folder.name, failed=(folder / FAILURE).read_text(encoding="utf-8").strip())
     why = folder / NOT_PREDICTED
-    verdict = read_json(folder / VERDICT, "the verdict of a moving world")
+    verdict = read_motion_verdict(folder / VERDICT)
     return MotionAnswer(
         world=folder.name,
-        claims=tuple(_claims(verdict)),
-        mismatch=verdict["mismatch"],
-        answer=verdict["answer"],
-        background=tuple((joint["joint"], _numbers(joint["parameters"])) for joint in verdict.get("background", [])),
+        claims=claims_of(verdict),
+        mismatch=verdict.mismatch,
+        answer=verdict.answer,
+        background=tuple((joint.joint, _numbers(joint.parameters)) for joint in verdict.background),
         predicted=None if why.is_file() else read_table(folder / PREDICTED),
         not_predicted=why.read_text(encoding="utf-8").strip() if why.is_file() else "",
     )
 
 
-def _claims(verdict: dict[str, Any]) -> list[NamedEffect]:
+def claims_of(verdict: MotionVerdict) -> tuple[NamedEffect, ...]:
     """One per name, minor only if all of that name are; structure without a cause counts as `unknown`."""
     by_name: dict[Name, NamedEffect] = {}
-    for effect in sorted(verdict["effects"], key=lambda effect: bool(effect.get("minor"))):
-        by_name.setdefault((effect["effect"], effect["location"]), _claim(effect))
-    left = verdict["unexplained"]
-    if left["present"] and left.get("location"):
-        unknown = {"effect": UNKNOWN, "location": left["location"], "driver": left.get("driver")}
-        by_name.setdefault((UNKNOWN, left["location"]), _claim(unknown))
-    return list(by_name.values())
+    for cause in sorted(verdict.effects, key=lambda cause: cause.minor):
+        by_name.setdefault((cause.effect, cause.location), _claim(cause))
+    left = verdict.unexplained
+    if left.present and left.location:
+        unknown = NamedEffect(
+            UNKNOWN, left.location, left.driver or "", False, "effect", float("nan"), float("nan"), {}, ()
+        )
+        by_name.setdefault(unknown.name, unknown)
+    return tuple(by_name.values())
 
 
-def _claim(effect: dict[str, Any]) -> NamedEffect:
+def _claim(cause: FoundCause) -> NamedEffect:
     return NamedEffect(
-        effect=effect["effect"],
-        location=effect["location"],
-        driver=effect.get("driver") or "",
-        minor=bool(effect.get("minor")),
-        named_as=effect.get("named_as", "effect"),
+        effect=cause.effect,
+        location=cause.location,
+        driver=cause.driver,
+        minor=cause.minor,
+        named_as="effect",
         rms_mm=float("nan"),  # of positions only
-        evidence_nats=effect.get("evidence_nats", float("nan")),
-        parameters=_numbers(effect.get("parameters", [])),
-        alternatives=tuple((other["effect"], other["location"]) for other in effect.get("alternatives", [])),
+        evidence_nats=cause.evidence_nats,
+        parameters=_numbers(cause.parameters),
+        alternatives=tuple((other.effect, other.location) for other in cause.alternatives),
     )
 
 
-def _numbers(parameters: list[dict[str, Any]]) -> Numbers:
-    return {each["name"]: (each["value"], each["stderr"], each["unit"]) for each in parameters}
+def _numbers(parameters: Sequence[Parameter]) -> Numbers:
+    return {each.name: (each.value, each.stderr, each.unit) for each in parameters}
