@@ -6,7 +6,7 @@ import pydantic
 import pytest
 import yaml
 
-from armscope.core.inputs import InputError, Strict, load, nearest, read_yaml
+from armscope.core.inputs import InputError, Strict, format_of, load, nearest, read_yaml
 
 
 class Inner(Strict):
@@ -110,3 +110,9 @@ def test_the_nearest_name_differs_in_capitals_first():
 
 def test_nearest_lists_what_is_known_when_nothing_is_close():
     assert nearest("zzzz", ["beta", "alpha"]) == "Known: alpha, beta."
+
+
+def test_a_format_is_told_whatever_the_content_is() -> None:
+    assert format_of({"format": "armscope model 1"}) == "armscope model 1"
+    assert format_of({}) == "no key format"
+    assert format_of([1]) == "no mapping"

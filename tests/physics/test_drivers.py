@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from armscope.core.inputs import InputError
+from armscope.physics.drift import base_shift
 from armscope.physics.drivers import KINDS, follows
 from armscope.physics.effect import Driver
 from armscope.physics.geometric import PARALLELOGRAM_GEOMETRY
@@ -94,3 +95,11 @@ def test_loads_follow_loads_and_what_is_a_function_of_them_does_too() -> None:
     assert not any(follows("load", Driver(kind)) for kind in (*BARS, *RECORDED))
     assert follows("load", Driver("spline", (Driver("torque", (1,)), 0.0, 1.0)))
     assert set(KINDS) > {*LOADS, *BARS, *RECORDED}
+
+
+@pytest.mark.parametrize("ids", [[str(n) for n in range(1, 21)], ["a", *[str(100 * n) for n in range(2, 21)]]])
+def test_a_jump_holds_from_its_row_on_though_only_some_ids_are_numbers(ids: list[str]) -> None:
+    arm = arm_named("six-axis")
+    table = replace(full_table(arm, 20, seed=12), id=np.array(ids), run=np.full(20, "1"), time=None)
+    driver = base_shift(table, 7, 1).terms[0].products[0].driver
+    np.testing.assert_array_equal(Scene(arm, table).driver(driver), np.arange(20) >= 7)

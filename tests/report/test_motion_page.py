@@ -84,9 +84,9 @@ def test_numbers_of_the_strip_and_the_waterfall_are_the_verdicts(found: MotionDi
 
 
 def test_departures_carry_their_sign_and_scanned_numbers_do_not() -> None:
-    assert signed(Parameter("coulomb", "N m", 3.0, 0.1)).value.startswith("+3.0")
-    assert signed(Parameter("coulomb", "N m", -3.0, 0.1)).value.startswith(("-3.0", "−3.0"))
-    assert signed(Parameter("per_turn", "", 4.0, float("nan"))).value[0] == "4"
+    assert signed(Parameter("coulomb", "N m", 3.0, 0.1), {}).value.startswith("+3.0")
+    assert signed(Parameter("coulomb", "N m", -3.0, 0.1), {}).value.startswith(("-3.0", "−3.0"))
+    assert signed(Parameter("per_turn", "", 4.0, float("nan")), {}).value[0] == "4"
 
 
 def test_a_curves_card_holds_its_picture(found: MotionDiagnosis, tmp_path: Path) -> None:

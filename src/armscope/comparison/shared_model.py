@@ -67,7 +67,7 @@ class SharedModel:
         residual = point_residuals(model, table)
         weight = np.repeat(np.sqrt(robust.huber_weights(residual, np.ones(len(residual)), 0.0)), 3)
         placed = [each for each in library(arm, table) if belongs_to_the_arm(each)]
-        self.placed = [each for each in placed if len(each.terms) <= MOST_TERMS and each.family != "unknown"]
+        self.placed = [each for each in placed if len(each.terms) <= MOST_TERMS and not each.nameless]
         frames = [term for each in free_frames(table, False) for term in each.terms]
         terms = [term for each in self.placed for term in each.terms]
         columns = weight[:, None] * _columns(model, table, [*frames, *terms])

@@ -11,7 +11,7 @@ from armscope.compensation.black_box import ErrorModel, Turning
 from armscope.compensation.contents import ErrorModelContent, ProductsContent, SumsContent, TurningContent
 from armscope.compensation.domain import Domain
 from armscope.core.files import read_json, write_json
-from armscope.core.inputs import InputError, nearest, validate
+from armscope.core.inputs import InputError, format_of, nearest, validate
 from armscope.core.types import Array
 from armscope.errormodels import FeatureSet
 from armscope.errormodels.products import ProductFeatures
@@ -61,7 +61,7 @@ def load_error_model(path: Path | str) -> ErrorModel:
         InputError: it is no model of this format.
     """
     content = read_json(path, "an error model")
-    found = content.get("format", "no key format") if isinstance(content, dict) else "no mapping"
+    found = format_of(content)
     if found != FORMAT:
         cure = "`armscope fit-error-model` writes one."
         raise InputError(path, "format", found, f"an error model says {FORMAT!r}", cure)

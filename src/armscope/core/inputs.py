@@ -106,6 +106,11 @@ def read_yaml(path: Path | str) -> Any:
         raise InputError(path, f"byte {error.start}", "no UTF-8 text", "YAML files are UTF-8") from error
 
 
+def format_of(content: Any) -> str:
+    """What a file says under ``format``, for those who want one version only."""
+    return str(content.get("format", "no key format")) if isinstance(content, dict) else "no mapping"
+
+
 def validate(model: type[Model], content: Any, file: object) -> Model:
     """``content`` as a ``model``; the first thing wrong becomes an `InputError` that names its place in ``file``.
 

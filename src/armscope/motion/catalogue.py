@@ -8,6 +8,8 @@ from armscope.verdict.effects import UNKNOWN
 
 FRICTION, DRIVE, MASSES, SPRINGS = "friction", "drive", "masses", "springs"
 
+_MOMENTS = {f"m{axis}": f"mass × {axis}, in its frame" for axis in "xyz"}
+
 COULOMB = Cause(
     "coulomb_friction",
     FRICTION,
@@ -53,6 +55,7 @@ ASYMMETRY = Cause(
     "Viscous friction differs by the direction of motion.",
     "Drive the joint to and fro at several constant speeds and compare the torques of both directions.",
     "Give the friction model one viscous coefficient for each direction.",
+    labels={"viscous_difference": "forward, beyond the mean"},
     clause=clauses.asymmetric_clause,
     remedy=remedies.each_direction,
 )
@@ -71,6 +74,7 @@ LOAD_FRICTION = Cause(
     "Repeat one motion with and without a payload: friction must grow with the load.",
     "Let dry friction in the model grow with the absolute torque of the joint.",
     nonnegative=True,
+    labels={"per_load": "friction per torque"},
     clause=clauses.grows_clause,
     remedy=remedies.per_load,
 )
@@ -113,6 +117,7 @@ GAIN = Cause(
     "The motor gives another torque than its stated constant says: all of the joint's torque is off by one factor.",
     "Hang a known mass on the arm: torque must change by its weight times its lever.",
     "Correct the joint's torque constant.",
+    labels={"gain": "recorded / true torque − 1"},
     clause=clauses.gain_clause,
     remedy=remedies.by_factor,
 )
@@ -166,6 +171,7 @@ LINK_CENTRE = Cause(
     "Hold the arm still in many poses.",
     "Correct the link's centre of mass.",
     in_bodies=True,
+    labels=_MOMENTS,
     clause=clauses.moment_clause,
 )
 LINK_INERTIA = Cause(
@@ -184,6 +190,7 @@ PAYLOAD = Cause(
     "Weigh what is mounted on the flange; run the same motion with nothing mounted.",
     "State the mass and centre of mass of what is mounted.",
     in_bodies=True,
+    labels=_MOMENTS,
     clause=clauses.payload_clause,
     remedy=remedies.as_stated_and,
 )
@@ -194,6 +201,7 @@ BODY = Cause(
     "Look whether it is mounted.",
     "Take the body out of the model, or mount it.",
     in_bodies=True,
+    labels={"times": "times what it weighs"},
     clause=clauses.body_clause,
 )
 GRAVITY = Cause(
@@ -202,6 +210,7 @@ GRAVITY = Cause(
     "Gravity pulls in another direction than stated: the base is tilted.",
     "Put a level on the base.",
     "Correct `gravity_m_s2`.",
+    labels={"x": "about x of the base", "y": "about y of the base"},
     clause=clauses.tilt_clause,
     remedy=remedies.gravity_vector,
 )

@@ -33,6 +33,7 @@ class Cause:
         physics, confirm, cure: one sentence each.
         nonnegative: its one parameter can't be negative.
         in_bodies: masses, dry and viscous friction and armature of a simulator's joint can say it.
+        labels: its parameters' names on a card, where their own don't say it.
         clause: what a headline says of it; its title and size where not given.
         remedy: its cure with the numbers found; the cure as it stands where not given.
     """
@@ -44,6 +45,7 @@ class Cause:
     cure: str
     nonnegative: bool = False
     in_bodies: bool = False
+    labels: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
     clause: Clause | None = field(default=None, repr=False, compare=False)
     remedy: Remedy | None = field(default=None, repr=False, compare=False)
 

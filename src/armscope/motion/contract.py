@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from armscope.core.inputs import InputError, validate
+from armscope.core.inputs import InputError, format_of, validate
 from armscope.core.types import Number
 from armscope.motion.verdict import (
     FoundCause,
@@ -98,8 +98,7 @@ def to_json(verdict: MotionVerdict) -> dict[str, Any]:
 
 def from_json(content: Any, source: object) -> MotionVerdict:
     """A verdict from the content of verdict.json; see `MotionVerdict.from_json`."""
-    if not isinstance(content, dict) or content.get("format") != FORMAT:
-        found = content.get("format", "no key format") if isinstance(content, dict) else "no mapping"
+    if (found := format_of(content)) != FORMAT:
         rule = f'a verdict on a motion says "format": "{FORMAT}"'
         raise InputError(source, "format", found, rule, "`armscope diagnose` writes one.")
     file = validate(MotionVerdictFile, content, source)

@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import Field
 
 from armscope.core.files import write_yaml
-from armscope.core.inputs import InputError, Strict, read_yaml, validate
+from armscope.core.inputs import InputError, Strict, format_of, read_yaml, validate
 from armscope.core.types import Array
 from armscope.motion.constants import MODEL_FILE
 from armscope.motion.laws import Law
@@ -220,7 +220,7 @@ def load_motion_model(path: Path | str) -> MotionModel:
     """
     content = read_yaml(path)
     if not is_motion_model(content):
-        found = content.get("format", "no key format") if isinstance(content, dict) else "no mapping"
+        found = format_of(content)
         rule = f"a model of a motion says `format: {FORMAT}`"
         raise InputError(path, "format", found, rule, "`armscope diagnose motions.csv` writes one.")
     file = validate(MotionModelFile, content, path)

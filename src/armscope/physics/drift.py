@@ -13,6 +13,7 @@ from armscope.physics.clause import Told
 from armscope.physics.cure import Cure
 from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term, term
 from armscope.physics.placing import nowhere, varies
+from armscope.physics.scene import numbers_of_rows
 from armscope.physics.set_ups import SetUps, in_order_of_time
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -61,7 +62,7 @@ class Pause:
     """Time that passed before a row, in which nothing was measured, as rows that would have filled it.
 
     Attributes:
-        row: the first row afterwards, as `row_number` counts.
+        row: the first row afterwards, as `armscope.physics.scene.numbers_of_rows` counts.
         run: its run.
         rows: how many rows would have filled it.
         later: runs on the same base that come after it.
@@ -210,7 +211,7 @@ def _shift(effect: Effect, recordings: Recordings, row: int, multiplicity: int, 
         start = float(recordings.time[row])
         driver, scanned = Driver("after time", (start, run, *later)), ("time", "s", start)
     else:
-        number = row_number(recordings, row)
+        number = float(numbers_of_rows(recordings)[row])
         driver, scanned = Driver("after row", (number, run, *later)), ("row", "", number)
     return Placed(
         effect,
@@ -222,14 +223,6 @@ def _shift(effect: Effect, recordings: Recordings, row: int, multiplicity: int, 
         multiplicity=multiplicity,
         variant=f"{run} {scanned[2]:g}",
     )
-
-
-def row_number(recordings: Recordings, row: int) -> float:
-    """The table's id of a row where ids are numbers, else its number from 1."""
-    try:
-        return float(recordings.id[row])
-    except ValueError:
-        return float(row + 1)
 
 
 BASE_SHIFT = Effect(

@@ -186,6 +186,11 @@ class Placed:
         return self.effect.family
 
     @property
+    def nameless(self) -> bool:
+        """Whether it is what follows something by no known physics."""
+        return self.family == "unknown"
+
+    @property
     def key(self) -> tuple[str, str]:
         """(effect, location), as a verdict names it."""
         return self.effect.name, self.location

@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
 from armscope.core.files import write_yaml
-from armscope.core.inputs import InputError, Strict, read_yaml, validate
+from armscope.core.inputs import InputError, Strict, format_of, read_yaml, validate
 from armscope.physics.effect import Driver
 from armscope.physics.model import Base, FittedModel
 from armscope.physics.model_check import Reader
@@ -190,8 +190,7 @@ def load_model(path: Path | str) -> FittedModel:
         InputError: it is no model of this format.
     """
     content = read_yaml(path)
-    if not isinstance(content, dict) or content.get("format") != FORMAT:
-        found = content.get("format", "no key format") if isinstance(content, dict) else "no mapping"
+    if (found := format_of(content)) != FORMAT:
         cure = "`armscope diagnose` writes one."
         if "motion" in str(found):
             cure = "It is of an arm in motion: `armscope predict` gives the torques of a table of motions by it."

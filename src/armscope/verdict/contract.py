@@ -12,7 +12,7 @@ import numpy as np
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field
 from pydantic.json_schema import GenerateJsonSchema
 
-from armscope.core.inputs import InputError, validate
+from armscope.core.inputs import InputError, format_of, validate
 from armscope.core.types import Number
 from armscope.verdict.effects import Alternative, Cause, FoundEffect, Parameter, Specific
 from armscope.verdict.schema import (
@@ -183,8 +183,7 @@ def to_json(verdict: Verdict) -> dict[str, Any]:
 
 def from_json(content: Any, source: object) -> Verdict:
     """A verdict from the content of verdict.json; see `Verdict.from_json`."""
-    if not isinstance(content, dict) or content.get("format") != FORMAT:
-        found = content.get("format", "no key format") if isinstance(content, dict) else "no mapping"
+    if (found := format_of(content)) != FORMAT:
         rule = f'a verdict of this version says "format": "{FORMAT}"'
         raise InputError(source, "format", found, rule, "`armscope diagnose` writes one.")
     file = validate(VerdictFile, content, source)

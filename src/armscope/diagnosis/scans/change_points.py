@@ -18,8 +18,9 @@ from armscope.inference.additions import block_scores
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.linear_algebra import ColumnBlocks
 from armscope.measurement.whitening import WhitenedPosture
-from armscope.physics.drift import base_shift, row_number, tool_shift
+from armscope.physics.drift import base_shift, tool_shift
 from armscope.physics.effect import Placed
+from armscope.physics.scene import numbers_of_rows
 from armscope.recordings import Recordings
 
 
@@ -74,7 +75,7 @@ def when_stderr(placed: Placed, context: ScanContext, without: Hypothesis) -> fl
         scores = block_scores(context.problem, without, sums)
         likely = np.exp(scores - scores.max())
         at = rows[cuts]
-        moment = recordings.time[at] if recordings.time is not None else [row_number(recordings, int(r)) for r in at]
+        moment = recordings.time[at] if recordings.time is not None else numbers_of_rows(recordings)[at]
         moments = np.asarray(moment, dtype=np.float64)
         mean = float(np.average(moments, weights=likely))
         spacing = float(np.median(np.diff(moments))) if len(moments) > 1 else 0.0

@@ -14,8 +14,9 @@ from armscope.diagnosis.scans.context import ScanContext
 from armscope.inference.additions import unscaled_factor
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.linear_algebra import solve_lower
-from armscope.physics.drift import Pause, base_shift, drift_with_pauses, pauses_of, row_number
+from armscope.physics.drift import Pause, base_shift, drift_with_pauses, pauses_of
 from armscope.physics.effect import Placed
+from armscope.physics.scene import numbers_of_rows
 from armscope.recordings import Recordings
 
 
@@ -37,7 +38,7 @@ def pauses(context: ScanContext, drifting: Hypothesis, drift: int) -> Iterator[P
     at = problem.space.candidates[drift].columns
     way = drifting.means(at) / problem.scale[at]
     known = pauses_of(context.space.placed[drift])
-    passed = _rows_passed(recordings, known)
+    numbers, passed = numbers_of_rows(recordings), _rows_passed(recordings, known)
     pieces = list(pieces_of(recordings))
     ways_to_pause = SCANS.lengths_of_pauses * sum(len(cuts) for _, cuts in pieces)
     factor, whitened_rhs = unscaled_factor(problem, drifting)
@@ -53,7 +54,7 @@ def pauses(context: ScanContext, drifting: Hypothesis, drift: int) -> Iterator[P
         on_one_base = np.concatenate([before_these, rows, after_these])
         line = passed[on_one_base] - passed[on_one_base].mean()
         pull = sums.b @ way - V.T @ whitened_rhs
-        before = [(run, row_number(recordings, int(row))) for row in rows[cuts]]
+        before = [(run, float(numbers[row])) for row in rows[cuts]]
         fitted = [before.index((p.run, p.row)) for p in known if (p.run, p.row) in before]
         for chosen, length in _steps(own, pull, drifting, fitted, np.log(ways_to_pause)):
             # the drift has taken its share of every step: as large as a line's share of it
@@ -115,7 +116,7 @@ def _together(known: Sequence[Pause], new: Sequence[Pause]) -> list[Pause]:
 
 def _rows_passed(recordings: Recordings, known: Sequence[Pause]) -> Array:
     """(N,) thousands of rows, pauses included."""
-    number = np.array([row_number(recordings, row) for row in range(len(recordings))])
+    number = numbers_of_rows(recordings)
     passed = number / 1e3
     for p in known:
         after = (number >= p.row) & (recordings.run == p.run) | np.isin(recordings.run, p.later)

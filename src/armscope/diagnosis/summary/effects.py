@@ -231,7 +231,7 @@ def scattered_effects(state: DiagnosisState, variance: float, left: float) -> It
 def rest_of_a_curve(scatter: FoundEffect, named: Sequence[FoundEffect]) -> bool:
     """Whether scatter is what a free curve at the same joint could not follow."""
     return any(
-        effect.effect == "unknown"
+        effect.nameless
         and effect.location == scatter.location
         and effect.rms_at_tool_mm > TELLING.rest_of_a_curve * scatter.rms_at_tool_mm
         for effect in named

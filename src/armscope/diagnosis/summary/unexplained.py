@@ -96,7 +96,7 @@ def together(families: Sequence[Background]) -> Background:
 
 def unexplained_part(effects: Sequence[FoundEffect], state: DiagnosisState) -> Unexplained:
     """The largest free curve; or noise far above what was stated."""
-    curves = [effect for effect in effects if effect.effect == "unknown"]
+    curves = [effect for effect in effects if effect.nameless]
     if curves:
         largest = curves[0]
         words = largest.curve.description if largest.curve else largest.title

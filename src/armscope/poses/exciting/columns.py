@@ -91,7 +91,7 @@ def cause_columns(arm: Arm, motion: Motion, links: Array, effect: str, location:
     if where.kind == "link" and effect in LINK_SLICES:
         block = 10 * where.index + np.array(LINK_SLICES[effect])
         return links[:, :, block]
-    if effect == "payload_error":
+    if where.kind == "payload":
         return links[:, :, -10:-6]
     if where.kind != "joint" or where.source:
         return None

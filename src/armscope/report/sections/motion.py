@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -11,6 +11,7 @@ import pandas as pd
 
 from armscope.core.inputs import InputError
 from armscope.core.location import Location
+from armscope.motion.catalogue import cause_named
 from armscope.motion.clauses import amount
 from armscope.motion.verdict import FoundCause, JointBackground
 from armscope.motion.words import clause
@@ -27,18 +28,6 @@ from armscope.verdict.wording import Reading, capitalised, evidence_in_words, pe
 
 RELATIVE = Quantity("error on held-out motion, relative to its torque (%)", lambda value: f"{value:.3g} %")
 KNOT = "knot "
-LABELS = {
-    "mx": "mass × x, in its frame",
-    "my": "mass × y, in its frame",
-    "mz": "mass × z, in its frame",
-    "x": "about x of the base",
-    "y": "about y of the base",
-    "times": "times what it weighs",
-    "viscous_difference": "forward, beyond the mean",
-    "per_load": "friction per torque",
-    "gain": "recorded / true torque − 1",
-}
-"""What parameters are called on cards, where their own names don't say it."""
 SEEN = 0.005
 """Share from which what no cause explains has a line of its own."""
 BY_VALUES = "found by trying values"
@@ -68,6 +57,8 @@ class MotionCard:
 def motion_card(cause: FoundCause, number: int) -> MotionCard:
     """The card of the ``number``-th cause (from 1)."""
     curve = any(each.name.startswith(KNOT) for each in cause.parameters)
+    known = cause_named(cause.effect)
+    labels = known.labels if known else {}
     doubt = ""
     if cause.consistent is False:
         doubt = "Its size differs from path to path: take it as one way to say what happens, not as the cause."
@@ -78,7 +69,7 @@ def motion_card(cause: FoundCause, number: int) -> MotionCard:
         share=percent(cause.share),
         share_width=min(100.0, max(0.0, 100 * cause.share)),
         size=f"{cause.rms:.2g} {cause.unit} RMS at {cause.joint}",
-        readings=tuple(signed(each) for each in cause.parameters if not each.name.startswith(KNOT)),
+        readings=tuple(signed(each, labels) for each in cause.parameters if not each.name.startswith(KNOT)),
         physics=cause.physics,
         confirm=cause.confirm,
         cure=cause.cure.replace("`", ""),
@@ -97,10 +88,10 @@ def motion_card(cause: FoundCause, number: int) -> MotionCard:
     )
 
 
-def signed(parameter: Parameter) -> Reading:
-    """A parameter as a card shows it: departures carry their sign."""
+def signed(parameter: Parameter, labels: Mapping[str, str]) -> Reading:
+    """A parameter as a card shows it, by its cause's own label: departures carry their sign."""
     reading = read_parameter(parameter)
-    reading = replace(reading, label=LABELS.get(parameter.name, reading.label))
+    reading = replace(reading, label=labels.get(parameter.name, reading.label))
     fitted = reading.interval != BY_VALUES
     return replace(reading, value=f"+{reading.value}") if fitted and parameter.value > 0 else reading
 
