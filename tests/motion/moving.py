@@ -77,3 +77,13 @@ def table(
 def moved(arm: MovingArm, seed: int, plant: Plant | None = None, **how: float) -> Motions:
     """The same as `Motions`."""
     return as_motions(table(arm, seed, plant, **how), "motions.csv", arm.n_motors)  # type: ignore[arg-type]
+
+
+def clinging(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+    """Dahl's friction at joint 2: it comes back over a way, and no cause of the library does."""
+    extra, state = np.zeros_like(q), 0.0
+    for row in range(1, len(q)):
+        step = q[row, 1] - q[row - 1, 1]
+        state = np.sign(step) + (state - np.sign(step)) * np.exp(-abs(step) / 0.1)
+        extra[row, 1] = 3 * state
+    return extra

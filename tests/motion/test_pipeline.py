@@ -4,7 +4,7 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
-from tests.motion.moving import COULOMB, ROTOR, VISCOUS, Plant, moved, robot
+from tests.motion.moving import COULOMB, ROTOR, VISCOUS, Plant, clinging, moved, robot
 
 
 def diagnosed(plant: Plant | None, seed: int = 1, **more: float) -> MotionDiagnosis:
@@ -47,14 +47,6 @@ def test_friction_that_grows_with_load_is_found_at_its_joint() -> None:
 
 
 def test_what_no_cause_has_is_located_and_not_called_something_else() -> None:
-    def clinging(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
-        extra, state = np.zeros_like(q), 0.0
-        for row in range(1, len(q)):  # Dahl's friction: it comes back over a way
-            step = q[row, 1] - q[row - 1, 1]
-            state = np.sign(step) + (state - np.sign(step)) * np.exp(-abs(step) / 0.1)
-            extra[row, 1] = 3 * state
-        return extra
-
     found = diagnosed(clinging)
     assert names(found) == [("unknown", "joint 2")]
     assert found.verdict.effects[0].driver == "way since the last reversal"

@@ -98,6 +98,19 @@ def test_a_curves_card_holds_its_picture(found: MotionDiagnosis, tmp_path: Path)
     assert "what joint 1 does over the joint angle" in sections[0].html
 
 
+def test_the_atlas_frames_what_was_named(found: MotionDiagnosis) -> None:
+    section = next(each for each in MOTION_SECTIONS if each.name == "atlas")
+    shown = section.context(MotionSubject(found, "motions.csv"))["map"]
+    framed = {
+        (place, driver)
+        for place, before, _ in shown.rows
+        for driver, cell in zip(shown.drivers, before, strict=True)
+        if cell.named
+    }
+    assert ("joint 1", "joint angle") in framed
+    assert framed == {(cause.joint, cause.driver) for cause in found.verdict.effects}
+
+
 def test_figures_hold_what_they_are_given() -> None:
     time = np.linspace(0, 1, 20)
     drawn = draw_trace("joint 9", "N", time, [(np.sin(time), "a", 1.0), (time, "b", 1.0), (time, "c", 1.0)]).svg()

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from armscope.cli.commands import Commands, Threads
-from armscope.cli.endings import MISMATCH, UNUSABLE
+from armscope.cli.endings import exit_code_of
 from armscope.core.types import unheard
 
 if TYPE_CHECKING:
@@ -76,9 +76,9 @@ def diagnose(
     if moving:
         with _progress("diagnosing") as tell:
             asked = Asked(cutoff, held_out or [], run or [], json, report, anyway)
-            mismatch = diagnose_motions(recordings, robot, output, asked, tell)
-        if exit_code and mismatch is not False:
-            raise typer.Exit(MISMATCH if mismatch else UNUSABLE)
+            answer = diagnose_motions(recordings, robot, output, asked, tell)
+        if exit_code:
+            raise typer.Exit(exit_code_of(answer))
         return
     announce(recordings, DIAGNOSE, threads)
     arm, (table,) = arm_and_tables(robot, [recordings], priors, arm_type)
@@ -116,8 +116,8 @@ def diagnose(
     else:
         print(verdict.headline)
         print(f"{output}/{'report.html' if report else 'verdict.json'}")
-    if exit_code and verdict.mismatch is not False:
-        raise typer.Exit(MISMATCH if verdict.mismatch else UNUSABLE)
+    if exit_code:
+        raise typer.Exit(exit_code_of(verdict.answer))
 
 
 def _refuse_of_the_other(options: dict[str, Any], table: Path, moving: bool) -> None:

@@ -10,10 +10,13 @@ import signal
 import sys
 import threading
 from collections.abc import Callable, Iterator
-from typing import Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
 from armscope.core.inputs import InputError
 from armscope.core.locks import Busy
+
+if TYPE_CHECKING:
+    from armscope.verdict.schema import Answer
 
 UNUSABLE = 2
 """An input or an option can't be used."""
@@ -29,6 +32,11 @@ INTERRUPTED = 130
 """Ctrl-C (128 + SIGINT)."""
 CLOSED = 141
 """Nobody reads standard output any more (128 + SIGPIPE)."""
+
+
+def exit_code_of(answer: Answer) -> int:
+    """What `diagnose --exit-code` ends with: the answer alone decides, of points and of motions."""
+    return {"nothing missing": 0, "cannot tell": UNUSABLE}.get(answer, MISMATCH)
 
 
 LEAST_ADDRESSES = 500 * 2**20

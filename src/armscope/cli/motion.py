@@ -14,9 +14,10 @@ if TYPE_CHECKING:
     from armscope.check.suspicion import Suspicion
     from armscope.recordings.motions import Motions
     from armscope.robot.dynamics import MovingArm
+    from armscope.verdict.schema import Answer
 
 Tell = Callable[[str, float], None]
-FILES = ("verdict.json", "model.yaml", "corrected.urdf", "mujoco.xml", "parameters.csv")
+FILES = ("verdict.json", "model.yaml", "corrected.urdf", "mujoco.xml", "parameters.csv", "atlas.csv")
 """All that is written beside the page."""
 
 
@@ -43,7 +44,7 @@ class Asked:
     anyway: bool
 
 
-def diagnose_motions(table: Path, robot: Path, output: Path, asked: Asked, tell: Tell) -> bool | None:
+def diagnose_motions(table: Path, robot: Path, output: Path, asked: Asked, tell: Tell) -> Answer:
     """Diagnose motions.csv and write what was found.
 
     Args:
@@ -54,7 +55,7 @@ def diagnose_motions(table: Path, robot: Path, output: Path, asked: Asked, tell:
         tell: hears what is being done.
 
     Returns:
-        Whether there is a mismatch.
+        The answer.
 
     Raises:
         InputError: a run that is asked for is not there, or the table can't be used.
@@ -84,7 +85,7 @@ def diagnose_motions(table: Path, robot: Path, output: Path, asked: Asked, tell:
     else:
         print(found.verdict.headline)
         print(f"{output}/{'report.html' if asked.report else 'verdict.json'}")
-    return found.verdict.mismatch
+    return found.verdict.answer
 
 
 def _read_and_checked(table: Path, robot: Path, asked: Asked) -> tuple[MovingArm, Motions, list[Suspicion]]:

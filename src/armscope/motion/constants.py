@@ -238,6 +238,9 @@ class MotionTelling(Constants):
         "judgement: models are a little wrong, and among thousands of nats that costs tens",
     )
     listed: int = constant(4, "rivals of a cause", "judgement: nobody reads more", unit="causes")
+    by_chance: float = constant(
+        1e-3, "chance that noise alone colours a cell of the atlas", "convention: dozens of cells are looked at"
+    )
     clearly_better: float = constant(
         0.8,
         "of the held-out error without causes, below which named causes help although they are not found anew",

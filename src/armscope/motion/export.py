@@ -25,6 +25,7 @@ from armscope.robot.dynamics import PARAMETERS, UNITS, MovingArm
 from armscope.robot.model import TIP
 from armscope.robot.urdf_file import root_of
 from armscope.robot.urdf_writing import WrittenJoint, chain_urdf, keep_meshes, set_inertial, urdf_text
+from armscope.verdict.files import atlas_table
 
 URDF, MUJOCO, TABLE = "corrected.urdf", "mujoco.xml", "parameters.csv"
 FILES = (URDF, MUJOCO, TABLE)
@@ -36,7 +37,7 @@ WRITTEN = (
 
 
 def write_motion(found: MotionDiagnosis, folder: Path | str) -> None:
-    """Write all of a diagnosis of a motion but its page: verdict.json, model.yaml, and what `export_motion` writes.
+    """Write all but the page: verdict.json, model.yaml, atlas.csv, and what `export_motion` writes.
 
     Args:
         found: the diagnosis.
@@ -44,6 +45,7 @@ def write_motion(found: MotionDiagnosis, folder: Path | str) -> None:
     """
     write_motion_verdict(found.verdict, folder)
     save_motion_model(Path(folder) / "model.yaml", found.model)
+    write_table(Path(folder) / "atlas.csv", atlas_table(found.atlas))
     export_motion(found.model, found.selected, found.sure.factor, folder)
 
 

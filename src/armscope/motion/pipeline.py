@@ -43,9 +43,11 @@ from armscope.motion.seen import seen_in
 from armscope.motion.selection import SelectedCauses, model_so_far, select_causes
 from armscope.motion.tenable import tenable
 from armscope.motion.timing import Stretch, mended, stretches
+from armscope.motion.torque_atlas import torque_atlas
 from armscope.motion.verdict import MotionVerdict
 from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
+from armscope.verdict.diagnosis import Atlas
 from armscope.verdict.schema import Notice
 
 
@@ -83,6 +85,11 @@ class MotionDiagnosis:
     test: MotionRows | None
     held: tuple[HeldOutTorque, ...]
     how: Preparation
+
+    @functools.cached_property
+    def atlas(self) -> Atlas:
+        """What the residual torque of each joint follows."""
+        return torque_atlas(self.selected)
 
     @functools.cached_property
     def model(self) -> MotionModel:

@@ -26,7 +26,7 @@ def friction_over_speed(model: MotionModel, joint: int, speed: Array) -> Array:
     Returns:
         (N,) N m or N.
     """
-    moment = _everything_is(speed, model.arm.n_motors)
+    moment = everything_is(speed, model.arm.n_motors)
     own = own_columns(model.arm, moment.signals, np.zeros(model.arm.n_motors))[:, joint]
     total = own[:, [1, 2, 4]] @ model.joints[joint, [1, 2, 4]]
     for cause in model.causes:
@@ -40,7 +40,7 @@ def free_curve(cause: FittedCause, at: Array) -> tuple[Array, Array]:
     """A free curve's torque and its standard error at values (N,) of what it follows."""
     law = cause.placed.columns
     assert isinstance(law, Law)
-    columns = law(_everything_is(at, max(law.joints) + 1))[:, 0]
+    columns = law(everything_is(at, max(law.joints) + 1))[:, 0]
     errors = np.sqrt(np.einsum("nc,cd,nd->n", columns, cause.covariance, columns))
     return columns @ cause.values, np.asarray(errors)
 
@@ -52,7 +52,7 @@ def limits_of(cause: FittedCause) -> tuple[float, float]:
     return law.numbers[0], law.numbers[1]
 
 
-def _everything_is(values: Array, joints: int) -> Moment:
+def everything_is(values: Array, joints: int) -> Moment:
     """Samples in which whatever a law follows takes the given values; nothing accelerates."""
     same, none = np.repeat(values[:, None], joints, axis=1), np.zeros((len(values), joints))
     signals = Signals("", 0, values, same, same, none, none, None, same, np.arange(len(values)))

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -47,12 +48,26 @@ def attribution(verdict: Diagnosis) -> bool:
     return verdict.atlas is not None and bool(np.isfinite(verdict.atlas.share).any())
 
 
-def atlas_map(atlas: Atlas, effects: Sequence[FoundEffect]) -> Map:
-    """The best direction's share of every location and driver that exist, and which cells the named effects are in."""
+def cell_of(effect: FoundEffect) -> tuple[str, str]:
+    """Location and driver of the cell in which an effect shows."""
+    return effect.location, atlas_column(effect)
+
+
+def atlas_map(atlas: Atlas, effects: Sequence[Any], cell: Callable[[Any], tuple[str, str]] = cell_of) -> Map:
+    """The best direction's share of every location and driver that exist, and which cells the named effects are in.
+
+    Args:
+        atlas: of poses or of a motion.
+        effects: the named ones.
+        cell: location and driver of the cell in which such an effect shows.
+
+    Returns:
+        The cells as they are shown.
+    """
     share, left = (_best_direction(values) for values in (atlas.share, atlas.left))
     there = np.isfinite(share)
     rows, columns = (np.flatnonzero(there.any(axis=axis)).tolist() for axis in (1, 0))
-    named = {(effect.location, atlas_column(effect)) for effect in effects}
+    named = set(map(cell, effects))
     end = max(LEAST_END, float(np.nanmax(share, initial=0.0)))
 
     def cells(values: Array, row: int, frames: bool) -> tuple[AtlasCell, ...]:

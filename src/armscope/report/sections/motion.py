@@ -16,6 +16,7 @@ from armscope.motion.clauses import amount
 from armscope.motion.verdict import FoundCause, JointBackground
 from armscope.motion.words import clause
 from armscope.report.figures.arm_picture import draw_arm
+from armscope.report.figures.atlas import atlas_map
 from armscope.report.figures.motion import curve_figures, friction_figures, left_figures, trace_figures
 from armscope.report.figures.waterfall import Quantity, draw_waterfall
 from armscope.report.motion_subject import MotionSubject
@@ -187,6 +188,10 @@ def _prepared(subject: MotionSubject) -> dict[str, Any]:
     return {"how": subject.found.how, "masses": percent(subject.verdict.masses_share)}
 
 
+def _atlas(subject: MotionSubject) -> dict[str, Any]:
+    return {"map": atlas_map(subject.found.atlas, subject.verdict.effects, lambda cause: (cause.joint, cause.driver))}
+
+
 Motion = Section[MotionSubject]
 MOTION_SECTIONS: tuple[Motion, ...] = (
     Motion("where", "Where", "Where the torque goes", _where, (arm_of_motion,)),
@@ -195,6 +200,7 @@ MOTION_SECTIONS: tuple[Motion, ...] = (
     Motion("friction", "Friction", "Friction and rotors of every joint", friction_table, (friction_figures,)),
     Motion("better", "Validation", "How much better the model predicts", _better, (waterfall_of_motion,)),
     Motion("left", "What is left", "What is left, over angle, speed and time", _left, (left_figures,), folded=True),
+    Motion("atlas", "Atlas", "The atlas: what each joint's torque follows", _atlas, folded=True),
     Motion("prepared", "Preparation", "How samples became rows", _prepared, folded=True),
 )
 """What a person acts on comes first."""

@@ -1,0 +1,42 @@
+"""`diagnose --exit-code` ends with the answer: one rule for points and motions."""
+
+from pathlib import Path
+
+import pandas as pd
+import pytest
+import yaml
+from tests.motion.moving import ROBOT, clinging, robot, table
+from typer.testing import CliRunner
+
+from armscope.cli import app
+from armscope.cli.endings import exit_code_of
+from armscope.core.files import read_json
+from armscope.verdict.schema import Answer
+
+POINTS = Path(__file__).parents[2] / "examples" / "clean"
+
+
+@pytest.mark.parametrize(
+    ("answer", "code"), [("nothing missing", 0), ("explained", 10), ("partly explained", 10), ("cannot tell", 2)]
+)
+def test_the_answer_alone_decides(answer: Answer, code: int) -> None:
+    assert exit_code_of(answer) == code
+
+
+@pytest.mark.parametrize("kind", ["points", "motions"])
+def test_points_and_motions_that_cannot_tell_end_alike(kind: str, tmp_path: Path) -> None:
+    file, arm = tmp_path / "table.csv", tmp_path / "robot.yaml"
+    if kind == "motions":
+        arm.write_text(yaml.safe_dump(ROBOT))
+        table(robot(), 1, clinging).to_csv(file, index=False)
+        more = "--cutoff 10"
+    else:
+        arm.write_text((POINTS / "robot.yaml").read_text())
+        mistaken = pd.read_csv(POINTS / "recordings.csv")
+        mistaken[["x_mm", "y_mm", "z_mm"]] = mistaken[["x_mm", "y_mm", "z_mm"]].sample(frac=1, random_state=0).values
+        mistaken.to_csv(file, index=False)
+        more = "--resamples 0 --no-cross-validation --anyway"
+    line = f"diagnose {file} -r {arm} -o {tmp_path / 'out'} --no-report --exit-code {more}"
+    done = CliRunner().invoke(app, line.split())
+    assert read_json(tmp_path / "out" / "verdict.json", "")["answer"] == "cannot tell", done.output
+    assert done.exit_code == 2
