@@ -73,4 +73,5 @@ def joined(first: Recordings, second: Recordings) -> Recordings:
             fields[name] = np.concatenate([value, other])
     run = np.repeat(["1", "2"], [len(first), len(second)])
     count = len(first) + len(second)
-    return replace(first, **{**fields, "run": run, "id": np.arange(1, count + 1).astype(str)})
+    numbers = np.arange(1, count + 1)
+    return replace(first, **{**fields, "run": run, "id": numbers.astype(str), "number": numbers.astype(float)})

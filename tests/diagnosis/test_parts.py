@@ -190,9 +190,10 @@ def test_the_atlas_shows_links_and_what_is_no_joint(
     assert set(found.locations) >= {f"link {j}" for j in range(1, arm.n_joints + 1)}
 
 
-def test_a_jump_of_the_base_is_found_with_its_row() -> None:
+@pytest.mark.parametrize("named", ["{}", "pose {}"])
+def test_a_jump_of_the_base_is_found_with_its_row_whatever_ids_are(named: str) -> None:
     arm, table = planted("six-axis", {}, 120, 0.02, seed=14)
-    table = replace(table, time=None)
+    table = replace(table, time=None, id=np.array([named.format(n + 1) for n in range(120)]))
     table.positions[70:] += [3e-4, -2e-4, 1e-4]
     (found,) = diagnose(arm, table, QUICK).effects
     assert (found.effect, found.location) == ("base_shift", "base")

@@ -69,6 +69,17 @@ def test_ids_stay_text(tmp_path):
     assert read.id.tolist() == ["007"]
 
 
+@pytest.mark.parametrize(("ids", "numbers"), [("7 9 12", [7, 9, 12]), ("a 9 c", [1, 2, 3])])
+def test_rows_keep_the_numbers_of_the_whole_table(tmp_path, ids, numbers):
+    """Ids are their numbers where all are; else the order, which a part of the table must not count anew."""
+    lines = [f"{one},0.1,0.2,1,2,3" for one in ids.split()]
+    file = tmp_path / "recordings.csv"
+    file.write_text("\n".join(["id,q1_rad,q2_rad,x_mm,y_mm,z_mm", *lines]))
+    table = read_recordings(file, 2)
+    assert table.number.tolist() == numbers
+    assert table.rows(np.array([2, 0])).rows(slice(0, 1)).number.tolist() == [numbers[2]]
+
+
 def test_rows_take_everything_along(tmp_path):
     text = "id,q1_rad,x_mm,y_mm,z_mm,time_s,colour\n1,0,1,2,3,10,red\n2,1,4,5,6,20,blue\n3,2,7,8,9,30,green\n"
     some = read_recordings(write(tmp_path, text)).rows(np.array([2, 0]))

@@ -13,7 +13,6 @@ from armscope.physics.clause import Told
 from armscope.physics.cure import Cure
 from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term, term
 from armscope.physics.placing import nowhere, varies
-from armscope.physics.scene import numbers_of_rows
 from armscope.physics.set_ups import SetUps, in_order_of_time
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -62,7 +61,7 @@ class Pause:
     """Time that passed before a row, in which nothing was measured, as rows that would have filled it.
 
     Attributes:
-        row: the first row afterwards, as `armscope.physics.scene.numbers_of_rows` counts.
+        row: the first row afterwards, as `Recordings.number` counts.
         run: its run.
         rows: how many rows would have filled it.
         later: runs on the same base that come after it.
@@ -211,7 +210,7 @@ def _shift(effect: Effect, recordings: Recordings, row: int, multiplicity: int, 
         start = float(recordings.time[row])
         driver, scanned = Driver("after time", (start, run, *later)), ("time", "s", start)
     else:
-        number = float(numbers_of_rows(recordings)[row])
+        number = float(recordings.number[row])
         driver, scanned = Driver("after row", (number, run, *later)), ("row", "", number)
     return Placed(
         effect,

@@ -78,7 +78,7 @@ def _hours(scene: Scene, start: float) -> Array:
 
 def _rows(scene: Scene) -> Array:
     """Thousands of rows since the table's beginning."""
-    return scene.row_numbers / ROWS_PER_UNIT
+    return scene.recordings.number / ROWS_PER_UNIT
 
 
 def _after_time(scene: Scene, start: float, run: str, *later: str) -> Array:
@@ -88,7 +88,7 @@ def _after_time(scene: Scene, start: float, run: str, *later: str) -> Array:
 
 def _after_row(scene: Scene, first_row: float, run: str, *later: str) -> Array:
     """From a row of a run on, and in later runs; counted by the table's id (its row number where it has none)."""
-    return np.where(_in_run(scene, run), scene.row_numbers >= first_row, _in_run(scene, *later))
+    return np.where(_in_run(scene, run), scene.recordings.number >= first_row, _in_run(scene, *later))
 
 
 def _in_run(scene: Scene, *runs: str) -> Array:
@@ -106,7 +106,7 @@ def _slow_wave(scene: Scene, waves: int, first: float, last: float) -> Array:
 
 def _slow_wave_of_rows(scene: Scene, waves: int, first: float, last: float) -> Array:
     """The same along the order of rows."""
-    return _half_waves(scene.row_numbers, waves, first, last)
+    return _half_waves(scene.recordings.number, waves, first, last)
 
 
 def _half_waves(at: Array, waves: int, first: float, last: float) -> Array:

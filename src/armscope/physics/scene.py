@@ -66,12 +66,6 @@ class Scene(LoadedArm):
         return bent
 
     @property
-    def row_numbers(self) -> Array:
-        """(N,) the table's id as a number where all ids are, else the row's number from 1."""
-        numbers: Array = self.remember("row numbers", lambda: numbers_of_rows(self.recordings))
-        return numbers
-
-    @property
     def linkage(self) -> Linkage:
         """The nominal parallelogram."""
         assert self.arm.description.parallelogram is not None
@@ -155,11 +149,3 @@ def _gives_way(part: Part) -> bool:
     return bool(np.any(part.values)) and any(
         drivers.follows("load", product.driver) for term in part.placed.terms for product in term.products
     )
-
-
-def numbers_of_rows(recordings: Recordings) -> Array:
-    """(N,) the table's id as a number where all ids are, else the row's number from 1."""
-    try:
-        return recordings.id.astype(float)
-    except ValueError:
-        return np.arange(1.0, len(recordings) + 1)

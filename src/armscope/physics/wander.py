@@ -13,7 +13,6 @@ from armscope.physics.cure import Cure
 from armscope.physics.drift import LEAST_SPAN_S, six_terms
 from armscope.physics.effect import Driver, Effect, Placed, Product, Term, term
 from armscope.physics.placing import nowhere, varies
-from armscope.physics.scene import numbers_of_rows
 from armscope.physics.set_ups import SetUps
 from armscope.physics.thermal import growing_links
 from armscope.recordings import Recordings
@@ -111,7 +110,7 @@ def _waves(recordings: Recordings, most: int) -> Iterator[tuple[int, Driver, flo
 def _about_runs(wave: Placed, recordings: Recordings) -> Placed:
     """A wave in the order of rows without its mean in each run, which is the run's: that holds for its other rows."""
     count, first, last = (wave.terms[0].products[0].driver.number(n) for n in range(3))
-    course = np.cos(np.pi * count * (numbers_of_rows(recordings) - first) / (last - first))
+    course = np.cos(np.pi * count * (recordings.number - first) / (last - first))
     means = {str(run): float(course[recordings.run == run].mean()) for run in np.unique(recordings.run)}
 
     def about(each: Term) -> Term:
@@ -135,4 +134,4 @@ def _clock(recordings: Recordings) -> tuple[Array, str]:
     time = recordings.time
     if time is not None and np.isfinite(time).all() and varies(time, LEAST_SPAN_S):
         return time, "slow wave"
-    return numbers_of_rows(recordings), WAVE_OF_ROWS
+    return recordings.number, WAVE_OF_ROWS

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -32,6 +32,7 @@ class Recordings:
         approach: (N, m) -1 or +1, sign of each motor's last motion, or None.
         speed: (N, m) rad/s; torque: (N, m) N m; each or None.
         sigma: (N, 3) stated 1-sigma uncertainty per axis, m, or None.
+        number: (N,) of each row in the table as it was read: its id where all ids are numbers, else counted from 1.
         extra: the table's other columns, as read.
         notes: what a user should know about how the table was read.
         source: the file's name, for messages.
@@ -50,9 +51,14 @@ class Recordings:
     speed: Array | None = None
     torque: Array | None = None
     sigma: Array | None = None
+    number: Array = field(default_factory=lambda: np.empty(0))
     extra: pd.DataFrame | None = None
     notes: tuple[str, ...] = ()
     source: str = ""
+
+    def __post_init__(self) -> None:
+        if len(self.number) != len(self):
+            object.__setattr__(self, "number", _numbered(self.id))
 
     def __len__(self) -> int:
         return len(self.motor_angles)
@@ -92,6 +98,14 @@ class Recordings:
         }
         extra = None if self.extra is None else self.extra.iloc[which].reset_index(drop=True)
         return replace(self, **per_row, extra=extra)
+
+
+def _numbered(ids: NDArray[np.str_]) -> Array:
+    """(N,) numbers of a whole table's rows: what is cut from it keeps them."""
+    try:
+        return ids.astype(np.float64)
+    except ValueError:
+        return np.arange(1.0, len(ids) + 1)
 
 
 def unmeasured(motor_angles: Array, run: str = "") -> Recordings:

@@ -20,7 +20,6 @@ from armscope.inference.linear_algebra import ColumnBlocks
 from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.drift import base_shift, tool_shift
 from armscope.physics.effect import Placed
-from armscope.physics.scene import numbers_of_rows
 from armscope.recordings import Recordings
 
 
@@ -75,7 +74,7 @@ def when_stderr(placed: Placed, context: ScanContext, without: Hypothesis) -> fl
         scores = block_scores(context.problem, without, sums)
         likely = np.exp(scores - scores.max())
         at = rows[cuts]
-        moment = recordings.time[at] if recordings.time is not None else numbers_of_rows(recordings)[at]
+        moment = recordings.time[at] if recordings.time is not None else recordings.number[at]
         moments = np.asarray(moment, dtype=np.float64)
         mean = float(np.average(moments, weights=likely))
         spacing = float(np.median(np.diff(moments))) if len(moments) > 1 else 0.0

@@ -16,7 +16,6 @@ from armscope.inference.evidence import Hypothesis
 from armscope.inference.linear_algebra import solve_lower
 from armscope.physics.drift import Pause, base_shift, drift_with_pauses, pauses_of
 from armscope.physics.effect import Placed
-from armscope.physics.scene import numbers_of_rows
 from armscope.recordings import Recordings
 
 
@@ -38,7 +37,7 @@ def pauses(context: ScanContext, drifting: Hypothesis, drift: int) -> Iterator[P
     at = problem.space.candidates[drift].columns
     way = drifting.means(at) / problem.scale[at]
     known = pauses_of(context.space.placed[drift])
-    numbers, passed = numbers_of_rows(recordings), _rows_passed(recordings, known)
+    numbers, passed = recordings.number, _rows_passed(recordings, known)
     pieces = list(pieces_of(recordings))
     ways_to_pause = SCANS.lengths_of_pauses * sum(len(cuts) for _, cuts in pieces)
     factor, whitened_rhs = unscaled_factor(problem, drifting)
@@ -116,7 +115,7 @@ def _together(known: Sequence[Pause], new: Sequence[Pause]) -> list[Pause]:
 
 def _rows_passed(recordings: Recordings, known: Sequence[Pause]) -> Array:
     """(N,) thousands of rows, pauses included."""
-    number = numbers_of_rows(recordings)
+    number = recordings.number
     passed = number / 1e3
     for p in known:
         after = (number >= p.row) & (recordings.run == p.run) | np.isin(recordings.run, p.later)
