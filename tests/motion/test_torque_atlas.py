@@ -39,6 +39,7 @@ def test_a_clean_arm_stays_dark(seed: int) -> None:
         (at(1, lambda q, dq, ddq, rigid: 2 * np.sin(9 * q)), "joint 1", "joint angle"),
         (at(2, lambda q, dq, ddq, rigid: 0.08 * np.abs(rigid) * np.sign(dq)), "joint 2", "load"),
         (at(3, lambda q, dq, ddq, rigid: np.ones_like(q)), "joint 3", "constant"),
+        (at(3, lambda q, dq, ddq, rigid: 2 * np.abs(dq)), "joint 3", "direction"),
     ],
 )
 def test_what_is_planted_lights_up_at_its_joint_and_driver_and_is_gone_after_the_fit(

@@ -15,7 +15,7 @@ from armscope.motion.selection import SelectedCauses
 from armscope.motion.shapes import everything_is
 from armscope.verdict.diagnosis import TOGETHER, Atlas
 
-ACCELERATION, CONSTANT = "acceleration", "constant"
+ACCELERATION, WITH_OFFSET = "acceleration", ("constant", "direction")
 Block = tuple[str, float, Array]
 
 
@@ -50,7 +50,7 @@ def _of_joint(selected: SelectedCauses, j: int, left: Array) -> list[tuple[str, 
     root = np.sqrt(weights.row[:, j])[:, None]
     # how friction changes sides and drives round off has no name: no cell may be coloured by it
     own = np.intersect1d(np.concatenate([layout.frames, layout.reversals[j], layout.response]), rows.at[j])
-    # every free curve holds a constant: what follows nothing counts in its own cell alone
+    # every free curve holds a constant: an offset counts in its own cell and that of its rival alone, friction by side
     free, levelled = (
         orth(root * rows.columns[j][:, np.searchsorted(rows.at[j], among)]) for among in (own, np.r_[own, OWN * j])
     )
@@ -58,7 +58,7 @@ def _of_joint(selected: SelectedCauses, j: int, left: Array) -> list[tuple[str, 
     whole, by_row = np.sum((y - free @ (free.T @ y))[:, 0] ** 2), weights.sigma[j] ** 2 * weights.correlated[j]
     found = []
     for driver, tried, columns in _blocks(selected, j):
-        X, absorbed = root * columns, free if driver == CONSTANT else levelled
+        X, absorbed = root * columns, free if driver in WITH_OFFSET else levelled
         before = np.sum(X**2, axis=0)
         X -= absorbed @ (absorbed.T @ X)
         gain = np.array([rss_reduction((X.T @ X)[None], (X.T @ each)[None], before[None])[0] for each in y.T])
