@@ -190,10 +190,12 @@ def test_the_atlas_shows_links_and_what_is_no_joint(
     assert set(found.locations) >= {f"link {j}" for j in range(1, arm.n_joints + 1)}
 
 
-@pytest.mark.parametrize("named", ["{}", "pose {}"])
-def test_a_jump_of_the_base_is_found_with_its_row_whatever_ids_are(named: str) -> None:
+@pytest.mark.parametrize("ids", ["in order", "text", "of a list of poses in another order"])
+def test_a_jump_of_the_base_is_found_with_its_row_whatever_ids_are(ids: str) -> None:
     arm, table = planted("six-axis", {}, 120, 0.02, seed=14)
-    table = replace(table, time=None, id=np.array([named.format(n + 1) for n in range(120)]))
+    names = np.arange(1, 121) if ids != "of a list of poses in another order" else (np.arange(120) * 7) % 120 + 1
+    text = np.char.add("pose " if ids == "text" else "", names.astype(str))
+    table = replace(table, time=None, id=text, number=np.empty(0))
     table.positions[70:] += [3e-4, -2e-4, 1e-4]
     (found,) = diagnose(arm, table, QUICK).effects
     assert (found.effect, found.location) == ("base_shift", "base")

@@ -69,9 +69,9 @@ def test_ids_stay_text(tmp_path):
     assert read.id.tolist() == ["007"]
 
 
-@pytest.mark.parametrize(("ids", "numbers"), [("7 9 12", [7, 9, 12]), ("a 9 c", [1, 2, 3])])
+@pytest.mark.parametrize(("ids", "numbers"), [("7 9 12", [7, 9, 12]), ("a 9 c", [1, 2, 3]), ("7 12 9", [1, 2, 3])])
 def test_rows_keep_the_numbers_of_the_whole_table(tmp_path, ids, numbers):
-    """Ids are their numbers where all are; else the order, which a part of the table must not count anew."""
+    """Ids are their numbers where they rise; else the order, which a part of the table must not count anew."""
     lines = [f"{one},0.1,0.2,1,2,3" for one in ids.split()]
     file = tmp_path / "recordings.csv"
     file.write_text("\n".join(["id,q1_rad,q2_rad,x_mm,y_mm,z_mm", *lines]))

@@ -87,7 +87,7 @@ def _after_time(scene: Scene, start: float, run: str, *later: str) -> Array:
 
 
 def _after_row(scene: Scene, first_row: float, run: str, *later: str) -> Array:
-    """From a row of a run on, and in later runs; counted by the table's id (its row number where it has none)."""
+    """From a row of a run on, and in later runs; counted as `Recordings.number` says."""
     return np.where(_in_run(scene, run), scene.recordings.number >= first_row, _in_run(scene, *later))
 
 

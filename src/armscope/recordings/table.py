@@ -32,7 +32,8 @@ class Recordings:
         approach: (N, m) -1 or +1, sign of each motor's last motion, or None.
         speed: (N, m) rad/s; torque: (N, m) N m; each or None.
         sigma: (N, 3) stated 1-sigma uncertainty per axis, m, or None.
-        number: (N,) of each row in the table as it was read: its id where all ids are numbers, else counted from 1.
+        number: (N,) of each row in the order of the table as it was read: its id where ids are numbers that rise in
+            every run, else counted from 1.
         extra: the table's other columns, as read.
         notes: what a user should know about how the table was read.
         source: the file's name, for messages.
@@ -58,7 +59,7 @@ class Recordings:
 
     def __post_init__(self) -> None:
         if len(self.number) != len(self):
-            object.__setattr__(self, "number", _numbered(self.id))
+            object.__setattr__(self, "number", _numbered(self.id, self.run))
 
     def __len__(self) -> int:
         return len(self.motor_angles)
@@ -100,12 +101,18 @@ class Recordings:
         return replace(self, **per_row, extra=extra)
 
 
-def _numbered(ids: NDArray[np.str_]) -> Array:
-    """(N,) numbers of a whole table's rows: what is cut from it keeps them."""
+def _numbered(ids: NDArray[np.str_], runs: NDArray[np.str_]) -> Array:
+    """(N,) numbers of a whole table's rows: what is cut from it keeps them.
+
+    Ids in another order than the rows name poses, not moments.
+    """
+    counted = np.arange(1.0, len(ids) + 1)
     try:
-        return ids.astype(np.float64)
+        numbers = ids.astype(np.float64)
     except ValueError:
-        return np.arange(1.0, len(ids) + 1)
+        return counted
+    rise = all(np.all(np.diff(numbers[runs == run]) >= 0) for run in np.unique(runs))
+    return numbers if rise and np.isfinite(numbers).all() else counted
 
 
 def unmeasured(motor_angles: Array, run: str = "") -> Recordings:
