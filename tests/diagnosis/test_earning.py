@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
-from armscope.diagnosis.earning import earned, held_out_gains
+from armscope.diagnosis.earning import earned, foretold_better, held_out_gains
 from armscope.inference.evidence import evaluate
-from armscope.inference.model_space import Candidate, ModelSpace
+from armscope.inference.model_space import Candidate, ModelSpace, ToleranceFamily
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, SelectedEffect, build_problem
 
@@ -58,3 +59,31 @@ def test_gains_are_those_of_rows_left_out_by_hand() -> None:
             fitted = evaluate(trained, chosen, (), with_it.noise)
             expected += sign * judged.rss(fitted.coefficients(len(problem.scale)) / problem.scale)
     np.testing.assert_allclose(gain, expected / with_it.noise**2)
+
+
+def rows_that_wander(wander: float, in_order: float) -> tuple[list[NormalEquations], Problem]:
+    """What follows the posture, which may go with the row, and a wander of so many mm, which follows the row alone."""
+    rng = np.random.default_rng(8)
+    count = 30 * BLOCKS
+    course = np.cos(np.pi * np.arange(count) / (count - 1))
+    posture = in_order * course + 0.3 * rng.normal(size=count)
+    X = np.column_stack([np.ones(count), posture, course])
+    y = 0.5 * posture + wander * course + rng.normal(0, NOISE, count)
+    space = ModelSpace(
+        np.array([0]),
+        (ToleranceFamily("wander", np.array([2]), np.array([1.0]), (0.0, 1.0)),),
+        (Candidate("of posture", "here", np.array([1]), np.ones(1)),),
+    )
+    parts = [np.arange(first, count, BLOCKS) for first in range(BLOCKS)]
+    blocks = [NormalEquations(X[r].T @ X[r], X[r].T @ y[r], float(y[r] @ y[r]), float(len(r))) for r in parts]
+    return blocks, build_problem(space, total(blocks), 0.5 * NOISE)
+
+
+@pytest.mark.parametrize(("wander", "in_order", "better"), [(1.0, 0.0, True), (0.0, 1.0, False)])
+def test_a_wander_of_rows_stays_where_other_rows_are_foretold_better(
+    wander: float, in_order: float, better: bool
+) -> None:
+    """It clears the view of what follows the posture; or there is none, and it takes a part of what does."""
+    blocks, problem = rows_that_wander(wander, in_order)
+    hypothesis = evaluate(problem, (SelectedEffect(0, LARGE),), (1,), NOISE)
+    assert foretold_better(problem, blocks, hypothesis, 0, np.array([2])) is better

@@ -12,7 +12,7 @@ import numpy as np
 
 from armscope.core.types import Array, Indices
 from armscope.diagnosis.constants import FOLDING
-from armscope.inference.edits import Edits
+from armscope.inference.edits import Edits, replaced
 from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.normal_equations import NormalEquations, total
@@ -45,6 +45,35 @@ def earned(problem: Problem, blocks: Sequence[NormalEquations], hypothesis: Hypo
             return hypothesis
         hypothesis = search.evaluated(without[worst][0], hypothesis)
     return hypothesis
+
+
+def foretold_better(
+    problem: Problem, blocks: Sequence[NormalEquations], hypothesis: Hypothesis, family: int, untold: Indices
+) -> bool:
+    """Whether held-out rows are foretold better where a background took part in the fit that says nothing of them.
+
+    A wander by the order of rows is no other rows'. Where poses came in order it takes what follows the posture, and
+    what is left foretells worse.
+
+    Args:
+        problem: the sums of all rows, priors and costs.
+        blocks: sums of blocks of rows.
+        hypothesis: that holds the background.
+        family: the background's number.
+        untold: its columns that say nothing of other rows.
+
+    Returns:
+        Whether it is; so it is where blocks are too few to hold out.
+    """
+    lost = 0.0
+    readings = hypothesis.background, replaced(hypothesis.background, family, 0)
+    for fold, trained in folds(problem, blocks):
+        for sign, background in zip((1, -1), readings, strict=True):
+            fitted = evaluate(trained, hypothesis.chosen, background, hypothesis.noise)
+            values = fitted.coefficients(len(problem.scale)) / problem.scale
+            values[untold] = 0.0
+            lost += sign * sum(blocks[int(k)].rss(values) for k in fold)
+    return lost <= 0
 
 
 def held_out_gains(

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Indices, Progress
-from armscope.diagnosis.constants import LOOP
-from armscope.diagnosis.earning import earned
+from armscope.diagnosis.constants import LOOP, NAMING
+from armscope.diagnosis.earning import earned, foretold_better
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.row_noise import NoiseOfRows
@@ -29,7 +29,7 @@ from armscope.inference.problem import Problem, background_sizes, build_problem
 from armscope.inference.search import Search
 from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.noise import Growth, Noise
-from armscope.physics.backgrounds import FAMILIES, TRANSMISSION, backgrounds, gear_waves
+from armscope.physics.backgrounds import DRIFT, FAMILIES, TRANSMISSION, backgrounds, gear_waves
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.drift import base_shifts_of_runs
 from armscope.physics.effect import Effect, Placed
@@ -42,6 +42,7 @@ from armscope.physics.payload import PAYLOAD_ERROR, payload_errors
 from armscope.physics.registry import library
 from armscope.physics.scene import Part
 from armscope.physics.transmission import MESH_COUNTS
+from armscope.physics.wander import is_of_rows
 from armscope.recordings import Recordings
 
 State = tuple[frozenset[str], NDArray[np.bool_]]
@@ -208,14 +209,27 @@ class SelectionLoop:
         ]
 
     def earned(self) -> Selected:
-        """Where the rounds stand, without the names that make held-out rows worse, gears' waves as the rows say."""
-        left, gears = earned(self.problem, self.blocks, self.best), FAMILIES.index(TRANSMISSION)
+        """Where the rounds stand, without what makes held-out rows worse, gears' waves as the rows say."""
+        left = self._steady(earned(self.problem, self.blocks, self.best))
+        gears = FAMILIES.index(TRANSMISSION)
         waves = with_sizes_of_rows(self.problem, self.space, self.blocks, left, self.families[gears])
-        if len(left.chosen) < len(self.best.chosen) or waves != self.families[gears]:
+        if left is not self.best or waves != self.families[gears]:
             self.best, self.families[gears] = left, waves
             self.fit = self._fitted()
             self.model = self.fit.model
         return self.selected()
+
+    def _steady(self, hypothesis: Hypothesis) -> Hypothesis:
+        """A hypothesis without a wander in the order of rows that is barely seen and makes other rows worse."""
+        wander = FAMILIES.index(DRIFT)
+        of_rows = [self.space.layout.of(placed) for placed in self.families[wander] if is_of_rows(placed)]
+        if not hypothesis.background[wander] or not of_rows:
+            return hypothesis
+        without = Search.on(self.problem).with_background(hypothesis, wander, 0)
+        sure = hypothesis.log_posterior - without.log_posterior > NAMING.stands_out_nats
+        if sure or foretold_better(self.problem, self.blocks, hypothesis, wander, np.concatenate(of_rows)):
+            return hypothesis
+        return without
 
     def _pushes(self, part: Part) -> bool:
         """Whether a compliance about two axes is surely negative about one of them."""
