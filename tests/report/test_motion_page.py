@@ -30,10 +30,10 @@ from armscope.report.sectioning import write_sections
 from armscope.report.sections.motion import (
     MOTION_SECTIONS,
     arm_of_motion,
-    value_to_enter,
     motion_card,
     relative_steps,
     signed,
+    value_to_enter,
 )
 from armscope.report.sections.motion_work import IN_FULL, error_in_words, masses_matter, motion_work_order
 from armscope.verdict.effects import Alternative, Parameter
