@@ -54,13 +54,14 @@ def _promoted(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
     fitted: as large as they come, not held small by the background.
     """
     unnamed = list(_unnamed(problem, hypothesis))
-    left, beside = _left_by_free_backgrounds(problem, hypothesis), _left_by_names(problem, hypothesis)
+    left = _left_by_free_backgrounds(problem, hypothesis)
     drives = [number for number in unnamed if problem.space.candidates[number].kind == DRIVE]
     added = [
         number
         for number in unnamed
         if number not in drives
-        and _size(problem, hypothesis, number) > NAMING.stands_out * (beside if problem.is_free(number) else left)
+        and _size(problem, hypothesis, number)
+        > NAMING.stands_out * (problem.mismatch if problem.is_free(number) else left)
         and _lost(problem, hypothesis, number) > NAMING.stands_out_nats
         and _beyond_family(problem, hypothesis, number) > NAMING.beyond_family
     ]
@@ -120,11 +121,6 @@ def _left_by_free_backgrounds(problem: Problem, hypothesis: Hypothesis) -> float
     families = zip(hypothesis.background, problem.space.families, strict=True)
     background = tuple(0 if family.is_priced else size for size, family in families)
     return evaluate(problem, (), background, problem.mismatch).noise
-
-
-def _left_by_names(problem: Problem, hypothesis: Hypothesis) -> float:
-    """RMS, mm, of what the names by themselves leave: geometry is measured by it."""
-    return evaluate(problem, hypothesis.chosen, problem.space.no_background, problem.mismatch).noise
 
 
 def _beyond_family(problem: Problem, hypothesis: Hypothesis, number: int) -> float:

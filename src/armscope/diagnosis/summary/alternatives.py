@@ -46,8 +46,9 @@ def alternatives(search: Search, best: Hypothesis, number: int) -> list[Rival]:
     """What could replace one effect, nearest first, each name once.
 
     What got its name out of a background is rivalled by what could be out of the ordinary instead, its own values held
-    right; neither pays for its name. A line taken from a curve of load is rivalled by what rivals the curve, and by
-    what could stand beside the curve's rest; a curve of another drive's load is told as its compliance.
+    right; what is in a background, too, pays as little for its name. A line taken from a curve of load is rivalled by
+    what rivals the curve, and by what could stand beside the curve's rest; a curve of another drive's load is told as
+    its compliance.
 
     Args:
         search: the finished one.
@@ -83,7 +84,8 @@ def _in_place_of(search: Search, best: Hypothesis, number: int, rest: Sequence[i
     lost = best.log_posterior - base.log_posterior
     least = lost - paid - NAMING.listed_nats_of_special_cases - NAMING.coarsely * max(lost, 0.0) - BUDGET.slack_nats
     for added in search.additions(base, NAMING.looked_at, [number], least):
-        other = search.unpaid(added) if held else added
+        of_background = held and search.in_background(added, added.chosen[-1].candidate)
+        other = search.unpaid(added) if of_background else added
         rival, gap = search.candidate(other.chosen[-1].candidate), best.log_posterior - other.log_posterior - paid
         excluded = other.chosen[-1].candidate in candidate.excludes
         misfit = (other.rss - best.rss) / (2 * best.noise**2)
