@@ -181,7 +181,7 @@ def normal_equations_by_block(
 
     order = np.argsort(blocks, kind="stable") if count > 1 and not table.keeps else None
     first, *others = table.each_part(model, of_part, order)
-    whole = [first.pop(block, None) or _Sums.of(p) for block in range(count)]
+    whole = [first.pop(block) if block in first else _Sums.of(p) for block in range(count)]
     for part in others:
         for block, sums in part.items():
             whole[block].join(sums)
