@@ -36,7 +36,7 @@ class Search(Edits):
         Returns:
             The search.
         """
-        return cls(problem, group_candidates(problem.space), branches, beam=beam)
+        return cls(problem, group_candidates(problem), branches, beam=beam)
 
     def best(
         self,
