@@ -9,17 +9,19 @@ from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
 from armscope.cli import app
+from armscope.compensation.branch import nominal_branch
 from armscope.compensation.compensate import compensate_black_box
 from armscope.compensation.error_model_file import load_error_model, save_error_model
 from armscope.compensation.fitting import fit_error_model
 from armscope.compensation.forward import BlackBoxArm
+from armscope.compensation.newton import Wanted
 from armscope.compensation.path import as_path
 from armscope.compensation.task import Options
 from armscope.core.inputs import InputError
 from armscope.errormodels import FDP_CI, FOURIER_2_AI, SDP_AI, ModelSpec
 from armscope.physics.model_file import save_model
 from armscope.recordings.table import as_recordings
-from armscope.robot import chain, forward_kinematics
+from armscope.robot import chain, forward_kinematics, tool_frames
 
 from .arms import CONTEXT, identification_angles, physical, physical_path, sk120
 
@@ -216,3 +218,18 @@ def test_a_position_model_has_no_orientation_to_predict(tmp_path):
     pd.DataFrame(angles[:2], columns=[f"q{j}_rad" for j in range(1, 7)]).to_csv(tmp_path / "poses.csv", index=False)
     done = run("predict", tmp_path / "m.json", tmp_path / "poses.csv", "--pose", "-o", tmp_path / "p.csv")
     assert "positions only" in str(done.exception)
+
+
+def test_poses_that_are_no_path_may_each_have_a_branch_of_their_own():
+    arm = sk120()
+    angles = np.array(
+        [[0.2, 0.3, 0.1, 0.2, 0.7, 0.0], [-2.4, -0.4, 0.5, 1.2, -0.9, 0.4], [1.9, 0.5, -0.3, -1.0, 1.1, 2.0]]
+    )
+    frames = tool_frames(arm, angles)
+    wanted = Wanted(*frames)
+    path = nominal_branch(arm, wanted, angles[0])
+    assert [reason[:4] for reason in path.reasons] == ["", "jump", "jump"]
+    separate = nominal_branch(arm, wanted, angles[0], largest_step=np.inf)
+    assert separate.reached.all()
+    for found, asked in zip(tool_frames(arm, separate.motor_angles), frames, strict=True):
+        np.testing.assert_allclose(found, asked, atol=1e-8)

@@ -1,10 +1,16 @@
-"""A description predicts its own kinematics, in its base frame."""
+"""A description predicts its own kinematics, in its base frame; a model where the arm is now."""
 
 from pathlib import Path
 
 import numpy as np
+import pytest
 
+from armscope.compensation.path import read_path
 from armscope.compensation.predicting import predict_file
+from armscope.physics.drift import base_shift
+from armscope.physics.model import Base, FittedModel, predict
+from armscope.physics.model_file import save_model
+from armscope.physics.scene import Part
 from armscope.recordings import read_recordings
 from armscope.robot import forward_kinematics, load_arm
 
@@ -18,3 +24,62 @@ def test_a_robot_yaml_predicts_its_kinematics():
     points = forward_kinematics(arm, read_recordings(poses, arm.n_motors).motor_angles)
     np.testing.assert_allclose(table[["x_mm", "y_mm", "z_mm"]].to_numpy(), points * 1e3, atol=1e-9)
     assert notes == []
+
+
+JUMP_MM = np.array([3.0, -2.0, 1.0])
+JUMPED_AT = 30
+
+
+@pytest.fixture
+def jumped(tmp_path):
+    """model.yaml of an arm whose base jumped at a row of a table without times; and the table."""
+    rows = read_recordings(EXAMPLE / "recordings.csv")
+    rows = rows.rows(rows.run == rows.run[0])
+    table = rows.rows(slice(60))
+    table = type(table)(table.motor_angles, table.positions, table.run, table.target, table.id, payload=table.payload)
+    arm = load_arm(EXAMPLE / "robot.yaml")
+    shift = base_shift(table, JUMPED_AT - 1, 1)
+    values = np.zeros(len(shift.terms))
+    values[:3] = JUMP_MM * 1e-3
+    model = FittedModel(arm, {str(table.run[0]): Base(np.eye(3), np.zeros(3))}, parts=(Part(shift, values),))
+    save_model(tmp_path / "model.yaml", model)
+    return tmp_path / "model.yaml", table
+
+
+def poses(path, table, ids):
+    """A table of a model's poses as a user writes it."""
+    columns = [f"q{motor}_rad" for motor in range(1, table.n_motors + 1)]
+    lines = [",".join([*(["id"] if ids else []), "run", *columns])]
+    for row in range(len(table)):
+        cells = [*([table.id[row]] if ids else []), table.run[row], *map(repr, table.motor_angles[row].tolist())]
+        lines.append(",".join(cells))
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+def test_poses_without_ids_are_of_now_after_every_jump(jumped, tmp_path):
+    model, table = jumped
+    nominal = forward_kinematics(load_arm(EXAMPLE / "robot.yaml"), table.motor_angles) * 1e3
+    found, notes = predict_file(model, poses(tmp_path / "poses.csv", table, ids=False))
+    np.testing.assert_allclose(found[["x_mm", "y_mm", "z_mm"]] - nominal, np.tile(JUMP_MM, (60, 1)), atol=1e-6)
+    assert any("what jumped at a row of the recordings has jumped" in note for note in notes)
+
+
+def test_poses_with_the_recordings_ids_are_of_their_rows(jumped, tmp_path):
+    model, table = jumped
+    nominal = forward_kinematics(load_arm(EXAMPLE / "robot.yaml"), table.motor_angles) * 1e3
+    found, notes = predict_file(model, poses(tmp_path / "poses.csv", table, ids=True))
+    moved = np.abs(found[["x_mm", "y_mm", "z_mm"]] - nominal).max(axis=1) > 1
+    assert moved.tolist() == [row + 1 >= JUMPED_AT for row in range(60)]
+    assert notes == []
+
+
+def test_a_path_is_of_now_whatever_its_ids_are(jumped, tmp_path):
+    _, table = jumped
+    arm = load_arm(EXAMPLE / "robot.yaml")
+    path = read_path(poses(tmp_path / "path.csv", table, ids=True), arm)
+    assert np.isnan(path.table.number).all()
+    shift = Part(base_shift(table, JUMPED_AT - 1, 1), np.array([*JUMP_MM * 1e-3, 0, 0, 0]))
+    model = FittedModel(arm, {str(table.run[0]): Base(np.eye(3), np.zeros(3))}, parts=(shift,))
+    moved = predict(model, path.table) - forward_kinematics(arm, table.motor_angles)
+    np.testing.assert_allclose(moved * 1e3, np.tile(JUMP_MM, (60, 1)), atol=1e-6)

@@ -68,6 +68,18 @@ def test_a_link_that_warms_up_is_background_and_no_jump_of_the_tool() -> None:
     assert drift_of(verdict) == pytest.approx(0.028, rel=0.2)
 
 
+@pytest.mark.parametrize("in_order", [True, False])
+def test_a_wander_that_is_surely_seen_stays_though_poses_came_in_order(in_order: bool) -> None:
+    """Along the order of rows a wander says nothing of other rows: only what is barely seen must foretell better."""
+    arm, table = session()
+    if in_order:
+        table = table.rows(np.argsort(table.motor_angles[:, 0]))
+        table = replace(table, time=np.linspace(0.0, 10800.0, ROWS))
+    moved = wandering(table, 0.05)
+    verdict = diagnose(arm, replace(moved, time=None, number=np.arange(1.0, ROWS + 1)), QUICK)
+    assert drift_of(verdict) == pytest.approx(0.05 / np.sqrt(3), rel=0.4)
+
+
 def test_where_nothing_wanders_none_is_allowed_for() -> None:
     verdict = diagnose(*session(), QUICK)
     assert verdict.answer == "nothing missing"

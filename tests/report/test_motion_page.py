@@ -2,22 +2,44 @@
 
 from __future__ import annotations
 
+import html
+import math
 import re
+import shlex
+import shutil
+import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
+from typer.testing import CliRunner
 
+from armscope.cli import app
 from armscope.core.types import Array
+from armscope.inference.evidence import evaluate
+from armscope.motion.export import write_motion
+from armscope.motion.holding_out import folds
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
+from armscope.motion.selection import coefficients_of
 from armscope.report.figures.motion import draw_friction, draw_trace
 from armscope.report.motion_subject import MotionSubject, liveliest_piece
 from armscope.report.pages.motion import write_motion_report
 from armscope.report.sectioning import write_sections
-from armscope.report.sections.motion import MOTION_SECTIONS, arm_of_motion, motion_card, relative_steps, signed
-from armscope.report.sections.motion_work import error_in_words
-from armscope.verdict.effects import Parameter
-from tests.motion.moving import moved, robot
+from armscope.report.sections.motion import (
+    MOTION_SECTIONS,
+    arm_of_motion,
+    motion_card,
+    relative_steps,
+    signed,
+    value_to_enter,
+)
+from armscope.report.sections.motion_work import IN_FULL, error_in_words, masses_matter, motion_work_order
+from armscope.verdict.effects import Alternative, Parameter
+from tests.motion.moving import ROBOT, moved, robot
+
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 
 
 def cabled(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
@@ -68,13 +90,117 @@ def test_the_work_order_has_a_line_per_cause_with_its_cure_and_the_error_after_i
     write_motion_report(found, "motions.csv", tmp_path)
     order = (tmp_path / "work-order.html").read_text(encoding="utf-8").replace("\u00a0", " ")
     main = [cause for cause in found.verdict.effects if not cause.minor]
-    assert order.count("Confirm first:") == len(main)
-    after = {step.label: step.held_out for step in found.verdict.waterfall}
-    for number, cause in enumerate(main, start=2):
+    assert order.count("Confirm first:") == len(main) <= IN_FULL
+    assert f"{error_in_words(found.entered[0])} after this" in order
+    for number, (cause, error) in enumerate(zip(main, found.entered[1:], strict=False), start=2):
         assert cause.cure.replace("`", "") in order
-        assert f"{error_in_words(after[cause.title])} of the torque after 1 to {number}" in order
+        assert f"{error_in_words(error)} after 1 to {number}" in order
     assert all(f"<td>{each.joint}</td>" in order for each in found.verdict.background)
     assert error_in_words(float("nan")) == "–"
+
+
+def test_errors_to_expect_hold_for_the_numbers_that_are_entered(found: MotionDiagnosis) -> None:
+    """Of one model, fitted once to the rest: friction alone, then masses and the cause; by hand."""
+    selected = found.selected
+    layout, (cause, *others) = selected.rows.layout, found.verdict.effects
+    assert not others
+    number = selected.best.chosen[0].candidate
+    missed, torque = [], []
+    for fold in folds(selected):
+        again = evaluate(fold.problem, selected.best.chosen, selected.best.background, fold.found.noise)
+        numbers = coefficients_of(fold.problem, again)
+        numbers[[*layout.reversals.ravel(), *layout.response, *layout.own.reshape(3, -1)[:, 0]]] = 0
+        left = set(range(layout.width)) - {*layout.own, *layout.inertial, *layout.columns[number]}
+        assert not np.any(numbers[sorted(left)])
+        moving = ~fold.rows.still[fold.which]
+        said = fold.rows.nominal[fold.which] + fold.rows.modelled(numbers, fold.which)
+        missed.append(moving * (fold.rows.torque[fold.which] - said))
+        torque.append(moving * fold.rows.torque[fold.which])
+    by_hand = np.linalg.norm(np.concatenate(missed)) / np.linalg.norm(np.concatenate(torque))
+    assert found.entered[1] == pytest.approx(by_hand, rel=1e-6), cause.title
+    assert found.entered[0] > 2 * found.entered[1]
+    assert found.entered[1] < 3 * found.verdict.held_out.model
+
+
+def many_tasks(found: MotionDiagnosis, close: Alternative) -> MotionDiagnosis:
+    """The same with eleven causes, each hardly told from another."""
+    effects, entered = found.verdict.effects, found.entered
+    one = replace(effects[0], alternatives=(close,), minor=False)
+    wanted = 11
+    more = tuple(replace(one, title=f"cause {n}") for n in range(wanted))
+    step = found.verdict.waterfall[-1]
+    falling = (*found.verdict.waterfall[:2], *(replace(step, label=each.title) for each in more))
+    verdict = replace(found.verdict, effects=more, waterfall=falling)
+    return replace(found, verdict=verdict, entered=(*entered[:1], *entered[1:2] * wanted))
+
+
+def test_the_command_that_is_printed_runs_as_it_is(
+    found: MotionDiagnosis, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "my robot.yaml").write_text(yaml.safe_dump(ROBOT))
+    told = many_tasks(found, Alternative("gravity_balance", "joint 1", "springs", 1.0, "joint angle", 1.0))
+    folder = Path("my out")
+    write_motion(told, folder)
+    write_motion_report(told, "motions.csv", folder, "my robot.yaml")
+    order = (folder / "work-order.html").read_text(encoding="utf-8")
+    command = shlex.split(html.unescape(re.findall(r"<code>(armscope [^<]*)</code>", order)[0]))
+    assert command[:2] == ["armscope", "excite"]
+    ended = CliRunner().invoke(app, [*command[1:], "--rounds", "3"])
+    assert ended.exit_code == 0, ended.output
+    assert "cable_torque at joint 1 and gravity_balance at joint 1" in ended.output
+    assert (tmp_path / "trajectory.csv").is_file()
+
+
+def test_causes_beyond_the_first_stand_in_a_line_each(found: MotionDiagnosis) -> None:
+    close = Alternative("gravity_balance", "joint 1", "springs", 1.0, "joint angle", 1.0)
+    told = motion_work_order(MotionSubject(many_tasks(found, close), "motions.csv"))
+    assert len(told["tasks"]) == IN_FULL
+    assert len(told["more"]) == 11 - IN_FULL
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
+def test_eleven_tasks_are_printed_on_one_page(found: MotionDiagnosis, tmp_path: Path) -> None:
+    close = Alternative("gravity_balance", "joint 1", "springs", 1.0, "joint angle", 1.0)
+    write_motion_report(many_tasks(found, close), "motions.csv", tmp_path)
+    page, printed = tmp_path / "work-order.html", tmp_path / "order.pdf"
+    flags = ("--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer", f"--print-to-pdf={printed}")
+    subprocess.run([str(CHROMIUM), *flags, page.as_uri()], check=True, capture_output=True, timeout=120)
+    assert len(re.findall(rb"/Type ?/Page\b", printed.read_bytes())) == 1
+
+
+def test_masses_are_told_to_be_taken_along_where_they_matter(
+    found: MotionDiagnosis, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    friction, masses, *rest = found.verdict.waterfall
+
+    def with_masses_at(error: float) -> MotionSubject:
+        steps = (replace(friction, held_out=0.16), replace(masses, held_out=error), *rest)
+        return MotionSubject(replace(found, verdict=replace(found.verdict, waterfall=steps)), "motions.csv")
+
+    assert not masses_matter(with_masses_at(0.014))  # none were fitted
+    monkeypatch.setattr(MotionSubject, "masses_fitted", True)
+    assert masses_matter(with_masses_at(0.014))
+    assert not masses_matter(with_masses_at(0.1601))
+    told = motion_work_order(with_masses_at(0.014))
+    assert "corrected.urdf" in told["tasks"][0].cure
+    assert "corrected.urdf" not in motion_work_order(with_masses_at(0.1601))["tasks"][0].cure
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "error", "words"),
+    [
+        ("coulomb", 0.2, 0.01, "0.200 ± 0.020 N m"),
+        ("coulomb", -0.02, 0.15, "not seen"),
+        ("viscous", -0.02, math.nan, "not seen"),
+        ("coulomb", -0.3, 0.05, "0 (fitted −0.300 ± 0.098 N m)"),
+        ("inertia", -0.01, 0.02, "not seen"),
+        ("inertia", -0.3, 0.05, "−0.300 ± 0.098 N m"),
+        ("offset", -0.02, 0.15, "−0.02 ± 0.29 N m"),
+    ],
+)
+def test_friction_below_zero_is_no_value_to_enter(name: str, value: float, error: float, words: str) -> None:
+    assert value_to_enter(Parameter(name, "N m", value, error)) == words
 
 
 def test_numbers_of_the_strip_and_the_waterfall_are_the_verdicts(found: MotionDiagnosis) -> None:

@@ -85,6 +85,13 @@ def test_a_path_that_teleports_is_a_jump_and_not_followed(arm):
     assert found.reasons[5] == "jump of joint 1"
 
 
+def test_points_that_are_no_path_may_each_have_a_branch_of_their_own(arm):
+    behind = [[1.4, -0.7, 0.9], [-1.4, 0.1, 0.9], [1.4, 0.7, 0.9], [0.3, 1.3, 1.1]]
+    found = follow_path(arm, behind, HOME, HELD, np.inf)
+    assert found.reached.all()
+    np.testing.assert_allclose(forward_kinematics(arm, found.motor_angles), behind, atol=1e-9)
+
+
 def test_the_first_point_may_be_far_from_the_start(arm):
     found = follow_path(arm, [[0.5, 0.5, 1.4]], [2.0, 1.0, -1.0, 0, 0, 0], HELD)
     assert found.reached.all()

@@ -83,7 +83,13 @@ def _tell(found: Excitation) -> None:
         words = " and ".join(" at ".join(cause) for cause in pair)
         print(f"{words}: {was:.0%} of the torque of one can't be imitated by the other, now {is_now:.0%}")
     for pair in found.inseparable:
-        print(f"no motion tells apart {' and '.join(' at '.join(cause) for cause in pair)}")
+        words = " and ".join(" at ".join(cause) for cause in pair)
+        print(f"no motion tells apart {words}: whatever the motion, the torque of one can be that of the other")
+    for pair in found.lawless:
+        words = " and ".join(" at ".join(cause) for cause in pair)
+        print(f"not planned for: {words}, for one of them has no law from which a motion could be planned")
+    if (found.inseparable or found.lawless) and not found.pairs:
+        print("so this motion is the one that shows everything best, as without --separate")
     shown = found.shown
     print(f"{len(shown.base)} independent parameters; weakest: {after.weakest}")
     if shown.nothing:

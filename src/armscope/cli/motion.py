@@ -77,7 +77,7 @@ def diagnose_motions(table: Path, robot: Path, output: Path, asked: Asked, tell:
         from armscope.report.pages.motion import write_motion_report
 
         tell("drawing the report", 0.98)
-        write_motion_report(found, table.name, output)
+        write_motion_report(found, table.name, output, robot)
     for notice in found.verdict.notices:
         print(f"note: {notice.text}", file=sys.stderr)
     if asked.as_json:

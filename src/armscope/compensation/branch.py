@@ -36,7 +36,7 @@ def nominal_branch(
         wanted: N points, or full poses.
         start: (m,) rad, where the arm comes from.
         held: motors that keep an angle, by their number from 1.
-        largest_step: rad; a larger motion of any motor between neighbours is a jump.
+        largest_step: rad; a larger motion of any motor between neighbours is a jump; infinite: none is.
 
     Returns:
         Angles and reasons as `follow_path` gives them; a full pose may also fail with "wrist pole".
@@ -85,7 +85,7 @@ def _follow_poses(
     for row in range(len(wanted)):
         target = wanted.rows(np.array([row]))
         found, why = _one_pose(nominal, target, q, free)
-        if found is None and not reached_any:
+        if found is None and (not reached_any or np.isinf(largest_step)):
             found, why = _from_many_starts(nominal, target, q, free)
         if found is not None and reached_any and np.abs(found - q).max() > largest_step * (skipped + 1):
             why = f"jump of joint {int(np.argmax(np.abs(found - q))) + 1}"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -69,6 +69,7 @@ def as_path(table: pd.DataFrame, source: Path | str, arm: Arm) -> WantedPath:
     if not has_angles:
         table = table.assign(**{f"q{motor}_rad": 0.0 for motor in range(1, arm.n_motors + 1)})
     rows = as_recordings(table, source, arm.n_motors, measured=has_points)
+    rows = replace(rows, number=np.full(len(rows), np.nan))  # a path is of now
     return WantedPath(rows, rows.positions if has_points else None, has_angles)
 
 

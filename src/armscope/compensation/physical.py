@@ -114,8 +114,7 @@ def load_identified(path: Path | str) -> Identified:
 
 def drivers_of(model: FittedModel) -> set[str]:
     """The kinds of drivers that a model's effects follow, nested ones included."""
-    parts = (*model.parts, *model.tools)
-    products = [product for part in parts for term in part.placed.terms for product in term.products]
+    products = [product for part in model.everything for term in part.placed.terms for product in term.products]
     return {kind for product in products for kind in kinds_in(product.driver)}
 
 

@@ -78,7 +78,21 @@ def _by_physics(model: Path, poses: Path, pose: bool) -> Found:
         f"run {run!r} is not in the model: its base is taken from run {list(fitted.bases)[-1]!r}"
         for run in fitted.unknown_runs(rows)
     ]
+    notes += _of_now(fitted, rows)
     return predicted_points(fitted, rows), predict_orientation(fitted, rows) if pose else None, rows, notes
+
+
+def _of_now(fitted: FittedModel, rows: Recordings) -> list[str]:
+    """What is told of poses without ids: what follows the order of rows stands as at its end, or is not known."""
+    from armscope.compensation.physical import drivers_of
+
+    kinds = set() if np.isfinite(rows.number).all() else drivers_of(fitted)
+    notes = []
+    if "after row" in kinds:
+        notes.append("no ids: what jumped at a row of the recordings has jumped; ids of the recordings say otherwise")
+    if kinds & {"rows", "slow wave of rows"}:
+        notes.append("no ids: what wanders in the order of rows is left out")
+    return notes
 
 
 def _refuse_missing_context(model: Path, fitted: FittedModel, rows: Recordings) -> list[str]:

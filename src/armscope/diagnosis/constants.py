@@ -72,6 +72,12 @@ class LoopBudget(Constants):
         "convention: three; less is a stiff axis and noise",
         unit="standard errors",
     )
+    surely_wanders: float = constant(
+        20.0,
+        "that a wander in the order of rows must gain not to be asked whether it foretells other rows better",
+        "judgement: well above the price of a name; one real arm, whose poses came in order, was in view",
+        unit="nats",
+    )
     sample_rows: int = constant(3000, "longer tables are diagnosed on so many first", "judgement: time", unit="rows")
     rows_of_a_group: int = constant(
         20, "of every run and target that the sample holds at least", "judgement: a base takes six numbers", unit="rows"

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Indices, Progress
-from armscope.diagnosis.constants import LOOP, NAMING
+from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.earning import earned, foretold_better
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.diagnosis.promotion import named
@@ -226,7 +226,7 @@ class SelectionLoop:
         if not hypothesis.background[wander] or not of_rows:
             return hypothesis
         without = Search.on(self.problem).with_background(hypothesis, wander, 0)
-        sure = hypothesis.log_posterior - without.log_posterior > NAMING.stands_out_nats
+        sure = hypothesis.log_posterior - without.log_posterior > LOOP.surely_wanders
         if sure or foretold_better(self.problem, self.blocks, hypothesis, wander, np.concatenate(of_rows)):
             return hypothesis
         return without

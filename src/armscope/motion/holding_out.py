@@ -14,6 +14,7 @@ from armscope.inference.normal_equations import total
 from armscope.inference.problem import Problem, SelectedEffect
 from armscope.inference.search import Search
 from armscope.motion.constants import NOISE
+from armscope.motion.layout import CAUSES_OF_OWN, OWN
 from armscope.motion.rows import MotionRows
 from armscope.motion.selection import SelectedCauses, coefficients_of
 from armscope.motion.verdict import HeldOutMotion, Step, relative
@@ -179,6 +180,41 @@ def waterfall(
             Step(label, fitted, relative(np.concatenate([e for e, _ in held]), np.concatenate([t for _, t in held])))
         )
     return tuple(steps)
+
+
+def as_entered(selected: SelectedCauses, parts: Sequence[Fold], order: Sequence[int]) -> tuple[float, ...]:
+    """Errors when the whole model's numbers are entered into a simulator one after the other, nothing fitted again.
+
+    No simulator knows how friction changes sides here, nor takes friction below zero: both are left out.
+
+    Args:
+        selected: the selection.
+        parts: what is held out; the numbers are fitted to the rest.
+        order: candidates in the order in which they are entered.
+
+    Returns:
+        With friction and rotors; then with masses and gains as fitted and the first cause; then with each cause more.
+    """
+    layout, best = selected.rows.layout, selected.best
+    own = layout.own.reshape(-1, OWN)[:, 1:CAUSES_OF_OWN]
+    causes = [layout.columns[number] for number in order]
+    friction = np.setdiff1d(own, np.concatenate([np.empty(0, dtype=np.intp), *causes]))
+    masses = np.concatenate([layout.inertial, layout.gains])
+    states = [friction, *(np.concatenate([friction, masses, *causes[: n + 1]]) for n in range(len(causes)))]
+    missed: list[list[Array]] = [[] for _ in states]
+    torques: list[Array] = []
+    for fold in parts:
+        fitted = coefficients_of(fold.problem, evaluate(fold.problem, best.chosen, best.background, fold.found.noise))
+        stated = np.nan_to_num(layout.arm.stated_background[:, 1:3])
+        fitted[own[:, :2]] = np.maximum(fitted[own[:, :2]], -stated)
+        moving, torque = ~fold.rows.still[fold.which], fold.rows.torque[fold.which]
+        torques.append(moving * torque)
+        for columns, found in zip(states, missed, strict=True):
+            entered = np.zeros_like(fitted)
+            entered[columns] = fitted[columns]
+            said = fold.rows.nominal[fold.which] + fold.rows.modelled(entered, fold.which)
+            found.append(moving * (torque - said))
+    return tuple(relative(np.concatenate(found), np.concatenate(torques)) for found in missed)
 
 
 def _errors(fold: Fold, chosen: tuple[SelectedEffect, ...], background: BackgroundSizes) -> tuple[Array, Array]:

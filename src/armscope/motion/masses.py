@@ -13,6 +13,7 @@ from armscope.motion import catalogue
 from armscope.motion.causes import Cause, PlacedCause, Seen
 from armscope.motion.constants import LIBRARY
 from armscope.motion.laws import Law
+from armscope.robot.dynamics import leaning_gravity
 
 
 def place_masses(seen: Seen) -> Iterator[PlacedCause]:
@@ -80,10 +81,6 @@ def _gravity(seen: Seen, every: tuple[int, ...]) -> Iterator[PlacedCause]:
     down = seen.arm.model.gravity.linear
     if np.linalg.norm(down) == 0:
         return
-    level = np.linalg.svd(down[None] / np.linalg.norm(down))[2][1:]  # two axes across gravity
-    if abs(down[2]) == np.linalg.norm(down):
-        level = np.eye(3)[:2]
     names = tuple((axis, "rad") for axis in "xy")
-    leans = -np.cross(level, down)  # gravity in axes that are turned about each
-    law = Law("leaning gravity", every, tuple(map(float, leans.ravel())))
+    law = Law("leaning gravity", every, tuple(map(float, leaning_gravity(down).ravel())))
     yield PlacedCause(catalogue.GRAVITY, "base", "load", names, every, law)

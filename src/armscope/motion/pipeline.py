@@ -17,6 +17,7 @@ from armscope.motion.cutoff import chosen_cutoff
 from armscope.motion.holding_out import (
     Fold,
     HeldOutTorque,
+    as_entered,
     errors_by_run,
     folds,
     held_out_torques,
@@ -76,6 +77,7 @@ class MotionDiagnosis:
         test: rows of the runs that were kept out; None where there were none.
         held: torques where nothing was fitted.
         how: filters and decimation.
+        entered: errors on held-out motion when numbers are entered one after the other, see `as_entered`.
     """
 
     arm: MovingArm
@@ -85,6 +87,7 @@ class MotionDiagnosis:
     test: MotionRows | None
     held: tuple[HeldOutTorque, ...]
     how: Preparation
+    entered: tuple[float, ...] = ()
 
     @functools.cached_property
     def atlas(self) -> Atlas:
@@ -146,7 +149,7 @@ def diagnose_motion(
         apart = build_rows(layout, test, how, model_so_far(layout, selected.coefficients))
     sure = sureness(selected, _carried(motions))
     notices += level_told(layout)
-    verdict, held = _judged(selected, sure, apart, settings)
+    verdict, held, entered = _judged(selected, sure, apart, settings)
     verdict = replace(
         verdict,
         preparation=how.words,
@@ -157,7 +160,7 @@ def diagnose_motion(
         settings=asdict(settings),
     )
     progress("done", 1.0)
-    return MotionDiagnosis(arm, verdict, selected, sure, apart, held, how)
+    return MotionDiagnosis(arm, verdict, selected, sure, apart, held, how, entered)
 
 
 def _carried(motions: Motions) -> dict[str, float]:
@@ -186,7 +189,7 @@ def _parted(arm: MovingArm, motions: Motions, held_out: Sequence[str]) -> tuple[
 
 def _judged(
     selected: SelectedCauses, sure: Sureness, test: MotionRows | None, settings: MotionSettings
-) -> tuple[MotionVerdict, tuple[HeldOutTorque, ...]]:
+) -> tuple[MotionVerdict, tuple[HeldOutTorque, ...], tuple[float, ...]]:
     if test is None:
         parts = folds(selected)
         single = len(parts) == 1
@@ -200,7 +203,8 @@ def _judged(
     held_out = replace(measure(held, what), by_run=by_run)
     numbered = found_causes(selected, sure)
     found = [cause for _, cause in numbered]
-    steps = waterfall(selected, parts, [number for number, _ in numbered], [cause.title for cause in found])
+    order = [number for number, _ in numbered]
+    steps = waterfall(selected, parts, order, [cause.title for cause in found])
     left = unexplained(found)
     errors = HeldOutErrors(held_out.background, held_out.model, steps[-1].held_out)
     answer, mismatch = answer_of(found, left, errors)
@@ -223,7 +227,7 @@ def _judged(
         samples=0,
         runs=(),
     )
-    return verdict, held
+    return verdict, held, as_entered(selected, parts, order)
 
 
 def _that_others_tell(

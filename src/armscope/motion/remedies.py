@@ -59,8 +59,9 @@ def add_to_stated(fitted: Fitted) -> str:
 
 def each_direction(fitted: Fitted) -> str:
     """A coefficient for each direction."""
-    plus, minus = amount(fitted.first, sign=True), amount(_negative(fitted.first), sign=True)
-    return f"{fitted.in_general}: the joint's viscous friction {plus} forward, {minus} backward."
+    forward, backward = ("plus", "less") if fitted.first.value > 0 else ("less", "plus")
+    size = amount(fitted.first)
+    return f"{fitted.in_general}: the joint's viscous friction {forward} {size} forward, {backward} as much backward."
 
 
 def by_factor(fitted: Fitted) -> str:
@@ -103,7 +104,3 @@ def gravity_vector(fitted: Fitted) -> str:
     leans = np.array(columns.numbers).reshape(-1, 3)
     found = fitted.arm.model.gravity.linear + np.array([each.value for each in fitted.parameters]) @ leans
     return f"Set gravity_m_s2 to [{', '.join(f'{each:.3f}' for each in found)}], or level the base."
-
-
-def _negative(parameter: Parameter) -> Parameter:
-    return Parameter(parameter.name, parameter.unit, -parameter.value, parameter.stderr)

@@ -78,7 +78,7 @@ def _hours(scene: Scene, start: float) -> Array:
 
 def _rows(scene: Scene) -> Array:
     """Thousands of rows since the table's beginning."""
-    return scene.recordings.number / ROWS_PER_UNIT
+    return np.nan_to_num(scene.recordings.number / ROWS_PER_UNIT)
 
 
 def _after_time(scene: Scene, start: float, run: str, *later: str) -> Array:
@@ -87,8 +87,9 @@ def _after_time(scene: Scene, start: float, run: str, *later: str) -> Array:
 
 
 def _after_row(scene: Scene, first_row: float, run: str, *later: str) -> Array:
-    """From a row of a run on, and in later runs; counted as `Recordings.number` says."""
-    return np.where(_in_run(scene, run), scene.recordings.number >= first_row, _in_run(scene, *later))
+    """From a row of a run on, and in later runs, and now; counted as `Recordings.number` says."""
+    before = scene.recordings.number < first_row
+    return np.where(_in_run(scene, run), ~before, _in_run(scene, *later))
 
 
 def _in_run(scene: Scene, *runs: str) -> Array:
@@ -106,7 +107,7 @@ def _slow_wave(scene: Scene, waves: int, first: float, last: float) -> Array:
 
 def _slow_wave_of_rows(scene: Scene, waves: int, first: float, last: float) -> Array:
     """The same along the order of rows."""
-    return _half_waves(scene.recordings.number, waves, first, last)
+    return np.nan_to_num(_half_waves(scene.recordings.number, waves, first, last))
 
 
 def _half_waves(at: Array, waves: int, first: float, last: float) -> Array:

@@ -33,7 +33,8 @@ class Recordings:
         speed: (N, m) rad/s; torque: (N, m) N m; each or None.
         sigma: (N, 3) stated 1-sigma uncertainty per axis, m, or None.
         number: (N,) of each row in the order of the table as it was read: its id where ids are numbers that rise in
-            every run, else counted from 1.
+            every run, else counted from 1. NaN for a pose of now, after all that was recorded: what jumped at some
+            row has jumped, where a wander in the order of rows stands is not known.
         extra: the table's other columns, as read.
         notes: what a user should know about how the table was read.
         source: the file's name, for messages.
@@ -116,11 +117,11 @@ def _numbered(ids: NDArray[np.str_], runs: NDArray[np.str_]) -> Array:
 
 
 def unmeasured(motor_angles: Array, run: str = "") -> Recordings:
-    """Poses (N, m) rad without measurements, all of one run."""
+    """Poses (N, m) rad of now, without measurements, all of one run."""
     count = len(motor_angles)
-    none = np.full(count, "")
+    none, now = np.full(count, ""), np.full(count, np.nan)
     ids = np.arange(1, count + 1).astype(str)
-    return Recordings(motor_angles, np.full((count, 3), np.nan), np.full(count, run), none, ids)
+    return Recordings(motor_angles, np.full((count, 3), np.nan), np.full(count, run), none, ids, number=now)
 
 
 def read_recordings(path: Path | str, n_motors: int | None = None, measured: bool = True) -> Recordings:
@@ -129,7 +130,7 @@ def read_recordings(path: Path | str, n_motors: int | None = None, measured: boo
     Args:
         path: the file.
         n_motors: how many motor angles the arm has; None accepts as many as there are.
-        measured: whether positions must be present; False reads poses to be predicted.
+        measured: whether positions must be present; False reads poses to be predicted, of now where they have no ids.
 
     Returns:
         The rows in their order, SI units, with notes on what was passed over.
@@ -157,7 +158,7 @@ def as_recordings(
         table: every column as text or numbers.
         source: where it was read, for errors.
         n_motors: how many motor angles the arm has; None accepts as many as there are.
-        measured: whether positions must be present.
+        measured: whether positions must be present; without them, and without ids, the poses are of now.
 
     Returns:
         The rows in their order.
@@ -185,6 +186,7 @@ def as_recordings(
         speed=reader.optional([f"dq{j}_rad_s" for j in range(1, count + 1)], 1.0),
         torque=reader.optional([f"tau{j}_nm" for j in range(1, count + 1)], 1.0),
         sigma=reader.sigma(),
+        number=np.full(0 if measured or "id" in table else len(table), np.nan),
         source=str(source),
     )
     reader.check_duplicates(recordings.id)

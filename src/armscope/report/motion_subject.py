@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 
@@ -17,10 +18,19 @@ from armscope.robot.dynamics import MovingArm
 
 @dataclass(frozen=True, eq=False)
 class MotionSubject:
-    """A diagnosis of a motion, and the name of its table."""
+    """A diagnosis of a motion, and the names of its files.
+
+    Attributes:
+        found: the diagnosis.
+        source: the table's name.
+        robot: the arm's file, as the user named it.
+        folder: where the diagnosis is written, as the user named it.
+    """
 
     found: MotionDiagnosis
     source: str
+    robot: Path | str = "robot.yaml"
+    folder: Path | str = ""
 
     @property
     def verdict(self) -> MotionVerdict:
@@ -41,6 +51,11 @@ class MotionSubject:
     def minor(self) -> list[FoundCause]:
         """Those worth little."""
         return [cause for cause in self.verdict.effects if cause.minor]
+
+    @property
+    def masses_fitted(self) -> bool:
+        """Whether inertial parameters of links are part of what was fitted, beside the causes."""
+        return bool(len(np.intersect1d(self.found.selected.rows.layout.inertial, self.found.selected.best.columns)))
 
     @cached_property
     def held(self) -> HeldOutRows:

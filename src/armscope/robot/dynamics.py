@@ -165,6 +165,14 @@ def inertial_parameters(model: pin.Model) -> Array:
     return np.concatenate([model.inertias[joint].toDynamicParameters() for joint in range(1, model.njoints)])
 
 
+def leaning_gravity(down: Array) -> Array:
+    """(2, 3) m/s^2 by which gravity ``down`` (3,), not zero, changes per rad about each of two axes across it."""
+    level = np.linalg.svd(down[None] / np.linalg.norm(down))[2][1:]
+    if abs(down[2]) == np.linalg.norm(down):
+        level = np.eye(3)[:2]
+    return np.asarray(-np.cross(level, down))
+
+
 def load_moving_arm(path: Path | str) -> MovingArm:
     """The arm of a robot.yaml, for inverse dynamics.
 
@@ -215,12 +223,19 @@ def build_moving_arm(description: RobotDescription, source: Path | str = "robot.
         )
         if drives
         else np.full((actuation.shape[1], 4), np.nan),
-        attached=_attached(model),
+        attached=attached_bodies(model),
     )
 
 
-def _attached(model: pin.Model) -> tuple[tuple[str, Array], ...]:
-    """Bodies that fixed or locked joints hold to a moving link, each with what it carries."""
+def attached_bodies(model: pin.Model) -> tuple[tuple[str, Array], ...]:
+    """Bodies that fixed or locked joints hold to a moving link, each with what it carries.
+
+    Args:
+        model: of the chain.
+
+    Returns:
+        Name and (10 n,) inertial parameters, SI, in the frames of the links, of each.
+    """
     found: dict[bytes, tuple[str, Array]] = {}
     for number, frame in enumerate(model.frames):
         if frame.type not in (pin.FrameType.FIXED_JOINT, pin.FrameType.JOINT) or frame.parentJoint == 0:

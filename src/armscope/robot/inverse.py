@@ -91,6 +91,7 @@ def follow_path(
         start: (m,) rad, where the arm comes from; None takes the middle of the limits (0 where there are none).
         held: motors that keep an angle (rad), by their number from 1.
         largest_step: rad; a larger motion of any motor between neighbours is a jump (the way to the first is free).
+            Infinite: of points that need not be neighbours, each may have a branch of its own.
 
     Returns:
         Angles (N, m), rad, NaN where a row can't be reached, with the reason of each such row.
@@ -104,7 +105,7 @@ def follow_path(
     skipped, reached_any = 0, False
     for row, target in enumerate(targets):
         found = solver.nearest(target, q) if np.linalg.norm(target) <= arm.reach else None
-        if found is None and not reached_any:
+        if found is None and (not reached_any or np.isinf(largest_step)):
             found = _from_many_starts(arm, target[None], held, q)[0]
             found = None if np.isnan(found).any() else solver.nearest(target, found)
         if found is not None and reached_any and np.abs(found - q).max() > largest_step * (skipped + 1):
@@ -276,8 +277,8 @@ def _spread(arm: Arm, limits: Array) -> Array:
 
 
 def _middle(arm: Arm) -> Array:
-    middle: Array = np.where(np.isfinite(arm.limits).all(axis=1), np.nan_to_num(arm.limits.mean(axis=1)), 0.0)
-    return middle
+    limits = np.where(np.isfinite(arm.limits).all(axis=1, keepdims=True), arm.limits, 0.0)
+    return np.asarray(limits.mean(axis=1))
 
 
 def _with_held(q: Array, held: Mapping[int, float]) -> Array:

@@ -13,7 +13,7 @@ import numpy as np
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.robot import Arm
-from armscope.robot.dynamics import inertial_parameters, torque_regressor
+from armscope.robot.dynamics import attached_bodies, inertial_parameters, leaning_gravity, torque_regressor
 
 LINK_NAMES = ("mass", "m x", "m y", "m z", "I xx", "I xy", "I yy", "I xz", "I yz", "I zz")
 JOINT_NAMES = ("offset", "Coulomb", "viscous", "rotor inertia")
@@ -85,14 +85,16 @@ def cause_columns(arm: Arm, motion: Motion, links: Array, effect: str, location:
         location: its place.
 
     Returns:
-        (N, m, k) torques; None if the cause is not known here.
+        (N, m, k) torques; None of a cause without a law by which a motion could be planned.
     """
     where = Location.of(location)
-    if where.kind == "link" and effect in LINK_SLICES:
-        block = 10 * where.index + np.array(LINK_SLICES[effect])
-        return links[:, :, block]
-    if where.kind == "payload":
-        return links[:, :, -10:-6]
+    masses = _of_masses(arm, effect, where)
+    if masses is not None:
+        return links @ masses
+    if effect == "gravity_direction":
+        return _leaning(arm, motion)
+    if (effect, location) == ("motor_constant", "every joint"):
+        return (links @ inertial_parameters(arm.model))[:, :, None]
     if where.kind != "joint" or where.source:
         return None
     patterns = _joint_patterns(motion, links @ inertial_parameters(arm.model), where.index)
@@ -103,8 +105,38 @@ def cause_columns(arm: Arm, motion: Motion, links: Array, effect: str, location:
     return found
 
 
-LINK_SLICES = {"link_mass": range(4), "link_first_moment": range(1, 4), "link_inertia": range(4, 10)}
-"""Parameters of a link that a cause moves; a heavier link moves its first moments with it."""
+LINK_SLICES = {"link_first_moment": range(1, 4), "link_inertia": range(4, 10)}
+"""Parameters of a link that a cause moves."""
+
+
+def _of_masses(arm: Arm, effect: str, where: Location) -> Array | None:
+    """(10 n, k) inertial parameters that a cause is made of, as the diagnosis has it; None of other causes."""
+    stated = inertial_parameters(arm.model)
+    identity = np.eye(len(stated))
+    if where.kind == "payload":
+        return identity[:, -10:-6]
+    if effect == "attached_body":
+        body = dict(attached_bodies(arm.model)).get(where.kind)
+        return None if body is None else body[:, None]
+    if where.kind != "link" or where.index >= arm.n_joints:
+        return None
+    own = 10 * where.index + np.arange(10)
+    if effect == "link_mass":  # heavier with its centre where it was
+        return identity[:, own] @ stated[own, None] / stated[own[0]] if stated[own[0]] > 0 else identity[:, own[:4]]
+    return identity[:, own[LINK_SLICES[effect]]] if effect in LINK_SLICES else None
+
+
+def _leaning(arm: Arm, motion: Motion) -> Array | None:
+    """(N, m, 2) torque per rad that the base leans, about two axes; None where gravity does not pull."""
+    down, still = arm.model.gravity.linear, np.zeros_like(motion.angle)
+    if not np.any(down):
+        return None
+    model, torques = arm.model.copy(), []
+    for lean in leaning_gravity(down):
+        model.gravity.linear = lean
+        columns = torque_regressor(model, arm.actuation, (motion.angle, still, still))
+        torques.append(columns @ inertial_parameters(arm.model))
+    return np.stack(torques, axis=2)
 
 
 def _joint_patterns(motion: Motion, rigid: Array, j: int) -> dict[str, Array]:

@@ -124,7 +124,8 @@ def motion_score(arm: Arm, shown: Showable, motion: Motion, pairs: tuple[Pair, .
 def separation(arm: Arm, shown: Showable, motion: Motion, pair: Pair) -> float:
     """The share of the smaller-looking cause's torque that the other, with offset and friction, can't imitate.
 
-    Each direction of the first cause counts by its RMS torque; the share is the least of both ways round.
+    Each direction of the first cause counts by its RMS torque; the share is the least of both ways round. A cause that
+    is a special case of the other is told from it by what the other has beyond it.
 
     Args:
         arm: the arm.
@@ -136,7 +137,7 @@ def separation(arm: Arm, shown: Showable, motion: Motion, pair: Pair) -> float:
         The share, 0 ... 1.
 
     Raises:
-        InputError: a cause that is not known here.
+        InputError: a cause without a law by which a motion could be planned.
     """
     links = link_columns(arm, motion)
     one, other = (_pattern(arm, motion, links, cause) * shown.weight[:, None] for cause in pair)
@@ -145,12 +146,18 @@ def separation(arm: Arm, shown: Showable, motion: Motion, pair: Pair) -> float:
     kept = [k for k in range(free.shape[2]) if k % 4 != 0 and (k // 4, k % 4) not in own]
     background = free[:, :, kept].reshape(-1, len(kept))
     flat = [each.reshape(-1, each.shape[2]) for each in (one, other)]
-    ways = ((flat[0], flat[1]), (flat[1], flat[0]))
-    return min(_not_imitated(target, np.hstack([rival, background])) for target, rival in ways)
+    ways = [(k, 1 - k) for k in (0, 1) if not _special_case(pair[k], pair[1 - k])]
+    return min(_not_imitated(flat[target], np.hstack([flat[rival], background])) for target, rival in ways)
 
 
 BACKGROUND_OF = {"torque_offset": 0, "coulomb_friction": 1, "viscous_friction": 2, "rotor_inertia": 3}
 """Causes that are themselves what is fitted at every joint: number in `JOINT_NAMES`."""
+SPECIAL_CASES = {"torque_offset": ("gravity_balance", "cable_torque"), "gravity_balance": ("cable_torque",)}
+"""Causes that others at the same joint hold: a constant, a line over the angle, a curve over the angle."""
+
+
+def _special_case(cause: tuple[str, str], other: tuple[str, str]) -> bool:
+    return cause[1] == other[1] and other[0] in SPECIAL_CASES.get(cause[0], ())
 
 
 def _pattern(arm: Arm, motion: Motion, links: Array, cause: tuple[str, str]) -> Array:
@@ -160,9 +167,22 @@ def _pattern(arm: Arm, motion: Motion, links: Array, cause: tuple[str, str]) -> 
     return found
 
 
-def told_apart(
-    arm: Arm, shown: Showable, limits: Limits, pairs: tuple[Pair, ...], rng: np.random.Generator
-) -> tuple[tuple[Pair, ...], tuple[Pair, ...]]:
+@dataclass(frozen=True)
+class Sorted:
+    """Pairs of causes by what a motion can do for them.
+
+    Attributes:
+        apart: those that some motion tells apart.
+        alike: those that no motion tells apart.
+        lawless: those of which a cause has no law, such as a free curve, so that no motion can be planned for them.
+    """
+
+    apart: tuple[Pair, ...]
+    alike: tuple[Pair, ...]
+    lawless: tuple[Pair, ...]
+
+
+def told_apart(arm: Arm, shown: Showable, limits: Limits, pairs: tuple[Pair, ...], rng: np.random.Generator) -> Sorted:
     """Pairs that some motion tells apart, and those that none does, by random states within the limits.
 
     Args:
@@ -173,17 +193,19 @@ def told_apart(
         rng: of the states.
 
     Returns:
-        The two kinds of pairs.
+        The three kinds of pairs.
     """
     low, high = limits.angle.T
     shape = (REFERENCE_SAMPLES, len(low))
     speed, acceleration = (rng.uniform(-most, most, shape) for most in (limits.speed, limits.acceleration))
     states = Motion(rng.uniform(low, high, shape), speed, acceleration, 1.0)
-    apart = [separation(arm, shown, states, pair) > SAME for pair in pairs]
-    return (
-        tuple(pair for pair, can in zip(pairs, apart, strict=True) if can),
-        tuple(pair for pair, can in zip(pairs, apart, strict=True) if not can),
-    )
+    links = link_columns(arm, states)
+    causes = {cause for pair in pairs for cause in pair}
+    known = {cause for cause in causes if cause_columns(arm, states, links, *cause) is not None}
+    lawful = tuple(pair for pair in pairs if known.issuperset(pair))
+    apart = tuple(pair for pair in lawful if separation(arm, shown, states, pair) > SAME)
+    alike = tuple(pair for pair in lawful if pair not in apart)
+    return Sorted(apart, alike, tuple(pair for pair in pairs if pair not in lawful))
 
 
 def _not_imitated(target: Array, rivals: Array) -> float:

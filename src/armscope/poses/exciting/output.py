@@ -16,6 +16,7 @@ from armscope.poses.exciting.columns import Motion, all_columns, stated_friction
 from armscope.poses.exciting.criterion import MotionScore, Pair
 from armscope.poses.exciting.search import Excitation
 from armscope.robot.dynamics import inertial_parameters
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
 
 def trajectory_table(found: Excitation, rate: float) -> pd.DataFrame:
@@ -56,6 +57,7 @@ def _content(found: Excitation) -> dict[str, Any]:
         "robot": found.arm.name,
         "separates": [_words(pair) for pair in found.pairs] or "everything: all base parameters",
         "no_motion_separates": [_words(pair) for pair in found.inseparable],
+        "not_planned_for": [_words(pair) for pair in found.lawless],
         "random_motion": _score(found.before),
         "this_motion": _score(found.after),
         "base_parameters": len(found.shown.base),
@@ -95,6 +97,12 @@ def collisions_in_words(found: Excitation) -> str:
     return f"links as capsules of {found.around.radius_of(found.arm) * 1e3:.0f} mm radius, {floor}"
 
 
+def _too_close(alternative: object) -> bool:
+    """Whether the motions hardly tell an alternative from its cause; so it is taken where a verdict does not say."""
+    nats = alternative.get("discriminability_nats") if isinstance(alternative, dict) else None
+    return not isinstance(nats, int | float) or nats < INDISTINGUISHABLE_NATS
+
+
 def _cause(content: object, verdict: Path, place: str) -> tuple[str, str]:
     """Name and place of a cause of a verdict.
 
@@ -109,7 +117,9 @@ def _cause(content: object, verdict: Path, place: str) -> tuple[str, str]:
 
 
 def pairs_of(verdict: Path) -> tuple[Pair, ...]:
-    """The causes that a verdict on a motion could not tell apart: each with each of its alternatives.
+    """The causes that a verdict on a motion could not tell apart, each with its alternative.
+
+    Where it told all of them, what it told: each cause with each of its alternatives.
 
     Raises:
         InputError: it is no verdict, or nothing in it has an alternative.
@@ -117,15 +127,17 @@ def pairs_of(verdict: Path) -> tuple[Pair, ...]:
     content = read_json(verdict, "verdict.json of a diagnosis of a motion")
     if not isinstance(content, dict) or not isinstance(content.get("effects"), list):
         raise InputError(verdict, "", "no list of effects", "verdict.json of a diagnosis of a motion is needed here")
-    pairs = []
+    pairs: list[Pair] = []
+    close: list[Pair] = []
     for number, effect in enumerate(content["effects"]):
         own = _cause(effect, verdict, f"effects[{number}]")
         others = effect.get("alternatives") or []
         if not isinstance(others, list):
             raise InputError(verdict, f"effects[{number}].alternatives", others, "a list of causes stands here")
-        places = (f"effects[{number}].alternatives[{n}]" for n in range(len(others)))
-        pairs += [(own, _cause(other, verdict, place)) for other, place in zip(others, places, strict=True)]
+        for n, other in enumerate(others):
+            pairs.append((own, _cause(other, verdict, f"effects[{number}].alternatives[{n}]")))
+            close += pairs[-1:] if _too_close(other) else []
     if not pairs:
         rule = "no cause in it has an alternative, so there is nothing to separate"
         raise InputError(verdict, "effects", "no alternatives", rule, "Leave --separate out: everything shall show.")
-    return tuple(dict.fromkeys(pairs))
+    return tuple(dict.fromkeys(close or pairs))

@@ -11,7 +11,14 @@ from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.design.fourier import FourierPath, random_path
 from armscope.poses.exciting.columns import Motion, all_columns, stated_friction
-from armscope.poses.exciting.criterion import MotionScore, Pair, Showable, motion_score, shown_at_all, told_apart
+from armscope.poses.exciting.criterion import (
+    MotionScore,
+    Pair,
+    Showable,
+    motion_score,
+    shown_at_all,
+    told_apart,
+)
 from armscope.poses.exciting.limits import MotionLimits, limits_of
 from armscope.poses.obstacles import Surroundings, refusals
 from armscope.robot import Arm
@@ -39,6 +46,7 @@ class Excitation:
         after: its own score.
         pairs: what it tells apart; empty: everything.
         inseparable: pairs that were asked for and that no motion tells apart.
+        lawless: pairs that were asked for, of which a cause has no law to plan a motion by.
         torque: (m,) largest torque of the stated model along it, N m.
         tried: motions that were looked at; `refused`: of them beyond torque limits or in collision.
     """
@@ -52,6 +60,7 @@ class Excitation:
     after: MotionScore
     pairs: tuple[Pair, ...]
     inseparable: tuple[Pair, ...]
+    lawless: tuple[Pair, ...]
     torque: Array
     tried: int
     refused: int
@@ -83,13 +92,13 @@ def excite(
         The motion, with its score beside that of random ones.
 
     Raises:
-        InputError: no masses; a cause that is not known; no motion is possible.
+        InputError: no masses; no motion is possible.
     """
     rng = np.random.default_rng(wanted.seed)
     limits = limits_of(arm)
     shown = shown_at_all(arm, limits.path, rng)
-    pairs, inseparable = told_apart(arm, shown, limits.path, wanted.pairs, rng)
-    search = _Search(arm, limits, around, shown, replace(wanted, pairs=pairs))
+    asked = told_apart(arm, shown, limits.path, wanted.pairs, rng)
+    search = _Search(arm, limits, around, shown, replace(wanted, pairs=asked.apart))
     found = [path for path in (search.allowed(_draw(limits, wanted, rng)) for _ in range(STARTS)) if path is not None]
     if not found:
         rule = "none of the random motions keeps clear of the floor, of the arm itself and of its torque limits"
@@ -97,8 +106,9 @@ def excite(
     path, before, best = _bettered(search, found, rng, progress)
     torque = np.abs(search.torques(path)).max(axis=0)
     return Excitation(
-        arm, limits, around, path, shown, before, best, pairs, inseparable, torque, search.tried, search.refused
-    )
+        arm, limits, around, path, shown, before, best, asked.apart, asked.alike, asked.lawless, torque,
+        search.tried, search.refused,
+    )  # fmt: skip
 
 
 def _bettered(

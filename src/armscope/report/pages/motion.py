@@ -23,18 +23,21 @@ QUIET = ("table", "joint stands", "uneven time")
 """Kinds of notices that lie folded."""
 
 
-def write_motion_report(found: MotionDiagnosis, source: str, folder: Path | str) -> Path:
+def write_motion_report(
+    found: MotionDiagnosis, source: str, folder: Path | str, robot: Path | str = "robot.yaml"
+) -> Path:
     """Write ``report.html``, ``work-order.html`` and ``figures/*.svg`` of a diagnosis of a motion.
 
     Args:
         found: the diagnosis.
         source: the table's name.
         folder: where the page goes.
+        robot: the arm's file, as the user named it.
 
     Returns:
         The page's path.
     """
-    folder, subject = Path(folder), MotionSubject(found, source)
+    subject, folder = MotionSubject(found, source, robot, folder), Path(folder)
     sections = write_sections(MOTION_SECTIONS, subject, "motion", folder)
     verdict = found.verdict
     causes, _, rest = verdict.headline.partition(". ")

@@ -31,6 +31,7 @@ KNOT = "knot "
 SEEN = 0.005
 """Share from which what no cause explains has a line of its own."""
 BY_VALUES = "found by trying values"
+NOT_SEEN = "not seen"
 
 
 @dataclass(frozen=True)
@@ -166,12 +167,40 @@ def friction_table(subject: MotionSubject) -> dict[str, Any]:
     names = ("offset", "coulomb", "viscous", "inertia")
     joints = subject.verdict.background
     below = [joint.joint for joint in joints if _below_zero(joint)]
-    return {"joints": [(each, _told(each, names)) for each in joints], "below_zero": below, "n": len(joints)}
+    told = [(each, _told(each, names)) for each in joints]
+    said = {each for _, row in told for each in row}
+    return {
+        "joints": told,
+        "below_zero": below,
+        "not_seen": NOT_SEEN in said,
+        "entered_as_0": any(each.startswith("0 (") for each in said),
+        "n": len(joints),
+    }
 
 
 def _told(joint: JointBackground, names: tuple[str, ...]) -> list[str]:
-    known = {each.name: f"{'−' if each.value < 0 else ''}{amount(each)}" for each in joint.parameters}
+    known = {each.name: value_to_enter(each) for each in joint.parameters}
     return [known.get(name, "–") for name in names]
+
+
+def value_to_enter(parameter: Parameter) -> str:
+    """Friction, a rotor or an offset of a joint, as a value that can be entered into a model.
+
+    Friction and rotors are not below zero: what comes out so within its error was not seen. Friction further below
+    holds something else, and 0 is entered; a rotor further below takes away from what the joint moves.
+
+    Args:
+        parameter: of a joint's background.
+
+    Returns:
+        Its value, or that there is none to enter.
+    """
+    signed_amount = f"{'−' if parameter.value < 0 else ''}{amount(parameter)}"
+    if parameter.name == "offset" or parameter.value >= 0:
+        return signed_amount
+    if not parameter.interval[1] < 0:  # also where its error is not known
+        return NOT_SEEN
+    return signed_amount if parameter.name == "inertia" else f"0 (fitted {signed_amount})"
 
 
 def _below_zero(joint: JointBackground) -> bool:

@@ -3,12 +3,20 @@
 from __future__ import annotations
 
 import math
+import shlex
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
+from armscope.motion.catalogue import cause_named
+from armscope.motion.export import URDF
+from armscope.motion.verdict import FoundCause
 from armscope.report.html import significant
 from armscope.report.motion_subject import MotionSubject
 from armscope.report.sections.motion import friction_table, motion_card
+
+IN_FULL = 3
+"""Causes whose steps are told in full, as many as the headline tells; the others stand in a line each: one page."""
 
 
 @dataclass(frozen=True)
@@ -33,22 +41,50 @@ def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
         Tasks of the causes, largest share first; those worth little in a word each; friction and rotors of the joints.
     """
     verdict = subject.verdict
-    after = {step.label: step.held_out for step in verdict.waterfall}
+    background, *after = subject.found.entered
+    expected_after = {cause.title: error for cause, error in zip(verdict.effects, after, strict=True)}
+    masses = masses_matter(subject)
     tasks = []
     for number, cause in enumerate(subject.main, start=1):
         card = motion_card(cause, number)
         rivals = tuple(other.name for other in card.alternatives if other.too_close)
-        expected = error_in_words(after.get(cause.title, math.nan))
-        tasks.append(MotionTask(card.said, card.doubt, rivals, card.confirm, card.cure, expected))
+        expected = error_in_words(expected_after[cause.title])
+        cure = f"{card.cure} {_masses_too(cause)}" if masses and number == 1 else card.cure
+        tasks.append(MotionTask(card.said, card.doubt, rivals, card.confirm, cure, expected))
     held_out = verdict.held_out
     return {
-        "tasks": tasks,
+        "tasks": tasks[:IN_FULL],
+        "more": tasks[IN_FULL:],
+        "separate": separating_command(subject) if any(task.rivals for task in tasks) else "",
+        "masses": masses,
         "minor": [cause.title for cause in subject.minor],
         "now": error_in_words(held_out.stated),
-        "background": error_in_words(held_out.background),
+        "background": error_in_words(background),
         "model": error_in_words(held_out.model),
         **friction_table(subject),
     }
+
+
+def masses_matter(subject: MotionSubject) -> bool:
+    """Whether the promised errors hold only with masses as fitted: these alone change what can be read of the error."""
+    if not subject.masses_fitted:
+        return False
+    before, with_masses = (step.held_out for step in subject.verdict.waterfall[:2])
+    return error_in_words(before) != error_in_words(with_masses)
+
+
+def _masses_too(cause: FoundCause) -> str:
+    known = cause_named(cause.effect)
+    there = " (where this is done already)" if known and known.in_bodies and " in run " not in cause.title else ""
+    return f"Take the links' masses and inertias from {URDF}{there}: they were fitted along."
+
+
+def separating_command(subject: MotionSubject) -> str:
+    """The command that plans a motion for what these motions hardly tell apart; none for joints that slide."""
+    if subject.arm.sliding.any():
+        return ""
+    verdict = Path(subject.folder) / "verdict.json"
+    return f"armscope excite {shlex.quote(str(subject.robot))} --separate {shlex.quote(str(verdict))}"
 
 
 def error_in_words(share: float) -> str:
