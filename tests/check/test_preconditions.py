@@ -9,5 +9,5 @@ from tests.diagnosis.planted import planted
 
 def test_a_table_without_rows_is_one_clear_error() -> None:
     arm, table = planted("six-axis", {}, 10, 0.02, seed=1)
-    with pytest.raises(InputError, match="0 rows.*four poses"):
+    with pytest.raises(InputError, match=r"0 rows.*four poses"):
         check_table(arm, table.rows(slice(0)))
