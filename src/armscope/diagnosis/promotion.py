@@ -54,14 +54,13 @@ def _promoted(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
     fitted: as large as they come, not held small by the background.
     """
     unnamed = list(_unnamed(problem, hypothesis))
-    left = _left_by_free_backgrounds(problem, hypothesis)
+    left, beside = _left_by_free_backgrounds(problem, hypothesis), _left_by_names(problem, hypothesis)
     drives = [number for number in unnamed if problem.space.candidates[number].kind == DRIVE]
     added = [
         number
         for number in unnamed
         if number not in drives
-        and _size(problem, hypothesis, number)
-        > NAMING.stands_out * (problem.mismatch if problem.is_free(number) else left)
+        and _size(problem, hypothesis, number) > NAMING.stands_out * (beside if problem.is_free(number) else left)
         and _lost(problem, hypothesis, number) > NAMING.stands_out_nats
         and _beyond_family(problem, hypothesis, number) > NAMING.beyond_family
     ]
@@ -123,6 +122,11 @@ def _left_by_free_backgrounds(problem: Problem, hypothesis: Hypothesis) -> float
     return evaluate(problem, (), background, problem.mismatch).noise
 
 
+def _left_by_names(problem: Problem, hypothesis: Hypothesis) -> float:
+    """RMS, mm, of what the names by themselves leave: geometry is measured by it, lest one cause hide another."""
+    return evaluate(problem, hypothesis.chosen, problem.space.no_background, problem.mismatch).noise
+
+
 def _beyond_family(problem: Problem, hypothesis: Hypothesis, number: int) -> float:
     """How many times larger a candidate's largest value is than the usual one of the rest of its family.
 
@@ -144,16 +148,22 @@ def _beyond_family(problem: Problem, hypothesis: Hypothesis, number: int) -> flo
 
 
 def _unnamed(problem: Problem, hypothesis: Hypothesis) -> Iterator[int]:
-    """Candidates whose columns a background holds, none of which has a name yet nor another form of it."""
+    """Candidates whose columns a background holds, none of which has a name yet nor another form of it.
+
+    A curve has no name for its constant or its slope: where every arm has such a value, it may stand out beside it.
+    """
     space = problem.space
     named = [space.candidates[c.candidate] for c in hypothesis.chosen]
-    taken = {column for candidate in named for column in candidate.columns}
+    taken = {column for candidate in named if not candidate.is_curve for column in candidate.columns}
+    curved = {column for candidate in named if candidate.is_curve for column in candidate.columns}
     taken_keys = {candidate.key for candidate in named}
     for family, size in zip(space.families, hypothesis.background, strict=True):
         inside = set(family.columns) if size else set()
         for number, candidate in enumerate(space.candidates):
             columns = set(candidate.columns)
-            if columns <= inside and not taken & columns and candidate.key not in taken_keys:
+            if not columns <= inside or taken & columns or candidate.key in taken_keys:
+                continue
+            if problem.is_free(number) or not curved & columns:
                 yield number
 
 
