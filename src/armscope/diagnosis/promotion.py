@@ -148,22 +148,16 @@ def _beyond_family(problem: Problem, hypothesis: Hypothesis, number: int) -> flo
 
 
 def _unnamed(problem: Problem, hypothesis: Hypothesis) -> Iterator[int]:
-    """Candidates whose columns a background holds, none of which has a name yet nor another form of it.
-
-    A curve has no name for its constant or its slope: where every arm has such a value, it may stand out beside it.
-    """
+    """Candidates whose columns a background holds, none of which has a name yet nor another form of it."""
     space = problem.space
     named = [space.candidates[c.candidate] for c in hypothesis.chosen]
-    taken = {column for candidate in named if not candidate.is_curve for column in candidate.columns}
-    curved = {column for candidate in named if candidate.is_curve for column in candidate.columns}
+    taken = {column for candidate in named for column in candidate.columns}
     taken_keys = {candidate.key for candidate in named}
     for family, size in zip(space.families, hypothesis.background, strict=True):
         inside = set(family.columns) if size else set()
         for number, candidate in enumerate(space.candidates):
             columns = set(candidate.columns)
-            if not columns <= inside or taken & columns or candidate.key in taken_keys:
-                continue
-            if problem.is_free(number) or not curved & columns:
+            if columns <= inside and not taken & columns and candidate.key not in taken_keys:
                 yield number
 
 
