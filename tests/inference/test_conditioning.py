@@ -54,7 +54,7 @@ def test_a_removal_is_what_is_weighed_without_it(setting: Problem, background: B
     assert smaller is not None
     assert smaller.log_posterior == pytest.approx(anew.log_posterior, abs=1e-6)
     assert smaller.rss == pytest.approx(anew.rss, rel=1e-9)
-    groups = group_candidates(setting.space)
+    groups = group_candidates(setting)
     told = smaller.conditioned(condition_on(setting, groups.competing, hypothesis))
     expected = condition_on(setting, groups.competing, anew)
     np.testing.assert_allclose(told.b, expected.b, atol=1e-7 * np.abs(setting.equations.b).max())
@@ -94,7 +94,7 @@ def test_what_needs_further_columns_must_be_weighed(setting: Problem) -> None:
 
 
 def test_only_what_is_asked_is_answered(setting: Problem) -> None:
-    hypothesis, groups = whole(setting, (2, 0, 0, 0)), group_candidates(setting.space)
+    hypothesis, groups = whole(setting, (2, 0, 0, 0)), group_candidates(setting)
     asked = np.arange(len(setting.prior_costs)) % 3 == 0
     everything = addition_scores(setting, groups, hypothesis)
     some = addition_scores(setting, groups, hypothesis, AskedAdditions(asked, len(asked), -np.inf))
@@ -105,7 +105,7 @@ def test_only_what_is_asked_is_answered(setting: Problem) -> None:
 def test_sets_of_many_columns_gain_the_same_by_factors_as_by_eigenvalues(
     setting: Problem, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    hypothesis, groups = whole(setting, (2, 0, 0, 0)), group_candidates(setting.space)
+    hypothesis, groups = whole(setting, (2, 0, 0, 0)), group_candidates(setting)
     assert max(columns.shape[1] for columns in groups.columns) > NUMERICS.many_columns
     by_factors = addition_scores(setting, groups, hypothesis)
     monkeypatch.setattr(linear_algebra, "NUMERICS", replace(NUMERICS, many_columns=1000))

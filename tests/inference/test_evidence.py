@@ -87,7 +87,7 @@ def test_evidence_is_the_density_of_the_data(
 def test_a_predicted_gain_is_the_gain(setting: tuple[Problem, np.ndarray, np.ndarray]) -> None:
     problem, *_ = setting
     parent = evaluate(problem, numbers(problem, ("joint_compliance", "joint 2")), PERFECT, 0.03)
-    gain, size = best_additions(problem, group_candidates(problem.space), parent)
+    gain, size = best_additions(problem, group_candidates(problem), parent)
     for candidate in (0, 9, 40, 70):
         child = evaluate(
             problem, (*parent.chosen, SelectedEffect(candidate, int(size[candidate]))), PERFECT, parent.noise

@@ -45,6 +45,8 @@ def check_table(arm: Arm, recordings: Recordings) -> Checked:
         InputError: the table doesn't fit the arm, or holds no usable rows.
     """
     recordings.check_motors(arm.name, arm.n_motors)
+    if not len(recordings):
+        raise InputError(recordings.source, "", "0 rows", "at least four poses are needed")
     notices: list[Notice] = []
     kept = np.isfinite(recordings.positions).all(axis=1)
     kept &= _told(_not_repeated(recordings), "repeated rows", "are exact copies of earlier rows", notices)

@@ -252,7 +252,11 @@ def as_json(content: Any) -> str:
 
 def write_yaml(path: Path | str, content: Any) -> None:
     """Write YAML in the order of ``content``."""
-    write_text(path, yaml.safe_dump(_plain(content), sort_keys=False, allow_unicode=True, width=120))
+    write_text(path, yaml.dump(_plain(content), Dumper=_DUMPER, sort_keys=False, allow_unicode=True, width=120))
+
+
+_DUMPER: Any = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
+"""The one in C where there is one: a model of many waves has thousands of lines."""
 
 
 def _plain(value: Any) -> Any:

@@ -10,24 +10,18 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from armscope.core.types import Array
 from armscope.diagnosis.constants import NAMING
+from armscope.diagnosis.curve_shapes import DRIVE, rest_of, straightened, with_main_shapes
 from armscope.diagnosis.model_space import EffectSpace
-from armscope.inference.conditioning import condition_on
 from armscope.inference.constants import PRIORS
 from armscope.inference.edits import Edits
 from armscope.inference.evidence import Hypothesis, evaluate, savage_dickey
-from armscope.inference.linear_algebra import profiled_loss, schur_complement
-from armscope.inference.model_space import Candidate
-from armscope.inference.normal_equations import as_response
+from armscope.inference.linear_algebra import profiled_loss
 from armscope.inference.problem import Problem, SelectedEffect
-from armscope.physics.elastic import JOINT_COMPLIANCE
-from armscope.physics.freeform import REST_OF_LOAD
 
 GIVES_NATS, GIVES = PRIORS.sure_nats, 0.1
 """A joint's drive in an elastic background is named at odds of 20 to 1, if it is worth this share of the RMS at all: of
 what gives way, drives do first and most."""
-DRIVE = JOINT_COMPLIANCE.name
 
 
 def named(edits: Edits, space: EffectSpace, hypothesis: Hypothesis) -> Hypothesis:
@@ -44,7 +38,8 @@ def named(edits: Edits, space: EffectSpace, hypothesis: Hypothesis) -> Hypothesi
         The hypothesis with those names.
     """
     while True:
-        promoted = _promoted(edits.problem, _with_main_shapes(edits, _straightened(edits.problem, space, hypothesis)))
+        told = with_main_shapes(edits, straightened(edits.problem, space, hypothesis))
+        promoted = _better_placed(edits, _promoted(edits.problem, told))
         weakest = edits.weakest(promoted)
         if weakest is None:
             return promoted
@@ -66,7 +61,7 @@ def _promoted(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
         for number in unnamed
         if number not in drives
         and _size(problem, hypothesis, number)
-        > NAMING.stands_out * (problem.mismatch if _is_free(problem, number) else left)
+        > NAMING.stands_out * (problem.mismatch if problem.is_free(number) else left)
         and _lost(problem, hypothesis, number) > NAMING.stands_out_nats
         and _beyond_family(problem, hypothesis, number) > NAMING.beyond_family
     ]
@@ -84,6 +79,33 @@ def _promoted(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
         added.remove(weakest)
 
 
+def _better_placed(edits: Edits, hypothesis: Hypothesis) -> Hypothesis:
+    """With what else gives way named instead of a drive, where it alone explains the rows better at odds of 20 to 1."""
+    for drive in [c for c in hypothesis.chosen if c.nested and edits.candidate(c.candidate).kind == DRIVE]:
+        if not edits.in_background(hypothesis, drive.candidate):
+            continue
+        instead = _instead(edits, hypothesis, drive.candidate)
+        if instead is not None:
+            others = tuple(c for c in hypothesis.chosen if c is not drive)
+            hypothesis = edits.evaluated((*others, instead), hypothesis)
+    return hypothesis
+
+
+def _instead(edits: Edits, hypothesis: Hypothesis, number: int) -> SelectedEffect | None:
+    """The member of a name's family that explains the rows better if it stands out and the name is held right."""
+    columns = edits.candidate(number).columns
+    family = next(f for f in edits.space.families if set(columns) <= set(f.columns))
+    members = {n for n in _unnamed(edits.problem, hypothesis) if set(edits.candidate(n).columns) <= set(family.columns)}
+    held = edits.holding(columns)
+    base = held.without(hypothesis, [number])
+    others = set(range(len(edits.space.candidates))) - members
+    for added in held.additions(base, 1, others):
+        other = held.unpaid(added)
+        if other.log_posterior > hypothesis.log_posterior + GIVES_NATS:
+            return other.chosen[-1]
+    return None
+
+
 def _with_names(problem: Problem, hypothesis: Hypothesis, names: Sequence[int], rms: Sequence[float]) -> Hypothesis:
     added = [SelectedEffect(n, problem.nearest_size(size), nested=True) for n, size in zip(names, rms, strict=True)]
     return evaluate(problem, (*hypothesis.chosen, *added), hypothesis.background, hypothesis.noise)
@@ -92,12 +114,6 @@ def _with_names(problem: Problem, hypothesis: Hypothesis, names: Sequence[int], 
 def _size(problem: Problem, hypothesis: Hypothesis, number: int) -> float:
     """RMS at the tool of a candidate's columns, one by one, mm."""
     return float(np.linalg.norm(hypothesis.means(problem.space.candidates[number].columns)))
-
-
-def _is_free(problem: Problem, number: int) -> bool:
-    """Whether a background that does not pay for being there holds a candidate: what every arm has anyway."""
-    columns = set(problem.space.candidates[number].columns)
-    return any(columns <= set(family.columns) for family in problem.space.families if not family.is_priced)
 
 
 def _left_by_free_backgrounds(problem: Problem, hypothesis: Hypothesis) -> float:
@@ -147,127 +163,6 @@ def _lost(problem: Problem, hypothesis: Hypothesis, number: int) -> float:
     if candidate.nonnegative and hypothesis.means(candidate.columns)[0] <= 0:
         return -np.inf
     return savage_dickey(hypothesis, candidate.columns)
-
-
-def _straightened(problem: Problem, space: EffectSpace, hypothesis: Hypothesis) -> Hypothesis:
-    """With curves of load that are lines for the most part told as compliances, and what is left of them as curves."""
-    stated = {c.location: n for n, c in enumerate(space.candidates) if c.kind == DRIVE and not c.variant}
-    rests = {c.location: n for n, c in enumerate(space.candidates) if c.variant == REST_OF_LOAD}
-    for curve in hypothesis.chosen:
-        candidate = space.candidates[curve.candidate]
-        if not candidate.is_curve or candidate.variant != "load" or candidate.location not in stated:
-            continue
-        straight, bent = _line(problem, space, hypothesis, curve.candidate)
-        if straight**2 < NAMING.line_share * (straight**2 + bent**2):
-            continue
-        others = tuple(c for c in hypothesis.chosen if c is not curve)
-        line = SelectedEffect(stated[candidate.location], problem.nearest_size(straight), nested=True)
-        rest = SelectedEffect(rests[candidate.location], problem.nearest_size(bent), nested=True)
-        hypothesis = evaluate(problem, (*others, line, rest), hypothesis.background, hypothesis.noise)
-    return hypothesis
-
-
-def _with_main_shapes(edits: Edits, hypothesis: Hypothesis) -> Hypothesis:
-    """With curves of a joint's own angle that are one line or wave for the most part told as that and a rest."""
-    problem = edits.problem
-    for curve in hypothesis.chosen:
-        candidate = edits.candidate(curve.candidate)
-        if not candidate.is_curve or not candidate.variant.startswith("angle"):
-            continue
-        # what every arm has anyway gets its name by standing out there
-        asked = [n for n in _within(problem, candidate) - hypothesis.candidates if not _is_free(problem, n)]
-        shapes = _shares_of_shapes(edits, hypothesis, curve, sorted(asked))
-        shape = max(shapes, key=lambda n: shapes[n][0], default=None)
-        if shape is None or shapes[shape][0] < NAMING.main_share:
-            continue
-        name = SelectedEffect(shape, problem.nearest_size(shapes[shape][1]), nested=True)
-        hypothesis = evaluate(problem, (*hypothesis.chosen, name), hypothesis.background, hypothesis.noise)
-    return hypothesis
-
-
-def _shares_of_shapes(
-    edits: Edits, hypothesis: Hypothesis, curve: SelectedEffect, shapes: Sequence[int]
-) -> dict[int, tuple[float, float]]:
-    """Share of a curve, of what only it explains, that each shape is; and the shape's RMS, mm.
-
-    Backgrounds of such shapes are left out: what they could explain is what is asked for.
-    """
-    own = edits.candidate(curve.candidate).columns
-    kept, found = edits.kept(hypothesis, [curve.candidate]), {}
-    for background, members in _by_background_without(edits, hypothesis, shapes).items():
-        columns = np.unique(np.concatenate([own, *(edits.candidate(n).columns for n in members)]))
-        without = edits.evaluated(kept, hypothesis, background)
-        M = condition_on(edits.problem, columns, without).own(edits.problem, np.arange(len(columns))[None])[0]
-        mean = np.zeros(len(columns))
-        mean[np.searchsorted(columns, own)] = hypothesis.means(own)
-        response = as_response(M, mean, edits.problem.n)
-        for n in members:
-            left = response.least_rss(np.searchsorted(columns, edits.candidate(n).columns))
-            main = max(response.yy - left, 0.0)
-            found[n] = (main / response.yy if response.yy > 0 else 0.0, float(np.sqrt(main / response.n)))
-    return found
-
-
-def _by_background_without(
-    edits: Edits, hypothesis: Hypothesis, shapes: Sequence[int]
-) -> dict[tuple[int, ...], list[int]]:
-    """Shapes by what remains of a hypothesis's background without the families that hold any of their columns."""
-    families = [(size, set(f.columns)) for size, f in zip(hypothesis.background, edits.space.families, strict=True)]
-    groups: dict[tuple[int, ...], list[int]] = {}
-    for n in shapes:
-        columns = set(edits.candidate(n).columns)
-        groups.setdefault(tuple(0 if held & columns else size for size, held in families), []).append(n)
-    return groups
-
-
-def _line(problem: Problem, space: EffectSpace, hypothesis: Hypothesis, curve: int) -> tuple[float, float]:
-    """RMS, mm, of a load curve's line beyond a constant (0 for a line against the load), and of what is left of it."""
-    columns = space.candidates[curve].columns
-    at = {term.name: n for n, term in enumerate(space.placed[curve].terms)}
-    mean = hypothesis.means(columns)
-    M = schur_complement(problem.equations.G, space.frames, columns)
-    shape = as_response(M, mean, problem.n)
-    constant = [at["offset"]] if "offset" in at else []
-    whole = shape.least_rss(np.array(constant, dtype=np.intp))
-    rest = shape.least_rss(np.array([*constant, at["compliance"]]))
-    straight = max(whole - rest, 0.0) if _along_load(M, mean, at["compliance"], constant) else 0.0
-    return float(np.sqrt(straight / problem.n)), float(np.sqrt(max(rest, 1e-12) / problem.n))
-
-
-def _along_load(M: Array, mean: Array, line: int, constant: Sequence[int]) -> bool:
-    """Whether a curve with products M of its columns rises along one of them, beyond a constant."""
-    along = M[line] @ mean
-    for n in constant:
-        if M[n, n] > 0:  # else the frames are the constant
-            along = along - M[line, n] / M[n, n] * (M[n] @ mean)
-    return bool(along > 0)
-
-
-def rest_of(problem: Problem, hypothesis: Hypothesis, line: int) -> list[int]:
-    """What is left, in a hypothesis, of the curve that a named line or wave was taken from.
-
-    Args:
-        problem: the sums, priors and costs.
-        hypothesis: that holds the line.
-        line: the candidate's number.
-
-    Returns:
-        Numbers of candidates.
-    """
-    candidates = problem.space.candidates
-    named = candidates[line]
-    nested = any(c.nested for c in hypothesis.chosen if c.candidate == line)
-    others = [(c, candidates[c]) for c in hypothesis.candidates if candidates[c].location == named.location]
-    if named.kind == DRIVE:
-        return [n for n, c in others if c.variant == REST_OF_LOAD]
-    return [
-        n for n, c in others if nested and c.is_curve and c.variant.startswith("angle") and line in _within(problem, c)
-    ]
-
-
-def _within(problem: Problem, curve: Candidate) -> frozenset[int]:
-    """The special cases of a curve, or of the coarser one that it refines."""
-    return (curve if curve.refines is None else problem.space.candidates[curve.refines]).special_cases
 
 
 def nested_log_odds(problem: Problem, hypothesis: Hypothesis, name: SelectedEffect) -> float:

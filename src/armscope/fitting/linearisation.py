@@ -180,8 +180,9 @@ def normal_equations_by_block(
         return sums
 
     order = np.argsort(blocks, kind="stable") if count > 1 and not table.keeps else None
-    whole = [_Sums.of(p) for _ in range(count)]
-    for part in table.each_part(model, of_part, order):
+    first, *others = table.each_part(model, of_part, order)
+    whole = [first.pop(block) if block in first else _Sums.of(p) for block in range(count)]
+    for part in others:
         for block, sums in part.items():
             whole[block].join(sums)
     back = column_order.back

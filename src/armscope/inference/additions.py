@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import functools
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +14,7 @@ from armscope.inference.conditioning import ConditionedColumns, LowRankUpdate, c
 from armscope.inference.constants import NUMERICS
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.linear_algebra import ColumnBlocks, profiled_gain, quadratic_and_logdet
-from armscope.inference.model_space import Candidate, ModelSpace, within
+from armscope.inference.model_space import Candidate, within
 from armscope.inference.problem import Problem, SelectedEffect
 
 
@@ -24,41 +25,54 @@ class CandidateGroups:
     One of fewer columns than its group is filled up with columns that may not move.
 
     Attributes:
+        problem: the normal equations and priors.
         competing: (q,) all their columns.
         members: (m,) candidates of each group, those of fewest columns first.
         columns: (m, c) where their columns stand in ``competing``.
-        prior_scales: (m, c) relative sizes, 0 for what fills up.
-        plausible: (m, c) sizes in the columns' own units that no coefficient is expected to exceed.
     """
 
+    problem: Problem
     competing: Indices
     members: tuple[Indices, ...]
     columns: tuple[Indices, ...]
-    prior_scales: tuple[Array, ...]
-    plausible: tuple[Array, ...]
 
-    def widths(self, problem: Problem) -> Iterator[Array]:
-        """(SIZES, m, c) prior standard deviations, mm, of each group."""
-        for columns, scales, plausible in zip(self.columns, self.prior_scales, self.plausible, strict=True):
-            expected = problem.sizes[:, None, None] * scales
-            yield within(expected, plausible, problem.scale[self.competing[columns]])
+    @functools.cached_property
+    def widths(self) -> tuple[Array, ...]:
+        """(SIZES, m, c) prior standard deviations, mm, of each group; 0 for what fills up."""
+        candidates = [[self.problem.space.candidates[n] for n in members] for members in self.members]
+        widths = []
+        for group, columns in zip(candidates, self.columns, strict=True):
+            room = columns.shape[1]
+            scales = np.array([_filled(c.prior_scale, room, 0.0) for c in group])
+            plausible = np.array([_filled(_plausible(c), room, np.inf) for c in group])
+            expected = self.problem.sizes[:, None, None] * scales
+            widths.append(within(expected, plausible, self.problem.scale[self.competing[columns]]))
+        return tuple(widths)
+
+    @functools.cached_property
+    def products(self) -> tuple[Array, ...]:
+        """(m, c, c) sums over rows within each candidate of each group."""
+        G, inside = self.problem.equations.G, [self.competing[columns] for columns in self.columns]
+        return tuple(G[columns[:, :, None], columns[:, None, :]] for columns in inside)
 
 
-def group_candidates(space: ModelSpace) -> CandidateGroups:
+def group_candidates(problem: Problem) -> CandidateGroups:
     """Candidates that compete, by about how many columns they have."""
     by_size: dict[int, list[int]] = {}
-    for number, candidate in enumerate(space.candidates):
+    candidates = problem.space.candidates
+    for number, candidate in enumerate(candidates):
         if candidate.competes:
             by_size.setdefault(_room(len(candidate.columns)), []).append(number)
-    groups = [(np.array(by_size[size]), [space.candidates[n] for n in by_size[size]], size) for size in sorted(by_size)]
-    columns = [np.array([_filled(c.columns, size, c.columns[0]) for c in group]) for _, group, size in groups]
+    columns = [
+        np.array([_filled(candidates[n].columns, size, candidates[n].columns[0]) for n in by_size[size]])
+        for size in sorted(by_size)
+    ]
     competing = np.unique(np.concatenate([each.ravel() for each in columns])) if columns else np.empty(0, dtype=np.intp)
     return CandidateGroups(
+        problem,
         competing,
-        tuple(members for members, _, _ in groups),
+        tuple(np.array(by_size[size]) for size in sorted(by_size)),
         tuple(np.searchsorted(competing, each) for each in columns),
-        tuple(np.array([_filled(c.prior_scale, size, 0.0) for c in group]) for _, group, size in groups),
-        tuple(np.array([_filled(_plausible(c), size, np.inf) for c in group]) for _, group, size in groups),
     )
 
 
@@ -139,12 +153,14 @@ def addition_scores(
         rest = condition_on(problem, groups.competing, hypothesis)
     by_size = np.full((len(problem.sizes), len(problem.prior_costs)), -np.inf)
     paid = problem.prior_costs + np.log(len(problem.sizes))
-    for members, columns, widths in zip(groups.members, groups.columns, groups.widths(problem), strict=True):
+    for members, columns, widths, products in zip(
+        groups.members, groups.columns, groups.widths, groups.products, strict=True
+    ):
         inside = np.arange(len(members)) if wanted is None else np.flatnonzero(wanted.asked[members])
         if not len(inside):
             continue
         columns, widths = columns[inside], widths[:, inside]
-        D, r = rest.own(problem, columns) / hypothesis.noise**2, rest.b[columns] / hypothesis.noise**2
+        D, r = rest.of(products[inside], columns) / hypothesis.noise**2, rest.b[columns] / hypothesis.noise**2
         if wanted is not None and columns.shape[1] > 1:
             # a gain grows with the prior's width; what it costs in volume is left out
             most = _likelier(problem, hypothesis, _widened(D, r, widths[-1:])[0])[0] - paid[members[inside]]

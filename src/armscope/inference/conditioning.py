@@ -40,8 +40,13 @@ class ConditionedColumns:
 
     def own(self, problem: Problem, at: Indices) -> Array:
         """(m, c, c) sums over rows within each of m sets (m, c) of the columns."""
-        columns, taken = self.columns[at], self.taken[at]
-        own = problem.equations.G[columns[:, :, None], columns[:, None, :]] - taken @ np.swapaxes(taken, 1, 2)
+        columns = self.columns[at]
+        return self.of(problem.equations.G[columns[:, :, None], columns[:, None, :]], at)
+
+    def of(self, products: Array, at: Indices) -> Array:
+        """The same where the sums (m, c, c) before anything was taken are known."""
+        taken = self.taken[at]
+        own = products - taken @ np.swapaxes(taken, 1, 2)
         if self.returned is not None:
             returned = self.returned[at]
             own += returned @ np.swapaxes(returned, 1, 2)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
-from typing import TypeVar
+from dataclasses import dataclass, field, replace
+from typing import Self, TypeVar
 
 import numpy as np
 
+from armscope.core.types import Indices
 from armscope.inference.additions import AskedAdditions, CandidateGroups, addition_scores
 from armscope.inference.conditioning import ConditionedColumns, LowRankUpdate, approximate_removal_loss, low_rank_update
 from armscope.inference.constants import BUDGET, PRIORS
@@ -62,6 +63,10 @@ class Edits:
         """
         return evaluate(self.problem, tuple(chosen), like.background if background is None else background, like.noise)
 
+    def holding(self, columns: Indices) -> Self:
+        """The same steps where no background holds some columns."""
+        return replace(self, problem=self.problem.holding(columns), resized={})
+
     def perfect(self) -> Hypothesis:
         """Nothing but frames and noise."""
         return self.start(self.space.no_background)
@@ -102,6 +107,11 @@ class Edits:
         gain, size = by_size.max(axis=0), by_size.argmax(axis=0)
         order = np.argsort(-gain)[:count]
         return [self._with(parent, SelectedEffect(int(c), int(size[c]))) for c in order if gain[c] > least]
+
+    def unpaid(self, hypothesis: Hypothesis) -> Hypothesis:
+        """The hypothesis where the last name is one of the many that nobody asked for: it pays nothing."""
+        *kept, last = hypothesis.chosen
+        return self.evaluated((*kept, replace(last, nested=True)), hypothesis)
 
     def _generalises(self, candidate: int, member: int) -> bool:
         """Whether a candidate is a free curve that contains a member."""

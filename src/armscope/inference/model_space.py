@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -118,6 +118,9 @@ class BackgroundFamily(Protocol):
     def label(self, size: int) -> float:
         """The size as a number: a share of what is stated."""
 
+    def without(self, columns: Indices) -> BackgroundFamily:
+        """The family without some columns, whichever of them it has."""
+
 
 @dataclass(frozen=True, eq=False)
 class ToleranceFamily:
@@ -159,6 +162,11 @@ class ToleranceFamily:
     def label(self, size: int) -> float:
         """Share of the tolerance."""
         return self.shares[size]
+
+    def without(self, columns: Indices) -> ToleranceFamily:
+        """The family without some columns, whichever of them it has."""
+        kept = ~np.isin(self.columns, columns)
+        return replace(self, columns=self.columns[kept], tolerance=self.tolerance[kept])
 
 
 def within(expected: Array, plausible: Array | None, scale: Array) -> Array:

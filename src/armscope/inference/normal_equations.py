@@ -20,15 +20,13 @@ class NormalEquations:
     yy: float
     n: float
 
-    def __add__(self, other: NormalEquations) -> NormalEquations:
-        return NormalEquations(self.G + other.G, self.b + other.b, self.yy + other.yy, self.n + other.n)
-
     def __sub__(self, other: NormalEquations) -> NormalEquations:
         return NormalEquations(self.G - other.G, self.b - other.b, self.yy - other.yy, self.n - other.n)
 
     def scaled(self, scale: Array) -> NormalEquations:
         """With column k divided by scale[k]."""
-        return NormalEquations(self.G / np.outer(scale, scale), self.b / scale, self.yy, self.n)
+        product = np.outer(scale, scale)
+        return NormalEquations(np.divide(self.G, product, out=product), self.b / scale, self.yy, self.n)
 
     def rss(self, coefficients: Array) -> float:
         """Residual sum of squares with these coefficients of all columns."""
@@ -44,21 +42,18 @@ class NormalEquations:
 
 def total(blocks: Sequence[NormalEquations]) -> NormalEquations:
     """The sum of blocks."""
-    whole = blocks[0]
-    for block in blocks[1:]:
-        whole = whole + block
-    return whole
+    return weighted_total(blocks, np.ones(len(blocks), dtype=np.intp))
 
 
 def weighted_total(blocks: Sequence[NormalEquations], times: Indices) -> NormalEquations:
     """The sum of blocks, each counted so many times."""
-    drawn = [int(k) for k in np.flatnonzero(times)]
-    return NormalEquations(
-        np.asarray(sum(times[k] * blocks[k].G for k in drawn)),
-        np.asarray(sum(times[k] * blocks[k].b for k in drawn)),
-        float(sum(times[k] * blocks[k].yy for k in drawn)),
-        float(sum(times[k] * blocks[k].n for k in drawn)),
-    )
+    drawn = [(blocks[int(k)], int(times[k])) for k in np.flatnonzero(times)]
+    G, b = np.zeros_like(blocks[0].G), np.zeros_like(blocks[0].b)
+    for block, often in drawn:
+        G += block.G if often == 1 else often * block.G
+        b += often * block.b
+    yy, n = sum(often * block.yy for block, often in drawn), sum(often * block.n for block, often in drawn)
+    return NormalEquations(G, b, float(yy), float(n))
 
 
 def column_scales(equations: NormalEquations, frames: Indices) -> Array:

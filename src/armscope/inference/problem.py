@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.inference.constants import PRIORS
 from armscope.inference.model_space import BackgroundSizes, ModelSpace, within
 from armscope.inference.normal_equations import NormalEquations, column_scales
@@ -61,6 +61,16 @@ class Problem:
     def with_equations(self, equations: NormalEquations) -> Problem:
         """The same problem on other rows; ``equations`` is unscaled."""
         return replace(self, equations=equations.scaled(self.scale))
+
+    def holding(self, columns: Indices) -> Problem:
+        """The same problem with some columns at zero in every background."""
+        families = tuple(family.without(columns) for family in self.space.families)
+        return replace(self, space=replace(self.space, families=families))
+
+    def is_free(self, candidate: int) -> bool:
+        """Whether a background that does not pay for being there holds a candidate: what every arm has anyway."""
+        columns = set(self.space.candidates[candidate].columns)
+        return any(columns <= set(family.columns) for family in self.space.families if not family.is_priced)
 
     def cost(self, candidate: int) -> float:
         """What a candidate of any one size pays, nats."""

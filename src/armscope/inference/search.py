@@ -36,7 +36,7 @@ class Search(Edits):
         Returns:
             The search.
         """
-        return cls(problem, group_candidates(problem.space), branches, beam=beam)
+        return cls(problem, group_candidates(problem), branches, beam=beam)
 
     def best(
         self,
@@ -84,8 +84,12 @@ class Search(Edits):
 
     def _local_search(self, hypothesis: Hypothesis) -> Hypothesis:
         """Sizes, backgrounds and neighbours until nothing betters the hypothesis."""
+        searched = None
         for _ in range(BUDGET.local_steps if len(hypothesis.columns) < BUDGET.large else BUDGET.local_steps_of_large):
             better = self.with_best_sizes(hypothesis)
+            if better is searched:  # none of its neighbours was better
+                break
+            searched = better
             better = max([better, *neighbours(self, better)], key=by_posterior)
             better = self.pruned(better)
             if better.log_posterior <= hypothesis.log_posterior + BUDGET.gain:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
-from tests.diagnosis.planted import one_run, recorded
+from tests.diagnosis.planted import one_run, planted, recorded
 from tests.physics.scenes import arm_named
 
 ROWS = 150
@@ -25,3 +25,17 @@ def test_growth_with_a_temperature_that_rises_with_time_may_be_a_drift(in_step: 
     (found,) = diagnose(arm, table, Settings(resamples=0, cross_validation=False)).effects
     assert (found.effect, found.location) == ("thermal_expansion", "link 1")
     assert (("base_drift", "base") in {(a.effect, a.location) for a in found.alternatives}) == in_step
+
+
+@pytest.mark.parametrize("seed", [3, 6])
+def test_what_got_its_name_out_of_a_background_has_rivals_too(seed: int) -> None:
+    """An upright first bearing and the second drive turn a seven-axis arm alike where loads are alike."""
+    rng = np.random.default_rng(seed)
+    give = {("joint_compliance", f"joint {j}"): [4e-7 * rng.uniform(0.5, 1.5)] for j in range(2, 7)}
+    give |= {("bearing_compliance", f"joint {j}"): [2e-7 * rng.uniform(0.5, 1.5)] for j in range(2, 6)}
+    give[("bearing_compliance", "joint 1")] = [2.4e-6]
+    arm, table = planted("seven-axis", give, 250, 0.025, seed)
+    largest = diagnose(arm, table, Settings(resamples=0, cross_validation=False)).effects[0]
+    told = {(largest.effect, largest.location), *((a.effect, a.location) for a in largest.alternatives)}
+    assert told >= {("bearing_compliance", "joint 1"), ("joint_compliance", "joint 2")}
+    assert largest.named_as != "effect"

@@ -9,6 +9,7 @@ import numpy as np
 from armscope.diagnosis.scans.constants import SCANS
 from armscope.diagnosis.scans.context import ScanContext, columns_of, scores_given
 from armscope.fitting.column_blocks import column_blocks
+from armscope.fitting.linearisation import LinearisedTable
 from armscope.inference.evidence import Hypothesis
 from armscope.physics.effect import Placed
 from armscope.physics.placing import moving_joints
@@ -29,7 +30,7 @@ def mesh_lines(context: ScanContext, given: Sequence[Hypothesis], most: int = ME
     count = len(context.recordings)
     rows = np.unique(np.linspace(0, count - 1, min(count, SCANS.scanned_rows)).astype(np.intp))
     columns, weights = columns_of(given), context.weights.take(rows, len(rows) / count)
-    table = context.recordings.rows(rows)
+    table = LinearisedTable(context.recordings.rows(rows), order=np.arange(len(rows)))
     for j in moving_joints(context.recordings):
         placed = [mesh(j, count) for count in MESH_COUNTS if count <= most]
         terms = [p.terms for p in placed]

@@ -8,12 +8,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from armscope.core.types import Array
 from armscope.diagnosis.constants import NAMING
+from armscope.diagnosis.curve_shapes import DRIVE, rest_of
 from armscope.diagnosis.earning import held_out_errors
-from armscope.diagnosis.promotion import DRIVE, named, rest_of
+from armscope.diagnosis.promotion import named
 from armscope.diagnosis.state import DiagnosisState
 from armscope.inference.confidence_set import confidence_set
-from armscope.inference.constants import BUDGET
+from armscope.inference.constants import BUDGET, PRIORS
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import Candidate
 from armscope.inference.normal_equations import weighted_total
@@ -28,6 +30,7 @@ class Rival(NamedTuple):
         gap: nats by which it falls short.
         candidate, hypothesis: what it is, and the hypothesis with it.
         near: whether its evidence is near enough for it to be listed whatever other rows say.
+        held: columns that are zero in it, though a background has them.
         excluded: whether rows that took no part exclude it.
     """
 
@@ -35,15 +38,17 @@ class Rival(NamedTuple):
     candidate: Candidate
     hypothesis: Hypothesis
     near: bool
+    held: tuple[int, ...] = ()
     excluded: bool | None = None
 
 
 def alternatives(search: Search, best: Hypothesis, number: int) -> list[Rival]:
     """What could replace one effect, nearest first, each name once.
 
-    None where a background holds the effect, too: without the name, the background explains the same. A line taken from
-    a curve of load is rivalled by what rivals the curve, and by what could stand beside the curve's rest; a curve of
-    another drive's load is told as its compliance.
+    What got its name out of a background is rivalled by what could be out of the ordinary instead, its own values held
+    right; what is in a background, too, pays as little for its name. A line taken from a curve of load is rivalled by
+    what rivals the curve, and by what could stand beside the curve's rest; a curve of another drive's load is told as
+    its compliance.
 
     Args:
         search: the finished one.
@@ -55,8 +60,6 @@ def alternatives(search: Search, best: Hypothesis, number: int) -> list[Rival]:
     """
     candidate, rest = search.candidate(number), rest_of(search.problem, best, number)
     explained_anyway = search.in_background(best, number)
-    if explained_anyway and not rest:
-        return []
     paid = _price_of_curve(search, candidate) if rest and candidate.kind == DRIVE else 0.0
     rivals = _in_place_of(search, best, number, rest, paid)
     if rest and not explained_anyway:
@@ -70,13 +73,19 @@ def alternatives(search: Search, best: Hypothesis, number: int) -> list[Rival]:
 def _in_place_of(search: Search, best: Hypothesis, number: int, rest: Sequence[int], paid: float) -> list[Rival]:
     """What could replace an effect together with the rest of its curve, or alone; ``paid``: the curve's price, nats."""
     candidate, found = search.candidate(number), []
+    held: tuple[int, ...] = ()
+    if search.in_background(best, number) and not rest:
+        held = tuple(int(column) for column in candidate.columns)
+        search = search.holding(candidate.columns)
     base = search.without(best, [number, *rest])
     taken = {search.candidate(c).key for c in best.candidates}
     lines = {c.location: c for c in search.space.candidates if c.kind == DRIVE and not c.variant}
     # what a coarse prediction puts far behind is not weighed
     lost = best.log_posterior - base.log_posterior
     least = lost - paid - NAMING.listed_nats_of_special_cases - NAMING.coarsely * max(lost, 0.0) - BUDGET.slack_nats
-    for other in search.additions(base, NAMING.looked_at, [number], least):
+    for added in search.additions(base, NAMING.looked_at, [number], least):
+        of_background = held and search.in_background(added, added.chosen[-1].candidate)
+        other = search.unpaid(added) if of_background else added
         rival, gap = search.candidate(other.chosen[-1].candidate), best.log_posterior - other.log_posterior - paid
         excluded = other.chosen[-1].candidate in candidate.excludes
         misfit = (other.rss - best.rss) / (2 * best.noise**2)
@@ -85,9 +94,11 @@ def _in_place_of(search: Search, best: Hypothesis, number: int, rest: Sequence[i
         asked = misfit < NAMING.listed_nats and gap <= NAMING.listed_nats_of_special_cases and not rival.is_curve
         if (rest and excluded) or rival.key in taken or not (near or asked):
             continue
+        if held and other.log_posterior < base.log_posterior + PRIORS.sure_nats:
+            continue  # it explains nothing of what the effect does
         if rest and rival.variant == "load" and rival.is_curve:
             rival = lines.get(rival.location, rival)
-        found.append(Rival(gap, rival, other, near))
+        found.append(Rival(gap, rival, other, near, held))
     return found
 
 
@@ -140,8 +151,7 @@ def judged_elsewhere(
     asked = {id(rival) for rival in nearest[: NAMING.asked_elsewhere]}
     rivals = {n: [rival for rival in some if rival.near or id(rival) in asked] for n, some in rivals.items()}
     every = [rival for some in rivals.values() for rival in some if id(rival) in asked]
-    readings = [(h.chosen, h.background) for h in (state.best, *(rival.hypothesis for rival in every))]
-    errors = held_out_errors(state.problem, state.blocks, readings, state.best.noise)
+    errors = _held_out_errors(state, every)
     judged, at = {}, 1
     for number, some in rivals.items():
         those = [rival for rival in some if id(rival) in asked]
@@ -153,11 +163,23 @@ def judged_elsewhere(
     return judged
 
 
+def _held_out_errors(state: DiagnosisState, rivals: Sequence[Rival]) -> Array:
+    """(blocks, 1 + rivals) mm^2 that the chosen hypothesis and its rivals leave of held-out blocks."""
+    every = [((), state.best), *((rival.held, rival.hypothesis) for rival in rivals)]
+    errors = np.zeros((len(state.blocks), len(every)))
+    for held in dict.fromkeys(held for held, _ in every):
+        those = [n for n, (columns, _) in enumerate(every) if columns == held]
+        readings = [(every[n][1].chosen, every[n][1].background) for n in those]
+        problem = state.problem.holding(np.array(held, dtype=np.intp))
+        errors[:, those] = held_out_errors(problem, state.blocks, readings, state.best.noise)
+    return errors
+
+
 def listed(found: Sequence[Rival], apart: Sequence[float]) -> tuple[Alternative, ...]:
     """Alternatives as a verdict lists them; ``apart``: the `discriminability` of each."""
     return tuple(
-        Alternative(c.kind, c.location, c.family, float(gap), c.driver, float(nats), excluded)
-        for (gap, c, _, _, excluded), nats in zip(found, apart, strict=True)
+        Alternative(c.kind, c.location, c.family, float(rival.gap), c.driver, float(nats), rival.excluded)
+        for rival, c, nats in zip(found, (rival.candidate for rival in found), apart, strict=True)
     )
 
 

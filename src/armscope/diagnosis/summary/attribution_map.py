@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from armscope.core.location import Location
 from armscope.core.sampling import spread_evenly
 from armscope.diagnosis.summary.constants import TELLING
 from armscope.fitting.column_blocks import column_blocks
-from armscope.fitting.linearisation import normal_equations_by_block
+from armscope.fitting.linearisation import LinearisedTable, normal_equations_by_block
 from armscope.fitting.parameter_layout import ParameterLayout
 from armscope.inference.linear_algebra import lower_cholesky, rss_reduction, solve_lower
 from armscope.measurement.row_weights import RowWeights
@@ -53,12 +55,12 @@ def atlas(layout: ParameterLayout, model: FittedModel, recordings: Recordings, w
     """
     rows = spread_evenly(len(recordings), TELLING.atlas_rows)
     share = len(rows) / len(recordings)
-    table, w = recordings.rows(rows), weights.take(rows, share)
+    table, w = LinearisedTable(recordings.rows(rows), order=np.arange(len(rows))), weights.take(rows, share)
     # columns and response must stand at one and the same point and on the same rows, or what the frames absorb does not
     # cancel
     fitted = normal_equations_by_block(layout, model, table, w, np.zeros(len(rows), dtype=np.intp))[0]
     drivers = _drivers(model, recordings)
-    whole = _whole_effects(model, table)
+    whole = _whole_effects(model, table.recordings)
     names = tuple(dict.fromkeys([*(name for name, _ in drivers), *(name for _, name, _ in whole)]))
     locations = _locations(model, whole)
     before = np.full((len(locations), len(DIRECTIONS), len(names)), np.nan)
@@ -66,13 +68,15 @@ def atlas(layout: ParameterLayout, model: FittedModel, recordings: Recordings, w
     total = fitted.least_rss(layout.frames)
     found = _cells(model, recordings, locations, drivers)
     found += [((locations.index(place), len(AXES), names.index(name)), terms) for place, name, terms in whole]
+    everything = np.arange(len(layout.terms))
     for size in sorted({len(terms) for _, terms in found}):
         cells = [cell for cell in found if len(cell[1]) == size]
-        for target, inside in ((before, layout.frames), (left, np.arange(len(layout.terms)))):
-            sums = column_blocks([terms for _, terms in cells], layout, inside, model, table, w)
+        sums = column_blocks([terms for _, terms in cells], layout, everything, model, table, w)
+        for target, inside in ((before, layout.frames), (left, everything)):
             G = fitted.G[np.ix_(inside, inside)]
             factor = lower_cholesky(G, 1e-9 * np.diag(G) + 1e-12)
-            own, b = sums.conditioned(factor, solve_lower(factor, fitted.b[inside]))
+            beside = replace(sums, cross=sums.cross[:, inside])
+            own, b = beside.conditioned(factor, solve_lower(factor, fitted.b[inside]))
             gain = rss_reduction(own, b, sums.diagonal)
             for (at, _), value in zip(cells, gain, strict=True):
                 target[at] = value / max(total, 1e-30)
