@@ -7,9 +7,9 @@ joint 4. Each command runs in a process of its own, on one thread, reading of th
 With --figaroh, --sysid and --aurt (interpreters of environments with benchmarks/peers/requirements-*.txt) the same
 parameters are also fitted by these, the last path of the shortest motion held out, with ratios to the same parameters
 here, without a diagnosis (`benchmarks.motion_peers`). figaroh gets three paths and one of them; mujoco.sysid, which
-simulates, one; aurt gets one path of a planar arm of two axes, for its symbolic model of six axes was not compiled
-within 12 minutes of CPU. With --motions FOLDER two real sets are fitted as well, run by run: aurt does not take part, for
-it knows neither sliding joints (EMPS) nor, within that time, six axes (UR10e).
+simulates, one; aurt gets one path of a planar arm of two axes, for its symbolic model of six axes was not
+compiled when it was stopped, after 12 minutes of CPU. With --motions FOLDER two real sets are fitted as well, run by
+run: aurt does not take part, for it knows neither sliding joints (EMPS) nor, within that time, six axes (UR10e).
 
     python -m benchmarks.motion [--samples 20000 1000000] [--figaroh PYTHON] [--sysid PYTHON] [--aurt PYTHON]
         [--motions FOLDER]
