@@ -41,10 +41,10 @@ test-long: .venv/installed-test
 	$(BIN)/pytest -n 2 --dist loadscope -m long
 
 # the packages compared with need older versions of ours, so they live in environments of their own
-benchmark: .venv/installed .venv-peers/installed .venv-figaroh/installed
+benchmark: .venv/installed .venv-peers/installed .venv-figaroh/installed .venv-sysid/installed .venv-aurt/installed
 	$(BIN)/python -m benchmarks.kinematics
 	$(BIN)/python -m benchmarks.diagnosis
-	$(BIN)/python -m benchmarks.motion --figaroh .venv-figaroh/bin/python
+	$(BIN)/python -m benchmarks.motion --figaroh .venv-figaroh/bin/python --sysid .venv-sysid/bin/python --aurt .venv-aurt/bin/python
 	$(BIN)/python -m benchmarks.poses
 	$(BIN)/python -m benchmarks.compensation
 	.venv-peers/bin/python -m benchmarks.swarm
@@ -81,9 +81,9 @@ PIP_INSTALL := pip install --quiet --disable-pip-version-check
 	.venv-peers/bin/$(PIP_INSTALL) --no-deps --editable .
 	@touch $@
 
-.venv-figaroh/installed: benchmarks/peers/requirements-figaroh.txt
-	$(PYTHON) -m venv .venv-figaroh
-	.venv-figaroh/bin/$(PIP_INSTALL) -r benchmarks/peers/requirements-figaroh.txt
+.venv-figaroh/installed .venv-sysid/installed .venv-aurt/installed: .venv-%/installed: benchmarks/peers/requirements-%.txt
+	$(PYTHON) -m venv .venv-$*
+	.venv-$*/bin/$(PIP_INSTALL) -r $<
 	@touch $@
 
 # kills, full disks, too little memory, two of everything, SLURM: prints a table, docs/trust.md is made from it
@@ -107,4 +107,4 @@ docs/gallery/%/report.html: examples/%/recordings.csv examples/%/robot.yaml | .v
 	@touch $@
 
 clean:
-	rm -rf site docs/gallery .venv .venv-docs .venv-peers .venv-figaroh results .snakemake
+	rm -rf site docs/gallery .venv .venv-docs .venv-peers .venv-figaroh .venv-sysid .venv-aurt results .snakemake

@@ -4,52 +4,51 @@ Motions are generated: six joints on random Fourier paths of 50 s, inverse dynam
 friction and rotors, 2 % of noise, and two causes: friction that grows with load at joint 2, torque 20 ms late at
 joint 4. Each command runs in a process of its own, on one thread, reading of the table included.
 
-With --figaroh, the shortest motion is also fitted by figaroh (an environment with
-benchmarks/peers/requirements-figaroh.txt), which takes all base parameters, friction, rotors and offsets: its last path
-is held out for both, the other paths are low-passed and derived for both alike. Beside it the same parameters are
-fitted here, without a diagnosis.
+With --figaroh, --sysid and --aurt (interpreters of environments with benchmarks/peers/requirements-*.txt) the same
+parameters are also fitted by these, the last path of the shortest motion held out, with ratios to the same parameters
+here, without a diagnosis (`benchmarks.motion_peers`). figaroh gets three paths and one of them; mujoco.sysid, which
+simulates, one; aurt gets one path of a planar arm of two axes, for its symbolic model of six axes was not
+compiled when it was stopped, after 12 minutes of CPU. With --motions FOLDER two real sets are fitted as well, run by
+run: aurt does not take part, for it knows neither sliding joints (EMPS) nor, within that time, six axes (UR10e).
 
-    python -m benchmarks.motion [--samples 20000 1000000] [--figaroh PYTHON]
+    python -m benchmarks.motion [--samples 20000 1000000] [--figaroh PYTHON] [--sysid PYTHON] [--aurt PYTHON]
+        [--motions FOLDER]
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-import os
-import subprocess
 import sys
 import tempfile
+from dataclasses import replace
 from pathlib import Path
-from time import process_time
 
 import numpy as np
 import pandas as pd
 import yaml
-from benchmarks.diagnosis import ONE_THREAD
+from benchmarks.motion_peers import Problem, Pythons, beside_aurt, compare
 from benchmarks.scale import cost
 
 from armscope.design.fourier import Limits, random_path
-from armscope.motion.layout import TorqueLayout
-from armscope.motion.preparation import parts, preparation
-from armscope.motion.rows import build_rows, stated_model
-from armscope.motion.timing import stretches
-from armscope.motion.verdict import relative
-from armscope.motion.weights import fitted_together
+from armscope.motion.rows import torque_of
+from armscope.motion.timing import mended, stretches
 from armscope.recordings.motions import read_motions
 from armscope.robot.dynamics import MovingArm, load_moving_arm
 
-ARM = Path(__file__).parents[1] / "config" / "motion" / "six-axis.yaml"
+CONFIG = Path(__file__).parents[1] / "config"
+ARM, TWO = (CONFIG / "motion" / f"{name}-axis.yaml" for name in ("six", "two"))
+SETS = CONFIG / "motions"
+REAL = {"emps": ("trapezoids", "pulses"), "ur10e-currents": ("14harm50sec", "50sec_12harm")}
 SECONDS, HARMONICS, NOISE, LATE_S, PER_LOAD = 50.0, 12, 0.02, 0.02, 0.08
-CUTOFF_HZ = 10.0
 RATES = {20_000: 100.0, 1_000_000: 1000.0}
 """Samples per second by samples: four paths of 50 s, twenty paths of 50 s."""
 PLANTED = {("load_friction", "joint 2"), ("torque_delay", "joint 4")}
 
 
-def robot(folder: Path) -> Path:
+def robot(folder: Path, source: Path = ARM) -> Path:
     """robot.yaml of the arm without its friction and rotors, which the diagnosis is to fit."""
-    content = yaml.safe_load(ARM.read_text())
+    content = yaml.safe_load(source.read_text())
     for drive in content["drives"]:
         for stated in ("rotor_inertia_kg_m2", "coulomb_nm", "viscous_nm_s_rad"):
             del drive[stated]
@@ -57,9 +56,9 @@ def robot(folder: Path) -> Path:
     return folder / "robot.yaml"
 
 
-def motions(samples: int, rate: float, path: Path) -> None:
-    """Write motions.csv with so many samples."""
-    arm, rng = load_moving_arm(ARM), np.random.default_rng(samples)
+def motions(samples: int, rate: float, path: Path, source: Path = ARM) -> None:
+    """Write motions.csv of an arm with so many samples."""
+    arm, rng = load_moving_arm(source), np.random.default_rng(samples)
     drives = arm.description.drives or ()
     limits = Limits(
         np.radians(np.array(arm.description.joint_limits_deg)),
@@ -83,7 +82,8 @@ def _torque(arm: MovingArm, q: np.ndarray, dq: np.ndarray, ddq: np.ndarray, time
     rigid = arm.torques(q, dq, ddq, arm.inertial)
     torque = rigid + coulomb * np.sign(dq) + viscous * dq + rotor * ddq
     torque[:, 1] += PER_LOAD * np.abs(rigid[:, 1]) * np.sign(dq[:, 1])
-    torque[:, 3] = np.interp(time - LATE_S, time, torque[:, 3])
+    if torque.shape[1] > 3:
+        torque[:, 3] = np.interp(time - LATE_S, time, torque[:, 3])
     return np.asarray(torque)
 
 
@@ -91,8 +91,11 @@ def main() -> None:
     """See the module's docstring."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--samples", type=int, nargs="+", default=[20_000, 1_000_000])
-    parser.add_argument("--figaroh", help="interpreter of its environment")
+    for peer in ("figaroh", "sysid", "aurt"):
+        parser.add_argument(f"--{peer}", help="interpreter of its environment")
+    parser.add_argument("--motions", type=Path, help="folder of the imported real sets")
     asked = parser.parse_args()
+    pythons = Pythons(asked.figaroh, asked.sysid, asked.aurt)
     with tempfile.TemporaryDirectory() as made:
         home, first = Path(made), None
         for samples in sorted(asked.samples):
@@ -105,36 +108,41 @@ def main() -> None:
             ratios = " and ".join(f"{ratio:.1f} x" for ratio in np.divide(taken, first))
             print(f"{samples:10,} samples{taken[0]:8.1f} s CPU{taken[1]:8.0f} MB ({ratios} the shortest)")
             _tell(json.loads((folder / "out" / "verdict.json").read_text()))
-            if asked.figaroh and samples == min(asked.samples):
-                beside_figaroh(folder, asked.figaroh)
+            if samples == min(asked.samples) and (asked.figaroh or asked.sysid or asked.aurt):
+                beside_peers(folder, pythons)
+    if asked.motions:
+        beside_real(asked.motions, pythons)
 
 
-def beside_figaroh(folder: Path, python: str) -> None:
-    """Fit all but the last path, here and by figaroh, and compare errors on it."""
+def beside_peers(folder: Path, pythons: Pythons) -> None:
+    """The last path held out: three or one fitted by figaroh, one by mujoco.sysid, one of two axes by aurt."""
     arm, table = load_moving_arm(folder / "robot.yaml"), read_motions(folder / "motions.csv")
     *train, test = stretches(table)
-    how = preparation(train[0].rate, CUTOFF_HZ, "given")
-    layout = TorqueLayout(arm, (), False)
-    started = process_time()
-    rows = build_rows(layout, train, how, stated_model(arm))
-    found = fitted_together(rows, np.arange(layout.width))
-    seconds = process_time() - started
-    apart = build_rows(layout, [test], how, stated_model(arm))
-    missed = apart.torque - apart.nominal - apart.modelled(found)
-    print(f"{'':10} same parameters, here: {seconds:.2f} s CPU, held out {100 * relative(missed, apart.torque):.2f} %")
-    laid: dict[str, np.ndarray] = {"every": np.array(how.every)}
-    for part, some in (("train", train), ("test", [test])):
-        smooth = [each for stretch in some for each in parts([stretch], how, every_sample=True)]
-        for name in ("q", "dq", "ddq"):
-            laid[f"{name}_{part}"] = np.concatenate([getattr(each, name)[each.kept] for each in smooth])
-        laid[f"tau_{part}"] = np.concatenate([stretch.effort for stretch in some])
-    np.savez(folder / "motion.npz", **laid)
-    peer = Path(__file__).parent / "peers" / "motion_with_figaroh.py"
-    command = [python, str(peer), str(folder / "out" / "corrected.urdf"), str(folder / "motion.npz")]
-    told = subprocess.run(command, capture_output=True, text=True, check=True, env=os.environ | ONE_THREAD).stdout
-    theirs = json.loads(told.splitlines()[-1])
-    error, count = 100 * theirs["held_out"], theirs["parameters"]
-    print(f"{'':10} figaroh: {theirs['cpu_s']:.2f} s CPU, held out {error:.2f} % with {count} parameters")
+    urdf = folder / "out" / "corrected.urdf"
+    compare("three paths, six axes", Problem(arm, urdf, train, [test]), replace(pythons, sysid=None))
+    compare("one path, six axes", Problem(arm, urdf, train[:1], [test]), pythons)
+    if pythons.aurt:
+        (folder / "two").mkdir()
+        motions(2 * int(SECONDS * 100), 100.0, folder / "two" / "motions.csv", TWO)
+        two = load_moving_arm(robot(folder / "two", TWO))
+        fitted, apart = stretches(read_motions(folder / "two" / "motions.csv"))
+        beside_aurt("one path, two axes", Problem(two, urdf, [fitted], [apart]), pythons.aurt)
+
+
+def beside_real(folder: Path, pythons: Pythons) -> None:
+    """Real sets (imported to folder/NAME/motions.csv.gz, with the arm's URDF): one run fitted, another held out."""
+    for name, (fitted, held_out) in REAL.items():
+        source = folder / name
+        with tempfile.TemporaryDirectory() as made:
+            for file in ("robot.yaml", "robot.urdf"):
+                kept = SETS / name / file
+                (Path(made) / file).write_bytes((kept if kept.exists() else source / file).read_bytes())
+            arm = load_moving_arm(Path(made) / "robot.yaml")
+            whole, _ = mended(read_motions(source / "motions.csv.gz", arm.n_motors))
+            laid = [replace(s, effort=torque_of(arm, s.effort, whole.kind)) for s in stretches(whole)]
+            train, test = ([each for each in laid if each.run == run] for run in (fitted, held_out))
+            problem = Problem(arm, Path(made) / "robot.urdf", train, test)
+            compare(f"{name}: {fitted} fitted, {held_out} held out", problem, pythons)
 
 
 def _tell(verdict: dict) -> None:

@@ -166,6 +166,12 @@ class RowNoiseRules(Constants):
     rounds: int = constant(
         5, "of noise and selection, at most", "judgement: names rest after two as a rule", unit="rounds"
     )
+    refinings: int = constant(
+        3,
+        "more, where scanned numbers still move",
+        "measured: delays of joints that are mostly friction rest after six rounds",
+        unit="rounds",
+    )
     settled: float = constant(
         0.3, "standard errors within which a number that is refined rests", "judgement: its interval hardly moves"
     )

@@ -21,6 +21,7 @@ from armscope.inference.evidence import Hypothesis
 from armscope.inference.search import Search
 from armscope.motion import catalogue
 from armscope.motion.constants import INTERVALS, PRIOR, TELLING
+from armscope.motion.late import lag_step
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.selection import SelectedCauses
 from armscope.verdict.effects import INTERVAL
@@ -122,7 +123,11 @@ def covariance_of(selected: SelectedCauses, number: int, factor: Array) -> Array
     """
     columns = selected.rows.layout.columns[number]
     by = factor[columns] / selected.problem.scale[columns]
-    return np.asarray(selected.best.covariance(columns) * np.outer(by, by))
+    covariance = np.asarray(selected.best.covariance(columns) * np.outer(by, by))
+    if selected.rows.layout.placed[number].cause is catalogue.DELAY:  # its column alone tells how high the chord is
+        step, unsure = lag_step(selected, number)
+        covariance[0, 0] += step**2 + (factor[columns[0]] * unsure) ** 2
+    return covariance
 
 
 def _widened(selected: SelectedCauses, search: Search, rivals: Rivals) -> Array:

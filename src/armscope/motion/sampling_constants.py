@@ -105,6 +105,14 @@ class FilterRules(Constants):
         "derived: they differ by a millionth",
         unit="widths",
     )
+    turning: float = constant(
+        0.01,
+        "of how fast friction changes sides at its fastest: where it is less, friction pulls one way",
+        "judgement: the low-pass's ringing is below that within two of its periods",
+    )
+    rounding: float = constant(
+        1e-9, "share of a slope's square that is its own, from which it tells anything", "derived: far above rounding"
+    )
     still: float = constant(
         2.0,
         "a joint slower than this stands: its friction may be anything",

@@ -16,6 +16,7 @@ from armscope.inference.problem import Problem, SelectedEffect, build_problem
 from armscope.inference.search import Search
 from armscope.motion import catalogue
 from armscope.motion.constants import LIBRARY, NOISE, PRIOR
+from armscope.motion.late import lag_step
 from armscope.motion.laws import Law
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.preparation import Preparation
@@ -99,8 +100,9 @@ def select_causes(
     """
     model = model or stated_model(layout.arm)
     selected: SelectedCauses | None = None
-    for number in range(NOISE.rounds):
-        share = number / NOISE.rounds
+    most = NOISE.rounds + NOISE.refinings
+    for number in range(most):
+        share = number / most
         before = None if selected is None else selected.rows
         rows = build_rows(layout, stretches, how, model, functools.partial(_within, progress, share), before)
         block = blocks_of(rows, block_of)
@@ -115,7 +117,7 @@ def select_causes(
             weights = estimate_weights(rows, selected.residuals)
         selected = chosen(rows, weights, block, space, last)
         finer = refined(selected)
-        if selected.best.candidates == found and finer is None:
+        if finer is None and (selected.best.candidates == found or number + 1 >= NOISE.rounds):
             break
         model = model_so_far(layout, selected.coefficients)
         layout = finer or layout
@@ -135,7 +137,9 @@ def refined(selected: SelectedCauses) -> TorqueLayout | None:
         error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
         *others, now = cause.columns.numbers
         if cause.cause is catalogue.DELAY:
-            better, rests = float(values[0]), abs(values[0] - now) < NOISE.settled * error[0]
+            more, unsure = lag_step(selected, number)
+            better = float(values[0]) + more
+            rests = abs(better - now) < NOISE.settled * max(float(error[0]), unsure)
         else:
             by = float(np.clip(values[1] / values[0], -LIBRARY.between_speeds, LIBRARY.between_speeds))
             better, rests = now * np.exp(by), abs(values[1]) < NOISE.settled * error[1]

@@ -1,0 +1,48 @@
+"""A delay is told by the slope of the torque where friction pulls one way, not by the height of friction's steps."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from armscope.core.types import Array
+from armscope.motion.late import lag_step
+from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
+from tests.motion.moving import COULOMB, ROTOR, VISCOUS, moved, robot
+
+LATE_S, JOINT, RATE = 0.02, 2, 200.0
+
+
+def late(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+    """All torque of joint 3, which is mostly friction, 20 ms late."""
+    more = 4 * COULOMB[JOINT] * np.sign(dq[:, JOINT])
+    torque = rigid[:, JOINT] + COULOMB[JOINT] * np.sign(dq[:, JOINT]) + VISCOUS[JOINT] * dq[:, JOINT]
+    torque = torque + ROTOR[JOINT] * ddq[:, JOINT] + more
+    time = np.arange(len(q)) / RATE
+    extra = np.zeros_like(q)
+    extra[:, JOINT] = np.interp(time - LATE_S, time, torque) - torque + more
+    return extra
+
+
+@pytest.fixture(scope="module")
+def found() -> MotionDiagnosis:
+    arm = robot()
+    return diagnose_motion(arm, moved(arm, 3, late), MotionSettings(cutoff=10.0))
+
+
+def test_a_joint_that_is_mostly_friction_is_as_late_as_it_was_made(found: MotionDiagnosis) -> None:
+    (cause,) = (each for each in found.verdict.effects if each.effect == "torque_delay" and not each.minor)
+    (delay,) = cause.parameters
+    assert cause.location == "joint 3"
+    assert delay.value == pytest.approx(LATE_S, abs=2e-3)
+    low, high = delay.interval
+    assert low < LATE_S < high
+    numbers = found.verdict.background[JOINT].parameters
+    assert {each.name: each.value for each in numbers}["inertia"] == pytest.approx(ROTOR[JOINT], abs=0.02)
+
+
+def test_it_rests_where_slope_and_reversals_ask_for_no_more(found: MotionDiagnosis) -> None:
+    selected = found.selected
+    (number,) = (n for n in selected.best.candidates if selected.rows.layout.placed[n].cause.name == "torque_delay")
+    step, unsure = lag_step(selected, number)
+    assert abs(step) < unsure < 5e-3
