@@ -1,5 +1,6 @@
 """A description predicts its own kinematics, in its base frame; a model where the arm is now."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -7,10 +8,11 @@ import pytest
 
 from armscope.compensation.path import read_path
 from armscope.compensation.predicting import predict_file
-from armscope.physics.drift import base_shift
+from armscope.physics.drift import Pause, base_shift, drift_with_pauses
 from armscope.physics.model import Base, FittedModel, predict
 from armscope.physics.model_file import save_model
 from armscope.physics.scene import Part
+from armscope.physics.wander import wander
 from armscope.recordings import read_recordings
 from armscope.robot import forward_kinematics, load_arm
 
@@ -71,7 +73,45 @@ def test_poses_with_the_recordings_ids_are_of_their_rows(jumped, tmp_path):
     found, notes = predict_file(model, poses(tmp_path / "poses.csv", table, ids=True))
     moved = np.abs(found[["x_mm", "y_mm", "z_mm"]] - nominal).max(axis=1) > 1
     assert moved.tolist() == [row + 1 >= JUMPED_AT for row in range(60)]
-    assert notes == []
+    assert notes == ["ids are taken for rows of the recordings; without the column id, poses are of now"]
+
+
+@pytest.mark.parametrize("name", [lambda n: f"P{n}", lambda n: str(61 - n), lambda n: "" if n == 1 else str(n)])
+def test_ids_that_number_no_rows_are_told_to_be_counted(jumped, tmp_path, name):
+    model, table = jumped
+    named = replace(table, id=np.array([name(n) for n in range(1, 61)]))
+    _, (note,) = predict_file(model, poses(tmp_path / "poses.csv", named, ids=True))
+    assert "counted as the recordings' rows, from 1; without the column id, poses are of now" in note
+
+
+def test_a_model_that_follows_no_rows_says_nothing_of_ids(jumped, tmp_path):
+    _, table = jumped
+    arm = load_arm(EXAMPLE / "robot.yaml")
+    save_model(tmp_path / "still.yaml", FittedModel(arm, {str(table.run[0]): Base(np.eye(3), np.zeros(3))}))
+    for ids in (True, False):
+        assert predict_file(tmp_path / "still.yaml", poses(tmp_path / "poses.csv", table, ids))[1] == []
+
+
+@pytest.mark.parametrize(
+    "placed",
+    [
+        lambda table: drift_with_pauses([Pause(20.0, "a", 500.0)], 1),
+        lambda table: wander(table, [])[1],
+    ],
+)
+def test_what_wanders_in_the_order_of_rows_is_left_out_of_now_as_a_whole(jumped, tmp_path, placed):
+    """With its pauses, and with the means that are taken from it run by run."""
+    table = replace(jumped[1], run=np.repeat(["a", "b"], [20, 40]))
+    arm = load_arm(EXAMPLE / "robot.yaml")
+    effect = placed(table)
+    part = Part(effect, np.full(len(effect.terms), 1e-2))
+    base = Base(np.eye(3), np.zeros(3))
+    save_model(tmp_path / "drift.yaml", FittedModel(arm, {"a": base, "b": base}, parts=(part,)))
+    nominal = forward_kinematics(arm, table.motor_angles) * 1e3
+    for ids, moved in ((True, 1), (False, 0)):
+        found, notes = predict_file(tmp_path / "drift.yaml", poses(tmp_path / "poses.csv", table, ids))
+        assert (np.abs(found[["x_mm", "y_mm", "z_mm"]] - nominal).to_numpy().max() > 1e-6) == moved
+    assert notes[-1:] == ["no ids: what wanders in the order of rows is left out"]
 
 
 def test_a_path_is_of_now_whatever_its_ids_are(jumped, tmp_path):

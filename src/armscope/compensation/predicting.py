@@ -83,16 +83,30 @@ def _by_physics(model: Path, poses: Path, pose: bool) -> Found:
 
 
 def _of_now(fitted: FittedModel, rows: Recordings) -> list[str]:
-    """What is told of poses without ids: what follows the order of rows stands as at its end, or is not known."""
+    """What is told where a model follows the order of rows: of which rows poses are, by ids or without."""
     from armscope.compensation.physical import drivers_of
 
-    kinds = set() if np.isfinite(rows.number).all() else drivers_of(fitted)
+    kinds = drivers_of(fitted) & {"after row", "rows", "slow wave of rows"}
+    if kinds and np.isfinite(rows.number).all():
+        taken = (
+            "are taken for rows of the recordings" if _are_numbers(rows) else "are no numbers that rise in every run"
+        )
+        counted = "" if _are_numbers(rows) else ": the poses are counted as the recordings' rows, from 1"
+        return [f"ids {taken}{counted}; without the column id, poses are of now"]
     notes = []
     if "after row" in kinds:
         notes.append("no ids: what jumped at a row of the recordings has jumped; ids of the recordings say otherwise")
     if kinds & {"rows", "slow wave of rows"}:
         notes.append("no ids: what wanders in the order of rows is left out")
     return notes
+
+
+def _are_numbers(rows: Recordings) -> bool:
+    """Whether rows are numbered by their ids, not counted."""
+    try:
+        return np.array_equal(rows.id.astype(np.float64), rows.number)
+    except ValueError:
+        return False
 
 
 def _refuse_missing_context(model: Path, fitted: FittedModel, rows: Recordings) -> list[str]:

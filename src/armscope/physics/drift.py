@@ -81,7 +81,7 @@ def drift_with_pauses(pauses: Sequence[Pause], multiplicity: int) -> Placed:
             products=(
                 *each.products,
                 *(
-                    Product(each.products[0].direction, Driver("after row", (p.row, p.run, *p.later)), p.rows / 1e3)
+                    Product(each.products[0].direction, Driver("after pause", (p.row, p.run, *p.later)), p.rows / 1e3)
                     for p in pauses
                 ),
             ),
@@ -96,7 +96,7 @@ def drift_with_pauses(pauses: Sequence[Pause], multiplicity: int) -> Placed:
 
 def pauses_of(placed: Placed) -> list[Pause]:
     """The pauses of a drift that follows the order of rows."""
-    steps = [product for product in placed.terms[0].products if product.driver.kind == "after row"]
+    steps = [product for product in placed.terms[0].products if product.driver.kind == "after pause"]
     return [
         Pause(p.driver.number(0), str(p.driver.arguments[1]), p.factor * 1e3, tuple(map(str, p.driver.arguments[2:])))
         for p in steps

@@ -96,6 +96,16 @@ def _in_run(scene: Scene, *runs: str) -> Array:
     return np.asarray(np.isin(scene.recordings.run, runs))
 
 
+def _after_pause(scene: Scene, first_row: float, run: str, *later: str) -> Array:
+    """What a pause adds to what follows the order of rows; like that, zero where a row's number is not known."""
+    return np.where(np.isnan(scene.recordings.number), 0.0, _after_row(scene, first_row, run, *later))
+
+
+def _rows_in_run(scene: Scene, *runs: str) -> Array:
+    """In a run, what belongs to a wave in the order of rows; like that, zero where a row's number is not known."""
+    return np.where(np.isnan(scene.recordings.number), 0.0, _in_run(scene, *runs))
+
+
 def _slow_wave(scene: Scene, waves: int, first: float, last: float) -> Array:
     """Cosine of so many half waves from the first time (s) to the last, standing still before and after.
 
@@ -133,8 +143,10 @@ RECORDED: dict[str, DriverKind] = {
     "rows": DriverKind(_rows, follows=_RUN),
     "after time": DriverKind(_after_time, needs="time", follows=_RUN),
     "after row": DriverKind(_after_row, follows=_RUN),
+    "after pause": DriverKind(_after_pause, follows=_RUN),
     "in run": DriverKind(_in_run, follows=_RUN),
     "during run": DriverKind(_in_run, follows=_RUN),  # the same, of what is no free frame
+    "rows in run": DriverKind(_rows_in_run, follows=_RUN),
     "slow wave": DriverKind(_slow_wave, follows=_RUN),
     "slow wave of rows": DriverKind(_slow_wave_of_rows, follows=_RUN),
     "on target": DriverKind(_on_target),

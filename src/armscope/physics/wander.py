@@ -115,7 +115,7 @@ def _about_runs(wave: Placed, recordings: Recordings) -> Placed:
 
     def about(each: Term) -> Term:
         less = [
-            replace(product, driver=Driver("during run", (run,)), factor=-mean * product.factor)
+            replace(product, driver=Driver("rows in run", (run,)), factor=-mean * product.factor)
             for product in each.products
             for run, mean in means.items()
         ]
