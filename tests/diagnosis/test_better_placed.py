@@ -17,17 +17,28 @@ FRAMES, ROWS, NOISE = 2, 200, 0.1
 DRIVE_AT, TILT_AT = 0, 1
 
 
-def problem_where(made_by: int, alike: float) -> Problem:
-    """A drive and a bearing whose columns correlate, and five others that do nothing; one made the rows."""
+def problem_where(made_by: int, alike: float, drive: float = 0.0, in_family: int = 7) -> Problem:
+    """A drive and a bearing whose columns correlate, and five others that do nothing; one made the rows.
+
+    Args:
+        made_by: the one.
+        alike: the drive's and the bearing's correlation.
+        drive: by how much the drive gives way besides.
+        in_family: how many are in the background: the drive and the last ones; 0: there is none.
+
+    Returns:
+        The problem.
+    """
     rng = np.random.default_rng(3)
     X = rng.normal(size=(ROWS, FRAMES + 7))
     X[:, FRAMES + TILT_AT] = alike * X[:, FRAMES + DRIVE_AT] + np.sqrt(1 - alike**2) * X[:, FRAMES + TILT_AT]
-    y = 0.3 * X[:, FRAMES + made_by] + rng.normal(0, NOISE, ROWS)
-    members = np.arange(FRAMES, FRAMES + 7)
+    y = 0.3 * X[:, FRAMES + made_by] + drive * X[:, FRAMES + DRIVE_AT] + rng.normal(0, NOISE, ROWS)
+    members = FRAMES + np.array([DRIVE_AT, *range(8 - in_family, 7)])
     kinds = [DRIVE, *["bearing_compliance"] * 6]
+    elastic = ToleranceFamily("elastic", members, np.full(len(members), 0.3), (0.0, 0.1, 1.0), is_priced=True)
     space = ModelSpace(
         np.arange(FRAMES),
-        (ToleranceFamily("elastic", members, np.full(7, 0.3), (0.0, 0.1, 1.0), is_priced=True),),
+        (elastic,) if in_family else (),
         tuple(Candidate(k, f"joint {n}", np.array([FRAMES + n]), np.ones(1)) for n, k in enumerate(kinds)),
     )
     return build_problem(space, NormalEquations(X.T @ X, X.T @ y, float(y @ y), float(ROWS)), 0.5 * NOISE)
@@ -36,7 +47,8 @@ def problem_where(made_by: int, alike: float) -> Problem:
 def with_drive_named(problem: Problem) -> Hypothesis:
     """The drive named out of the background, at the size that suits it best."""
     sized = [SelectedEffect(DRIVE_AT, size, nested=True) for size in range(len(problem.sizes))]
-    return max((evaluate(problem, (name,), (1,), NOISE) for name in sized), key=lambda h: h.log_posterior)
+    background = (1,) * len(problem.space.families)
+    return max((evaluate(problem, (name,), background, NOISE) for name in sized), key=lambda h: h.log_posterior)
 
 
 @pytest.mark.parametrize("alike", [0.6, 0.9])
@@ -55,6 +67,21 @@ def test_a_drive_that_gave_way_keeps_its_name(alike: float) -> None:
 
 def test_where_rows_do_not_tell_them_apart_the_drive_keeps_its_name() -> None:
     problem = problem_where(TILT_AT, 0.999)
+    assert _better_placed(Search.on(problem), with_drive_named(problem)).candidates == {DRIVE_AT}
+
+
+def test_only_the_drives_own_family_is_asked() -> None:
+    problem = problem_where(TILT_AT, 0.6, in_family=6)
+    assert _better_placed(Search.on(problem), with_drive_named(problem)).candidates == {DRIVE_AT}
+
+
+def test_what_explains_the_rows_only_with_the_drive_beside_it_does_not_take_its_name() -> None:
+    problem = problem_where(TILT_AT, 0.0, drive=0.1)
+    assert _better_placed(Search.on(problem), with_drive_named(problem)).candidates == {DRIVE_AT}
+
+
+def test_a_drive_that_no_background_holds_is_not_asked() -> None:
+    problem = problem_where(TILT_AT, 0.6, in_family=0)
     assert _better_placed(Search.on(problem), with_drive_named(problem)).candidates == {DRIVE_AT}
 
 

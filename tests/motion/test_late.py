@@ -46,3 +46,12 @@ def test_it_rests_where_slope_and_reversals_ask_for_no_more(found: MotionDiagnos
     (number,) = (n for n in selected.best.candidates if selected.rows.layout.placed[n].cause.name == "torque_delay")
     step, unsure = lag_step(selected, number)
     assert abs(step) < unsure < 5e-3
+
+
+def test_the_interval_owns_how_little_the_slope_tells(found: MotionDiagnosis) -> None:
+    """The height of friction's steps alone would have it ten times as narrow."""
+    (cause,) = (each for each in found.verdict.effects if each.effect == "torque_delay" and not each.minor)
+    selected = found.selected
+    (number,) = (n for n in selected.best.candidates if selected.rows.layout.placed[n].cause.name == "torque_delay")
+    step, unsure = lag_step(selected, number)
+    assert cause.parameters[0].stderr >= np.hypot(step, unsure)
