@@ -72,7 +72,7 @@ LOAD_FRICTION = Cause(
     FRICTION,
     "Dry friction grows with the torque that the gear carries.",
     "Repeat one motion with and without a payload: friction must grow with the load.",
-    "Let dry friction in the model grow with the absolute torque of the joint.",
+    "Let dry friction in the model grow with the absolute torque that rigid bodies ask of the joint.",
     nonnegative=True,
     labels={"per_load": "friction per torque"},
     clause=clauses.grows_clause,

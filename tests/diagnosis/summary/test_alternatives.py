@@ -8,7 +8,12 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
+from armscope.diagnosis.summary.alternatives import alternatives
+from armscope.inference.evidence import evaluate
+from armscope.inference.problem import SelectedEffect
+from armscope.inference.search import Search
 from tests.diagnosis.planted import one_run, planted, recorded
+from tests.diagnosis.test_better_placed import DRIVE_AT, NOISE, TILT_AT, problem_where, with_drive_named
 from tests.physics.scenes import arm_named
 
 ROWS = 150
@@ -39,3 +44,25 @@ def test_what_got_its_name_out_of_a_background_has_rivals_too(seed: int) -> None
     told = {(largest.effect, largest.location), *((a.effect, a.location) for a in largest.alternatives)}
     assert told >= {("bearing_compliance", "joint 1"), ("joint_compliance", "joint 2")}
     assert largest.named_as != "effect"
+
+
+def test_a_rival_in_the_same_background_pays_no_more_than_the_name() -> None:
+    """The gap is that of the evidence: what is freed, the name's own column held at zero, at no price."""
+    problem = problem_where(DRIVE_AT, 0.98, drive=-0.2)
+    best = with_drive_named(problem)
+    (rival,) = [r for r in alternatives(Search.on(problem), best, DRIVE_AT) if r.hypothesis.candidates == {TILT_AT}]
+    held = problem.holding(problem.space.candidates[DRIVE_AT].columns)
+    by_hand = max(
+        evaluate(held, (SelectedEffect(TILT_AT, size, nested=True),), best.background, NOISE).log_posterior
+        for size in range(len(problem.sizes))
+    )
+    assert rival.gap == pytest.approx(best.log_posterior - by_hand, abs=0.2)
+    assert rival.held == tuple(problem.space.candidates[DRIVE_AT].columns)
+
+
+def test_what_explains_nothing_is_no_rival_however_faint_the_name() -> None:
+    problem = problem_where(DRIVE_AT, 0.0, drive=-0.27)
+    best = with_drive_named(problem)
+    base = Search.on(problem).holding(problem.space.candidates[DRIVE_AT].columns).without(best, [DRIVE_AT])
+    assert 3 < best.log_posterior - base.log_posterior < 10  # any other would be near enough to be listed
+    assert alternatives(Search.on(problem), best, DRIVE_AT) == []
