@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+from pydantic import ValidationError
 
+from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.robot.arm import Arm
 from armscope.robot.description import DH, DHRow, LinkMass, RobotDescription
@@ -52,12 +54,21 @@ def as_dh(arm: Arm) -> tuple[RobotDescription, Array]:
 
     Returns:
         the description, and (4, 4) its base frame in the arm's own.
+
+    Raises:
+        InputError: two axes are so nearly parallel that their common normal is farther away than any arm reaches.
     """
     axes = _axes_at_zero(arm)
     frames = [axes[0]]
     rows = []
-    for axis in axes[1:]:
-        row, frame = _row(frames[-1], axis)
+    for joint, axis in enumerate(axes[1:], start=1):
+        try:
+            row, frame = _row(frames[-1], axis)
+        except ValidationError as error:
+            lengths = [str(each["input"]) for each in error.errors()]
+            rule = "axes so nearly parallel have their common normal farther away than a D-H row may be long"
+            cure = "Keep the URDF, or make the two axes exactly parallel."
+            raise InputError(arm.name, f"joints {joint} and {joint + 1}", ", ".join(lengths), rule, cure) from error
         rows.append(row)
         frames.append(frame)
     # the last frame may be any on the last axis: the one that turns with it
