@@ -214,6 +214,15 @@ GRAVITY = Cause(
     clause=clauses.tilt_clause,
     remedy=remedies.gravity_vector,
 )
+COMPLIANCE = Cause(
+    "joint_compliance",
+    SPRINGS,
+    "Belt, gear or shaft give way under the link's torque, behind the motor's encoder.",
+    "Block the link and let the motor push against it: its encoder still turns, in proportion to the torque.",
+    "Let the link lag behind the motor by compliance × torque.",
+    nonnegative=True,
+    clause=clauses.at_place("the drive of {} gives way under its torque"),
+)
 WAY, PLAY, SCALE = "way since the last reversal", "torque since its last reversal", clauses.SCALE
 """What laws follow that no cause has: hysteresis of friction, play between motor and sensor, a sensor that bends."""
 CURVE = Cause(
@@ -229,7 +238,7 @@ BACKGROUND = (OFFSET, COULOMB, VISCOUS, ROTOR)
 CAUSES = (
     COULOMB, VISCOUS, ROTOR, OFFSET, ASYMMETRY, STRIBECK, LOAD_FRICTION, VISCOUS_CURVE, TEMPERATURE_FRICTION,
     COUPLED_FRICTION, COUPLED_INERTIA, GAIN,
-    DELAY, BALANCER, RIPPLE, CABLE, LINK_MASS, LINK_CENTRE, LINK_INERTIA, PAYLOAD, BODY,
+    DELAY, COMPLIANCE, BALANCER, RIPPLE, CABLE, LINK_MASS, LINK_CENTRE, LINK_INERTIA, PAYLOAD, BODY,
     GRAVITY, CURVE,
 )  # fmt: skip
 

@@ -6,6 +6,7 @@ is linear in them. Signs: torque is the motor's, positive along the motion that 
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 from armscope.core.types import Array
 from armscope.motion.preparation import Signals
 from armscope.motion.sampling_constants import FILTER
+from armscope.robot.bodies import Bodies
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.effects import UNKNOWN
 
@@ -65,6 +67,7 @@ class Moment:
         predicted: (N, m) torque with friction and whatever else is in the model.
         gravity: (N, m, 3) torque per m/s^2 of gravity along each base axis; None unless it was asked for.
         rate: samples per second.
+        bodies: what asks for torque on other motions than the samples'; None where no law has any.
     """
 
     signals: Signals
@@ -72,6 +75,18 @@ class Moment:
     predicted: Array
     gravity: Array | None
     rate: float
+    bodies: Bodies | None = None
+
+    @functools.cached_property
+    def slopes(self) -> tuple[Array, Array, Array]:
+        """(N, m, m) how the bodies' torque changes with position, velocity and acceleration of each motor."""
+        assert self.bodies is not None
+        return self.bodies.slopes(*self.motion)
+
+    @property
+    def motion(self) -> tuple[Array, Array, Array]:
+        """(N, m) positions, velocities, accelerations."""
+        return self.signals.q, self.signals.dq, self.signals.ddq
 
 
 Columns = Callable[[Moment], Array]
@@ -136,6 +151,7 @@ class Seen:
         temperature: (m, 2) deg C, or None.
         runs: names in order.
         moving: (m,) whether each joint moves.
+        motion_hz: above which nothing of the motion is seen for noise.
         regressor: (K, 10 n) torque per inertial parameter in some of the samples, joints below each other.
         waves: by joint (from 0), the waves per turn that stand out of what is left, and how many were tried.
     """
@@ -151,6 +167,7 @@ class Seen:
     runs: tuple[str, ...]
     moving: NDArray[np.bool_]
     regressor: Array
+    motion_hz: float = np.inf
     waves: Mapping[int, tuple[tuple[int, ...], int]] = field(default_factory=dict)
 
     def unit(self, joint: int) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -53,7 +53,8 @@ def first_look(arm: MovingArm, stretch: Stretch, how: Preparation) -> FirstLook:
         left = np.where(rows.still[:, j], 0.0, rows.torque[:, j] - modelled[:, j])
         waves[int(j)], rippled = _waves(stretch, how, int(j), left)
         modelled[:, j] += rippled
-    return FirstLook(model_so_far(layout, coefficients), waves, modelled, rows.torque - modelled)
+    model = replace(model_so_far(layout, coefficients), of_bodies=False)
+    return FirstLook(model, waves, modelled, rows.torque - modelled)
 
 
 def _waves(stretch: Stretch, how: Preparation, j: int, left: Array) -> tuple[tuple[tuple[int, ...], int], Array]:

@@ -9,10 +9,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.interpolate import BSpline
+from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array
 from armscope.motion.causes import Moment, side
+from armscope.motion.preparation import without_lag
 
 
 @dataclass(frozen=True)
@@ -141,6 +142,34 @@ def _powers_of_torque(m: Moment, joints: tuple[int, ...], usual: float) -> Array
     return np.column_stack([torque, torque * np.abs(share), torque * share**2])
 
 
+def _behind(m: Moment, joints: tuple[int, ...], cutoff: float, compliance: float = 0.0) -> Array:
+    """What a drive changes that gives way under its link's torque, per unit of compliance, in all joints' torques.
+
+    The link is where its motor is, less compliance x torque of the links there (Spong 1987): exactly to second order
+    at the compliance given, along the slope for none. That torque is low-passed where the motion ends, for it holds two
+    derivatives of the position, and is derived twice.
+    """
+    at, every = joints[0], list(joints)
+    if compliance == 0:
+        by_motion = zip(m.slopes, _derived(m, m.rigid[:, at], cutoff), strict=True)
+        return np.asarray(-sum(slope[:, every, at] * lag[:, None] for slope, lag in by_motion))[:, :, None]
+    assert m.bodies is not None
+    torque = m.rigid
+    for _ in range(2):
+        behind = [values.copy() for values in m.motion]
+        for values, lag in zip(behind, _derived(m, torque[:, at], cutoff), strict=True):
+            values[:, at] -= compliance * lag
+        torque = m.bodies.torques(*behind)
+    return np.asarray((torque - m.bodies.torques(*m.motion))[:, every, None] / compliance)
+
+
+def _derived(m: Moment, torque: Array, cutoff: float) -> tuple[Array, Array, Array]:
+    """A torque (N,) through a low-pass without lag, with its first two derivatives."""
+    smooth, time = without_lag(torque, cutoff, m.rate, int(np.ceil(m.rate / cutoff))), m.signals.time
+    path = make_interp_spline(time, smooth, k=5)
+    return smooth, path.derivative(1)(time), path.derivative(2)(time)
+
+
 def _wave(m: Moment, joints: tuple[int, ...], count: float) -> Array:
     turned = count * m.signals.q[:, joints[0]]
     return np.column_stack([np.sin(turned), np.cos(turned)])
@@ -202,6 +231,7 @@ LAWS: dict[str, Callable[..., Array]] = {
     "powers of torque": _powers_of_torque,
     "clinging over ways": lambda m, joints, *ways: taken_along(m.signals.q[:, joints[0]], ways),
     "clinging over torques": lambda m, joints, *widths: taken_along(m.predicted[:, joints[0]], widths),
+    "behind a drive": _behind,
     "spring": _spring,
     "wave": _wave,
     "rubbing of two": _rubbing,

@@ -53,6 +53,7 @@ def _at_joint(seen: Seen, j: int) -> Iterator[PlacedCause]:
     for delay in LIBRARY.delays_s:
         how = {"variant": f"{delay:.3g} s", "multiplicity": len(LIBRARY.delays_s)}
         yield at.cause(catalogue.DELAY, "torque", (("delay", "s"),), "delayed torque", delay, **how)
+    yield _drive(at)
     yield from _outside(at)
     yield from _springs(at)
     yield at.curve(catalogue.CURVE, "time", seen.time, LIBRARY.knots_of_time, variant="time")
@@ -138,6 +139,15 @@ def _warmth(at: _Joint, limits: Array) -> Iterator[PlacedCause]:
     dry = (("dry_per_kelvin", f"{at.torque}/K"), ("dry", at.torque))[: 1 + dry_stated]
     yield at.cause(cause, driver, dry, "warm side", at.sharp, middle, dry_stated, variant="dry")
     yield at.curve(catalogue.CURVE, driver, limits, LIBRARY.knots_of_others, variant=driver)
+
+
+def _drive(at: _Joint) -> PlacedCause:
+    """A drive that gives way: the torque of every joint changes with where the link is."""
+    j, seen = at.number, at.seen
+    every = (j, *(k for k in range(seen.arm.n_motors) if k != j))
+    law = Law("behind a drive", every, (seen.motion_hz, 0.0))
+    names = (("compliance", f"{at.unit}/({at.torque})"),)
+    return PlacedCause(catalogue.COMPLIANCE, f"joint {j + 1}", "load", names, every, law)
 
 
 def _springs(at: _Joint) -> Iterator[PlacedCause]:

@@ -17,6 +17,7 @@ from armscope.motion.preparation import Preparation, Signals, parts
 from armscope.motion.rows import SoFar, bend, own_columns
 from armscope.motion.sampling_constants import FILTER
 from armscope.motion.timing import Stretch
+from armscope.robot.bodies import Bodies
 from armscope.robot.dynamics import MovingArm
 
 
@@ -94,7 +95,8 @@ class MotionModel:
         own = own_columns(self.arm, signals, followed.delay, turning, FILTER.sharper_at_rest)
         rigid = regressor @ followed.inertial_in(signals.run) + carried
         predicted = rigid + np.einsum("nmk,mk->nm", own[:, :, :CAUSES_OF_OWN], followed.background)
-        moment = Moment(signals, rigid, predicted, self._gravity(signals.q), rate)
+        bodies = Bodies(self.arm, followed.inertial_in(signals.run), signals.payload)
+        moment = Moment(signals, rigid, predicted, self._gravity(signals.q), rate, bodies)
         total = regressor @ (self.inertial + self._added(signals.run)) + carried
         total += np.einsum("nmk,mk->nm", own, joints) + self.gains * predicted
         total += self.response * bend(predicted, rate)

@@ -15,6 +15,7 @@ from armscope.motion.constants import MODEL_FILE
 from armscope.motion.laws import LAWS, Law
 from armscope.motion.model import FittedCause
 from armscope.motion.preparation import Signals
+from armscope.robot.bodies import Bodies
 from armscope.robot.dynamics import PARAMETERS, MovingArm
 
 if TYPE_CHECKING:
@@ -94,11 +95,12 @@ class CauseReader:
 
     def _tried(self, law: Law, place: str) -> Array:
         """Its columns at a few samples: numbers that it can't take are refused here and not in a prediction."""
-        few = np.linspace(-1, 1, 4)[:, None] * np.ones(self.arm.n_motors)
-        signals = Signals("", 0, few[:, 0], few, few, few, few, None, few, np.arange(4))
+        few = np.linspace(-1, 1, 8)[:, None] * np.ones(self.arm.n_motors)
+        signals = Signals("", 0, few[:, 0], few, few, few, few, None, few, np.arange(8))
         try:
             with np.errstate(divide="raise", invalid="raise", over="ignore"):
-                return law(Moment(signals, few, few, few[:, :, None] * np.ones(3), 1.0))
+                bodies = Bodies(self.arm, self.arm.inertial, None)
+                return law(Moment(signals, few, few, few[:, :, None] * np.ones(3), 1.0, bodies))
         except (TypeError, ValueError, ArithmeticError, IndexError) as error:
             found = f"joints {[j + 1 for j in law.joints]}, numbers {list(law.numbers)}"
             raise InputError(self.source, place, found, f"{law.kind!r} takes others ({error})") from error

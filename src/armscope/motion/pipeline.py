@@ -136,7 +136,7 @@ def diagnose_motion(
     motions, told = mended(motions)
     train, test = _parted(arm, motions, settings.held_out)
     how, first = chosen_cutoff(arm, train, settings.cutoff)
-    seen = replace(seen_in(arm, train, LIBRARY.still_rad), waves=first.waves)
+    seen = replace(seen_in(arm, train, LIBRARY.still_rad), waves=first.waves, motion_hz=how.motion_hz)
     layout = TorqueLayout(arm, tuple(place_causes(seen)), motions.kind == "current")
     runs = tuple(dict.fromkeys(stretch.run for stretch in train))
     weighing = lambda text, share: progress(text, 0.1 + 0.6 * share)

@@ -16,7 +16,7 @@ import numpy as np
 from scipy.interpolate import make_interp_spline
 
 from armscope.core.types import Array, Indices
-from armscope.motion.sampling_constants import FILTER
+from armscope.motion.sampling_constants import CUTOFF, FILTER
 from armscope.motion.timing import Stretch
 
 
@@ -51,10 +51,7 @@ class Preparation:
 
     def smoothed(self, positions: Array) -> Array:
         """(N, m) positions through a zero-phase low-pass at their own cut-off."""
-        sections = _sections(self.position_cutoff, self.rate)
-        from scipy.signal import sosfiltfilt  # takes long to import: a table that is refused needs none
-
-        return np.asarray(sosfiltfilt(sections, positions, axis=0, padlen=min(15 * self.every, len(positions) - 1)))
+        return without_lag(positions, self.position_cutoff, self.rate, 15 * self.every)
 
     def low_passed(self, values: Array, kept: Indices, stride: int = 1) -> Array:
         """The rows that are kept of samples (N, ...) through the zero-phase low-pass of torque and model.
@@ -79,6 +76,11 @@ class Preparation:
         return found.reshape(len(kept), *values.shape[1:])
 
     @property
+    def motion_hz(self) -> float:
+        """Hz above which the samples show nothing of the motion for noise."""
+        return min(self.cutoff, self.position_cutoff / CUTOFF.beyond_motion)
+
+    @property
     def words(self) -> str:
         """What was done, in a sentence."""
         kept = f"every {self.every}th row kept" if self.every > 1 else "every row kept"
@@ -88,6 +90,23 @@ class Preparation:
             f"({self.cutoff_source}) by a zero-phase Butterworth filter of order {FILTER.order}; "
             f"{FILTER.edge_s:g} s left out at the ends; {kept}"
         )
+
+
+def without_lag(values: Array, cutoff: float, rate: float, padded: int) -> Array:
+    """Samples through the low-pass, forward and back.
+
+    Args:
+        values: (N, ...).
+        cutoff: Hz.
+        rate: samples per second.
+        padded: samples by which the ends are continued, turned about the end points.
+
+    Returns:
+        (N, ...).
+    """
+    from scipy.signal import sosfiltfilt  # takes long to import: a table that is refused needs none
+
+    return np.asarray(sosfiltfilt(_sections(cutoff, rate), values, axis=0, padlen=min(padded, len(values) - 1)))
 
 
 @functools.lru_cache(maxsize=8)

@@ -15,6 +15,7 @@ from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.preparation import Preparation, Signals, parts
 from armscope.motion.sampling_constants import FILTER
 from armscope.motion.timing import Stretch
+from armscope.robot.bodies import Bodies
 from armscope.robot.dynamics import MovingArm
 
 
@@ -25,12 +26,10 @@ class MotionRows:
     Attributes:
         layout: of the columns.
         time, run, stretch: (K,) of each row.
-        q, dq: (K, m) positions and velocities.
-        torque: (K, m) measured, as motors' torque, low-passed.
-        nominal: (K, m) that the stated masses ask for.
+        q, dq: (K, m) positions, velocities.
+        torque, nominal: (K, m) measured, as motors' torque, low-passed; and what the stated masses ask for.
         still: (K, m) where a joint stands, and its friction may be anything.
-        columns: of each joint (K, p_j).
-        at: of each joint (p_j,) where these columns stand.
+        columns, at: of each joint (K, p_j), and (p_j,) where these columns stand.
     """
 
     layout: TorqueLayout
@@ -82,12 +81,14 @@ class SoFar:
         background: (m, 4) offset, dry and viscous friction, rotor inertia, with what is stated.
         delay: (m,) s by which torques are late: where friction changes sides is then seen later, too.
         of_runs: (10 n,) inertial parameters that are added in some runs: a load that only these carry.
+        of_bodies: whether masses were held near the stated ones; else they are whatever the motion tells of them.
     """
 
     inertial: Array
     background: Array
     delay: Array
     of_runs: Mapping[str, Array] = field(default_factory=dict)
+    of_bodies: bool = True
 
     def inertial_in(self, run: str) -> Array:
         """(10 n,) inertial parameters in a run."""
@@ -195,7 +196,8 @@ class _Piece:
         gravity = None
         if first and any(cause.cause.name == "gravity_direction" for cause in layout.placed):
             gravity = np.stack([arm.gravity_torques(signals.q, axis) for axis in np.eye(3)], axis=2)
-        self.moment = Moment(signals, rigid, predicted, gravity, how.rate / signals.stride)
+        bodies = Bodies(arm, inertial if model.of_bodies else arm.inertial, signals.payload)
+        self.moment = Moment(signals, rigid, predicted, gravity, how.rate / signals.stride, bodies)
 
     def low(self, values: Array) -> Array:
         """The rows of samples."""
@@ -203,10 +205,8 @@ class _Piece:
 
     def rows(self, causes: Iterable[int]) -> MotionRows:
         """Rows with the columns of some causes; with the inertial ones where these were formed."""
-        layout, signals, kept = self.layout, self.signals, self.signals.kept
-        m = layout.arm.n_motors
-        own = self._own_columns(causes)
-        rounded = bend(self.moment.predicted, self.moment.rate)
+        layout, signals, kept, m = self.layout, self.signals, self.signals.kept, self.layout.arm.n_motors
+        own, rounded = self._own_columns(causes), bend(self.moment.predicted, self.moment.rate)
         columns, at = [], []
         regressor = None if self.regressor is None else self.low(self.regressor)
         for j in range(m):

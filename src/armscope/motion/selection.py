@@ -25,6 +25,9 @@ from armscope.motion.space import build_space
 from armscope.motion.timing import Stretch
 from armscope.motion.weights import JointSums, TorqueWeights, estimate_weights, left_apart, sums_by_joint, weighed
 
+SCANNED = (catalogue.STRIBECK, catalogue.DELAY, catalogue.COMPLIANCE)
+"""Causes whose law holds a number that is fitted by its slope."""
+
 
 @dataclass(frozen=True, eq=False)
 class SelectedCauses:
@@ -131,7 +134,7 @@ def refined(selected: SelectedCauses) -> TorqueLayout | None:
     placed = list(layout.placed)
     for number in selected.best.candidates:
         cause, columns = placed[number], layout.columns[number]
-        if cause.cause not in (catalogue.STRIBECK, catalogue.DELAY) or not isinstance(cause.columns, Law):
+        if cause.cause not in SCANNED or not isinstance(cause.columns, Law):
             continue
         values = selected.coefficients[columns]
         error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
@@ -140,6 +143,10 @@ def refined(selected: SelectedCauses) -> TorqueLayout | None:
             more, unsure = lag_step(selected, number)
             better = float(values[0]) + more
             rests = abs(better - now) < NOISE.settled * max(float(error[0]), unsure)
+        elif cause.cause is catalogue.COMPLIANCE:
+            better = float(values[0])
+            rests = better <= 0 or abs(better - now) < NOISE.settled * float(error[0])
+            better = better if better > 0 else now
         else:
             by = float(np.clip(values[1] / values[0], -LIBRARY.between_speeds, LIBRARY.between_speeds))
             better, rests = now * np.exp(by), abs(values[1]) < NOISE.settled * error[1]

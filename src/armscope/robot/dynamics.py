@@ -110,9 +110,7 @@ class MovingArm:
         links = inertial.reshape(-1, 10)
         if not np.all(links[:, 0] > 0):  # no body has such parameters, but torque is linear in them
             return self.regressor(q, dq, ddq) @ inertial
-        model = self.model.copy()
-        for joint, parameters in enumerate(links, start=1):
-            model.inertias[joint] = pin.Inertia.FromDynamicParameters(parameters)
+        model = self.with_masses(inertial)
         data, configurations = model.createData(), self.configurations(q)
         v, a = dq @ self.actuation.T, ddq @ self.actuation.T
         moved = zip(configurations, v, a, strict=True)
@@ -120,6 +118,14 @@ class MovingArm:
             np.array([pin.rnea(model, data, *row).copy() for row in moved]).reshape(len(q), self.n_links)
             @ self.actuation
         )
+
+    def with_masses(self, inertial: Array) -> pin.Model:
+        """The model with other inertial parameters (10 n,) wherever a body can have them."""
+        model = self.model.copy()
+        for joint, parameters in enumerate(inertial.reshape(-1, 10), start=1):
+            if parameters[0] > 0:
+                model.inertias[joint] = pin.Inertia.FromDynamicParameters(parameters)
+        return model
 
     def gravity_torques(self, q: Array, gravity: Array) -> Array:
         """(N, m) N m that hold the stated masses at motor positions q (N, m) in gravity (3,), m/s^2."""

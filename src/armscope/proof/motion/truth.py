@@ -17,7 +17,8 @@ COMPARED = {
     "coulomb_friction": ("coulomb",), "viscous_friction": ("viscous",), "asymmetric_friction": ("viscous_difference",),
     "stribeck_friction": ("stribeck",), "load_friction": ("per_load",), "thermal_friction": ("per_kelvin",),
     "rotor_inertia": ("inertia",), "torque_offset": ("offset",), "motor_constant": ("gain",),
-    "torque_delay": ("delay",), "link_mass": ("mass",), "payload_error": ("mass",), "torque_ripple": ("amplitude",),
+    "torque_delay": ("delay",), "joint_compliance": ("compliance",),
+    "link_mass": ("mass",), "payload_error": ("mass",), "torque_ripple": ("amplitude",),
     "coupled_friction": ("coulomb", "viscous"), "coupled_inertia": ("inertia",), "gravity_direction": ("x", "y"),
 }  # fmt: skip
 """Numbers whose meaning does not hang on what else is fitted; scanned ones (speed, waves per turn) have no interval."""

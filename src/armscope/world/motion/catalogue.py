@@ -127,6 +127,7 @@ def _small() -> Iterator[tuple[Category, Recipe]]:
     for kind in OUTSIDE[:2]:
         yield "outside", _single(kind.name, 5.0)
     yield "confounded", CONFOUNDED[0]
+    yield "single", _single("joint_compliance", 5.0)
 
 
 def _nothing(rng: np.random.Generator) -> Details:

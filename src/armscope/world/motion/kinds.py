@@ -17,7 +17,14 @@ import numpy as np
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.robot.description import RobotDescription
-from armscope.world.motion.limits import centre_may_be, mass_may_be, resists_either_way, resists_when_warm
+from armscope.world.motion.drives import behind_its_drive
+from armscope.world.motion.limits import (
+    centre_may_be,
+    holds_its_link,
+    mass_may_be,
+    resists_either_way,
+    resists_when_warm,
+)
 from armscope.world.motion.mechanism import Coupling, Dynamics, Spring
 from armscope.world.motion.session import COLD_C, GRID_HZ, Session
 
@@ -259,6 +266,8 @@ LIBRARY: tuple[Kind, ...] = (
          driver="load"),
     Kind("torque_delay", joints, _more("delay"), {"delay": "s"}, ("delay",), {"delay": 0.05}, records=_late,
          driver="time"),
+    Kind("joint_compliance", loaded_joints, _more("compliance"), {"compliance": "rad/(N m)"}, ("compliance",), {},
+         pulls=behind_its_drive, driver="load", possible=holds_its_link),
     Kind("link_mass", _links, _either("mass"), {"mass": "kg"}, ("mass",), {}, changes=_heavier, driver="load",
          possible=mass_may_be),
     Kind("link_first_moment", _links, _direction("mx", "my", "mz"), dict.fromkeys(("mx", "my", "mz"), "kg m"),

@@ -8,13 +8,39 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from armscope.world.layout import Geometry
+from armscope.world.motion.mechanism import MovingArm
 
 if TYPE_CHECKING:
     from armscope.world.motion.virtual_arm import VirtualArm
 
 Numbers = Mapping[str, float]
+POSES_APART = 500
+"""Samples between the poses that are looked at."""
 WRONG_MASS, WRONG_CENTRE = 0.6, 0.1
 """How wrong a drawing may be: share of a link's mass, and of the arm's longest link for its centre."""
+
+
+SLOWEST_SWING_HZ = 2.0
+"""A link that swings on its own drive more slowly is not driven along paths of seconds."""
+
+
+def holds_its_link(arm: VirtualArm, joint: int, numbers: Numbers) -> bool:
+    """Whether a drive that gives way is stiff enough to be driven, in every pose of the motion.
+
+    Args:
+        arm: the arm.
+        joint: from 0.
+        numbers: of what is concealed there.
+
+    Returns:
+        Whether a drive can be so.
+    """
+    angle = arm.session.angle[::POSES_APART]
+    still, turning = np.zeros_like(angle), np.zeros_like(angle)
+    turning[:, joint] = 1.0
+    links = MovingArm(Geometry(arm.description), arm.dynamics.without_friction())
+    inertia = (links.torques(angle, still, turning) - links.torques(angle, still, still))[:, joint]
+    return bool(numbers["compliance"] * inertia.max() * (2 * np.pi * SLOWEST_SWING_HZ) ** 2 < 1)
 
 
 def mass_may_be(arm: VirtualArm, link: int, numbers: Numbers) -> bool:

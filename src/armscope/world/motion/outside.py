@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.signal import lfilter
 
 from armscope.core.types import Array
-from armscope.world.motion.kinds import Kind, Numbers, Stage, joints, loaded_joints
+from armscope.world.motion.kinds import Kind, Numbers, Stage, joints, sign
 from armscope.world.motion.session import GRID_HZ, Session
 
 
@@ -26,6 +27,24 @@ def _hysteresis(stage: Stage, joint: int, numbers: Numbers) -> Array:
     return found
 
 
+def _eccentric(stage: Stage, joint: int, numbers: Numbers) -> Array:
+    """A gear off its centre meshes tight on one side of the turn: dry friction goes up and down once per turn."""
+    turned = stage.session.angle[:, joint] - numbers["phase"]
+    found: Array = numbers["torque"] * np.cos(turned) * sign(stage.session, joint)
+    return found
+
+
+def _creeping(session: Session, torque: Array, joint: int, numbers: Numbers) -> Array:
+    """A strain gauge whose glue creeps: a share of what it reads comes in the course of seconds (Kelvin and Voigt)."""
+    found = np.array(torque)
+    kept = np.exp(-1 / (numbers["after"] * GRID_HZ))
+    for run in session.runs():
+        begun = torque[run.start, joint] * kept
+        crept, _ = lfilter([1 - kept], [1.0, -kept], torque[run, joint], zi=[begun])
+        found[run, joint] += numbers["share"] * crept
+    return found
+
+
 def _play(session: Session, torque: Array, joint: int, numbers: Numbers) -> Array:
     """Torque goes through a play: what is recorded follows only once the torque has changed by its width."""
     found = np.array(torque)
@@ -35,14 +54,6 @@ def _play(session: Session, torque: Array, joint: int, numbers: Numbers) -> Arra
         for row in range(run.start, run.stop):
             follows = min(max(follows, torque[row, joint] - half), torque[row, joint] + half)
             found[row, joint] = follows
-    return found
-
-
-def _belt(stage: Stage, joint: int, numbers: Numbers) -> Array:
-    """The angle is the motor's; the link hangs behind a belt that gives way under its torque."""
-    shift = np.zeros_like(stage.session.angle)
-    shift[:, joint] = -numbers["compliance"] * stage.load[:, joint]
-    found: Array = (stage.links(stage.session.moved(shift)) - stage.load)[:, joint]
     return found
 
 
@@ -59,8 +70,11 @@ OUTSIDE: tuple[Kind, ...] = (
          {"torque": "N m", "way": "rad"}, ("torque",), {}, pulls=_hysteresis, shape="hysteresis"),
     Kind("unknown", joints, lambda rng, _: {"width": 1.0}, {"width": "N m"}, ("width",), {}, records=_play,
          driver="load", shape="torque_play"),
-    Kind("unknown", loaded_joints, lambda rng, _: {"compliance": 1.0}, {"compliance": "rad/(N m)"}, ("compliance",),
-         {"compliance": 2e-3}, pulls=_belt, driver="load", shape="belt"),
+    Kind("unknown", joints, lambda rng, _: {"torque": 1.0, "phase": float(rng.uniform(-np.pi, np.pi))},
+         {"torque": "N m", "phase": "rad"}, ("torque",), {}, pulls=_eccentric, shape="eccentric_friction"),
+    Kind("unknown", joints, lambda rng, _: {"share": 1.0, "after": float(rng.uniform(0.5, 2.0))},
+         {"share": "", "after": "s"}, ("share",), {"share": 0.4}, records=_creeping, driver="load",
+         shape="creeping_sensor"),
     Kind("unknown", joints, lambda rng, _: {"per_square": 1.0}, {"per_square": "1/(N m)^2"}, ("per_square",), {},
          records=_saturating, driver="load", shape="saturating_sensor"),
 )  # fmt: skip

@@ -136,6 +136,7 @@ def rivals(arm: VirtualArm, torque: Array, rows: NDArray[np.intp]) -> Iterator[R
     for j, place in enumerate(places):
         for effect, columns in _joint_patterns(stage, j, plain[:, j], slope[:, j]):
             yield Rival(effect, place, _at(columns, j, len(places)))
+    yield from _drive_rivals(arm, links, rows)
     yield from _mechanism_rivals(arm, session, plain)
 
 
@@ -156,6 +157,21 @@ def _joint_patterns(stage: Stage, j: int, torque: Array, slope: Array) -> Iterat
     yield "gravity_balance", np.column_stack([np.ones_like(angle), angle])
     middle, half = (angle.max() + angle.min()) / 2, max(np.ptp(angle) / 2, 1e-9)
     yield "cable_torque", np.polynomial.chebyshev.chebvander((angle - middle) / half, CURVE_DEGREE)
+
+
+def _drive_rivals(arm: VirtualArm, links: MovingArm, rows: NDArray[np.intp]) -> Iterator[Rival]:
+    """Each drive gives way by a little: torques of all joints where its link lags behind."""
+
+    def torques(motion: Session) -> Array:
+        return links.torques(motion.angle, motion.speed, motion.acceleration)
+
+    load = torques(arm.session)
+    for j, place in enumerate(joints(arm.description)):
+        little = SMALL / np.abs(load[:, j]).max()
+        shift = np.zeros_like(load)
+        shift[:, j] = -little * load[:, j]
+        moved = torques(arm.session.moved(shift).taken(rows))
+        yield Rival("joint_compliance", place, (moved - load[rows]).reshape(-1, 1) / little)
 
 
 def _mechanism_rivals(arm: VirtualArm, session: Session, plain: Array) -> Iterator[Rival]:

@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import make_interp_spline
 
 from armscope.core.types import Array
 from armscope.design.fourier import Limits, random_path
@@ -63,12 +64,12 @@ class Session:
 
     def moved(self, shift: Array) -> Session:
         """With joints turned by (T, n) rad more, speed and acceleration to suit."""
-        speed = self.differentiated(shift)
+        speed, acceleration = np.empty_like(shift), np.empty_like(shift)
+        for run in self.runs():
+            path = make_interp_spline(self.time[run], shift[run], k=5)
+            speed[run], acceleration[run] = (path.derivative(order)(self.time[run]) for order in (1, 2))
         return replace(
-            self,
-            angle=self.angle + shift,
-            speed=self.speed + speed,
-            acceleration=self.acceleration + self.differentiated(speed),
+            self, angle=self.angle + shift, speed=self.speed + speed, acceleration=self.acceleration + acceleration
         )
 
     def taken(self, rows: NDArray[np.intp] | slice) -> Session:

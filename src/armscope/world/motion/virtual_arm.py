@@ -66,7 +66,8 @@ class VirtualArm:
         torque = MovingArm(geometry, dynamics).torques(session.angle, session.speed, session.acceleration)
         for each in concealed:
             if each.kind.pulls is not None:
-                torque[:, each.joint] += each.kind.pulls(stage, each.joint, each.numbers)
+                pulled = each.kind.pulls(stage, each.joint, each.numbers)
+                torque[:, slice(None) if pulled.ndim == 2 else each.joint] += pulled
         for each in concealed:
             if each.kind.records is not None:
                 torque = each.kind.records(session, torque, each.joint, each.numbers)

@@ -1,0 +1,73 @@
+"""Links with what they carry, on any motion: their torques, and how these change with the motion."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import pinocchio as pin
+from numpy.typing import NDArray
+
+from armscope.core.types import Array
+from armscope.robot.dynamics import MovingArm
+
+
+@dataclass(frozen=True, eq=False)
+class Bodies:
+    """An arm's links with what they carry at each of N samples.
+
+    Attributes:
+        arm: the arm.
+        inertial: (10 n,) inertial parameters of the links.
+        payload: (N,) kg at the tool point, or None.
+    """
+
+    arm: MovingArm
+    inertial: Array
+    payload: Array | None
+
+    def torques(self, q: Array, dq: Array, ddq: Array) -> Array:
+        """(N, m) torques, N m, that they ask for at positions, velocities, accelerations (N, m)."""
+        found = np.empty(q.shape)
+        for rows, inertial in self._loads(len(q)):
+            found[rows] = self.arm.torques(q[rows], dq[rows], ddq[rows], inertial)
+        return found
+
+    def slopes(self, q: Array, dq: Array, ddq: Array) -> tuple[Array, Array, Array]:
+        """As `slopes`, at (N, m) of each."""
+        m = q.shape[1]
+        found = np.empty((len(q), m, m)), np.empty((len(q), m, m)), np.empty((len(q), m, m))
+        for rows, inertial in self._loads(len(q)):
+            for whole, part in zip(found, slopes(self.arm, (q[rows], dq[rows], ddq[rows]), inertial), strict=True):
+                whole[rows] = part
+        return found
+
+    def _loads(self, count: int) -> Iterator[tuple[NDArray[np.bool_], Array]]:
+        """Which samples carry the same, and the inertial parameters with that."""
+        payload = np.zeros(count) if self.payload is None else self.payload
+        for load in np.unique(payload):
+            yield payload == load, self.inertial + load * self.arm.point_load() if load else self.inertial
+
+
+def slopes(arm: MovingArm, motion: tuple[Array, Array, Array], inertial: Array) -> tuple[Array, Array, Array]:
+    """How torques change with the motion (Carpentier & Mansard 2018).
+
+    Args:
+        arm: the arm.
+        motion: (N, m) motor positions, velocities, accelerations.
+        inertial: (10 n,) of each link, `PARAMETERS`; of a link whose mass is not positive the stated ones count.
+
+    Returns:
+        (N, m, m) N m of each motor per unit of each one's position, velocity and acceleration.
+    """
+    model, (q, dq, ddq) = arm.with_masses(inertial), motion
+    data, v, a = model.createData(), dq @ arm.actuation.T, ddq @ arm.actuation.T
+    found = np.empty((3, len(q), arm.n_links, arm.n_links))
+    for row, moved in enumerate(zip(arm.configurations(q), v, a, strict=True)):
+        pin.computeRNEADerivatives(model, data, *moved)
+        found[0, row], found[1, row], found[2, row] = data.dtau_dq, data.dtau_dv, data.M
+    upper = np.triu(found[2])  # of a mass matrix pinocchio fills one half
+    found[2] = upper + np.swapaxes(np.triu(upper, 1), 1, 2)
+    by_q, by_v, by_a = np.einsum("knij,ip,jr->knpr", found, arm.actuation, arm.actuation, optimize=True)
+    return by_q, by_v, by_a
