@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pandas as pd
 import pinocchio as pin
+from scipy.interpolate import make_interp_spline
 
 from armscope.core.types import Array
 from armscope.recordings.motions import Motions, as_motions
@@ -87,3 +88,24 @@ def clinging(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
         state = np.sign(step) + (state - np.sign(step)) * np.exp(-abs(step) / 0.1)
         extra[row, 1] = 3 * state
     return extra
+
+
+def behind_its_drive(arm: MovingArm, joint: int, compliance: float, seed: int = 1, noise: float = 0.02) -> pd.DataFrame:
+    """motions.csv of an arm one of whose drives gives way, exactly: links move as they do, the motor where it must be.
+
+    Its encoder stands at the link's angle and compliance x the link's torque; friction and rotor are the motor's.
+    """
+    rng, pieces, n = np.random.default_rng(seed), [], arm.n_motors
+    data = arm.model.createData()
+    for run in range(2):
+        time, q, dq, ddq = path(rng, n, 15.0, 200.0)
+        rigid = np.array([pin.rnea(arm.model, data, *row).copy() for row in zip(q, dq, ddq, strict=True)])
+        lag = make_interp_spline(time, compliance * rigid[:, joint], k=5)
+        for order, values in enumerate((q, dq, ddq)):
+            values[:, joint] += lag(time, order)
+        torque = rigid + COULOMB[:n] * np.sign(dq) + VISCOUS[:n] * dq + ROTOR[:n] * ddq
+        torque += noise * torque.std(axis=0) * rng.normal(size=torque.shape)
+        columns = {"run": f"path {run + 1}", "time_s": time}
+        columns |= {f"q{j + 1}_rad": q[:, j] + 1e-5 * rng.normal(size=len(q)) for j in range(n)}
+        pieces.append(pd.DataFrame(columns | {f"tau{j + 1}_nm": torque[:, j] for j in range(n)}))
+    return pd.concat(pieces, ignore_index=True)

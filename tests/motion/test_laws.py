@@ -1,10 +1,14 @@
 """Laws of torque: each is what its equation says."""
 
 import numpy as np
+import pytest
+from scipy.interpolate import make_interp_spline
 
 from armscope.motion.causes import Moment
 from armscope.motion.laws import Law, taken_along
-from armscope.motion.preparation import Signals
+from armscope.motion.preparation import Signals, without_lag
+from armscope.robot.bodies import Bodies
+from tests.motion.moving import path, robot
 
 RNG = np.random.default_rng(3)
 Q, DQ, DDQ, RIGID, PREDICTED = RNG.normal(size=(5, 50, 2))
@@ -70,3 +74,47 @@ def test_a_delay_is_exact_where_it_is_stated() -> None:
 def test_a_delayed_torque_falls_short_by_its_slope() -> None:
     slope = Law("delayed torque", (0,))(MOMENT)[1:-1, 0, 0]
     np.testing.assert_allclose(slope, -(PREDICTED[2:, 0] - PREDICTED[:-2, 0]) * 49.0 / 2)
+
+
+def behind(compliance: float, noise: float = 0.0) -> tuple[Moment, np.ndarray]:
+    """Samples of motors, one of which is ahead of its link by compliance x torque, and what that changes, exactly.
+
+    The links' motion is given; where the motors must be follows from it, so that nothing has to be solved.
+    """
+    arm = robot()
+    time, *links = path(np.random.default_rng(2), 3, 15.0, 200.0)
+    bodies = Bodies(arm, arm.inertial, None)
+    torque = bodies.torques(*links)
+    ahead = make_interp_spline(time, compliance * torque[:, 1], k=5)
+    motors = [values + np.eye(3)[1] * ahead(time, order)[:, None] for order, values in enumerate(links)]
+    if noise:
+        read = make_interp_spline(time, motors[0] + noise * np.random.default_rng(4).normal(size=(len(time), 3)), k=5)
+        motors = [read(time, order) for order in range(3)]
+    rigid = bodies.torques(*motors)
+    signals = Signals("", 0, time, *motors, rigid, None, None, np.arange(len(time)))
+    return Moment(signals, rigid, rigid, None, 200.0, bodies), torque - rigid
+
+
+@pytest.mark.parametrize(("numbers", "off"), [((10.0,), 0.04), ((10.0, 5e-4), 2e-3)], ids=["slope", "exact"])
+def test_a_link_lags_behind_a_drive_that_gives_way(numbers: tuple[float, ...], off: float) -> None:
+    moment, change = behind(5e-4)
+    column = Law("behind a drive", (1, 0, 2), numbers)(moment)[:, :, 0]
+    inside = slice(200, -200)  # a filter's ends are left out of the rows, too
+    expected = change[inside][:, [1, 0, 2]]
+    assert np.linalg.norm(expected, axis=0).min() > 0.05 * np.linalg.norm(expected)  # every joint feels it
+    missed = np.linalg.norm(5e-4 * column[inside] - expected, axis=0) / np.linalg.norm(expected, axis=0)
+    assert missed.max() < off
+
+
+def test_the_torque_is_derived_where_there_is_motion_and_not_noise() -> None:
+    (clean, _), (noisy, _) = behind(2e-3), behind(2e-3, noise=2e-6)
+    inside = slice(200, -200)
+    for cutoff, off in ((4.0, (0.0, 0.03)), (50.0, (0.5, np.inf))):
+        of_motion, read = (Law("behind a drive", (1, 0, 2), (cutoff, 2e-3))(each)[inside] for each in (clean, noisy))
+        low = low_passed(read), low_passed(of_motion)
+        assert off[0] < np.linalg.norm(low[0] - low[1]) / np.linalg.norm(low[1]) < off[1]
+
+
+def low_passed(values: np.ndarray) -> np.ndarray:
+    """Through the low-pass of the rows, at 20 Hz."""
+    return without_lag(values, 20.0, 200.0, 60)

@@ -1,10 +1,13 @@
 """What is planted in a motion is found by name, place and size; what is not there is not named."""
 
 import numpy as np
+import pytest
 
 from armscope.core.types import Array
+from armscope.motion.laws import Law
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
-from tests.motion.moving import COULOMB, ROTOR, VISCOUS, Plant, clinging, moved, robot
+from armscope.recordings.motions import as_motions
+from tests.motion.moving import COULOMB, ROTOR, VISCOUS, Plant, behind_its_drive, clinging, moved, robot
 
 
 def diagnosed(plant: Plant | None, seed: int = 1, **more: float) -> MotionDiagnosis:
@@ -44,6 +47,30 @@ def test_friction_that_grows_with_load_is_found_at_its_joint() -> None:
     assert low - 0.004 < 0.08 < high + 0.004
     assert cause.consistent
     assert found.verdict.held_out.model < found.verdict.held_out.background
+
+
+def test_a_drive_that_gives_way_is_found_from_its_motors_encoder_alone() -> None:
+    """The motors' places follow from the links' exactly, and the diagnosis hears of neither the links nor the law."""
+    arm = robot()
+    for joint, compliance in ((1, 1.5e-3), (2, 6e-3)):
+        motions = as_motions(behind_its_drive(arm, joint, compliance), "motions.csv", 3)
+        found = diagnose_motion(arm, motions)
+        assert names(found) == [("joint_compliance", f"joint {joint + 1}")]
+        (cause,) = found.verdict.effects
+        low, high = cause.parameters[0].interval
+        assert low < compliance < high < 1.1 * low
+        law = found.model.causes[0].placed.columns
+        assert isinstance(law, Law)
+        assert law.numbers[1] == pytest.approx(cause.parameters[0].value, rel=0.02)  # exact there, no slope at zero
+        assert "mrad per N m" in found.verdict.headline
+
+
+def test_a_torque_constant_that_is_off_is_no_drive_that_gives_way() -> None:
+    def plant(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+        whole = rigid + COULOMB * np.sign(dq) + VISCOUS * dq + ROTOR * ddq
+        return np.asarray(-0.06 * whole * [0, 1, 0])
+
+    assert names(diagnosed(plant)) == [("motor_constant", "joint 2")]
 
 
 def test_what_no_cause_has_is_located_and_not_called_something_else() -> None:

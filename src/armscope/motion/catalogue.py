@@ -219,9 +219,10 @@ COMPLIANCE = Cause(
     SPRINGS,
     "Belt, gear or shaft give way under the link's torque, behind the motor's encoder.",
     "Block the link and let the motor push against it: its encoder still turns, in proportion to the torque.",
-    "Let the link lag behind the motor by compliance × torque.",
+    "Let the link of the model lag behind its motor.",
     nonnegative=True,
-    clause=clauses.at_place("the drive of {} gives way under its torque"),
+    clause=clauses.compliance_clause,
+    remedy=remedies.lagging,
 )
 WAY, PLAY, SCALE = "way since the last reversal", "torque since its last reversal", clauses.SCALE
 """What laws follow that no cause has: hysteresis of friction, play between motor and sensor, a sensor that bends."""

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array
 from armscope.motion.preparation import Signals
-from armscope.motion.sampling_constants import FILTER
+from armscope.motion.sampling_constants import CUTOFF, FILTER
 from armscope.robot.bodies import Bodies
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.effects import UNKNOWN
@@ -167,7 +167,7 @@ class Seen:
     runs: tuple[str, ...]
     moving: NDArray[np.bool_]
     regressor: Array
-    motion_hz: float = np.inf
+    motion_hz: float = CUTOFF.widest_hz
     waves: Mapping[int, tuple[tuple[int, ...], int]] = field(default_factory=dict)
 
     def unit(self, joint: int) -> str:

@@ -111,6 +111,11 @@ def gain_clause(cause: FoundCause, numbers: Numbers) -> str:
     return f"the recorded torque of {cause.location} is {amount(shown)} too {side}"
 
 
+def compliance_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """A drive that gives way."""
+    return f"the drive of {cause.location} gives way under its link's torque, by {amount(numbers['compliance'])}"
+
+
 def balance_clause(cause: FoundCause, numbers: Numbers) -> str:
     """A spring or a counterweight, as far as its stiffness is known."""
     stiffness = numbers.get("stiffness")

@@ -83,6 +83,11 @@ def shifted(fitted: Fitted) -> str:
     return f"Shift the recorded torque {amount(fitted.first)} {side}, or simulate that."
 
 
+def lagging(fitted: Fitted) -> str:
+    """A link that lags behind its motor."""
+    return f"{fitted.in_general}: {amount(fitted.first)} of torque."
+
+
 def per_load(fitted: Fitted) -> str:
     """Friction that grows with the load."""
     return f"{fitted.in_general}: {amount(fitted.first)} × |torque| × sign of the speed."

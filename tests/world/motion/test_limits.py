@@ -9,21 +9,34 @@ import pytest
 
 from armscope.world.motion.kinds import LIBRARY
 from armscope.world.motion.limits import (
+    SLOWEST_SWING_HZ,
     WRONG_CENTRE,
     WRONG_MASS,
     centre_may_be,
+    holds_its_link,
     mass_may_be,
     resists_either_way,
     resists_when_warm,
 )
+from armscope.world.motion.mechanism import MovingArm
 
 from .arms import arm
 
 DESCRIPTION, GEOMETRY, DYNAMICS = arm("six-axis")
-SESSION = SimpleNamespace(temperature=np.array([[20.0], [45.0]]))
+POSES = np.array([[0.0, 0.3, 0.2, 0.0, 0.4, 0.0]])
+SESSION = SimpleNamespace(temperature=np.array([[20.0], [45.0]]), angle=POSES)
 ARM = SimpleNamespace(description=DESCRIPTION, dynamics=DYNAMICS, session=SESSION)
 LONGEST = np.abs(GEOMETRY.rows[:, [0, 2]]).max()
+
+
+def inertia() -> float:
+    """kg m^2 of all that hangs on joint 2, by the energy of turning it."""
+    links, turning = MovingArm(GEOMETRY, DYNAMICS.without_friction()), np.eye(6)[1:2]
+    return float(2 * (links.energy(POSES, turning) - links.energy(POSES, 0 * turning))[0])
+
+
 LIMITS = {
+    holds_its_link: {"compliance": 1 / (inertia() * (2 * np.pi * SLOWEST_SWING_HZ) ** 2)},
     mass_may_be: {"mass": -WRONG_MASS * DYNAMICS.mass[1]},
     centre_may_be: {"mx": WRONG_CENTRE * LONGEST * DYNAMICS.mass[1], "my": 0.0, "mz": 0.0},
     resists_when_warm: {"per_kelvin": -DYNAMICS.viscous[1] / 25.0},

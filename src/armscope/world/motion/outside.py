@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.signal import lfilter
 
 from armscope.core.types import Array
 from armscope.world.motion.kinds import Kind, Numbers, Stage, joints, sign
@@ -34,17 +33,6 @@ def _eccentric(stage: Stage, joint: int, numbers: Numbers) -> Array:
     return found
 
 
-def _creeping(session: Session, torque: Array, joint: int, numbers: Numbers) -> Array:
-    """A strain gauge whose glue creeps: a share of what it reads comes in the course of seconds (Kelvin and Voigt)."""
-    found = np.array(torque)
-    kept = np.exp(-1 / (numbers["after"] * GRID_HZ))
-    for run in session.runs():
-        begun = torque[run.start, joint] * kept
-        crept, _ = lfilter([1 - kept], [1.0, -kept], torque[run, joint], zi=[begun])
-        found[run, joint] += numbers["share"] * crept
-    return found
-
-
 def _play(session: Session, torque: Array, joint: int, numbers: Numbers) -> Array:
     """Torque goes through a play: what is recorded follows only once the torque has changed by its width."""
     found = np.array(torque)
@@ -72,9 +60,6 @@ OUTSIDE: tuple[Kind, ...] = (
          driver="load", shape="torque_play"),
     Kind("unknown", joints, lambda rng, _: {"torque": 1.0, "phase": float(rng.uniform(-np.pi, np.pi))},
          {"torque": "N m", "phase": "rad"}, ("torque",), {}, pulls=_eccentric, shape="eccentric_friction"),
-    Kind("unknown", joints, lambda rng, _: {"share": 1.0, "after": float(rng.uniform(0.5, 2.0))},
-         {"share": "", "after": "s"}, ("share",), {"share": 0.4}, records=_creeping, driver="load",
-         shape="creeping_sensor"),
     Kind("unknown", joints, lambda rng, _: {"per_square": 1.0}, {"per_square": "1/(N m)^2"}, ("per_square",), {},
          records=_saturating, driver="load", shape="saturating_sensor"),
 )  # fmt: skip
