@@ -120,6 +120,11 @@ def test_waves_that_the_library_will_try_are_those_in_the_torque() -> None:
     assert tried > 20 > len(counts)
 
 
+def test_the_motion_ends_where_positions_show_it_or_torques_do() -> None:
+    positions, torques = (preparation(200.0, cutoff, "test", 9.0) for cutoff in (10.0, 3.0))
+    assert (positions.motion_hz, torques.motion_hz) == (4.5, 3.0)
+
+
 def test_positions_are_smoothed_where_their_own_noise_begins() -> None:
     quiet, noisy = moved(robot(), 3), moved(robot(), 3)
     worse = dataclasses.replace(noisy, q=noisy.q + 1e-3 * np.random.default_rng(0).normal(size=noisy.q.shape))

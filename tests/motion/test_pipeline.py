@@ -65,6 +65,11 @@ def test_a_drive_that_gives_way_is_found_from_its_motors_encoder_alone() -> None
         assert "mrad per N m" in found.verdict.headline
 
 
+def test_no_drive_gives_way_against_its_torque() -> None:
+    motions = as_motions(behind_its_drive(robot(), 1, -1.5e-3), "motions.csv", 3)
+    assert "joint_compliance" not in [effect for effect, _ in names(diagnose_motion(robot(), motions))]
+
+
 def test_a_torque_constant_that_is_off_is_no_drive_that_gives_way() -> None:
     def plant(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
         whole = rigid + COULOMB * np.sign(dq) + VISCOUS * dq + ROTOR * ddq
