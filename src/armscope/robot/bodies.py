@@ -28,14 +28,34 @@ class Bodies:
     payload: Array | None
 
     def torques(self, q: Array, dq: Array, ddq: Array) -> Array:
-        """(N, m) torques, N m, that they ask for at positions, velocities, accelerations (N, m)."""
+        """What they ask of the motors.
+
+        Args:
+            q: (N, m) motor positions.
+            dq: (N, m) their velocities.
+            ddq: (N, m) their accelerations.
+
+        Returns:
+            (N, m) N m.
+        """
         found = np.empty(q.shape)
         for rows, inertial in self._loads(len(q)):
             found[rows] = self.arm.torques(q[rows], dq[rows], ddq[rows], inertial)
         return found
 
     def slopes(self, q: Array, dq: Array, ddq: Array) -> tuple[Array, Array, Array]:
-        """As `slopes`, at (N, m) of each."""
+        """How that changes with the motion.
+
+        Args:
+            q: (N, m) motor positions.
+            dq: (N, m) their velocities.
+            ddq: (N, m) their accelerations.
+
+        Returns:
+            As `slopes`.
+        """
+        if self.payload is None:
+            return slopes(self.arm, (q, dq, ddq), self.inertial)
         m = q.shape[1]
         found = np.empty((len(q), m, m)), np.empty((len(q), m, m)), np.empty((len(q), m, m))
         for rows, inertial in self._loads(len(q)):
