@@ -11,7 +11,7 @@ import pytest
 
 from armscope.diagnosis import Settings, diagnose
 from armscope.diagnosis.earning import held_out_errors
-from armscope.diagnosis.summary.alternatives import _held_out_errors, alternatives
+from armscope.diagnosis.summary.alternatives import _held_out_errors, alternatives, too_close
 from armscope.inference.evidence import evaluate
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
@@ -84,6 +84,24 @@ def test_a_rival_is_judged_on_held_out_rows_with_the_names_own_column_at_zero() 
     readings = [(rival.hypothesis.chosen, rival.hypothesis.background)]
     assert told[1] == pytest.approx(held_out_errors(without, blocks, readings, best.noise).sum())
     assert told[1] > held_out_errors(problem, blocks, readings, best.noise).sum() > told[0]
+
+
+@pytest.mark.parametrize(
+    ("nats", "excluded", "family", "sure"),
+    [(1.0, True, "elastic", False), (7.0, False, "elastic", False), (7.0, True, "elastic", True),
+     (7.0, None, "elastic", True), (7.0, False, "geometric", True)],
+)  # fmt: skip
+def test_a_name_out_of_a_background_is_sure_where_held_out_rows_exclude_its_rivals_there(
+    nats: float, excluded: bool | None, family: str, sure: bool
+) -> None:
+    problem = problem_where(DRIVE_AT, 0.98, drive=-0.2)
+    best = with_drive_named(problem)
+    rival = next(r for r in alternatives(Search.on(problem), best, DRIVE_AT) if r.hypothesis.candidates == {TILT_AT})
+    effect = replace(problem.space.candidates[DRIVE_AT], family="elastic")
+    judged = rival._replace(excluded=excluded, candidate=replace(rival.candidate, family=family))
+    assert (too_close(effect, [judged], [nats]) == []) == sure
+    assert too_close(effect, [judged._replace(near=False)], [nats]) == []
+    assert too_close(effect, [judged._replace(held=())], [7.0]) == []
 
 
 def test_what_explains_nothing_is_no_rival_however_faint_the_name() -> None:
