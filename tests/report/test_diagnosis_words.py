@@ -11,7 +11,7 @@ from armscope.report.sections.effect_cards import card, chosen_how_often, title_
 from armscope.robot import forward_kinematics
 from armscope.verdict.effects import Alternative, Curve, Parameter
 from armscope.verdict.schema import Notice, Unexplained
-from armscope.verdict.sentences import ANOTHER_MODEL, exact_phrase, headline
+from armscope.verdict.sentences import ANOTHER_MODEL, cause_in_words, exact_phrase, headline
 from armscope.verdict.wording import main_and_minor, reach
 from tests.report import verdicts
 from tests.report.verdicts import compliance, found
@@ -140,6 +140,14 @@ def test_a_vague_name_stays_vague_and_says_its_best_reading():
     mixed = compliance(named_as="region", title="joint compliance at joint 2 or unknown at joint 3")
     said = headline(verdicts.case(effects=(mixed,)).verdict)
     assert said.startswith("Either joint compliance at joint 2 or an unexplained curve at joint 3 –")
+
+
+def test_a_cause_has_one_pair_of_brackets():
+    vague = compliance(named_as="region", title="elastic, around joint 1, joint 2")
+    said = cause_in_words("elastic", [vague, compliance()], everywhere=True)
+    assert said.endswith("under gravity; one more of its kind, all others a little)")
+    assert said.count("(") == 1
+    assert cause_in_words("elastic", [compliance()], everywhere=True).endswith("under gravity (all others a little)")
 
 
 def test_nothing_missing_and_cannot_tell_are_whole_answers():
