@@ -191,23 +191,14 @@ def members(found: Selected) -> tuple[list[Member], float]:
         if not set(columns) <= set(family.columns) or seen & set(columns):
             continue
         seen |= set(columns)
-        unit = (
-            np.sqrt(variance[columns]) / family.label(size) / (1e3 * TOLERANCE)
-        )  # what 1 mm or 1 mrad does at the tool, mm
+        # mm at the tool by 1 mm or 1 mrad
+        unit = np.sqrt(variance[columns]) / family.label(size) / (1e3 * TOLERANCE)
         beyond = _beyond(at, family.columns, columns, variance)
         for k, term in enumerate(found.space.placed[number].terms):
             words = f"{candidate.location}: {term.name.replace('_', ' ')}"
             value, error = at.means(columns)[k], np.sqrt(at.variances(columns)[k])
-            told.append(
-                Member(
-                    words,
-                    "mm" if term.unit == "mm" else "mrad",
-                    value / unit[k],
-                    error / unit[k],
-                    beyond[k],
-                    candidate.key in names,
-                )
-            )
+            shown = "mm" if term.unit == "mm" else "mrad"
+            told.append(Member(words, shown, value / unit[k], error / unit[k], beyond[k], candidate.key in names))
     return told, family.label(size)
 
 

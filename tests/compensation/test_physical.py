@@ -42,6 +42,15 @@ def test_torques_of_a_path_come_from_those_recorded_not_from_wrong_masses():
     assert (none_recorded.torque, silent) == (None, "")
 
 
+def test_what_gives_way_without_a_name_asks_for_its_load_too():
+    model, identified = physical()
+    loaded = next(part for part in model.parts if part.placed.effect.name == "joint_compliance")
+    unnamed = replace(model, parts=(), tools=(), background=(loaded,))
+    assert "torque" in drivers_of(unnamed)
+    bare = as_path(table_of(physical_path(6)[0]), "path", model.arm).table
+    assert list(missing_context(unnamed, identified, bare)) == ["payload_kg"]
+
+
 @pytest.mark.parametrize(
     ("kind", "column"),
     [("warmth", "temperature_c"), ("approach", "approach"), ("speed", "dq_rad_s"), ("hours", "time_s"),

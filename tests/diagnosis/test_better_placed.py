@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from armscope.core.types import Array
 from armscope.diagnosis.curve_shapes import DRIVE
 from armscope.diagnosis.promotion import _better_placed
 from armscope.inference.evidence import Hypothesis, evaluate
@@ -17,22 +18,41 @@ FRAMES, ROWS, NOISE = 2, 200, 0.1
 DRIVE_AT, TILT_AT = 0, 1
 
 
-def problem_where(made_by: int, alike: float, drive: float = 0.0, in_family: int = 7) -> Problem:
-    """A drive and a bearing whose columns correlate, and five others that do nothing; one made the rows.
+def rows_where(made_by: int, alike: float, drive: float = 0.0) -> tuple[Array, Array]:
+    """Rows (N, P) of a drive and a bearing whose columns correlate, and five others that do nothing; one made y (N,).
 
     Args:
         made_by: the one.
         alike: the drive's and the bearing's correlation.
         drive: by how much the drive gives way besides.
-        in_family: how many are in the background: the drive and the last ones; 0: there is none.
 
     Returns:
-        The problem.
+        X and y.
     """
     rng = np.random.default_rng(3)
     X = rng.normal(size=(ROWS, FRAMES + 7))
     X[:, FRAMES + TILT_AT] = alike * X[:, FRAMES + DRIVE_AT] + np.sqrt(1 - alike**2) * X[:, FRAMES + TILT_AT]
     y = 0.3 * X[:, FRAMES + made_by] + drive * X[:, FRAMES + DRIVE_AT] + rng.normal(0, NOISE, ROWS)
+    return X, y
+
+
+def sums(X: Array, y: Array) -> NormalEquations:
+    """The normal equations of some rows."""
+    return NormalEquations(X.T @ X, X.T @ y, float(y @ y), float(len(y)))
+
+
+def problem_where(made_by: int, alike: float, drive: float = 0.0, in_family: int = 7) -> Problem:
+    """The problem on `rows_where`.
+
+    Args:
+        made_by: as there.
+        alike: as there.
+        drive: as there.
+        in_family: how many are in the background: the drive and the last ones; 0: there is none.
+
+    Returns:
+        The problem.
+    """
     members = FRAMES + np.array([DRIVE_AT, *range(8 - in_family, 7)])
     kinds = [DRIVE, *["bearing_compliance"] * 6]
     elastic = ToleranceFamily("elastic", members, np.full(len(members), 0.3), (0.0, 0.1, 1.0), is_priced=True)
@@ -41,7 +61,7 @@ def problem_where(made_by: int, alike: float, drive: float = 0.0, in_family: int
         (elastic,) if in_family else (),
         tuple(Candidate(k, f"joint {n}", np.array([FRAMES + n]), np.ones(1)) for n, k in enumerate(kinds)),
     )
-    return build_problem(space, NormalEquations(X.T @ X, X.T @ y, float(y @ y), float(ROWS)), 0.5 * NOISE)
+    return build_problem(space, sums(*rows_where(made_by, alike, drive)), 0.5 * NOISE)
 
 
 def with_drive_named(problem: Problem) -> Hypothesis:

@@ -8,12 +8,14 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
-from armscope.physics.backgrounds import FAMILIES, backgrounds
+from armscope.inference.problem import prior_costs
+from armscope.physics.backgrounds import ELASTIC, FAMILIES, SOFT, backgrounds
 from armscope.physics.drift import Pause, drift_with_pauses
 from armscope.physics.frames import free_frames
 from armscope.physics.payload import payload_errors
 from armscope.physics.registry import library
 from armscope.physics.scene import Part
+from armscope.physics.soft_start import SOFT_START, soft_starts
 
 from .planted import planted
 
@@ -84,7 +86,7 @@ def test_a_drift_leaves_with_one_more_effect_of_the_base_where_there_are_pauses(
 
 def test_tolerances_are_free_and_other_backgrounds_pay(space: EffectSpace) -> None:
     assert [family.name for family in space.families] == list(FAMILIES)
-    assert [family.is_priced for family in space.families] == [False, True, True, True]
+    assert [family.is_priced for family in space.families] == [False, True, True, True, True]
     geometric, elastic, *_ = space.families
     scale = np.full(len(space.layout.terms), 1000.0)
     # the whole tolerance of a millimetre, of columns that move the tool by a metre per metre
@@ -94,3 +96,41 @@ def test_tolerances_are_free_and_other_backgrounds_pay(space: EffectSpace) -> No
     np.testing.assert_allclose(np.sqrt(elastic.prior_variance(elastic.sizes - 1, scale)), 300 * plausible)
     assert elastic.label(0) == 0.0
     assert elastic.label(2) == 0.01
+
+
+def test_soft_starts_are_the_backgrounds_and_enter_by_no_other_way(space: EffectSpace) -> None:
+    arm, table = planted("six-axis", {}, 60, 0.03, seed=2)
+    starts = list(soft_starts(arm, table))
+    assert starts
+    own = build_model_space(
+        free_frames(table, False), list(backgrounds(arm, table).values()), [*library(arm, table), *starts]
+    )
+    soft = {n for n, candidate in enumerate(own.candidates) if candidate.variant == SOFT_START}
+    assert len(soft) == len(starts)
+    (family,) = [family for family in own.families if family.name == SOFT]
+    assert set(family.columns) == {int(own.candidates[n].columns[0]) for n in soft}
+    for n in soft:
+        candidate = own.candidates[n]
+        assert candidate.nonnegative
+        assert not candidate.competes
+        assert not any(n in other.special_cases for other in own.candidates)
+    # nor is any other name dearer for them
+    np.testing.assert_array_equal(
+        [cost for n, cost in enumerate(prior_costs(own)) if n not in soft],
+        prior_costs(replace(own, candidates=tuple(c for n, c in enumerate(own.candidates) if n not in soft))),
+    )
+
+
+def test_what_looks_like_a_soft_start_may_be_taken_for_it(space: EffectSpace) -> None:
+    alike = {(c.kind, c.variant, c.family) for c in space.candidates if c.taken_up_by == SOFT}
+    assert alike == {("backlash", "load", "transmission"), ("unknown", "load", "unknown")}
+
+
+def test_families_without_members_are_in_no_start() -> None:
+    arm, table = planted("six-axis", {}, 60, 0.03, seed=2)
+    families = backgrounds(arm, table)
+    whole = build_model_space(free_frames(table, False), list(families.values()), [])
+    assert max(start[FAMILIES.index(ELASTIC)] for start in whole.starts) > 0
+    rigid = build_model_space(free_frames(table, False), list({**families, ELASTIC: [], SOFT: []}.values()), [])
+    assert all(start[FAMILIES.index(ELASTIC)] == 0 for start in rigid.starts)
+    assert len(set(rigid.starts)) == len(rigid.starts)

@@ -202,6 +202,13 @@ def test_what_is_taken_out_together() -> None:
     assert block_removals(space_of(candidates), [0, 4, 5]) == [(0,), (4,), (5,), (4, 5), (5, 0)]
 
 
+def test_what_was_tried_with_all_backgrounds_is_not_remembered_where_some_columns_are_held() -> None:
+    search = search_on(space_of([single(n) for n in range(SINGLE)]), {2: 0.3})
+    search.best()
+    assert search.resized
+    assert not search.holding(np.array([FRAMES + 2])).resized
+
+
 def test_many_small_values_are_a_background_and_one_large_one_a_name() -> None:
     rng = np.random.default_rng(5)
     everywhere = dict(enumerate(rng.normal(0, 0.02, SINGLE)))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from armscope.core.types import Array
-from armscope.motion.late import lag_step
+from armscope.motion.late import _between_reversals, lag_step
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
 from tests.motion.moving import COULOMB, ROTOR, VISCOUS, moved, robot
 
@@ -55,3 +55,15 @@ def test_the_interval_owns_how_little_the_slope_tells(found: MotionDiagnosis) ->
     (number,) = (n for n in selected.best.candidates if selected.rows.layout.placed[n].cause.name == "torque_delay")
     step, unsure = lag_step(selected, number)
     assert cause.parameters[0].stderr >= np.hypot(step, unsure)
+
+
+def test_rows_at_which_friction_changes_sides_tell_nothing_of_the_slope(found: MotionDiagnosis) -> None:
+    rows = found.selected.rows
+    between = _between_reversals(rows, JOINT)
+    turning = (np.diff(np.sign(rows.dq[:, JOINT])) != 0) & (np.diff(rows.stretch) == 0)
+    turns = np.flatnonzero(turning)
+    assert len(turns) > 5
+    assert not between[turns].any()
+    assert not between[turns + 1].any()
+    away = np.array([np.abs(rows.time[i] - rows.time[turns]).min() > 0.3 for i in range(len(rows))])
+    assert between[away].all()

@@ -48,6 +48,7 @@ HEAVIER, IN_RUN = Parameter("mass", "kg", 2.0, 0.1), "payload error in run b"
     [
         (cause("torque_delay", Parameter("delay", "s", -0.002, 1e-4)), "2.00 ± 0.20 ms too early"),
         (cause("torque_delay", Parameter("delay", "s", 0.002, 1e-4)), "2.00 ± 0.20 ms too late"),
+        (cause("torque_delay", Parameter("delay", "s", 0.002, 3e-3)), "beside its motion in time, by +2.0 ± 5.9 ms"),
         (cause("motor_constant", Parameter("gain", "", 0.085, 0.01)), "joint 4 is 8.5 ± 2.0 % too large"),
         (cause("torque_offset", Parameter("offset", "N m", -0.2, 0.01)), "reads 0.200 ± 0.020 N m too low"),
         (cause("asymmetric_friction", Parameter("viscous_difference", "N m s/rad", -3, 0.1)), "lower forward"),

@@ -20,10 +20,12 @@ from armscope.inference.model_space import (
     ModelSpace,
     ToleranceFamily,
 )
-from armscope.physics.backgrounds import DRIFT, FAMILIES, GEOMETRIC, MASSES
+from armscope.physics.backgrounds import DRIFT, FAMILIES, GEOMETRIC, MASSES, SOFT
 from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import Placed, clash, region
 from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
+from armscope.physics.soft_start import SOFT_START
+from armscope.physics.transmission import BACKLASH
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -62,7 +64,7 @@ def build_model_space(
         families=_families(layout),
         companions=(_masses(layout, backgrounds, placed, loads),),
         candidates=_candidates(layout, placed),
-        starts=BACKGROUNDS.starts,
+        starts=_starts(layout),
         exchanges=_trusting_stated_masses(placed),
         placed=tuple(placed),
         layout=layout,
@@ -76,11 +78,19 @@ def _families(layout: ParameterLayout) -> tuple[BackgroundFamily, ...]:
         BACKGROUNDS.elastic_shares,
         BACKGROUNDS.gear_shares,
         BACKGROUNDS.wander_shares,
+        BACKGROUNDS.elastic_shares,
     )
     families = zip(FAMILIES, layout.background[:-1], layout.background_scale[:-1], shares, strict=True)
     return tuple(
         ToleranceFamily(*family, is_priced=family[0] != GEOMETRIC, takes_one=family[0] == DRIFT) for family in families
     )
+
+
+def _starts(layout: ParameterLayout) -> tuple[tuple[int, ...], ...]:
+    """From which searches start; a family without members is in none of them, and pays nothing."""
+    there = [bool(len(columns)) for columns in layout.background[:-1]]
+    starts = (tuple(size * known for size, known in zip(s, there, strict=True)) for s in BACKGROUNDS.starts)
+    return tuple(dict.fromkeys(starts))
 
 
 def _masses(
@@ -125,14 +135,17 @@ def _candidates(layout: ParameterLayout, placed: Sequence[Placed]) -> tuple[Cand
                 driver=p.driver,
                 label=str(p),
                 family=DRIFT if curve and p.location == "base" and p.variant == "time" else p.family,
+                looks_like=SOFT if p.variant == "load" and (curve or p.effect is BACKLASH) else "",
                 region=region(p),
                 multiplicity=p.multiplicity,
                 nonnegative=p.effect.nonnegative and len(p.terms) == 1,
                 is_curve=curve,
-                competes=not p.refinement,
+                competes=_competes(p),
                 excludes=excludes,
                 requires=_requires(p, placed),
-                special_cases=frozenset(n for n in excludes if curve and placed[n].parametrisation != "curve"),
+                special_cases=frozenset(
+                    n for n in excludes if curve and placed[n].parametrisation != "curve" and _competes(placed[n])
+                ),
                 # what follows a joint's own angle is one, as a rule; an offset and a compliance are a common pair
                 side_by_side=1 if p.variant == "angle" else 2,
                 refines=coarse.get(p.key) if p.refinement and p.variant == "angle" else None,
@@ -140,6 +153,11 @@ def _candidates(layout: ParameterLayout, placed: Sequence[Placed]) -> tuple[Cand
             )
         )
     return tuple(candidates)
+
+
+def _competes(p: Placed) -> bool:
+    """Whether an effect enters by itself, not in another's place or as what stands out of a background."""
+    return not p.refinement and p.variant != SOFT_START
 
 
 def _requires(p: Placed, placed: Sequence[Placed]) -> frozenset[int] | None:

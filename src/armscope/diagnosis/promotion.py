@@ -18,6 +18,7 @@ from armscope.inference.edits import Edits
 from armscope.inference.evidence import Hypothesis, evaluate, savage_dickey
 from armscope.inference.linear_algebra import profiled_loss
 from armscope.inference.problem import Problem, SelectedEffect
+from armscope.physics.soft_start import SOFT_START
 
 GIVES_NATS, GIVES = PRIORS.sure_nats, 0.1
 """A joint's drive in an elastic background is named at odds of 20 to 1, if it is worth this share of the RMS at all: of
@@ -53,16 +54,14 @@ def _promoted(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
     explains it, too: its evidence is what is lost when it alone is held right. Drives are weighed as they will be
     fitted: as large as they come, not held small by the background.
     """
-    unnamed = list(_unnamed(problem, hypothesis))
+    unnamed = [n for n in _unnamed(problem, hypothesis) if problem.space.candidates[n].variant != SOFT_START]
     left, beside = _left_by_free_backgrounds(problem, hypothesis), _left_by_names(problem, hypothesis)
     drives = [number for number in unnamed if problem.space.candidates[number].kind == DRIVE]
     added = [
         number
         for number in unnamed
         if number not in drives
-        and _size(problem, hypothesis, number) > NAMING.stands_out * (beside if problem.is_free(number) else left)
-        and _lost(problem, hypothesis, number) > NAMING.stands_out_nats
-        and _beyond_family(problem, hypothesis, number) > NAMING.beyond_family
+        and _stands_out(problem, hypothesis, number, beside if problem.is_free(number) else left)
     ]
     if drives:
         free = _with_names(problem, hypothesis, drives, [problem.mismatch] * len(drives))
@@ -74,8 +73,24 @@ def _promoted(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
         lost = {d: _lost(problem, promoted, d) for d in added if d in drives}
         weakest = min(lost, key=lambda d: lost[d], default=None)
         if weakest is None or lost[weakest] > GIVES_NATS:
-            return promoted
+            return _with_soft_starts(problem, promoted, left)
         added.remove(weakest)
+
+
+def _with_soft_starts(problem: Problem, hypothesis: Hypothesis, left: float) -> Hypothesis:
+    """With the drives named that give way most of all under small loads, where they have no name yet."""
+    unnamed = (n for n in _unnamed(problem, hypothesis) if problem.space.candidates[n].variant == SOFT_START)
+    soft = [number for number in unnamed if _stands_out(problem, hypothesis, number, left)]
+    return _with_names(problem, hypothesis, soft, [_size(problem, hypothesis, n) for n in soft]) if soft else hypothesis
+
+
+def _stands_out(problem: Problem, hypothesis: Hypothesis, number: int, left: float) -> bool:
+    """Whether a member of a background is worth a name, where the RMS without it is ``left``, mm."""
+    return (
+        _size(problem, hypothesis, number) > NAMING.stands_out * left
+        and _lost(problem, hypothesis, number) > NAMING.stands_out_nats
+        and _beyond_family(problem, hypothesis, number) > NAMING.beyond_family
+    )
 
 
 def _better_placed(edits: Edits, hypothesis: Hypothesis) -> Hypothesis:

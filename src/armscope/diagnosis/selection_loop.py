@@ -41,6 +41,7 @@ from armscope.physics.model import FittedModel
 from armscope.physics.payload import PAYLOAD_ERROR, payload_errors
 from armscope.physics.registry import library
 from armscope.physics.scene import Part
+from armscope.physics.soft_start import soft_starts
 from armscope.physics.transmission import MESH_COUNTS
 from armscope.physics.wander import is_of_rows
 from armscope.recordings import Recordings
@@ -166,8 +167,10 @@ class SelectionLoop:
         """
         if not self.families:  # on all rows of a long table they are those that its sample left
             arm, set_ups = self.model.arm, set_ups_of(self.frames)
-            self.candidates = [*library(arm, self.recordings), *base_shifts_of_runs(set_ups)]
-            self.families = list(backgrounds(arm, self.recordings, set_ups).values())
+            families = backgrounds(arm, self.recordings, set_ups)
+            others = [*base_shifts_of_runs(set_ups), *soft_starts(arm, self.recordings)]
+            self.candidates = [*library(arm, self.recordings), *others]
+            self.families = list(families.values())
         self.point, payload, self.loads = _on_loads(self.model, self.recordings)
         self.space = build_model_space(self.frames, self.families, [*self.candidates, *payload], self.loads)
         weights = self.noise.weights

@@ -109,7 +109,7 @@ class Edits:
         return [self._with(parent, SelectedEffect(int(c), int(size[c]))) for c in order if gain[c] > least]
 
     def unpaid(self, hypothesis: Hypothesis) -> Hypothesis:
-        """The hypothesis where the last name is one of the many that nobody asked for: it pays nothing."""
+        """The hypothesis with its last name as one out of a background, which pays nothing."""
         *kept, last = hypothesis.chosen
         return self.evaluated((*kept, replace(last, nested=True)), hypothesis)
 

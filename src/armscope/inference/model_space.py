@@ -33,7 +33,8 @@ class Candidate:
         variant: which of several forms of the kind at this location.
         driver: what it follows, in words.
         label: its name in words.
-        family: which background takes the place of several of its kind.
+        family: what kind of cause it is; the background of that name takes the place of several of its kind.
+        looks_like: the background that does so instead, where it is another family's; "" where it is its own.
         region: coarser than the location: what is taken out together when others are tried in its place.
         multiplicity: how many values of a scanned number compete: the prior pays for them.
         plausible: (c,) how large each coefficient is expected to be in the columns' own units; None where nothing is
@@ -57,6 +58,7 @@ class Candidate:
     driver: str = ""
     label: str = ""
     family: str = ""
+    looks_like: str = ""
     region: str = ""
     multiplicity: int = 1
     plausible: Array | None = None
@@ -74,6 +76,11 @@ class Candidate:
     def key(self) -> tuple[str, str]:
         """(kind, location)."""
         return self.kind, self.location
+
+    @property
+    def taken_up_by(self) -> str:
+        """Name of the background that may take its place."""
+        return self.looks_like or self.family
 
     @property
     def identity(self) -> tuple[str, str, str, str]:

@@ -60,7 +60,7 @@ def _out_of_backgrounds(edits: Edits, hypothesis: Hypothesis) -> Iterator[Hypoth
 def _into_background(edits: Edits, hypothesis: Hypothesis) -> Iterator[Hypothesis]:
     """A family's background in place of all its names: one of them may pass for what is so everywhere."""
     for number, family in enumerate(edits.space.families):
-        members = [c.candidate for c in hypothesis.chosen if edits.candidate(c.candidate).family == family.name]
+        members = [c.candidate for c in hypothesis.chosen if edits.candidate(c.candidate).taken_up_by == family.name]
         if family.is_priced and len(members) >= (1 if family.takes_one else 2) and len(family.columns):
             rest = edits.without(hypothesis, members)
             for size in range(1, family.sizes):

@@ -15,12 +15,17 @@ from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.effect import Placed
 from armscope.physics.placing import moving_joints
 from armscope.physics.set_ups import SetUps
+from armscope.physics.soft_start import soft_starts
 from armscope.physics.wander import link_wander, wander
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
 GEOMETRIC, ELASTIC, TRANSMISSION, DRIFT = "geometric", "elastic", "transmission", "drift"
-FAMILIES = (GEOMETRIC, ELASTIC, TRANSMISSION, DRIFT)
+SOFT = "soft start"
+"""How much softer drives are under small loads: no soft arm need have it, so its size is learned by itself."""
+FAMILIES = (GEOMETRIC, ELASTIC, TRANSMISSION, DRIFT, SOFT)
+MENDED = {GEOMETRIC: (GEOMETRIC,), ELASTIC: (ELASTIC, SOFT), TRANSMISSION: (TRANSMISSION,), DRIFT: (DRIFT,)}
+"""As what families are told: who mends one of the same, mends the others."""
 TOLERANCE = 1.0e-3
 """Geometric tolerance of an industrial arm: 1 mm and 1 mrad per D-H value."""
 MASSES = "mass"
@@ -28,7 +33,7 @@ MASSES = "mass"
 
 
 def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[str, list[Placed]]:
-    """By family: D-H constants, give of joints and bearings, the first waves per turn of all gears, a base's wander.
+    """By family: D-H constants, what gives way, the first waves per turn of all gears, a base's wander, soft starts.
 
     Args:
         arm: the nominal arm.
@@ -48,6 +53,7 @@ def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[
         ELASTIC: give,
         TRANSMISSION: gear_waves(recordings, PLAUSIBLE.waves),
         DRIFT: [*wander(recordings, set_ups), *link_wander(arm, recordings)],
+        SOFT: [_sized(placed) for placed in soft_starts(arm, recordings)],
     }
 
 

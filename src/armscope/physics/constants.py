@@ -93,6 +93,17 @@ class PlausibleSizes(Constants):
         "judgement: strain wave gears wind up by a milliradian at their rated torque, soft belts by several",
         unit="rad",
     )
+    soft_share: float = constant(
+        0.1,
+        "of a drive's turn, by which it turns further since it is softer under small loads",
+        "derived: makers of strain wave gears state a first stiffness K1, up to a torque T1 of a tenth or a fifth of "
+        "the rated T, that is a half to two thirds of the last, K3; (1/K1 - 1/K3) T1 is 0.05 to 0.2 of T/K3",
+    )
+    knee_share: float = constant(
+        0.1,
+        "of a drive's largest load, at which that turn is mostly complete",
+        "convention: the first section of the makers ends at a tenth to a fifth of the rated torque",
+    )
     bearing_rad: float = constant(
         2e-3,
         "tilt of a bearing or of the base under its largest moment",

@@ -94,6 +94,11 @@ def _load_side(scene: Scene, j: int) -> Array:
     return np.sign(_torque(scene, j))
 
 
+def _soft_start(scene: Scene, j: int, knee: float) -> Array:
+    """Turn of a drive that is softer under small loads, as a share of what it comes to; the knee in N m."""
+    return np.asarray(np.tanh(_torque(scene, j) / knee))
+
+
 def _moment(scene: Scene, location: str, axis: int) -> Array:
     """Moment of gravity about the frame's origin, in the frame's axes, N m."""
     return scene.moment(location)[:, axis]
@@ -119,6 +124,7 @@ LOADS: dict[str, DriverKind] = {
     "off centre": DriverKind(_off_centre, follows=_LOAD),
     "regressor": DriverKind(_regressor, follows=frozenset({"load"})),
     "load side": DriverKind(_load_side, follows=_LOAD | {"torque"}),
+    "soft start": DriverKind(_soft_start, follows=_LOAD | {"torque"}),
     "moment": DriverKind(_moment, follows=_WEIGHT),
     "bend": DriverKind(_bend, follows=_WEIGHT),
 }

@@ -178,8 +178,8 @@ class Reader:
                 raise InputError(self.source, place, value, f"{name} is a whole number from {least} to {most[name]}")
             return value
         number = self._finite(value, place)
-        if name == "width" and number <= 0:
-            raise InputError(self.source, place, value, "a width is positive")
+        if name in ("width", "knee") and number <= 0:
+            raise InputError(self.source, place, value, f"a {name} is positive")
         return value
 
     def _finite(self, value: Any, place: str) -> float:

@@ -139,11 +139,16 @@ def _place_backlash(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     if arm.has_masses or recordings.torque is not None:
         scene = Scene(arm, recordings)
         for j in sorted(moving):
-            pulled = np.mean(scene.driver(Driver("load side", (j,))) > 0)
-            if min(pulled, 1 - pulled) < LEAST_OTHER_SIDE:
+            if not is_pulled_both_ways(scene, j):
                 continue  # gravity always pushes to one side: a constant
             gap = term("gap", "rad", Product(motor(j), Driver("load side", (j,)), 0.5), plausible=PLAUSIBLE.play_rad)
             yield Placed(BACKLASH, f"joint {j}", (gap,), (1.0,), f"side that gravity loads joint {j}", variant="load")
+
+
+def is_pulled_both_ways(scene: Scene, j: int) -> bool:
+    """Whether motor j (from 1) is loaded from both sides in more than a few of the rows."""
+    pulled = np.mean(scene.driver(Driver("load side", (j,))) > 0)
+    return bool(min(pulled, 1 - pulled) >= LEAST_OTHER_SIDE)
 
 
 BACKLASH = Effect(

@@ -121,7 +121,11 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], everywhere: bool
         return f"{_ALL[family]}, most of all: {phrase(told[0])}{others}"
     beside = [f"{spelled(more)} more of its kind"] if more else []
     beside += [_BESIDE.get(family, _OTHERS)] if everywhere else []
-    return f"{phrase(told[0])} ({', '.join(beside)})" if beside else phrase(told[0])
+    clause = phrase(told[0])
+    if not beside:
+        return clause
+    opened = f"{clause[:-1]}; " if clause.endswith(")") else f"{clause} ("
+    return f"{opened}{', '.join(beside)})"
 
 
 def cure_of_family(family: str, members: Sequence[FoundEffect], everywhere: bool) -> str:

@@ -3,17 +3,28 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
-from armscope.diagnosis.summary.alternatives import alternatives
+from armscope.diagnosis.earning import held_out_errors
+from armscope.diagnosis.summary.alternatives import _held_out_errors, alternatives, too_close
 from armscope.inference.evidence import evaluate
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
 from tests.diagnosis.planted import one_run, planted, recorded
-from tests.diagnosis.test_better_placed import DRIVE_AT, NOISE, TILT_AT, problem_where, with_drive_named
+from tests.diagnosis.test_better_placed import (
+    DRIVE_AT,
+    NOISE,
+    TILT_AT,
+    problem_where,
+    rows_where,
+    sums,
+    with_drive_named,
+)
 from tests.physics.scenes import arm_named
 
 ROWS = 150
@@ -58,6 +69,39 @@ def test_a_rival_in_the_same_background_pays_no_more_than_the_name() -> None:
     )
     assert rival.gap == pytest.approx(best.log_posterior - by_hand, abs=0.2)
     assert rival.held == tuple(problem.space.candidates[DRIVE_AT].columns)
+
+
+def test_a_rival_is_judged_on_held_out_rows_with_the_names_own_column_at_zero() -> None:
+    """The drive gives way besides: the background would take that up if it were not held."""
+    X, y = rows_where(DRIVE_AT, 0.98, drive=-0.2)
+    blocks = [sums(X[n::10], y[n::10]) for n in range(10)]
+    problem = problem_where(DRIVE_AT, 0.98, drive=-0.2)
+    best = with_drive_named(problem)
+    rival = next(r for r in alternatives(Search.on(problem), best, DRIVE_AT) if r.hypothesis.candidates == {TILT_AT})
+    state: Any = SimpleNamespace(problem=problem, best=best, blocks=blocks)
+    told = _held_out_errors(state, [rival]).sum(axis=0)
+    without = problem.holding(np.array(rival.held))
+    readings = [(rival.hypothesis.chosen, rival.hypothesis.background)]
+    assert told[1] == pytest.approx(held_out_errors(without, blocks, readings, best.noise).sum())
+    assert told[1] > held_out_errors(problem, blocks, readings, best.noise).sum() > told[0]
+
+
+@pytest.mark.parametrize(
+    ("nats", "excluded", "family", "sure"),
+    [(1.0, True, "elastic", False), (7.0, False, "elastic", False), (7.0, True, "elastic", True),
+     (7.0, None, "elastic", True), (7.0, False, "geometric", True)],
+)  # fmt: skip
+def test_a_name_out_of_a_background_is_sure_where_held_out_rows_exclude_its_rivals_there(
+    nats: float, excluded: bool | None, family: str, sure: bool
+) -> None:
+    problem = problem_where(DRIVE_AT, 0.98, drive=-0.2)
+    best = with_drive_named(problem)
+    rival = next(r for r in alternatives(Search.on(problem), best, DRIVE_AT) if r.hypothesis.candidates == {TILT_AT})
+    effect = replace(problem.space.candidates[DRIVE_AT], family="elastic")
+    judged = rival._replace(excluded=excluded, candidate=replace(rival.candidate, family=family))
+    assert (too_close(effect, [judged], [nats]) == []) == sure
+    assert too_close(effect, [judged._replace(near=False)], [nats]) == []
+    assert too_close(effect, [judged._replace(held=())], [7.0]) == []
 
 
 def test_what_explains_nothing_is_no_rival_however_faint_the_name() -> None:

@@ -20,7 +20,7 @@ from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import Candidate
 from armscope.inference.normal_equations import weighted_total
 from armscope.inference.search import Search
-from armscope.verdict.effects import Alternative, Specific
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS, Alternative, Specific
 
 
 class Rival(NamedTuple):
@@ -40,6 +40,10 @@ class Rival(NamedTuple):
     near: bool
     held: tuple[int, ...] = ()
     excluded: bool | None = None
+
+    def in_background_of(self, effect: Candidate) -> bool:
+        """Whether an effect and this are two of the many that one background holds."""
+        return bool(self.held) and self.hypothesis.chosen[-1].nested and self.candidate.family == effect.family
 
 
 def alternatives(search: Search, best: Hypothesis, number: int) -> list[Rival]:
@@ -173,6 +177,28 @@ def _held_out_errors(state: DiagnosisState, rivals: Sequence[Rival]) -> Array:
         problem = state.problem.holding(np.array(held, dtype=np.intp))
         errors[:, those] = held_out_errors(problem, state.blocks, readings, state.best.noise)
     return errors
+
+
+def too_close(effect: Candidate, found: Sequence[Rival], apart: Sequence[float]) -> list[Candidate]:
+    """Rivals beside which an effect's name is not sure: they fit as well, or what was free has not earned its name.
+
+    A name out of a background paid nothing for being this one and no other of many; rows that took no part must
+    exclude the others.
+
+    Args:
+        effect: that has the name.
+        found: rivals, judged.
+        apart: the `discriminability` of each, nats.
+
+    Returns:
+        What they are.
+    """
+    return [
+        rival.candidate
+        for rival, nats in zip(found, apart, strict=True)
+        if rival.near
+        and (nats < INDISTINGUISHABLE_NATS or (rival.excluded is False and rival.in_background_of(effect)))
+    ]
 
 
 def listed(found: Sequence[Rival], apart: Sequence[float]) -> tuple[Alternative, ...]:

@@ -14,7 +14,7 @@ from armscope.core.location import Location
 from armscope.diagnosis.earning import held_out_gains, without_members
 from armscope.diagnosis.state import DiagnosisState
 from armscope.inference.search import Search
-from armscope.physics.backgrounds import FAMILIES
+from armscope.physics.backgrounds import FAMILIES, MENDED
 from armscope.verdict.effects import Cause, CauseLevel, FoundEffect
 from armscope.verdict.schema import Background
 from armscope.verdict.sentences import cause_in_words, cure_of_family
@@ -50,14 +50,14 @@ def causes(
         candidates.setdefault(_group(effect), []).append(candidate)
     for effect in others:
         members.setdefault(_group(effect), []).append(effect)
-    everywhere = {family.family: family for family in background if family.present and family.family in FAMILIES}
+    everywhere = {family.family: family for family in background if family.present and family.family in MENDED}
     families = [*members, *(family for family in everywhere if family not in members)]
     readings = [
         without_members(
             search,
             state.best,
             candidates.get(family, []),
-            [FAMILIES.index(family)] if family in everywhere else [],
+            [FAMILIES.index(member) for member in MENDED[family]] if family in everywhere else [],
         )
         for family in families
     ]

@@ -28,7 +28,7 @@ from armscope.inference.search import Search
 from armscope.physics.backgrounds import FAMILIES, GEOMETRIC, TRANSMISSION
 from armscope.physics.effect import Placed
 from armscope.physics.scene import Part, Scene
-from armscope.verdict.effects import INDISTINGUISHABLE_NATS, FoundEffect, Parameter
+from armscope.verdict.effects import FoundEffect, Parameter
 from armscope.verdict.schema import Background
 
 NOTHING = "nothing in the table"
@@ -82,8 +82,7 @@ def found_effect(weighed: Weighed, chosen: SelectedEffect, part: Part, share: fl
     if candidate.is_curve:
         rms = min(rms, _own_size(fit, part))
     apart = [certainty.discriminability(state.best, r.hypothesis, candidate, r.candidate) for r in rivals]
-    close = [r.candidate for nats, r in zip(apart, rivals, strict=True) if r.near and nats < INDISTINGUISHABLE_NATS]
-    named_as, title = certainty.name(candidate, close)
+    named_as, title = certainty.name(candidate, certainty.too_close(candidate, rivals, apart))
     left_open = undetermined(placed, covariance)
     told = tuple(p for p in parameters(placed, part.values, covariance) if p.name not in left_open)
     return FoundEffect(

@@ -15,7 +15,7 @@ from armscope.inference.linear_algebra import profiled_loss
 from armscope.inference.normal_equations import NormalEquations, projected_rms
 from armscope.inference.problem import background_sizes
 from armscope.measurement.constants import WEIGHTS
-from armscope.physics.backgrounds import FAMILIES
+from armscope.physics.backgrounds import FAMILIES, MENDED
 from armscope.physics.loads import STATED_MASSES
 from armscope.verdict.effects import FoundEffect
 from armscope.verdict.schema import Background, Notice, Unexplained
@@ -39,15 +39,20 @@ def background_summaries(
     sizes = background_sizes(state.problem, best.background)
     values = {t: v for part in fit.model.background for t, v in zip(part.placed.terms, part.values, strict=True)}
     told = []
-    for number, (family, columns) in enumerate(zip(FAMILIES, fit.pool.background[: len(FAMILIES)], strict=True)):
+    for family, members in MENDED.items():
+        numbers = [FAMILIES.index(member) for member in members]
+        columns = np.concatenate([fit.pool.background[number] for number in numbers])
         coefficients = np.zeros(len(fit.pool.terms))
         coefficients[columns] = [values[fit.pool.terms[column]] for column in columns]
         rms = projected_rms(gram, fit.pool.frames, coefficients)
-        without = edits.with_background(best, number, 0)
-        present = (
-            best.background[number] > 0 and best.log_posterior - without.log_posterior > TELLING.background_seen_nats
+        without = best
+        for number in numbers:
+            without = edits.with_background(without, number, 0)
+        present = any(best.background[number] > 0 for number in numbers) and (
+            best.log_posterior - without.log_posterior > TELLING.background_seen_nats
         )
-        told.append(Background(family, present, sizes[number], rms, of_families[number]))
+        share = sum(of_families[number] for number in numbers)
+        told.append(Background(family, present, sizes[numbers[0]], rms, share))
     return tuple(told)
 
 
