@@ -281,7 +281,6 @@ OUTSIDE_ERRORS = {
     "unknown/load_dead_band": lambda v, s, q, a, t: (
         v["amplitude"] * np.sign(t) * np.clip(np.abs(t) - v["threshold"], 0, None) / (np.abs(t).max() - v["threshold"])
     ),
-    "unknown/hardening_spring": lambda v, s, q, a, t: v["amplitude"] * np.tanh(t / (0.1 * np.abs(t).max())),
 }
 
 

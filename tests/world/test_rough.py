@@ -10,7 +10,7 @@ import pytest
 import yaml
 
 from armscope.core.averages import rms
-from armscope.world.blemishes import OF, PAYLOAD_SHARE, PEDESTAL, RUNS, WANDER, lagging, waves
+from armscope.world.blemishes import DRIVE, OF, PAYLOAD_SHARE, PEDESTAL, RUNS, WANDER, lagging, waves
 from armscope.world.constants import ROUGH
 from armscope.world.folder import build
 from armscope.world.kinds import Concealed
@@ -19,7 +19,7 @@ from armscope.world.rough import BLEMISHES, as_stated, blemishes, draw_broken, r
 from armscope.world.spec import WorldSpec
 from armscope.world.strength import stand
 from armscope.world.virtual_arm import conceal, measure_session
-from tests.world.by_hand import ROBOTS
+from tests.world.by_hand import ROBOTS, HandArm
 from tests.world.scenes import scene_of
 
 TURN = np.linspace(0, 2 * np.pi, 512, endpoint=False)
@@ -54,6 +54,19 @@ def test_a_pedestal_that_is_soft_about_one_axis_moves_the_tool_across_it():
     moved = stand(scene, [Concealed(PEDESTAL, "base", {"soft": 1e-7, "stiff": 1e-13, "direction": 0.4})]).tool - rigid
     along = np.array([np.cos(0.4), np.sin(0.4), 0])
     assert np.abs(moved @ along).max() < 1e-3 * np.abs(moved).max()
+
+
+def test_a_drive_that_hardens_turns_in_two_sections_with_a_bend_at_its_knee():
+    scene, rigid = scene_of("six-axis", count=40)
+    soft, knee, stiff = 2e-5, 0.3, 1e-9
+    drive = Concealed(DRIVE, "joint 3", {"compliance": stiff, "soft": soft, "knee": knee})
+    load = scene.torque[:, 2] / scene.largest_torque(2)
+    turn = stiff * scene.torque[:, 2] + soft * np.clip(load / knee, -1, 1)
+    assert (np.abs(load) < knee).any()
+    assert (np.abs(load) > knee).any()
+    arm, angles = HandArm.named("six-axis"), scene.session.commanded
+    by_hand = [arm.point(q + e * np.eye(6)[2]) - arm.point(q) for q, e in zip(angles, turn, strict=True)]
+    assert np.abs(stand(scene, [drive]).tool - rigid - np.array(by_hand)).max() < 0.02 * np.abs(by_hand).max()
 
 
 def test_a_payload_off_by_a_share_weighs_that_much_more():

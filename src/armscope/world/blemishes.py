@@ -37,11 +37,11 @@ def _kind(effect: str, variant: str, driver: str, hide: Hide, *parameters: Param
 
 
 def _hide_hardening(hidden: Hidden, scene: Scene, location: str, values: Values) -> None:
-    """A spring, and a turn that is complete at a fifth of the load."""
+    """A spring in two sections, as makers of strain-wave gears state it: softer up to the knee, with a bend there."""
     motor = number(location)
-    knee = 0.1 * scene.largest_torque(motor)
+    knee = values["knee"] * scene.largest_torque(motor)
     hidden.motor_spring(motor, values["compliance"])
-    hidden.curves.append((motor, lambda torque: float(values["soft"] * np.tanh(torque / knee))))
+    hidden.curves.append((motor, lambda torque: values["soft"] * min(max(torque / knee, -1.0), 1.0)))
 
 
 def _hide_pedestal(hidden: Hidden, scene: Scene, location: str, values: Values) -> None:
@@ -132,7 +132,10 @@ def _hide_payload(hidden: Hidden, scene: Scene, location: str, values: Values) -
 
 
 _COMPLIANCE = Parameter("compliance", "rad/(N m)")
-DRIVE = _kind("joint_compliance", "hardening", LOAD, _hide_hardening, _COMPLIANCE, Parameter("soft", "rad"))
+DRIVE = _kind(
+    "joint_compliance", "hardening", LOAD, _hide_hardening, _COMPLIANCE,
+    Parameter("soft", "rad"), Parameter("knee", "1", scales=False),
+)  # fmt: skip
 PEDESTAL = _kind(
     "base_compliance", "two axes", LOAD, _hide_pedestal, Parameter("soft", "rad/(N m)"),
     Parameter("stiff", "rad/(N m)"), Parameter("direction", "rad", scales=False),

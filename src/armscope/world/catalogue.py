@@ -108,7 +108,7 @@ def _small() -> Iterator[tuple[Category, Recipe]]:
         yield "single", _single(kind, strength)
     for count in (2, 3, 4, 5):
         yield "multiple", _several(count, weak=False)
-    for kind in ("unknown/local_bump", "unknown/loose_beyond", "unknown/hardening_spring"):
+    for kind in ("unknown/local_bump", "unknown/loose_beyond", "unknown/load_dead_band"):
         yield "outside", _single(kind, 5.0)
     yield "misleading", MISLEADING[0]
     yield "misleading", MISLEADING[3]

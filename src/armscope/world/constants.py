@@ -31,8 +31,14 @@ class RoughSizes(Constants):
     )
     softness: tuple[float, float] = constant(
         (0.1, 0.5),
-        "share of that turn that comes at the first tenth of the load: what gives way hardens",
+        "share of that turn that comes on top up to the knee: what gives way hardens",
         "convention: makers of strain-wave gears state three stiffnesses, the first 1.3 to 2 times below the last",
+    )
+    knee_share: tuple[float, float] = constant(
+        (0.05, 0.3),
+        "of its largest load at which a drive hardens",
+        "convention: makers of strain-wave gears state their first section up to a seventh or a third of the rated "
+        "torque; arms load a drive less or more than that",
     )
     bearing_rad: tuple[float, float] = constant(
         (1e-5, 5e-5),

@@ -75,13 +75,6 @@ def _draw_dead_band(rng: np.random.Generator, scene: Scene, location: str) -> di
     return {"amplitude": _SIZE, "threshold": float(rng.uniform(0.4, 0.6) * largest)}
 
 
-def _hide_hardening(hidden: Hidden, scene: Scene, location: str, values: Values) -> None:
-    """A spring that hardens: most of its give under little load."""
-    motor = number(location)
-    knee = 0.1 * scene.largest_torque(motor)
-    hidden.curves.append((motor, lambda torque: float(values["amplitude"] * np.tanh(torque / knee))))
-
-
 def _hide_product(hidden: Hidden, scene: Scene, location: str, values: Values) -> None:
     """A cyclic error whose size changes cyclically with the neighbour's angle."""
     motor = number(location)
@@ -131,10 +124,6 @@ OUTSIDE: tuple[Kind, ...] = (
     Kind(
         "unknown", "load_dead_band", LOAD, (_AMPLITUDE, _fixed("threshold", "N m")), ("payload_kg",), joints,
         _draw_dead_band, _hide_dead_band, "gives way only beyond a load",
-    ),
-    Kind(
-        "unknown", "hardening_spring", LOAD, (_AMPLITUDE,), ("payload_kg",), joints,
-        lambda rng, scene, place: {"amplitude": _SIZE}, _hide_hardening, "gives way under little load, then no more",
     ),
     Kind(
         "unknown", "harmonic_product", ANGLE, (_AMPLITUDE, _fixed("neighbour", "joint")), (), joints,

@@ -82,7 +82,8 @@ def _springs(rng: np.random.Generator, scene: Scene) -> Drawn:
     for motor, place in enumerate(joints(scene.description)):
         if scene.loads(motor):
             turn, soft = between(rng, ROUGH.drive_rad), between(rng, ROUGH.softness)
-            values = {"compliance": turn * (1 - soft) / scene.largest_torque(motor), "soft": turn * soft}
+            compliance = turn * (1 - soft) / scene.largest_torque(motor)
+            values = {"compliance": compliance, "soft": turn * soft, "knee": between(rng, ROUGH.knee_share)}
             found.append(Concealed(DRIVE, place, values))
         tilt = {"compliance": between(rng, ROUGH.bearing_rad) / largest}
         found.append(Concealed(OF["bearing_compliance"], place, tilt))
@@ -170,7 +171,7 @@ BLEMISHES: dict[str, tuple[float, Callable[[np.random.Generator, Scene], Drawn]]
 | bars | a parallelogram's bars are stated (the arms that have one) |
 | gears | a gear errs in one or two waves |
 | lines | a gear's lines have fewer than a hundred waves per turn |
-| springs | one thing gives way, in proportion |
+| springs | one thing gives way, in proportion, or hardens at a known load |
 | geometry | D-H rows can say every error |
 | row | rows are in one convention |
 | instrument | noise is Gaussian, alike in all directions and at all distances |
