@@ -37,6 +37,7 @@ localrules:
     proof_seed,
     readme,
     real_arms,
+    real_concealed,
     sensitivity,
 
 

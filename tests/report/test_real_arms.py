@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pandas as pd
 import pytest
@@ -11,7 +9,7 @@ import pytest
 from armscope.core.files import write_json, write_table, write_yaml
 from armscope.real.transfer import GEOMETRY_HERE, WITH_CURVES
 from armscope.report.pages.real_arms import RealArm, write_real_arms
-from armscope.report.text.concealment import concealment
+from armscope.report.pages.real_concealed import write_concealment
 from armscope.verdict.schema import Background
 from tests.report import verdicts
 
@@ -63,7 +61,7 @@ def arm_(tmp_path):
 
 
 def page(arm_, tmp_path):
-    write_real_arms(tmp_path / "page.md", [arm_], "figures")
+    write_real_arms(tmp_path / "page.md", [arm_], "figures", "commit abc")
     return (tmp_path / "page.md").read_text(encoding="utf-8")
 
 
@@ -120,9 +118,7 @@ def test_what_was_concealed_is_told_with_what_was_not(arm_, tmp_path):
         "compliance_found": False, "follows_load": None, "background_mm": 0.4, "held_out_mm": 0.31,
     }  # fmt: skip
     write_table(proof / "withheld.csv", pd.DataFrame([withheld]))
-    write_real_arms(tmp_path / "page.md", [arm_, replace(arm_, name="other", title="Other")], "figures", proof)
-    told = concealment(proof, {"arm": "An arm", "other": "Other"})
-    assert (tmp_path / "page.md").read_text().endswith(f"\n\n{told}\n")
+    write_concealment(tmp_path / "page.md", proof, {"arm": "An arm", "other": "Other"}, "commit abc")
     text = (tmp_path / "page.md").read_text(encoding="utf-8")
     assert "| An arm | 3 | 75 % (3/4) | – | – | – |" in text
     assert "| gear mesh | 3 | 75 % (3/4) |" in text

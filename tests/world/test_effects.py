@@ -281,6 +281,7 @@ OUTSIDE_ERRORS = {
     "unknown/load_dead_band": lambda v, s, q, a, t: (
         v["amplitude"] * np.sign(t) * np.clip(np.abs(t) - v["threshold"], 0, None) / (np.abs(t).max() - v["threshold"])
     ),
+    "unknown/one_sided_spring": lambda v, s, q, a, t: v["amplitude"] * np.clip(t, 0, None) / np.abs(t).max(),
 }
 
 

@@ -97,7 +97,7 @@ rule compliances_real:
         "-o {params.folder} > {log} 2>&1"
 
 
-# docs/real-arms.md, which is under version control and therefore no part of `real`
+# docs/real-arms.md and docs/real-concealed.md, which are under version control and therefore no part of `real`
 PAGED = [name for name in REAL if CONFIG.real[name].reference]
 COMPARED = [name for name in PAGED if CONFIG.real[name].loads_recorded]
 
@@ -107,7 +107,6 @@ rule real_arms:
         expand(f"{RESULTS}/real/{{set}}/verdict.json", set=PAGED),
         expand(f"{RESULTS}/real/{{set}}/protocol.csv", set=PAGED),
         expand(f"{RESULTS}/real/{{set}}/compliances.csv", set=COMPARED),
-        proof=f"{RESULTS}/proof_real/tables/rates.csv",
         settings=settings(
             "real_arms",
             arms=[
@@ -121,7 +120,6 @@ rule real_arms:
                 }
                 for name in PAGED
             ],
-            proof=f"{RESULTS}/proof_real/tables",
         ),
     output:
         touch(f"{RESULTS}/real_arms.done"),
@@ -132,7 +130,29 @@ rule real_arms:
     benchmark:
         f"{RESULTS}/logs/benchmarks/real_arms.tsv"
     shell:
-        "armscope real page docs/real-arms.md --settings {input.settings} --force > {log} 2>&1"
+        "armscope real page docs/real-arms.md --settings {input.settings} --of \"commit $(git rev-parse --short HEAD)\" "
+        "--force > {log} 2>&1"
+
+
+rule real_concealed:
+    input:
+        f"{RESULTS}/proof_real/tables/rates.csv",
+        settings=settings(
+            "real_concealed",
+            proof=f"{RESULTS}/proof_real/tables",
+            titles={name: CONFIG.real[name].title.partition(",")[0] for name in PAGED},
+        ),
+    output:
+        touch(f"{RESULTS}/real_concealed.done"),
+    params:
+        code=code("armscope.cli.real:concealed"),
+    log:
+        f"{RESULTS}/logs/real_concealed.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/real_concealed.tsv"
+    shell:
+        "armscope real concealed docs/real-concealed.md --settings {input.settings} --of \"commit $(git rev-parse --short HEAD)\" "
+        "--force > {log} 2>&1"
 
 
 rule real:

@@ -13,6 +13,7 @@ from armscope.cli.studies import Settings, parsed, read_seed
 from armscope.core.inputs import InputError, folder_of
 
 app = Commands("real", no_args_is_help=True)
+Of = Annotated[str, typer.Option(help="what the results are of: 'commit ...'")]
 
 
 @app.command()
@@ -167,6 +168,7 @@ def report(
 def page(
     output: Annotated[Path, typer.Argument(help="the page, docs/real-arms.md; its figures go to figures/ beside it")],
     settings: Settings,
+    of: Of,
 ) -> None:
     """Write what is wrong with each real arm, from results, with one figure each."""
     import pandas as pd
@@ -192,4 +194,18 @@ def page(
             save_figure(draw_compliances(pd.read_csv(told)), picture, formats=("png",))
     tables = [(arm.title.partition(",")[0], pd.read_csv(arm.folder / "protocol.csv")) for arm in arms]
     save_figure(draw_protocol(tables), figures / "real-protocol.png", formats=("png",))
-    write_real_arms(output, arms, figures.name, None if chosen.proof is None else Path(chosen.proof))
+    write_real_arms(output, arms, figures.name, of)
+
+
+@app.command()
+def concealed(
+    output: Annotated[Path, typer.Argument(help="the page, docs/real-concealed.md")],
+    settings: Settings,
+    of: Of,
+) -> None:
+    """Write how often known effects were found that were concealed in recordings of real arms, from results."""
+    from armscope.real.settings import ConcealedSettings
+    from armscope.report.pages.real_concealed import write_concealment
+
+    chosen = parsed(ConcealedSettings, settings)
+    write_concealment(output, Path(chosen.proof), chosen.titles, of)

@@ -29,7 +29,13 @@ class PagedArm(Strict):
 
 
 class PageSettings(Strict):
-    """`armscope real page`: which arms, and the tables of the concealment in their recordings."""
+    """`armscope real page`: which arms."""
 
     arms: tuple[PagedArm, ...]
-    proof: str | None
+
+
+class ConcealedSettings(Strict):
+    """`armscope real concealed`: the tables of the concealment, and what to call each arm."""
+
+    proof: str
+    titles: dict[str, str]

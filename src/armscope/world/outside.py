@@ -75,6 +75,13 @@ def _draw_dead_band(rng: np.random.Generator, scene: Scene, location: str) -> di
     return {"amplitude": _SIZE, "threshold": float(rng.uniform(0.4, 0.6) * largest)}
 
 
+def _hide_one_sided(hidden: Hidden, scene: Scene, location: str, values: Values) -> None:
+    """Gives way to one side only, as where bolts let a flange gape and a seat holds it the other way."""
+    motor = number(location)
+    full = scene.largest_torque(motor)
+    hidden.curves.append((motor, lambda torque: float(values["amplitude"] * max(torque / full, 0.0))))
+
+
 def _hide_product(hidden: Hidden, scene: Scene, location: str, values: Values) -> None:
     """A cyclic error whose size changes cyclically with the neighbour's angle."""
     motor = number(location)
@@ -124,6 +131,10 @@ OUTSIDE: tuple[Kind, ...] = (
     Kind(
         "unknown", "load_dead_band", LOAD, (_AMPLITUDE, _fixed("threshold", "N m")), ("payload_kg",), joints,
         _draw_dead_band, _hide_dead_band, "gives way only beyond a load",
+    ),
+    Kind(
+        "unknown", "one_sided_spring", LOAD, (_AMPLITUDE,), ("payload_kg",), joints,
+        lambda rng, scene, place: {"amplitude": _SIZE}, _hide_one_sided, "gives way to one side, and not to the other",
     ),
     Kind(
         "unknown", "harmonic_product", ANGLE, (_AMPLITUDE, _fixed("neighbour", "joint")), (), joints,

@@ -27,6 +27,7 @@ from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
 from armscope.physics.backgrounds import FAMILIES, GEOMETRIC, TRANSMISSION
 from armscope.physics.effect import Placed
+from armscope.physics.elastic import UNKNOWN_MASSES
 from armscope.physics.scene import Part, Scene
 from armscope.verdict.effects import FoundEffect, Parameter
 from armscope.verdict.schema import Background
@@ -77,14 +78,15 @@ def found_effect(weighed: Weighed, chosen: SelectedEffect, part: Part, share: fl
     at = fit.pool.of(placed)
     coefficients = np.zeros(len(fit.pool.terms))
     coefficients[at] = _sized(state, chosen, part.values, fit.covariance_of(placed))
-    covariance = weighed.wrong.covariance[np.ix_(at, at)] + weighed.doubts.get(chosen.candidate, 0.0)
+    values, covariance = _with_drive_of_background(fit, part, weighed.wrong.covariance)
+    covariance = covariance + weighed.doubts.get(chosen.candidate, 0.0)
     rms = projected_rms(weighed.equations, fit.pool.frames, coefficients)
     if candidate.is_curve:
         rms = min(rms, _own_size(fit, part))
     apart = [certainty.discriminability(state.best, r.hypothesis, candidate, r.candidate) for r in rivals]
     named_as, title = certainty.name(candidate, certainty.too_close(candidate, rivals, apart))
     left_open = undetermined(placed, covariance)
-    told = tuple(p for p in parameters(placed, part.values, covariance) if p.name not in left_open)
+    told = tuple(p for p in parameters(placed, values, covariance) if p.name not in left_open)
     return FoundEffect(
         effect=placed.name,
         location=placed.location,
@@ -105,6 +107,26 @@ def found_effect(weighed: Weighed, chosen: SelectedEffect, part: Part, share: fl
         confirm=placed.effect.confirm,
         cure=placed.effect.cure.words,
     )
+
+
+def _with_drive_of_background(fit: Refit, part: Part, covariance: Array) -> tuple[Array, Array]:
+    """An effect's values and their covariance; of a drive under unknown masses with what a background has of it.
+
+    The background's drive gives way to the load of the stated masses and the payload, the effect to other masses and
+    the payload: under the payload, by which it is told, they give way together.
+    """
+    placed, at = part.placed, fit.pool.of(part.placed)
+    own = covariance[np.ix_(at, at)]
+    (number,) = [n for n, term in enumerate(placed.terms) if term.name == "compliance"] or [-1]
+    drives = (p for p in fit.model.background if p.placed.key == placed.key and p.placed.variant == "")
+    if placed.variant != UNKNOWN_MASSES or number < 0 or (drive := next(drives, None)) is None:
+        return part.values, own
+    (beside,) = fit.pool.of(drive.placed)
+    together = np.eye(len(at), len(at) + 1)
+    together[number, -1] = 1.0
+    every = np.append(at, beside)
+    values = together @ np.append(part.values, drive.values)
+    return values, together @ covariance[np.ix_(every, every)] @ together.T
 
 
 def _sized(state: DiagnosisState, chosen: SelectedEffect, values: Array, covariance: Array) -> Array:

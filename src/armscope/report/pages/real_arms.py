@@ -19,7 +19,6 @@ from armscope.real.reference import Reference, ReferenceRun, load_reference
 from armscope.real.transfer import GEOMETRY_HERE, SPLITS, WITH_CURVES
 from armscope.report.html import significant
 from armscope.report.text.compliances import compliance_lines
-from armscope.report.text.concealment import concealment
 from armscope.verdict.files import VERDICT, read_verdict
 from armscope.verdict.schema import Verdict
 
@@ -56,22 +55,20 @@ class RealArm:
     diagnosed: tuple[str | None, int | None] = (None, None)
 
 
-def write_real_arms(path: Path, arms: Sequence[RealArm], figures: str, proof: Path | None = None) -> None:
+def write_real_arms(path: Path, arms: Sequence[RealArm], figures: str, of: str) -> None:
     """Write the page.
 
     Args:
         path: where to.
         arms: in their order on the page.
         figures: folder of the figures as the page names it; real-<name>.svg in it.
-        proof: folder of the tables of `armscope real score`; None leaves the concealment out.
+        of: what the results are of: a commit.
     """
-    parts = [_head(arms, figures), *(_section(arm, figures) for arm in arms)]
-    if proof is not None:
-        parts.append(concealment(proof, {arm.name: arm.title.partition(",")[0] for arm in arms}))
+    parts = [_head(arms, figures, of), *(_section(arm, figures) for arm in arms)]
     write_text(path, "\n\n".join(parts) + "\n")
 
 
-def _head(arms: Sequence[RealArm], figures: str) -> str:
+def _head(arms: Sequence[RealArm], figures: str, of: str) -> str:
     head = ("arm", "run", "armscope", "best figure of others", "armscope beside it", "orientations too")
     rows = []
     for arm in arms:
@@ -89,6 +86,8 @@ def _head(arms: Sequence[RealArm], figures: str) -> str:
             "<!-- written by `snakemake -j1 real_arms` from results; edits here are lost -->",
             "",
             INTRODUCTION,
+            "",
+            f"Measured at {of}. Known effects, concealed in these recordings: [real-concealed.md](real-concealed.md).",
             "",
             *table_lines(head, rows),
             "",

@@ -10,7 +10,7 @@ import pandas as pd
 
 from armscope.real import scoring
 from armscope.report.html import definitions, share_text, write_page
-from armscope.report.text.concealment import SCORES
+from armscope.report.pages.real_concealed import SCORES
 
 
 def write_real_proof_page(

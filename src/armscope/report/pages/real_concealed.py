@@ -1,4 +1,4 @@
-"""Known effects concealed in recordings of real arms: how often they were found, as a part of docs/real-arms.md."""
+"""docs/real-concealed.md: known effects concealed in recordings of real arms, and how often they were found."""
 
 from __future__ import annotations
 
@@ -7,33 +7,38 @@ from pathlib import Path
 
 import pandas as pd
 
+from armscope.core.files import write_text
 from armscope.core.markdown import table_lines
 from armscope.report.html import share_text, significant
 
+HEAD = """\
+# Known effects concealed in recordings of real arms
+
+<!-- written by `snakemake -j1 real_concealed` from results; edits here are lost -->"""
 CONCEALMENT = """\
-One known effect at a time, added to the recordings behind a seal at 0.5, 1 and 3 times what each arm's own diagnosis
-leaves, on top of all the arm does (`snakemake -j2 proof_real`; definitions and figures in its report):"""
+One known effect at a time, added to [the recordings](real-arms.md) behind a seal at 0.5, 1 and 3 times what each
+arm's own diagnosis leaves, on top of all the arm does (`snakemake -j2 proof_real`; definitions and figures in its
+report):"""
 WITHHELD = """\
 The same recordings without the columns that say how loaded the arm was: is it still found to give way? Where drives and
 bearings are not told apart, they give way without a name, among the small errors everywhere."""
 SCORES = {"found": "found", "right_place": "right place", "covered": "interval holds", "quiet": "no new name"}
 
 
-def concealment(proof: Path, titles: Mapping[str, str]) -> str:
-    """How often known effects that were added to these recordings were found, and what is found with less recorded.
+def write_concealment(path: Path, proof: Path, titles: Mapping[str, str], of: str) -> None:
+    """Write how often known effects that were added to recordings were found, and what is found with less recorded.
 
     Args:
+        path: where to.
         proof: folder of the tables of `armscope real score`.
         titles: what to call each arm.
-
-    Returns:
-        Markdown.
+        of: what the results are of: a commit.
     """
     rates = pd.read_csv(proof / "rates.csv")
     rates = rates[rates["half"] == "both"]
     there = set(rates[rates["by"] == "arm"]["of"])
     missing = [title for name, title in titles.items() if name not in there]
-    lines = ["## Known effects concealed in these recordings", "", CONCEALMENT, ""]
+    lines = [HEAD, "", f"Measured at {of}.", "", CONCEALMENT, ""]
     lines += _rates(rates, [("all", "all"), *(("arm", name) for name in titles)], titles, "arm")
     lines += ["", *_rates(rates, [("effect", name) for name in sorted(rates[rates["by"] == "effect"]["of"].unique())])]
     if missing:
@@ -46,7 +51,7 @@ def concealment(proof: Path, titles: Mapping[str, str]) -> str:
             f"{effect.replace('_', ' ')} in {titles.get(name, name)} ({reason})"
             for name, effect, reason in zip(told["set"], told["effect"], told["reason"], strict=True)
         )
-    return "\n".join([*lines, *_withheld(proof, titles)])
+    write_text(path, "\n".join([*lines, *_withheld(proof, titles)]) + "\n")
 
 
 def _rates(

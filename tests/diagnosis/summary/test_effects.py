@@ -1,0 +1,68 @@
+"""What is told of a named effect is all that the fitted model holds of it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from armscope.core.types import Array
+from armscope.diagnosis.summary.effects import _with_drive_of_background
+from armscope.fitting.parameter_layout import parameter_layout
+from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
+from armscope.physics.frames import free_frames
+from armscope.physics.scene import Part, Scene
+from tests.physics.scenes import arm_named, full_table
+
+ARM, JOINT = arm_named("six-axis"), 2
+ROWS = full_table(ARM, 40, 3)
+PLACED = {p.variant: p for p in JOINT_COMPLIANCE.place(ARM, ROWS) if p.location == f"joint {JOINT}"}
+DRIVE, UNKNOWN = PLACED[""], PLACED[UNKNOWN_MASSES]
+GIVE = 2e-6
+
+
+def motor_turn(parts: tuple[Part, ...], payload: Array) -> Array:
+    """(N,) turn of the motor by some parts under a payload, rad."""
+    scene = Scene(ARM, replace(ROWS, payload=payload))
+    terms = ((t, v) for part in parts for t, v in zip(part.placed.terms, part.values, strict=True))
+    turn: Array = sum(v * scene.driver(p.driver) for t, v in terms for p in t.products)  # type: ignore[assignment]
+    return turn
+
+
+@pytest.mark.parametrize("in_background", [True, False])
+def test_a_drive_under_unknown_masses_is_told_by_how_far_a_payload_turns_it(in_background: bool) -> None:
+    rng = np.random.default_rng(1)
+    values = np.append(1e-6 * rng.normal(size=len(UNKNOWN.terms) - 1), -0.4 * GIVE)
+    named, drive = Part(UNKNOWN, values), Part(DRIVE, np.array([GIVE]))
+    background = (drive,) if in_background else ()
+    pool = parameter_layout(free_frames(ROWS, False), [[DRIVE]], [UNKNOWN])
+    root = 1e-7 * rng.normal(size=(len(pool.terms), len(pool.terms)))
+    covariance = root @ root.T
+    fit: Any = SimpleNamespace(pool=pool, model=SimpleNamespace(background=background))
+    told, spread = _with_drive_of_background(fit, named, covariance)
+
+    loaded, bare = np.full(len(ROWS), 8.0), np.zeros(len(ROWS))
+    more = Scene(ARM, replace(ROWS, payload=loaded)).torques - Scene(ARM, replace(ROWS, payload=bare)).torques
+    turned = motor_turn((named, *background), loaded) - motor_turn((named, *background), bare)
+    number = [t.name for t in UNKNOWN.terms].index("compliance")
+    assert turned == pytest.approx(told[number] * more[:, JOINT - 1], rel=1e-6, abs=1e-12)
+
+    draws = rng.multivariate_normal(np.zeros(len(pool.terms)), covariance, 200_000)
+    both = [pool.of(UNKNOWN)[number], *(pool.of(DRIVE) if in_background else [])]
+    assert np.sqrt(spread[number, number]) == pytest.approx(draws[:, both].sum(axis=1).std(), rel=0.02)
+    others = np.delete(np.arange(len(values)), number)
+    assert told[others] == pytest.approx(values[others])
+    assert spread[np.ix_(others, others)] == pytest.approx(
+        covariance[np.ix_(pool.of(UNKNOWN), pool.of(UNKNOWN))][np.ix_(others, others)]
+    )
+
+
+def test_a_drive_under_stated_masses_is_told_as_it_is() -> None:
+    pool = parameter_layout(free_frames(ROWS, False), [[DRIVE]], [DRIVE])
+    drive = Part(DRIVE, np.array([GIVE]))
+    fit: Any = SimpleNamespace(pool=pool, model=SimpleNamespace(background=(drive,)))
+    told, spread = _with_drive_of_background(fit, drive, 4e-14 * np.eye(len(pool.terms)))
+    assert (told.item(), spread.item()) == (GIVE, pytest.approx(4e-14))
