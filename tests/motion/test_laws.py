@@ -25,6 +25,8 @@ def test_friction_laws_are_their_equations() -> None:
     np.testing.assert_allclose(stribeck, side * np.exp(-((DQ[:, 1] / 0.5) ** 2)), atol=1e-6)
     load = Law("load friction", (1,), (0.01,))(MOMENT)[:, 0, 0]
     np.testing.assert_allclose(load, np.abs(RIGID[:, 1]) * side, atol=1e-5)
+    uneven = Law("uneven friction", (1,), (0.01,))(MOMENT)[:, 0]
+    np.testing.assert_allclose(uneven, side[:, None] * np.column_stack([np.sin(Q[:, 1]), np.cos(Q[:, 1])]), atol=1e-5)
     np.testing.assert_allclose(Law("warm speed", (0,), (25.0,))(MOMENT)[:, 0, 0], (Q[:, 0] - 5) * DQ[:, 0])
 
 

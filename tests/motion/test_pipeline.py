@@ -85,6 +85,20 @@ def test_what_no_cause_has_is_located_and_not_called_something_else() -> None:
     assert found.verdict.answer == "cannot tell"
 
 
+def test_friction_that_is_uneven_over_the_turn_is_located_with_its_size() -> None:
+    def off_centre(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+        return np.sign(dq) * (0.6 * np.cos(q) - 0.8 * np.sin(q)) * [0, 1, 0]
+
+    found = diagnosed(off_centre)
+    assert names(found) == [("unknown", "joint 2")]
+    (cause,) = found.verdict.effects
+    assert cause.driver == "joint angle and direction"
+    assert "follows the joint angle and direction by no known law" in found.verdict.headline
+    for parameter, true in zip(cause.parameters, (-0.8, 0.6), strict=True):
+        low, high = parameter.interval
+        assert low < true < high < low + 0.3
+
+
 def test_a_delay_is_found_to_the_millisecond_though_friction_jumps() -> None:
     def late(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
         true = rigid + COULOMB * np.sign(dq) + VISCOUS * dq + ROTOR * ddq

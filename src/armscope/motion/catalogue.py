@@ -226,6 +226,8 @@ COMPLIANCE = Cause(
 )
 WAY, PLAY, SCALE = "way since the last reversal", "torque since its last reversal", clauses.SCALE
 """What laws follow that no cause has: hysteresis of friction, play between motor and sensor, a sensor that bends."""
+UNEVEN = "joint angle and direction"
+"""What dry friction follows that is not the same all around: of a gear off its centre."""
 CURVE = Cause(
     "unknown",
     UNKNOWN,

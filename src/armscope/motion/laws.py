@@ -175,6 +175,11 @@ def _wave(m: Moment, joints: tuple[int, ...], count: float) -> Array:
     return np.column_stack([np.sin(turned), np.cos(turned)])
 
 
+def _uneven_side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
+    """Dry friction that goes up and down once per turn."""
+    return _side(m, joints, width)[:, None] * _wave(m, joints, 1)
+
+
 FOLLOWS_MODEL = frozenset(
     {"load friction", "torque", "delayed torque", "powers of torque", "clinging over torques", "curve over load"}
 )
@@ -234,6 +239,7 @@ LAWS: dict[str, Callable[..., Array]] = {
     "behind a drive": _behind,
     "spring": _spring,
     "wave": _wave,
+    "uneven friction": _uneven_side,
     "rubbing of two": _rubbing,
     "inertia of two": _inert,
     "leaning gravity": _lean,

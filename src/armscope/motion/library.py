@@ -169,6 +169,9 @@ def _outside(at: _Joint) -> Iterator[PlacedCause]:
     ways = np.array(LIBRARY.ways) * float(np.ptp(at.seen.q[at.number]))
     names = tuple((f"over way {k + 1}", at.torque) for k in range(len(ways)))
     yield at.cause(catalogue.CURVE, catalogue.WAY, names, "clinging over ways", *ways, variant="way")
+    if at.both_ways and not at.seen.arm.sliding[at.number]:
+        names = (("sine", at.torque), ("cosine", at.torque))
+        yield at.cause(catalogue.CURVE, catalogue.UNEVEN, names, "uneven friction", at.sharp, variant="uneven")
     usual = float(at.seen.effort[at.number])
     widths = np.array(LIBRARY.plays) * usual
     names = tuple((f"over torque {k + 1}", at.torque) for k in range(len(widths)))

@@ -8,6 +8,7 @@ from scipy.stats import chi2
 
 from armscope.core.types import Array
 from armscope.inference.linear_algebra import rss_reduction
+from armscope.motion.catalogue import UNEVEN
 from armscope.motion.constants import LIBRARY, TELLING
 from armscope.motion.laws import Law
 from armscope.motion.layout import NAMED_OF_OWN, OWN
@@ -77,6 +78,7 @@ def _blocks(selected: SelectedCauses, j: int) -> list[Block]:
     curve = Law("curve over speed", (0,), (*map(float, limits), LIBRARY.knots_of_others))
     blocks: list[Block] = [(ACCELERATION, 1, curve(everything_is(faster, 1))[:, 0])]
     for cause, index in zip(layout.placed, layout.columns, strict=True):
-        if j in cause.joints and cause.inertial is None and cause.location.startswith("joint"):
+        single = cause.driver != UNEVEN  # two at once look like each alone, and like a load that follows the angle
+        if single and j in cause.joints and cause.inertial is None and cause.location.startswith("joint"):
             blocks.append((cause.driver, cause.multiplicity, columns[:, np.searchsorted(at, index)].astype(np.float64)))
     return blocks
