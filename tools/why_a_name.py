@@ -180,8 +180,7 @@ class Member:
 def members(found: Selected) -> tuple[list[Member], float]:
     """The D-H values as the search leaves them, and the share of its tolerance that the family was found to have."""
     at, problem = found.found, found.problem
-    family, size = problem.space.families[0], at.background[0]
-    variance = np.zeros(len(problem.scale))
+    family, size, variance = problem.space.families[0], at.background[0], np.zeros(len(problem.scale))
     variance[family.columns] = family.prior_variance(size, problem.scale)
     names = {found.space.placed[c.candidate].key for c in found.best.chosen}
     told: list[Member] = []

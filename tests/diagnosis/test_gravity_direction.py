@@ -59,7 +59,7 @@ def test_an_arm_that_does_not_give_way_tells_nothing_of_gravity() -> None:
 
 
 @pytest.mark.shared
-@pytest.mark.skipif(not MA1400.is_dir(), reason=f"no {MA1400}")
+@pytest.mark.skipif(not MA1400.is_dir(), reason=f"../shared/recordings/{MA1400.name} is not here")
 def test_a_real_arm_on_a_wedge_tells_what_its_levelled_tracker_tells() -> None:
     """README: the base leans 14.8 degrees from the tracker's z; here it is said to stand upright."""
     stated = load_arm(MA1400 / "robot.yaml")

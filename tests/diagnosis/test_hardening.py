@@ -14,7 +14,9 @@ from armscope.physics.scene import Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm, chain
 from armscope.robot.kinematics import joint_jacobian
+from armscope.verdict.contributions import contributions
 from armscope.verdict.schema import Verdict
+from armscope.verdict.work_order import work_order
 
 from .planted import planted
 
@@ -70,6 +72,9 @@ def test_one_drive_that_is_far_softer_under_small_loads_is_told_by_its_joint(see
     assert turn.name == "soft_turn"
     assert abs(turn.value - 2e-4) < 0.15 * 2e-4  # its knee is as it comes
     assert "under small loads" in verdict.headline
+    assert "soft_turn x tanh(10 x load" in largest.cure
+    told = [task.instruction for task in work_order(verdict, contributions(verdict)).tasks if task.place == "joint 4"]
+    assert sum("rad × tanh(10 × load / largest load in these recordings))" in instruction for instruction in told) == 1
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])

@@ -182,7 +182,7 @@ def test_the_model_keeps_how_the_tool_is_turned(tmp_path: Path) -> None:
 
 @pytest.mark.long
 @pytest.mark.shared
-@pytest.mark.skipif(not IIWA.is_dir(), reason=f"no {IIWA}")
+@pytest.mark.skipif(not IIWA.is_dir(), reason=f"../shared/recordings/{IIWA.name} is not here")
 def test_orientations_of_a_real_arm_show_that_its_marker_was_taken_off_between_runs() -> None:
     """README: base and marker must be fitted per run. Points alone take it for shifts, which carry over to no run."""
     arm = load_arm(IIWA / "robot.yaml")

@@ -81,7 +81,7 @@ def test_a_spring_that_is_far_from_straight_is_no_compliance() -> None:
 
 
 @pytest.mark.shared
-@pytest.mark.skipif(not IIWA.is_dir(), reason=f"no {IIWA}")
+@pytest.mark.skipif(not IIWA.is_dir(), reason=f"../shared/recordings/{IIWA.name} is not here")
 @pytest.mark.parametrize("torques", ["recorded", "withheld"])
 def test_a_real_arm_that_gives_way_is_told_so_joint_by_joint(torques: str) -> None:
     """README: 62.5, 67.7 and 54.6 urad per N m where nothing else gives; the mass table is too light by 1.3 to 1.46.

@@ -84,7 +84,7 @@ def test_points_with_names_of_their_own_are_no_shift() -> None:
 
 @pytest.mark.long
 @pytest.mark.shared
-@pytest.mark.skipif(not MA1400.is_dir(), reason=f"no {MA1400}")
+@pytest.mark.skipif(not MA1400.is_dir(), reason=f"../shared/recordings/{MA1400.name} is not here")
 def test_a_real_set_up_that_changed_twice_is_found_with_its_rows_and_its_bad_shots() -> None:
     """README: one tool up to id 85, a smaller change at id 164 to 172; the first 14 poses are worst, one by 17 mm."""
     arm = load_arm(MA1400 / "robot.yaml")
@@ -106,7 +106,7 @@ def test_a_real_set_up_that_changed_twice_is_found_with_its_rows_and_its_bad_sho
 
 
 @pytest.mark.shared
-@pytest.mark.skipif(not IRB120.is_dir(), reason=f"no {IRB120}")
+@pytest.mark.skipif(not IRB120.is_dir(), reason=f"../shared/recordings/{IRB120.name} is not here")
 def test_a_real_tool_point_that_is_another_one_is_found_where_nobody_says_so() -> None:
     """README: point p1b of run test2 lies 1.22 mm from p1; here it is called p1, too."""
     arm = load_arm(IRB120 / "robot.yaml")

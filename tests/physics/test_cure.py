@@ -21,10 +21,13 @@ from armscope.physics.effect import Placed
 from armscope.physics.payload import payload_errors
 from armscope.physics.registry import EFFECTS, library
 from armscope.physics.scene import Part, Scene
+from armscope.physics.soft_start import soft_starts
 from armscope.physics.transmission import mesh
 from armscope.recordings import Recordings
-from armscope.robot import Arm
+from armscope.robot import Arm, chain
+from armscope.robot.gravity import gravity_torques
 from armscope.robot.kinematics import joint_jacobian
+from armscope.world.blemishes import DRIVE
 from armscope.world.kinds import Concealed
 from armscope.world.spec import KINDS
 from armscope.world.statics import Hidden, Session, balance
@@ -105,6 +108,29 @@ def world_with(kind: str, place: str, *others: Concealed) -> World:
     for _ in range(2):
         effect = effect.scaled(ERROR_M / rms(stand(scene, [effect]).tool - wanted))
     return World(arm_named(name), scene.session, (effect, *others), wanted, name)
+
+
+def test_a_drive_that_hardens_is_commanded_away_by_the_rule_on_its_card() -> None:
+    """The world's drive has a bend where the rule has a smooth curve: what lies between them may be left."""
+    scene, wanted = scene_of("six-axis", count=ROWS)
+    effect = Concealed(DRIVE, "joint 3", {"compliance": 1e-12, "soft": 1e-3, "knee": 0.15})
+    world = World(arm_named("six-axis"), scene.session, (effect,), wanted, "six-axis")
+    table = world.table()
+    (placed,) = [p for p in soft_starts(world.arm, table) if p.location == "joint 3"]
+    part = fitted(world, table, [placed])
+    (turn,) = part.values
+    load = gravity_torques(world.arm, chain(world.arm, world.session.commanded), table.payload)[:, 2]
+    assert (
+        "commanded = wanted - soft_turn x tanh(10 x load / largest load in these recordings)"
+        in placed.effect.cure.words
+    )
+    commanded = world.session.commanded.copy()
+    commanded[:, 2] -= turn * np.tanh(10 * load / np.abs(load).max())
+    before, after = (rms(readings - wanted) for readings in (world.readings(), world.readings(commanded)))
+    assert after < 0.15 * before
+    wrong = 2 * world.session.commanded - commanded
+    assert rms(world.readings(wrong) - wanted) > 1.8 * before
+    np.testing.assert_allclose(placed.effect.cure.commanded(Scene(world.arm, table), part), commanded, atol=1e-9)
 
 
 def candidates(effect: str, place: str, world: World, table: Recordings) -> list[Placed]:

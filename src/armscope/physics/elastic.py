@@ -139,8 +139,7 @@ JOINT_COMPLIANCE = Effect(
     "Hang a known weight on the tool in the same pose and measure how far this joint turns.",
     command(
         "Let the controller's elastic model hold against it, or command it away: "
-        "commanded = wanted - compliance x load, or what hardens: - soft_turn x tanh(load / knee) "
-        "(load: gravity's torque on this motor, positive along its pull).",
+        "commanded = wanted - compliance x load (load: gravity's torque on this motor, positive along its pull).",
         change="elastic model",
         instruction="Add to the command what gravity takes, so that {opposite}{size}; or let the controller's elastic "
         "model do so.",

@@ -8,6 +8,7 @@ tanh(torque / knee) within what such sections say. It looks like play, which clo
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -21,6 +22,19 @@ from armscope.robot import Arm
 
 SOFT_START = "soft start"
 """The variant of a joint's compliance that is complete under small loads; a name only where it stands out of all."""
+
+TURNED = f"tanh({1 / PLAUSIBLE.knee_share:g} x load / largest load in these recordings)"
+"""The share of its soft turn by which a drive is turned; that it hardens at a share of the largest load is assumed."""
+HARDENING = replace(
+    JOINT_COMPLIANCE,
+    cure=replace(
+        JOINT_COMPLIANCE.cure,
+        words="Let the controller's elastic model hold against it, or command it away: commanded = wanted - "
+        f"soft_turn x {TURNED} (load: gravity's torque on this motor, positive along its pull; where it hardens is "
+        "assumed).",
+    ),
+)
+"""The same effect, with a rule of its own by which it is commanded away."""
 
 
 def soft_starts(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
@@ -42,4 +56,4 @@ def soft_starts(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
             knee = PLAUSIBLE.knee_share * float(np.abs(scene.torques[:, j - 1]).max())
             turn = term("soft_turn", "rad", (motor(j), Driver("soft start", (j, knee))), plausible=size)
             driver = f"load of joint {j}, while it is small"
-            yield Placed(JOINT_COMPLIANCE, f"joint {j}", (turn,), (1.0,), driver, variant=SOFT_START)
+            yield Placed(HARDENING, f"joint {j}", (turn,), (1.0,), driver, variant=SOFT_START)

@@ -14,6 +14,7 @@ from armscope.core.types import Array
 from armscope.physics.backgrounds import DRIFT, ELASTIC, GEOMETRIC, TRANSMISSION
 from armscope.physics.registry import effect_named
 from armscope.physics.scene import Part, Scene
+from armscope.physics.soft_start import TURNED
 from armscope.verdict.contributions import Contributions, Repair
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import FoundEffect
@@ -173,6 +174,9 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect) -> Task:
     if "compliance" in told:
         size = read_parameter(told["compliance"], effect.effect)
         words["size"] = f" (minus {size.value} × load)"
+    if "soft_turn" in told:
+        size = read_parameter(told["soft_turn"], effect.effect)
+        words["size"] = f" (minus {size.value} × {TURNED.replace(' x ', ' × ')})"
     if "ratio" in told:
         words["ratio"] = f"{1 / (1 + told['ratio'].value):.6f}"
     return Task(

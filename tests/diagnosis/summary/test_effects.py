@@ -28,8 +28,7 @@ def motor_turn(parts: tuple[Part, ...], payload: Array) -> Array:
     """(N,) turn of the motor by some parts under a payload, rad."""
     scene = Scene(ARM, replace(ROWS, payload=payload))
     terms = ((t, v) for part in parts for t, v in zip(part.placed.terms, part.values, strict=True))
-    turn: Array = sum(v * scene.driver(p.driver) for t, v in terms for p in t.products)  # type: ignore[assignment]
-    return turn
+    return np.sum([v * scene.driver(p.driver) for t, v in terms for p in t.products], axis=0, dtype=float)
 
 
 @pytest.mark.parametrize("in_background", [True, False])
