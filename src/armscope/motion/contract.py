@@ -46,6 +46,7 @@ class FoundCauseFile(FilePart):
     physics: str
     confirm: str
     cure: str
+    doubt: str = ""
 
 
 class JointBackgroundFile(FilePart):
