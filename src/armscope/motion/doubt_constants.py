@@ -33,7 +33,7 @@ class LastingRules(Constants):
     repeats: float = constant(
         0.1,
         "of the power that the model leaves at a joint, that what is learned from other motion must foretell",
-        "judgement: a third of its RMS; of four clean arms 0.01 at most was foretold",
+        "judgement: a third of its RMS; of 180 joints of arms all of whose causes have laws 0.02 at most was foretold",
     )
     share: float = constant(
         0.04,

@@ -43,7 +43,7 @@ def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
         barred |= wrong
         space = build_space(selected.rows.layout, torque, rate, barred)
         kept = [effect for effect in selected.best.chosen if effect.candidate not in barred]
-        selected = chosen(selected.rows, selected.weights, selected.block, space, (selected.best, kept))
+        selected = chosen(selected.rows, selected.weights, selected.block, space, (selected.best, kept), selected)
     return selected
 
 
