@@ -99,8 +99,7 @@ def _orthonormal(columns: Array) -> Array:
     if not kept.shape[1]:
         return np.zeros((len(columns), 0))
     left, singular, _ = np.linalg.svd(kept, full_matrices=False)
-    found: Array = left[:, singular > 1e-9]
-    return found
+    return left[:, singular > 1e-9]
 
 
 def _background(arm: VirtualArm, rows: NDArray[np.intp]) -> Array:
