@@ -161,7 +161,7 @@ def _identified(model: Path, fitted: FittedModel, recordings: Path | None) -> Id
             "Give the recordings of the diagnosis with --recordings.",
         )  # fmt: skip
     identified = load_identified(beside)
-    motors = sum(name.startswith("q") for name in identified.domain.names)
+    motors = sum(name.startswith("q") for name in identified.domain.inputs)
     if motors != fitted.arm.n_motors:
         rule = f"the model's arm has {fitted.arm.n_motors}"
         raise InputError(beside, "domain.inputs", f"{motors} motors", rule, "Is it of another diagnosis?")

@@ -78,10 +78,7 @@ class Alternative:
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """What an effect does over its driver: (K,) driver values, the turn or shift there and its standard error.
-
-    ``periods``: the strongest waves per turn as (per_turn, amplitude), strongest first, for angles.
-    """
+    """What an effect does over its driver: (K,) driver values, the turn or shift there and its standard error."""
 
     driver: str
     driver_unit: str
@@ -89,7 +86,6 @@ class Curve:
     value: Array
     stderr: Array
     value_unit: str
-    periods: tuple[tuple[float, float], ...] = ()
     description: str = ""
 
 
