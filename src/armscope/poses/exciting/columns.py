@@ -37,8 +37,7 @@ class Motion:
 
     def sign(self) -> Array:
         """(N, m) of the speeds."""
-        found: Array = np.tanh(self.speed / STANDSTILL)
-        return found
+        return np.tanh(self.speed / STANDSTILL)
 
 
 def link_columns(arm: Arm, motion: Motion) -> Array:
