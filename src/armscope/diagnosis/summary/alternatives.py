@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
@@ -19,6 +20,7 @@ from armscope.inference.constants import BUDGET, PRIORS
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import Candidate
 from armscope.inference.normal_equations import weighted_total
+from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS, Alternative, Specific
 
@@ -61,14 +63,32 @@ def alternatives(search: Search, best: Hypothesis) -> dict[int, list[Rival]]:
     Returns:
         Gap, effect in place, and the hypothesis with it.
     """
-    refused = {}
-    for added in search.additions(best, len(search.space.candidates), least=0.0):
-        refused[added.chosen[-1].candidate] = added.log_posterior - best.log_posterior
+    refused = _Refused(search, best, none=not search.additions(best, 1, least=0.0))
     return {c.candidate: _of_one(search, best, c.candidate, refused) for c in best.chosen}
 
 
-def _of_one(search: Search, best: Hypothesis, number: int, refused: Mapping[int, float]) -> list[Rival]:
-    """What could replace one effect; ``refused``: what others would gain beside all effects, nats."""
+@dataclass(eq=False)
+class _Refused:
+    """What effects would gain beside all that were chosen, had held-out rows not refused them; ``none`` were."""
+
+    search: Search
+    best: Hypothesis
+    none: bool
+    known: dict[tuple[SelectedEffect, bool], float] = field(default_factory=dict)
+
+    def gain(self, effect: SelectedEffect, of_background: bool) -> float:
+        """Nats; what is in a background, too, pays nothing for its name."""
+        if self.none:
+            return 0.0
+        if (effect, of_background) not in self.known:
+            added = self.search.evaluated((*self.best.chosen, effect), self.best)
+            added = self.search.unpaid(added) if of_background else added
+            self.known[effect, of_background] = max(added.log_posterior - self.best.log_posterior, 0.0)
+        return self.known[effect, of_background]
+
+
+def _of_one(search: Search, best: Hypothesis, number: int, refused: _Refused) -> list[Rival]:
+    """What could replace one effect."""
     candidate, rest = search.candidate(number), rest_of(search.problem, best, number)
     explained_anyway = search.in_background(best, number)
     paid = _price_of_curve(search, candidate) if rest and candidate.kind == DRIVE else 0.0
@@ -83,7 +103,7 @@ def _of_one(search: Search, best: Hypothesis, number: int, refused: Mapping[int,
 
 
 def _in_place_of(
-    search: Search, best: Hypothesis, number: int, rest: Sequence[int], paid: float, refused: Mapping[int, float]
+    search: Search, best: Hypothesis, number: int, rest: Sequence[int], paid: float, refused: _Refused
 ) -> list[Rival]:
     """What could replace an effect together with the rest of its curve, or alone; ``paid``: the curve's price, nats."""
     candidate, found = search.candidate(number), []
@@ -100,7 +120,7 @@ def _in_place_of(
     for added in search.additions(base, NAMING.looked_at, [number], least):
         of_background = held and search.in_background(added, added.chosen[-1].candidate)
         other = search.unpaid(added) if of_background else added
-        rival, own = search.candidate(other.chosen[-1].candidate), refused.get(other.chosen[-1].candidate, 0.0)
+        rival, own = search.candidate(other.chosen[-1].candidate), refused.gain(added.chosen[-1], bool(of_background))
         gap = best.log_posterior - other.log_posterior - paid + own
         excluded = other.chosen[-1].candidate in candidate.excludes
         misfit = (other.rss - best.rss) / (2 * best.noise**2)
