@@ -14,7 +14,7 @@ from typing import Annotated, Any, cast, get_type_hints
 import typer
 from typer.core import TyperCommand
 
-from armscope.cli.endings import told_to_end
+from armscope.cli.endings import plain_words, told_to_end
 from armscope.core.inputs import InputError, nearest
 from armscope.core.outputs import Delivery
 from armscope.core.parallel import processes
@@ -76,7 +76,7 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
 
     @functools.wraps(function)
     def run(*, force: bool = False, quiet: bool = False, **values: Any) -> None:
-        with _silence() if quiet else contextlib.nullcontext():
+        with _silence() if quiet else plain_words():
             if outputs:
                 deliver(force, values)
             else:
