@@ -148,8 +148,8 @@ def ended(command: list[str], after_cpu_s: float, sign: signal.Signals, cwd: Pat
         process = subprocess.Popen(
             command, env=ENVIRONMENT, cwd=cwd, start_new_session=True, stdout=said, stderr=subprocess.STDOUT, text=True
         )
-        while process.poll() is None and cpu_seconds_of(process.pid) < after_cpu_s:
-            time.sleep(0.01)
+        while process.poll() is None and (missing := after_cpu_s - cpu_seconds_of(process.pid)) > 0:
+            time.sleep(max(0.005, missing / (2 * (os.cpu_count() or 1))))  # looked at seldom: looking takes time, too
         with contextlib.suppress(ProcessLookupError):
             os.killpg(process.pid, sign)
         process.wait(timeout=600)
