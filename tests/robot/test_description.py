@@ -51,7 +51,7 @@ def test_the_plain_description_is_fine(tmp_path):
         ({"actuation": [{"q1": 1}, {"m2": 1}]}, ["actuation[1]", "'m2'", "q1, q2"]),
         ({"joint_limits_deg": [[-1, 1]]}, ["joint_limits_deg", "2 motors", "has 1"]),
         ({"joint_limits_deg": [[-1, 1], [2, 1]]}, ["joint_limits_deg[1]", "low < high"]),
-        ({"instrument": {"sigma_mm": 0}}, ["instrument.sigma_mm", "greater than 0"]),
+        ({"instrument": {"sigma_mm": 0}}, ["instrument.sigma_mm", "greater than or equal to 0.0001"]),
         ({"dh": None}, ["`dh`", "`urdf`"]),
         ({"urdf": "arm.urdf"}, ["`dh`", "`urdf`"]),
         ({"dh": None, "urdf": "arm.urdf"}, ["tip"]),

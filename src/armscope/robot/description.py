@@ -24,8 +24,9 @@ HEAVIEST_KG = 20_000.0
 """The heaviest robot arm that is sold weighs 11,000 kg and carries 2,300 kg (FANUC M-2000iA/2300, data sheet)."""
 STRONGEST_GRAVITY = 12.0
 """m/s2; on Earth 9.76 to 9.84 (International Gravity Formula 1980 and altitude); less on the Moon, none in orbit."""
-COARSEST_MM = 100.0
-"""1-sigma per axis: what is coarser than 0.1 m measures no arm (indoor radio positioning is that coarse)."""
+FINEST_MM, COARSEST_MM = 1e-4, 100.0
+"""1-sigma per axis: an interferometer on its stable table tells 0.1 um, an arm repeats a hundred times worse; what is
+coarser than 0.1 m measures no arm (indoor radio positioning is that coarse)."""
 LARGEST_RATIO = 1000.0
 """Of an actuation: gears of arms reduce by 30 to 320 (harmonic and cycloidal drives, makers' catalogues)."""
 ROUNDED = 1e-3
@@ -119,7 +120,7 @@ class Drive(Strict):
 class Instrument(Strict):
     """1-sigma per axis of the instrument and the robot's repeatability together."""
 
-    sigma_mm: float = Field(gt=0, le=COARSEST_MM, description="1-sigma per axis, mm")
+    sigma_mm: float = Field(ge=FINEST_MM, le=COARSEST_MM, description="1-sigma per axis, mm")
 
 
 class Parallelogram(Strict):
