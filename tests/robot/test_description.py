@@ -111,6 +111,7 @@ def test_the_sk120_says_where_its_numbers_come_from():
         ({"tool_mm": [0, 0, 1e6]}, "tool_mm[2]", "20000"),
         ({"instrument": {"sigma_mm": 1e4}}, "instrument.sigma_mm", "100"),
         ({"actuation": [{"q1": 1e9}]}, "actuation[0].q1", "1000"),
+        ({"dh": {"joints": [{"a_mm": 100, "alpha_deg": 0, "d_mm": 0}] * 100}}, "dh.joints", "99"),
     ],
 )
 def test_physics_that_no_arm_has_is_refused_where_it_stands(change, place, words, tmp_path):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import functools
 import inspect
+import math
 import os
 import sys
 from collections.abc import Callable, Iterable, Iterator
@@ -76,6 +77,7 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
 
     @functools.wraps(function)
     def run(*, force: bool = False, quiet: bool = False, **values: Any) -> None:
+        _refuse_endless(values)
         with _silence() if quiet else plain_words():
             if outputs:
                 deliver(force, values)
@@ -99,6 +101,17 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
     cast(Any, run).__signature__ = signature.replace(parameters=[*parameters, *added])
     run.__annotations__ = {each.name: each.annotation for each in [*parameters, *added]} | {"return": None}
     return run
+
+
+def _refuse_endless(values: dict[str, Any]) -> None:
+    """Numbers of options are finite: click lets "nan" pass where there is no bound, and "inf" below a lower one.
+
+    Raises:
+        InputError: one is not.
+    """
+    for name, value in values.items():
+        if isinstance(value, float) and not math.isfinite(value):
+            raise InputError(f"--{name.replace('_', '-')}", "", value, "a finite number is needed here")
 
 
 @contextlib.contextmanager

@@ -18,7 +18,7 @@ from pathlib import Path
 
 from armscope.core.inputs import FILES_READ, InputError, identity
 from armscope.core.locks import Lock
-from armscope.core.records import HIDDEN, carry_out, digest_of, forget, read_record, tidy, write_record
+from armscope.core.records import HIDDEN, carry_out, digest_of, drop_drafts, read_record, tidy, write_record
 from armscope.core.streams import is_stream
 
 OF_THE_DISK = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EIO)
@@ -156,7 +156,7 @@ class Result:
     def close(self) -> None:
         """Leave nothing behind but what was put in place."""
         if not self._hidden(".plan").exists():  # else the next run finishes what a full disk may have interrupted
-            forget(self.home, self.key)
+            drop_drafts(self.home, self.key)
         self._lock.give_back()
         self._forget_folders()
 

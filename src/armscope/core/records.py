@@ -47,10 +47,10 @@ def carry_out(home: Path, key: str) -> None:
                 with contextlib.suppress(OSError):
                     path.parent.rmdir()
         plan.replace(record)  # and no file is written any more, for which a full disk might have no room
-    forget(home, key)
+    drop_drafts(home, key)
 
 
-def forget(home: Path, key: str) -> None:
+def drop_drafts(home: Path, key: str) -> None:
     """Remove what was made ready and not put in place."""
     hidden = home / HIDDEN
     for left in (hidden / f"{key}.plan", hidden / f"{key}.json"):

@@ -20,6 +20,8 @@ Millimetres = Annotated[float, Field(ge=-LONGEST_MM, le=LONGEST_MM)]
 Length = Annotated[float, Field(gt=0, le=LONGEST_MM)]
 Point = tuple[Millimetres, Millimetres, Millimetres]
 
+MOST_JOINTS = 99
+"""Of a chain: motors are called q1 ... q99; the longest snake robots that are built have 30 to 40."""
 HEAVIEST_KG = 20_000.0
 """The heaviest robot arm that is sold weighs 11,000 kg and carries 2,300 kg (FANUC M-2000iA/2300, data sheet)."""
 STRONGEST_GRAVITY = 12.0
@@ -67,7 +69,9 @@ class DH(Strict):
         default="standard",
         description="standard: Rz(theta) Tz(d) Tx(a) Rx(alpha); modified: Rx(alpha) Tx(a) Rz(theta) Tz(d)",
     )
-    joints: tuple[DHRow, ...] = Field(min_length=1, description="one row per joint of the chain, from the base")
+    joints: tuple[DHRow, ...] = Field(
+        min_length=1, max_length=MOST_JOINTS, description="one row per joint of the chain, from the base"
+    )
 
 
 class LinkMass(Strict):
