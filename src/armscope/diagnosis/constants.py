@@ -125,6 +125,12 @@ class FoldRules(Constants):
         "judgement: four to a fold",
         unit="blocks",
     )
+    overfitted: float = constant(
+        1.1,
+        "times the noise that held-out errors exceed where free curves are asked whether they foretell rows",
+        "judgement: below it nothing else could foretell a tenth better",
+        unit="times",
+    )
     judged_rows: int = constant(
         20_000,
         "whose held-out errors are computed, spread evenly; folds are fitted to all",

@@ -11,7 +11,7 @@ from collections.abc import Collection, Iterator, Sequence
 import numpy as np
 
 from armscope.core.types import Array, Indices
-from armscope.diagnosis.constants import FOLDING
+from armscope.diagnosis.constants import FOLDING, LOOP
 from armscope.inference.edits import Edits, replaced
 from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.model_space import BackgroundSizes
@@ -45,6 +45,30 @@ def earned(problem: Problem, blocks: Sequence[NormalEquations], hypothesis: Hypo
             return hypothesis
         hypothesis = search.evaluated(without[worst][0], hypothesis)
     return hypothesis
+
+
+def steady(
+    problem: Problem, blocks: Sequence[NormalEquations], hypothesis: Hypothesis, wander: int, of_rows: Sequence[Indices]
+) -> Hypothesis:
+    """A hypothesis without a wander in the order of rows that is barely seen and makes other rows worse.
+
+    Args:
+        problem: the sums of all rows, priors and costs.
+        blocks: sums of blocks of rows.
+        hypothesis: chosen on all rows.
+        wander: number of the wander's family.
+        of_rows: its columns that follow the order of rows.
+
+    Returns:
+        The hypothesis, with or without it.
+    """
+    if not hypothesis.background[wander] or not of_rows:
+        return hypothesis
+    without = Search.on(problem).with_background(hypothesis, wander, 0)
+    sure = hypothesis.log_posterior - without.log_posterior > LOOP.surely_wanders
+    if sure or foretold_better(problem, blocks, hypothesis, wander, np.concatenate(of_rows)):
+        return hypothesis
+    return without
 
 
 def foretold_better(

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Indices, Progress
 from armscope.diagnosis.constants import LOOP
-from armscope.diagnosis.earning import earned, foretold_better
+from armscope.diagnosis.earning import earned, steady
+from armscope.diagnosis.errors_of_loads import on_loads
+from armscope.diagnosis.free_curves import foretold_without_curves
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.row_noise import NoiseOfRows
@@ -32,19 +34,16 @@ from armscope.measurement.noise import Growth, Noise
 from armscope.physics.backgrounds import DRIFT, FAMILIES, TRANSMISSION, backgrounds, gear_waves
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.drift import base_shifts_of_runs
-from armscope.physics.effect import Effect, Placed
+from armscope.physics.effect import Placed
 from armscope.physics.elastic import TWO_AXES, stiffest_of_two
 from armscope.physics.frames import set_ups_of
 from armscope.physics.freeform import refined
-from armscope.physics.loads import STATED_MASSES, mass_errors
 from armscope.physics.model import FittedModel
-from armscope.physics.payload import PAYLOAD_ERROR, payload_errors
 from armscope.physics.registry import library
 from armscope.physics.scene import Part
 from armscope.physics.soft_start import soft_starts
 from armscope.physics.transmission import MESH_COUNTS
 from armscope.physics.wander import is_of_rows
-from armscope.recordings import Recordings
 
 State = tuple[frozenset[str], NDArray[np.bool_]]
 
@@ -111,7 +110,22 @@ class SelectionLoop:
         self.scans = 0
 
     def run(self, of_a_sample: bool = False) -> Selected:
-        """Rounds until nothing changes; those on all rows still follow where these are a sample."""
+        """Rounds until nothing changes, without free curves if that foretells more.
+
+        Those on all rows still follow where these are a sample.
+        """
+        self._settle()
+        plainer = foretold_without_curves(self.problem, self.blocks, self.found)
+        if plainer is not None:
+            self._take(Search.on(self.problem), plainer)
+            self.model = self.fit.model
+            self.candidates = [placed for placed in self.candidates if placed.parametrisation != "curve"]
+            self._settle()
+        self._refine(of_a_sample)
+        return self.selected() if of_a_sample else self.earned()
+
+    def _settle(self) -> None:
+        """Rounds until nothing changes."""
         previous: State | None = None
         settled = False
         for number in range(LOOP.rounds):
@@ -127,8 +141,6 @@ class SelectionLoop:
             settled = same
             previous = state
             self.candidates = [*self.candidates, *new]
-        self._refine(of_a_sample)
-        return self.selected() if of_a_sample else self.earned()
 
     def _refine(self, of_a_sample: bool) -> None:
         """Finer forms of the curves and gears that were chosen; what they can't follow may be scatter."""
@@ -171,13 +183,20 @@ class SelectionLoop:
             others = [*base_shifts_of_runs(set_ups), *soft_starts(arm, self.recordings)]
             self.candidates = [*library(arm, self.recordings), *others]
             self.families = list(families.values())
-        self.point, payload, self.loads = _on_loads(self.model, self.recordings)
+        self.point, payload, self.loads = on_loads(self.model, self.recordings)
         self.space = build_model_space(self.frames, self.families, [*self.candidates, *payload], self.loads)
         weights = self.noise.weights
         self.blocks = normal_equations_by_block(self.space.layout, self.point, self.table, weights, self.block_of_row)
         self.problem = build_problem(self.space, total(self.blocks), self.noise.least_mm)
         search = Search.on(self.problem)
-        found = search.best(starts, None if self.last is None else search.transferred(*self.last))
+        self._take(search, search.best(starts, None if self.last is None else search.transferred(*self.last)))
+        new = self._scanned(search) if scanning else []
+        self.model = self.fit.model
+        self.noise.weigh(self.fit.left, self.fit.noise, self.fit.weights.whitening)
+        return new
+
+    def _take(self, search: Search, found: Hypothesis) -> None:
+        """Names and the exact fit of a hypothesis."""
         self.found = search.refined(found)
         self.best, self.last = named(search, self.space, self.found), (found, self.space)
         self.fit = self._fitted()
@@ -185,10 +204,6 @@ class SelectionLoop:
         if against:
             self.best = search.without(self.best, against)
             self.fit = self._fitted()
-        new = self._scanned(search) if scanning else []
-        self.model = self.fit.model
-        self.noise.weigh(self.fit.left, self.fit.noise, self.fit.weights.whitening)
-        return new
 
     def _fitted(self) -> Refit:
         """The best hypothesis fitted with the exact model."""
@@ -213,7 +228,9 @@ class SelectionLoop:
 
     def earned(self) -> Selected:
         """Where the rounds stand, without what makes held-out rows worse, gears' waves as the rows say."""
-        left = self._steady(earned(self.problem, self.blocks, self.best))
+        wander = FAMILIES.index(DRIFT)
+        of_rows = [self.space.layout.of(placed) for placed in self.families[wander] if is_of_rows(placed)]
+        left = steady(self.problem, self.blocks, earned(self.problem, self.blocks, self.best), wander, of_rows)
         gears = FAMILIES.index(TRANSMISSION)
         waves = with_sizes_of_rows(self.problem, self.space, self.blocks, left, self.families[gears])
         if left is not self.best or waves != self.families[gears]:
@@ -221,18 +238,6 @@ class SelectionLoop:
             self.fit = self._fitted()
             self.model = self.fit.model
         return self.selected()
-
-    def _steady(self, hypothesis: Hypothesis) -> Hypothesis:
-        """A hypothesis without a wander in the order of rows that is barely seen and makes other rows worse."""
-        wander = FAMILIES.index(DRIFT)
-        of_rows = [self.space.layout.of(placed) for placed in self.families[wander] if is_of_rows(placed)]
-        if not hypothesis.background[wander] or not of_rows:
-            return hypothesis
-        without = Search.on(self.problem).with_background(hypothesis, wander, 0)
-        sure = hypothesis.log_posterior - without.log_posterior > LOOP.surely_wanders
-        if sure or foretold_better(self.problem, self.blocks, hypothesis, wander, np.concatenate(of_rows)):
-            return hypothesis
-        return without
 
     def _pushes(self, part: Part) -> bool:
         """Whether a compliance about two axes is surely negative about one of them."""
@@ -273,28 +278,3 @@ class SelectionLoop:
         most = MESH_COUNTS[-1] if self.scans == SCANS.scan_of_fine_lines else SCANS.ordinary_lines
         context = ScanContext(self.problem, self.space, self.point, self.recordings, self.noise.weights)
         return scanned_candidates(context, search, self.best, most)
-
-
-def _on_loads(model: FittedModel, recordings: Recordings) -> tuple[FittedModel, list[Placed], list[Placed]]:
-    """The model with its errors of loads written anew, and those errors on top of what gives way in it.
-
-    Args:
-        model: as fitted.
-        recordings: the rows.
-
-    Returns:
-        The model, payload errors, and the masses' errors.
-    """
-    parts = [part for part in model.parts if part.placed.effect is not PAYLOAD_ERROR]
-    background = [part for part in model.background if part.placed.effect is not STATED_MASSES]
-    payload = list(payload_errors(recordings, [part for part in parts if part.placed.parametrisation == "plain"]))
-    masses = mass_errors(model.arm, recordings, [*background, *parts])
-    by_place = {(p.key, p.variant): p for p in (*payload, *masses)}
-
-    def anew(some: Sequence[Part], effect: Effect) -> list[Part]:
-        known = [(part, by_place.get((part.placed.key, part.placed.variant))) for part in some]
-        return [Part(p, part.values) for part, p in known if p is not None and p.effect is effect]
-
-    parts += anew(model.parts, PAYLOAD_ERROR)
-    background += anew(model.background, STATED_MASSES)
-    return replace(model, parts=tuple(parts), background=tuple(background)), payload, masses
