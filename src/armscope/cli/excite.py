@@ -49,8 +49,8 @@ def excite(
         rule = "a wave needs two samples at least: twice --harmonics / --period-s"
         raise InputError("--rate-hz", "", rate_hz, rule)
     if rate_hz * period_s > MOST_SAMPLES:
-        found = f"{rate_hz * period_s:.3g} samples"
-        raise InputError("--rate-hz", "", found, f"--rate-hz times --period-s: at most {MOST_SAMPLES:,} samples")
+        asked = f"{rate_hz * period_s:.3g} samples"
+        raise InputError("--rate-hz", "", asked, f"--rate-hz times --period-s: at most {MOST_SAMPLES:,} samples")
     arm = load_arm(robot)
 
     from armscope.poses.exciting.output import pairs_of, trajectory_table, write_excitation

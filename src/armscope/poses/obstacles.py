@@ -74,6 +74,9 @@ def refusals(arm: Arm, motor_angles: Array, around: Surroundings) -> NDArray[np.
 
     Returns:
         (N,) texts.
+
+    Raises:
+        InputError: links so thick that no two parts of the arm are apart.
     """
     from scipy.stats import qmc  # takes long to import: only where poses are chosen
 
