@@ -6,11 +6,14 @@ import numpy as np
 import pytest
 
 from armscope.core.types import Array
-from armscope.diagnosis.free_curves import foretold_without_curves
+from armscope.diagnosis.free_curves import foretold_without_curves, told_by_laws
+from armscope.inference.constants import PRIORS
+from armscope.inference.edits import by_posterior
 from armscope.inference.evidence import evaluate
 from armscope.inference.model_space import Candidate, ModelSpace
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, SelectedEffect, build_problem
+from armscope.inference.search import Search
 
 ROWS, KNOTS, NOISE = 9, 20, 0.1
 STEADY, OTHER, CURVE = 0, 1, 2
@@ -24,7 +27,12 @@ def table(configurations: int, response: str) -> tuple[list[NormalEquations], Pr
     direction, other = rng.normal(size=len(angle)), rng.normal(size=configurations).repeat(ROWS)
     hats = np.maximum(1 - np.abs(angle[:, None] * (KNOTS - 1) - np.arange(KNOTS)), 0) * direction[:, None]
     X = np.column_stack([np.ones(len(angle)), direction, other * direction, hats])
-    made: dict[str, Array] = {"two": X[:, 1] + X[:, 2], "curve": np.sin(20 * angle) * direction}
+    made: dict[str, Array] = {
+        "nearly": 0.4 * X[:, 1] + 0.107 * np.sin(9 * angle) * direction,
+        "one": X[:, 1],
+        "two": X[:, 1] + X[:, 2],
+        "curve": np.sin(20 * angle) * direction,
+    }
     y = made[response] + rng.normal(0, NOISE, len(angle))
     candidates = (
         Candidate("steady", "here", np.array([1]), np.ones(1)),
@@ -58,3 +66,18 @@ def test_where_there_is_no_curve_nothing_is_asked() -> None:
     assert (
         foretold_without_curves(problem, blocks, evaluate(problem, (SelectedEffect(STEADY, LARGE),), (), NOISE)) is None
     )
+
+
+@pytest.mark.parametrize(("response", "told"), [("one", STEADY), ("nearly", STEADY), ("curve", CURVE)])
+def test_a_law_that_the_evidence_does_not_tell_from_a_curve_comes_first(response: str, told: int) -> None:
+    problem = table(8, response)[1]
+    search = Search.on(problem)
+    sizes = range(len(problem.sizes))
+    curve, law = (
+        max((evaluate(problem, (SelectedEffect(n, size),), (), NOISE) for size in sizes), key=by_posterior)
+        for n in (CURVE, STEADY)
+    )
+    if response == "nearly":
+        assert law.log_posterior < curve.log_posterior < law.log_posterior + PRIORS.sure_nats
+    assert told_by_laws(search, curve).candidates == {told}
+    assert told_by_laws(search, law) is law

@@ -12,7 +12,7 @@ from armscope.core.types import Indices, Progress
 from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.earning import earned, steady
 from armscope.diagnosis.errors_of_loads import on_loads
-from armscope.diagnosis.free_curves import foretold_without_curves
+from armscope.diagnosis.free_curves import foretold_without_curves, told_by_laws
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.row_noise import NoiseOfRows
@@ -197,7 +197,7 @@ class SelectionLoop:
 
     def _take(self, search: Search, found: Hypothesis) -> None:
         """Names and the exact fit of a hypothesis."""
-        self.found = search.refined(found)
+        self.found = search.refined(told_by_laws(search, found))
         self.best, self.last = named(search, self.space, self.found), (found, self.space)
         self.fit = self._fitted()
         against = self._against_their_load()
