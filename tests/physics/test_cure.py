@@ -27,7 +27,7 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm, chain
 from armscope.robot.gravity import gravity_torques
 from armscope.robot.kinematics import joint_jacobian
-from armscope.world.blemishes import DRIVE
+from armscope.world.imperfections import DRIVE
 from armscope.world.kinds import Concealed
 from armscope.world.spec import KINDS
 from armscope.world.statics import Hidden, Session, balance

@@ -10,9 +10,9 @@ import pytest
 import yaml
 
 from armscope.core.averages import rms
-from armscope.world.blemishes import DRIVE, OF, PAYLOAD_SHARE, PEDESTAL, RUNS, WANDER, lagging, waves
 from armscope.world.constants import ROUGH
 from armscope.world.folder import build
+from armscope.world.imperfections import DRIVE, OF, PAYLOAD_SHARE, PEDESTAL, RUNS, WANDER, lagging, waves
 from armscope.world.kinds import Concealed
 from armscope.world.oracle import oracle_rms
 from armscope.world.rough import BLEMISHES, as_stated, blemishes, draw_broken, rough_noise
@@ -163,7 +163,7 @@ def built(tmp_path_factory):
     spec = WorldSpec.model_validate(
         {
             "id": "rough", "category": "rough", "arm": "parallelogram-120kg", "seed": 5, "fresh": False, "rows": 40,
-            "sigma_mm": 0.03, "wishes": [{"kind": "joint_compliance", "strength": 4.0}], "noise": "rough",
+            "sigma_mm": 0.03, "effects": [{"kind": "joint_compliance", "strength": 4.0}], "noise": "rough",
             "rough": ["masses", "bars", "springs", "gears", "wander", "runs", "day"],
         }
     )  # fmt: skip

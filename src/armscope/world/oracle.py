@@ -8,7 +8,7 @@ import numpy as np
 
 from armscope.core.averages import rms
 from armscope.core.types import Array
-from armscope.world.blemishes import FINE_WAVES, LOW_WAVES
+from armscope.world.imperfections import FINE_WAVES, LOW_WAVES
 from armscope.world.kinds import APPROACH, LOAD, PAYLOAD, SPEED, TEMPERATURE, TIME, Concealed, Scene, number
 from armscope.world.rivals import Patterns
 from armscope.world.strength import free_frames, stand

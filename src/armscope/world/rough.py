@@ -15,7 +15,8 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.robot.description import Parallelogram, RobotDescription
-from armscope.world.blemishes import (
+from armscope.world.constants import ROUGH, Pair
+from armscope.world.imperfections import (
     DRIVE,
     FINE_WAVES,
     GROWTH,
@@ -28,7 +29,6 @@ from armscope.world.blemishes import (
     RUNS,
     WANDER,
 )
-from armscope.world.constants import ROUGH, Pair
 from armscope.world.kinds import LOAD, PAYLOAD, Concealed, Scene, joints, links_longer_than
 from armscope.world.strength import Sized, rms_after_frames, stand
 
