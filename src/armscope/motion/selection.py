@@ -16,13 +16,13 @@ from armscope.inference.problem import Problem, SelectedEffect, build_problem
 from armscope.inference.search import Search
 from armscope.motion import catalogue
 from armscope.motion.constants import LIBRARY, NOISE, PRIOR
-from armscope.motion.late import lag_step
 from armscope.motion.laws import Law
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.preparation import Preparation
 from armscope.motion.rows import MotionRows, SoFar, build_rows, stated_model
 from armscope.motion.space import build_space
 from armscope.motion.timing import Stretch
+from armscope.motion.torque_delay import lag_step
 from armscope.motion.weights import JointSums, TorqueWeights, estimate_weights, left_apart, sums_by_joint, weighed
 
 SCANNED = (catalogue.STRIBECK, catalogue.DELAY, catalogue.COMPLIANCE)
