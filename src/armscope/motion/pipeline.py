@@ -32,8 +32,10 @@ from armscope.motion.judgement import (
     found_causes,
     headline,
     joint_backgrounds,
+    lasting_words,
     unexplained,
 )
+from armscope.motion.lasting import lasting_torques
 from armscope.motion.layout import TorqueLayout
 from armscope.motion.library import place_causes
 from armscope.motion.model import MotionModel, fitted_model
@@ -50,6 +52,7 @@ from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.diagnosis import Atlas
 from armscope.verdict.schema import Notice
+from armscope.verdict.wording import capitalised
 
 
 @dataclass(frozen=True)
@@ -153,7 +156,7 @@ def diagnose_motion(
     verdict = replace(
         verdict,
         preparation=how.words,
-        notices=tuple(notices),
+        notices=(*notices, *verdict.notices),
         samples=len(motions),
         runs=runs,
         seconds=time.perf_counter() - started,
@@ -205,13 +208,14 @@ def _judged(
     found = [cause for _, cause in numbered]
     order = [number for number, _ in numbered]
     steps = waterfall(selected, parts, order, [cause.title for cause in found])
-    left = unexplained(found)
+    lasting = lasting_torques(selected)
+    left = unexplained(found, lasting)
     errors = HeldOutErrors(held_out.background, held_out.model, steps[-1].held_out)
     answer, mismatch = answer_of(found, left, errors)
     sizes = {family.name: share for family, share in zip(selected.space.families, _sizes(selected), strict=True)}
     verdict = MotionVerdict(
         answer=answer,
-        headline=headline(found, errors),
+        headline=headline(found, errors, lasting),
         mismatch=mismatch,
         effects=tuple(found),
         unexplained=left,
@@ -222,7 +226,7 @@ def _judged(
         waterfall=steps,
         identifiable=_identifiable(selected),
         preparation="",
-        notices=(),
+        notices=(Notice("lasting torque", f"{capitalised(lasting_words(lasting))}."),) if len(lasting) > 1 else (),
         rows=len(selected.rows),
         samples=0,
         runs=(),

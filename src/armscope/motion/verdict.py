@@ -44,6 +44,7 @@ class FoundCause:
         physics: what happens, in one sentence.
         confirm: how to confirm it on the arm.
         cure: how to take it out.
+        doubt: why it is to be taken with care; empty where nothing speaks against it.
     """
 
     effect: str
@@ -64,6 +65,7 @@ class FoundCause:
     physics: str = ""
     confirm: str = ""
     cure: str = ""
+    doubt: str = ""
 
     @property
     def nameless(self) -> bool:
@@ -131,7 +133,7 @@ class HeldOutMotion:
 
 @dataclass(frozen=True)
 class UnexplainedTorque:
-    """Structure for which the library has no cause.
+    """Structure for which the library has no cause: a free curve, or what lasts and repeats beyond all of them.
 
     Attributes:
         present: whether there is any.

@@ -22,6 +22,8 @@ STANDSTILL = 0.01
 STRIBECK = 0.1
 """rad/s: a typical speed of the Stribeck effect, for its pattern."""
 CURVE_DEGREE = 5
+SMALL, FEEBLE = 1e-5, 1e-9
+"""Share of a motion by which a link lags, so that torque follows along its slope; and what counts as nothing."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,6 +89,9 @@ def cause_columns(arm: Arm, motion: Motion, links: Array, effect: str, location:
         (N, m, k) torques; None of a cause without a law by which a motion could be planned.
     """
     where = Location.of(location)
+    if effect == "joint_compliance":
+        turns = where.kind == "joint" and not where.source and where.index < motion.angle.shape[1]
+        return _behind_a_drive(arm, motion, links, where.index) if turns else None
     masses = _of_masses(arm, effect, where)
     if masses is not None:
         return links @ masses
@@ -136,6 +141,25 @@ def _leaning(arm: Arm, motion: Motion) -> Array | None:
         columns = torque_regressor(model, arm.actuation, (motion.angle, still, still))
         torques.append(columns @ inertial_parameters(arm.model))
     return np.stack(torques, axis=2)
+
+
+def _behind_a_drive(arm: Arm, motion: Motion, links: Array, j: int) -> Array:
+    """(N, m, 1) torque per unit of a drive's compliance: its link is where the motor is less compliance x its torque.
+
+    To first order; the link's lag is derived as a wave that repeats, as the motions of the search do.
+    """
+    stated = inertial_parameters(arm.model)
+    rigid = links @ stated
+    waves = 2j * np.pi * np.fft.rfftfreq(len(rigid), motion.step)
+    lag = [np.fft.irfft(waves**order * np.fft.rfft(rigid[:, j]), len(rigid)) for order in range(3)]
+    moved = [np.array(each) for each in (motion.angle, motion.speed, motion.acceleration)]
+    largest = [float(np.abs(each[:, j]).max()) for each in moved]
+    unit = SMALL * min(most / max(float(np.abs(each).max()), FEEBLE) for most, each in zip(largest, lag, strict=True))
+    for values, late in zip(moved, lag, strict=True):
+        values[:, j] -= unit * late
+    behind = torque_regressor(arm.model, arm.actuation, (moved[0], moved[1], moved[2])) @ stated
+    found: Array = ((behind - rigid) / max(unit, FEEBLE**2))[:, :, None]
+    return found
 
 
 def _joint_patterns(motion: Motion, rigid: Array, j: int) -> dict[str, Array]:
