@@ -218,9 +218,9 @@ def test_a_drive_that_gives_way_has_the_torque_of_a_link_that_lags(six):
 
 def test_a_motion_is_planned_that_tells_a_belt_from_a_mass(six):
     pair = (("joint_compliance", "joint 2"), ("link_mass", "link 3"))
-    planned = excite(six, MotionWish(period=10.0, rounds=40, seed=3, pairs=(pair,)), NOWHERE)
+    planned = excite(six, MotionRequest(period=10.0, rounds=40, seed=3, pairs=(pair,)), NOWHERE)
     assert planned.pairs == (pair,)
     assert planned.lawless == ()
     assert planned.after.separations[0] > planned.before.separations[0]
     behind_no_motor = (("joint_compliance", "joint 9"), pair[1])
-    assert excite(six, MotionWish(rounds=0, pairs=(behind_no_motor,)), NOWHERE).lawless == (behind_no_motor,)
+    assert excite(six, MotionRequest(rounds=0, pairs=(behind_no_motor,)), NOWHERE).lawless == (behind_no_motor,)
