@@ -92,7 +92,7 @@ def fit_error_model(
     output: Annotated[Path, typer.Option("--output", "-o", help="errormodel.json")],
     model: Annotated[str, typer.Option("--model", "-m", help="FDP(CI), SDP(AI), 'Fourier 2 (AI)', ...")] = "SDP(CI)",
     method: Annotated[str, typer.Option(help="least-squares or swarm")] = "least-squares",
-    seed: Annotated[int, typer.Option(help="of the swarm")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="of the swarm")] = 0,
     run: Annotated[str | None, typer.Option(help="only this run")] = None,
     target: Annotated[str | None, typer.Option(help="only this target")] = None,
     register: Annotated[bool, typer.Option(help="fit measurement frame and tool offset with the nominal arm")] = False,

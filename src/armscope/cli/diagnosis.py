@@ -29,7 +29,7 @@ def diagnose(
     output: Annotated[Path, typer.Option("--output", "-o", help="folder for report, verdict, model and figures")],
     run: Annotated[list[str] | None, typer.Option(help="only these runs (may be given several times)")] = None,
     first_id: Annotated[int | None, typer.Option(help="leave out rows with a smaller id")] = None,
-    seed: Annotated[int, typer.Option(help="of folds and resampling")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="of folds and resampling")] = 0,
     resamples: Annotated[int, typer.Option(min=0, help="how often rows are resampled; 0 saves time")] = 10,
     cross_validation: Annotated[bool, typer.Option(help="repeat the whole diagnosis on held-out folds")] = True,
     tool_per_run: Annotated[bool, typer.Option(help="the tool was taken off between runs")] = False,

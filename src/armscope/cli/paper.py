@@ -179,7 +179,7 @@ def outlook_(
     poses: Poses,
     errors: ManyErrors,
     output: Output,
-    seed: Annotated[int, typer.Option(help="of the folds")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="of the folds")] = 0,
 ) -> None:
     """What blended sub-volumes and products between inputs leave of the errors, chosen by cross-validation."""
     from armscope.core.files import write_table
