@@ -42,12 +42,16 @@ def _resolved(how: Preparation, samples: int, asked: float | None) -> Preparatio
     lower cut-off takes it in. What the motion itself reaches stays below the cut-off.
     """
     kept = thinned(how, samples)
-    least = max(CUTOFF.least_hz, how.position_cutoff / CUTOFF.beyond_motion)
-    lower = float(f"{max(how.rate / (FILTER.rows_per_cutoff * kept.every), least):.2g}")
-    if asked is not None or kept.every == how.every or lower >= how.cutoff:
+    if asked is not None or kept.every == how.every:
         return kept
-    source = "what as many rows as are kept resolve"
-    return thinned(preparation(how.rate, lower, source, how.position_cutoff), samples)
+    least = max(CUTOFF.least_hz, how.position_cutoff / CUTOFF.beyond_motion)
+    lower, source = how, "what as many rows as are kept resolve"
+    for every in range(kept.every, 3 * kept.every):  # steps of the model's own stride are skipped
+        cutoff = float(f"{max(how.rate / (FILTER.rows_per_cutoff * every), least):.3g}")
+        lower = preparation(how.rate, min(cutoff, how.cutoff), source, how.position_cutoff)
+        if cutoff <= least or lower.every * FILTER.most_rows >= samples:
+            break
+    return thinned(lower, samples) if lower.cutoff < how.cutoff else kept
 
 
 def _chosen(arm: MovingArm, stretches: Sequence[Stretch], asked: float | None) -> tuple[Preparation, FirstLook]:
