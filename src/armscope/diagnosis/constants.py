@@ -126,9 +126,9 @@ class FoldRules(Constants):
         unit="blocks",
     )
     overfitted: float = constant(
-        1.1,
+        1.5,
         "times the noise that held-out errors exceed where free curves are asked whether they foretell rows",
-        "judgement: below it nothing else could foretell a tenth better",
+        "derived: as where a fit's free values are four tenths of its numbers, sqrt((1 + 0.4) / (1 - 0.4))",
         unit="times",
     )
     judged_rows: int = constant(

@@ -26,7 +26,8 @@ Reading = tuple[tuple[SelectedEffect, ...], BackgroundSizes]
 def earned(problem: Problem, blocks: Sequence[NormalEquations], hypothesis: Hypothesis) -> Hypothesis:
     """The hypothesis without the names that make held-out rows worse, the worst first.
 
-    A name that a background or a curve holds, too, changes nothing that is predicted, and is not asked.
+    Names that without those are not worth their price go, too. A name that a background or a curve holds, too, changes
+    nothing that is predicted, and is not asked.
 
     Args:
         problem: the sums of all rows, priors and costs.
@@ -36,14 +37,16 @@ def earned(problem: Problem, blocks: Sequence[NormalEquations], hypothesis: Hypo
     Returns:
         The hypothesis with the names that earn their place.
     """
-    search = Search.on(problem)
+    search, found = Search.on(problem), hypothesis
     while own := [c for c in hypothesis.chosen if not c.nested and not search.in_background(hypothesis, c.candidate)]:
         without = [(search.kept(hypothesis, [c.candidate]), hypothesis.background) for c in own]
         gains = held_out_gains(problem, blocks, hypothesis, without)
         worst = int(np.argmin(gains))
         if not gains[worst] < 0:
-            return hypothesis
+            break
         hypothesis = search.evaluated(without[worst][0], hypothesis)
+    while hypothesis is not found and (weakest := search.weakest(hypothesis)) is not None:
+        hypothesis = search.without(hypothesis, [weakest.candidate])
     return hypothesis
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Progress, unheard
-from armscope.motion.check import check_motions, check_rows
+from armscope.motion.check import check_motions, refuse_few
 from armscope.motion.constants import LIBRARY
 from armscope.motion.cutoff import chosen_cutoff
 from armscope.motion.holding_out import (
@@ -24,6 +24,7 @@ from armscope.motion.holding_out import (
     own_fold,
     waterfall,
 )
+from armscope.motion.identifiable import identifiable, little_excited
 from armscope.motion.intervals import Sureness, covariance_of, level_told, sureness
 from armscope.motion.judgement import (
     HeldOutErrors,
@@ -39,9 +40,9 @@ from armscope.motion.layout import TorqueLayout
 from armscope.motion.library import place_causes
 from armscope.motion.model import MotionModel, fitted_model
 from armscope.motion.preparation import Preparation
+from armscope.motion.recorded_ranges import seen_in
 from armscope.motion.rows import MotionRows, build_rows, torque_of
 from armscope.motion.sampling_constants import FILTER
-from armscope.motion.seen import seen_in
 from armscope.motion.selection import SelectedCauses, model_so_far, select_causes
 from armscope.motion.tenable import tenable
 from armscope.motion.timing import Stretch, mended, stretches
@@ -140,11 +141,12 @@ def diagnose_motion(
     how, first = chosen_cutoff(arm, train, settings.cutoff)
     seen = replace(seen_in(arm, train, LIBRARY.still_rad), waves=first.waves, motion_hz=how.motion_hz)
     layout = TorqueLayout(arm, tuple(place_causes(seen)), motions.kind == "current")
+    refuse_few(layout, sum(how.rows_of(len(stretch)) for stretch in train), motions.source)
     runs = tuple(dict.fromkeys(stretch.run for stretch in train))
     weighing = lambda text, share: progress(text, 0.1 + 0.6 * share)
     selected = tenable(select_causes(layout, train, how, runs, weighing, first.model), how.rate)
     layout = selected.rows.layout
-    notices += [*told, *check_rows(selected.rows, motions.source)]
+    notices += [*told, *little_excited(selected)]
     progress("measuring on motion that took no part", 0.75)
     apart = None
     if test:
@@ -222,7 +224,7 @@ def _judged(
         held_out=held_out,
         fitted=steps[-1],
         waterfall=steps,
-        identifiable=_identifiable(selected),
+        identifiable=identifiable(selected),
         preparation="",
         notices=(Notice("lasting torque", f"{capitalised(lasting_words(lasting))}."),) if len(lasting) > 1 else (),
         rows=len(selected.rows),
@@ -249,18 +251,3 @@ def _that_others_tell(
 def _sizes(selected: SelectedCauses) -> list[float]:
     families = zip(selected.space.families, selected.best.background, strict=True)
     return [float(family.label(size)) for family, size in families]
-
-
-def _identifiable(selected: SelectedCauses) -> dict[str, float]:
-    """How many combinations of inertial parameters the motion tells, and their condition number."""
-    G = selected.problem.equations.G
-    inertial = selected.rows.layout.inertial
-    own = G[np.ix_(inertial, inertial)]
-    scale = np.sqrt(np.maximum(np.diag(own), 1e-300))
-    values = np.sqrt(np.maximum(np.linalg.eigvalsh(own / np.outer(scale, scale)), 0.0))
-    telling = values[values > LIBRARY.redundant * values.max()]
-    return {
-        "parameters": float(len(inertial)),
-        "combinations": float(len(telling)),
-        "condition": float(telling.max() / telling.min()),
-    }

@@ -19,6 +19,7 @@ from armscope.measurement.robust import huber_weights
 from armscope.motion.constants import NOISE, PRIOR
 from armscope.motion.layout import TorqueLayout
 from armscope.motion.rows import MotionRows
+from armscope.motion.sampling_constants import FILTER
 from armscope.motion.sums import JointSums, sums_by_joint
 
 
@@ -164,7 +165,7 @@ def _plain(rows: MotionRows) -> TorqueWeights:
 
 def _solved(sums: NormalEquations, among: Indices) -> Array:
     scale = np.sqrt(np.maximum(np.diag(sums.G), 1e-300))
-    used = among[np.diag(sums.G)[among] > 0]
+    used = among[np.diag(sums.G)[among] > FILTER.rounding * sums.yy]  # of what moves nothing nothing is told
     G = sums.G[np.ix_(used, used)] / np.outer(scale[used], scale[used])
     factor = lower_cholesky(G, np.full(len(used), NOISE.ridge))
     coefficients = np.zeros(len(scale))

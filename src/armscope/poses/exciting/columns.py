@@ -13,7 +13,13 @@ import numpy as np
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.robot import Arm
-from armscope.robot.dynamics import attached_bodies, inertial_parameters, leaning_gravity, torque_regressor
+from armscope.robot.dynamics import (
+    attached_bodies,
+    inertial_parameters,
+    leaning_gravity,
+    moved_centre,
+    torque_regressor,
+)
 
 LINK_NAMES = ("mass", "m x", "m y", "m z", "I xx", "I xy", "I yy", "I xz", "I yz", "I zz")
 JOINT_NAMES = ("offset", "Coulomb", "viscous", "rotor inertia")
@@ -109,10 +115,6 @@ def cause_columns(arm: Arm, motion: Motion, links: Array, effect: str, location:
     return found
 
 
-LINK_SLICES = {"link_first_moment": range(1, 4), "link_inertia": range(4, 10)}
-"""Parameters of a link that a cause moves."""
-
-
 def _of_masses(arm: Arm, effect: str, where: Location) -> Array | None:
     """(10 n, k) inertial parameters that a cause is made of, as the diagnosis has it; None of other causes."""
     stated = inertial_parameters(arm.model)
@@ -127,7 +129,9 @@ def _of_masses(arm: Arm, effect: str, where: Location) -> Array | None:
     own = 10 * where.index + np.arange(10)
     if effect == "link_mass":  # heavier with its centre where it was
         return identity[:, own] @ stated[own, None] / stated[own[0]] if stated[own[0]] > 0 else identity[:, own[:4]]
-    return identity[:, own[LINK_SLICES[effect]]] if effect in LINK_SLICES else None
+    if effect == "link_first_moment":
+        return identity[:, own] @ moved_centre(stated[own])
+    return identity[:, own[4:]] if effect == "link_inertia" else None
 
 
 def _leaning(arm: Arm, motion: Motion) -> Array | None:
