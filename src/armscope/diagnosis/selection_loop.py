@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from armscope.core.types import Indices, Progress
 from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.earning import earned, foretold_better
-from armscope.diagnosis.model_space import EffectSpace, build_model_space
+from armscope.diagnosis.model_space import EffectSpace, build_model_space, on_loads
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.row_noise import NoiseOfRows
 from armscope.diagnosis.scans.constants import SCANS
@@ -32,19 +32,16 @@ from armscope.measurement.noise import Growth, Noise
 from armscope.physics.backgrounds import DRIFT, FAMILIES, TRANSMISSION, backgrounds, gear_waves
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.drift import base_shifts_of_runs
-from armscope.physics.effect import Effect, Placed
+from armscope.physics.effect import Placed
 from armscope.physics.elastic import TWO_AXES, stiffest_of_two
 from armscope.physics.frames import set_ups_of
 from armscope.physics.freeform import refined
-from armscope.physics.loads import STATED_MASSES, mass_errors
 from armscope.physics.model import FittedModel
-from armscope.physics.payload import PAYLOAD_ERROR, payload_errors
 from armscope.physics.registry import library
 from armscope.physics.scene import Part
 from armscope.physics.soft_start import soft_starts
 from armscope.physics.transmission import MESH_COUNTS
 from armscope.physics.wander import is_of_rows
-from armscope.recordings import Recordings
 
 State = tuple[frozenset[str], NDArray[np.bool_]]
 
@@ -109,6 +106,7 @@ class SelectionLoop:
         self.loads: list[Placed] = []
         self.last: tuple[Hypothesis, EffectSpace] | None = None
         self.scans = 0
+        self.fit: Refit
 
     def run(self, of_a_sample: bool = False) -> Selected:
         """Rounds until nothing changes; those on all rows still follow where these are a sample."""
@@ -128,7 +126,10 @@ class SelectionLoop:
             previous = state
             self.candidates = [*self.candidates, *new]
         self._refine(of_a_sample)
-        return self.selected() if of_a_sample else self.earned()
+        if of_a_sample:
+            return self.selected()
+        self.blocks = self._sums(self.block_of_row)
+        return self.earned()
 
     def _refine(self, of_a_sample: bool) -> None:
         """Finer forms of the curves and gears that were chosen; what they can't follow may be scatter."""
@@ -158,12 +159,18 @@ class SelectionLoop:
         """The background from which the next search starts."""
         return None if self.last is None else [self.last[0].background]
 
-    def round(self, starts: Sequence[BackgroundSizes] | None = None, scanning: bool = False) -> list[Placed]:
-        """One round; returns new candidates that scanning found.
+    def round(
+        self, starts: Sequence[BackgroundSizes] | None = None, scanning: bool = False, by_block: bool = False
+    ) -> list[Placed]:
+        """One round.
 
         Args:
             starts: backgrounds from which the search starts; all of the space's where not given.
             scanning: whether scanned numbers are looked for.
+            by_block: whether sums are kept block by block: of a round that is known to be the last.
+
+        Returns:
+            New candidates that scanning found.
         """
         if not self.families:  # on all rows of a long table they are those that its sample left
             arm, set_ups = self.model.arm, set_ups_of(self.frames)
@@ -171,10 +178,10 @@ class SelectionLoop:
             others = [*base_shifts_of_runs(set_ups), *soft_starts(arm, self.recordings)]
             self.candidates = [*library(arm, self.recordings), *others]
             self.families = list(families.values())
-        self.point, payload, self.loads = _on_loads(self.model, self.recordings)
+        self.point, payload, self.loads = on_loads(self.model, self.recordings)
         self.space = build_model_space(self.frames, self.families, [*self.candidates, *payload], self.loads)
-        weights = self.noise.weights
-        self.blocks = normal_equations_by_block(self.space.layout, self.point, self.table, weights, self.block_of_row)
+        self.weights = self.noise.weights
+        self.blocks = self._sums(self.block_of_row if by_block else 0 * self.block_of_row)
         self.problem = build_problem(self.space, total(self.blocks), self.noise.least_mm)
         search = Search.on(self.problem)
         found = search.best(starts, None if self.last is None else search.transferred(*self.last))
@@ -189,6 +196,10 @@ class SelectionLoop:
         self.model = self.fit.model
         self.noise.weigh(self.fit.left, self.fit.noise, self.fit.weights.whitening)
         return new
+
+    def _sums(self, block_of_row: Indices) -> list[NormalEquations]:
+        """Normal equations of the round's columns, block by block of rows."""
+        return normal_equations_by_block(self.space.layout, self.point, self.table, self.weights, block_of_row)
 
     def _fitted(self) -> Refit:
         """The best hypothesis fitted with the exact model."""
@@ -273,28 +284,3 @@ class SelectionLoop:
         most = MESH_COUNTS[-1] if self.scans == SCANS.scan_of_fine_lines else SCANS.ordinary_lines
         context = ScanContext(self.problem, self.space, self.point, self.recordings, self.noise.weights)
         return scanned_candidates(context, search, self.best, most)
-
-
-def _on_loads(model: FittedModel, recordings: Recordings) -> tuple[FittedModel, list[Placed], list[Placed]]:
-    """The model with its errors of loads written anew, and those errors on top of what gives way in it.
-
-    Args:
-        model: as fitted.
-        recordings: the rows.
-
-    Returns:
-        The model, payload errors, and the masses' errors.
-    """
-    parts = [part for part in model.parts if part.placed.effect is not PAYLOAD_ERROR]
-    background = [part for part in model.background if part.placed.effect is not STATED_MASSES]
-    payload = list(payload_errors(recordings, [part for part in parts if part.placed.parametrisation == "plain"]))
-    masses = mass_errors(model.arm, recordings, [*background, *parts])
-    by_place = {(p.key, p.variant): p for p in (*payload, *masses)}
-
-    def anew(some: Sequence[Part], effect: Effect) -> list[Part]:
-        known = [(part, by_place.get((part.placed.key, part.placed.variant))) for part in some]
-        return [Part(p, part.values) for part, p in known if p is not None and p.effect is effect]
-
-    parts += anew(model.parts, PAYLOAD_ERROR)
-    background += anew(model.background, STATED_MASSES)
-    return replace(model, parts=tuple(parts), background=tuple(background)), payload, masses
