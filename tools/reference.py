@@ -27,11 +27,7 @@ TWINS: dict[str, type[Any]] = {
     "EffectFile": verdict_effects.FoundEffect,
     "HeldOutFile": verdict_schema.HeldOut,
     "OrientationFile": verdict_schema.Orientations,
-    "ParameterFile": verdict_effects.Parameter,
     "VerdictFile": verdict_schema.Verdict,
-    "FoundCauseFile": motion_verdict.FoundCause,
-    "JointBackgroundFile": motion_verdict.JointBackground,
-    "MotionVerdictFile": motion_verdict.MotionVerdict,
 }
 """What parts of verdict.json are in memory, where their attributes are explained."""
 
@@ -113,9 +109,8 @@ def verdict() -> str:
 
 def verdict_of_motion() -> str:
     """The page about verdict.json of a motion."""
-    return _page(
-        "verdict.json of an arm in motion", MOTION_VERDICT, motion_contract.schema(), motion_contract.MotionVerdictFile
-    )
+    schema = motion_contract.schema()
+    return _page("verdict.json of an arm in motion", MOTION_VERDICT, schema, motion_verdict.MotionVerdict)
 
 
 def model() -> str:

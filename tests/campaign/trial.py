@@ -5,9 +5,11 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import os
+import resource
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -49,35 +51,64 @@ def python(*arguments: str) -> list[str]:
 def commands(home: Path) -> dict[str, Callable[[Path], list[str]]]:
     """Every command that writes, by name: made for an output folder.
 
+    What the workflow calls on its own results is killed with the workflow (`workflow.py`).
+
     Args:
         home: a folder where what some commands start from is made once.
     """
-    example = ROOT / "examples" / "one-effect"
+    example, moving, corpus = (
+        ROOT / "examples" / "one-effect",
+        ROOT / "examples" / "moving-arm",
+        ROOT / "tests/fuzz/corpus",
+    )
     table, robot = str(example / "recordings.csv"), str(example / "robot.yaml")
-    model = home / "model"
-    if not model.is_dir():
-        run(python("diagnose", table, "--robot", robot, "-o", str(model), "--no-cross-validation", "--resamples", "0"))
+    model, fleet, verdicts = home / "model", home / "fleet", home / "verdicts"
     quick = ("--no-cross-validation", "--resamples", "0")
-    return {
-        "diagnose": lambda out: python("diagnose", table, "--robot", robot, "-o", str(out), *quick),
-        "predict": lambda out: python("predict", str(model / "model.yaml"), table, "-o", str(out / "predicted.csv")),
-        "compensate": lambda out: python(
-            "compensate", str(model / "model.yaml"), table, "-o", str(out / "commands.csv"), "--separate-points"
+    if not model.is_dir():
+        run(python("diagnose", table, "--robot", robot, "-o", str(model), *quick), check=True)
+        run(python("fleet", "simulate", str(ROOT / "config/robots"), "--arms", "3", "-o", str(fleet)), check=True)
+        run(python("fleet", "diagnose", str(fleet / "fleet.csv"), "-o", str(verdicts)), check=True)
+    # by name: words of the command, and what it writes into the output folder
+    lines = {
+        "diagnose": (("diagnose", table, "--robot", robot, *quick), ""),
+        "diagnose of motions": (("diagnose", moving / "test.csv.gz", "--robot", moving / "robot.yaml", "--anyway"), ""),
+        "predict": (("predict", model / "model.yaml", table), "predicted.csv"),
+        "predict of motions": (
+            ("predict", corpus / "motion-model" / "moving-arm.yaml", corpus / "motions" / "moving-arm.csv"),
+            "predicted.csv",
         ),
-        "calibrate": lambda out: python("calibrate", table, "--robot", robot, "-o", str(out)),
-        "fit-error-model": lambda out: python(
-            "fit-error-model", table, "--robot", robot, "-o", str(out / "errormodel.json"), "--register"
+        "compensate": (("compensate", model / "model.yaml", table, "--separate-points"), "commands.csv"),
+        "calibrate": (("calibrate", table, "--robot", robot), ""),
+        "fit-error-model": (("fit-error-model", table, "--robot", robot, "--register"), "errormodel.json"),
+        "compare": (("compare", table, example / "test.csv", "--robot", robot), ""),
+        "poses": (("poses", "--robot", robot, "-n", "12", "--candidates", "30"), "poses.csv"),
+        "excite": (("excite", moving / "robot.yaml", "--rounds", "2"), "trajectory.csv"),
+        "import": (
+            ("import", corpus / "raw" / "semicolons.csv", "-m", corpus / "raw" / "mapping.yaml"),
+            "table.csv.gz",
         ),
-        "poses": lambda out: python(
-            "poses", "--robot", robot, "-n", "12", "--candidates", "60", "-o", str(out / "poses.csv")
-        ),
+        "init": (("init", ROOT / "tests" / "robot" / "torso_arm.urdf"), "robot.yaml"),
+        "fleet simulate": (("fleet", "simulate", ROOT / "config" / "robots", "--arms", "3"), ""),
+        "fleet diagnose": (("fleet", "diagnose", fleet / "fleet.csv", "--part", "0/3"), ""),
+        "fleet page": (("fleet", "page", fleet / "fleet.csv", "--verdicts", verdicts), ""),
     }
+    made = {
+        name: lambda out, words=words, file=file: python(*map(str, words), "-o", str(out / file))
+        for name, (words, file) in lines.items()
+    }
+    return made | {"check": lambda out: python("check", table, "--figure", str(out / "poses"))}
+
+
+def cpu_seconds_of_children() -> float:
+    """Of all processes that this one has waited for."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def run(command: list[str], **options: object) -> subprocess.CompletedProcess[str]:
     """Run to the end; what it printed is kept. What does not end in an hour raises."""
-    options.setdefault("timeout", 3600)
-    return subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, check=False, **options)  # type: ignore[call-overload, no-any-return]
+    options = {"timeout": 3600, "check": False, **options}
+    return subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, **options)  # type: ignore[call-overload, no-any-return]
 
 
 def contents(folder: Path) -> dict[str, str]:
@@ -96,19 +127,31 @@ def leftovers(folder: Path) -> list[str]:
     return [path.name for path in folder.rglob("*") if path.name.endswith(endings) and ".snakemake" not in path.parts]
 
 
-def ended(command: list[str], after_s: float, sign: signal.Signals, cwd: Path | None = None) -> tuple[int, str]:
-    """Start a process group and send it a signal after a while: exit code (negative: the signal) and what it said."""
-    process = subprocess.Popen(
-        command,
-        env=ENVIRONMENT,
-        cwd=cwd,
-        start_new_session=True,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-    )
-    time.sleep(after_s)
-    with contextlib.suppress(ProcessLookupError):
-        os.killpg(process.pid, sign)
-    said, _ = process.communicate(timeout=600)
-    return process.returncode, said
+def cpu_seconds_of(session: int) -> float:
+    """CPU seconds of all processes of a session so far; of those that have ended as far as they were waited for."""
+    ticks = 0
+    for folder in Path("/proc").glob("[0-9]*"):
+        with contextlib.suppress(OSError):
+            # after the name, which may hold anything: state, parent, group, session, ...
+            fields = (folder / "stat").read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()
+            if int(fields[3]) == session:
+                ticks += sum(map(int, fields[11:15]))
+    return ticks / os.sysconf("SC_CLK_TCK")
+
+
+def ended(command: list[str], after_cpu_s: float, sign: signal.Signals, cwd: Path | None = None) -> tuple[int, str]:
+    """Start a process group and send it a signal after some work: exit code (negative: the signal) and what it said.
+
+    Moments are of CPU time, so that other work on the machine does not shift them towards the start.
+    """
+    with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as said:
+        process = subprocess.Popen(
+            command, env=ENVIRONMENT, cwd=cwd, start_new_session=True, stdout=said, stderr=subprocess.STDOUT, text=True
+        )
+        while process.poll() is None and (missing := after_cpu_s - cpu_seconds_of(process.pid)) > 0:
+            time.sleep(max(0.005, missing / (2 * (os.cpu_count() or 1))))  # looked at seldom: looking takes time, too
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, sign)
+        process.wait(timeout=600)
+        said.seek(0)
+        return process.returncode, said.read()

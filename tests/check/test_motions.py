@@ -86,6 +86,9 @@ def test_dead_and_saturated_channels_are_named(good: Motions) -> None:
     dead[:, 2] = 0.5
     cut[:, 1] = np.clip(cut[:, 1], -20, 20)
     assert "problem tau3_nm is 0.5 in every row" in said(replace(good, effort=dead))
+    dead[:, 2] = 0.0
+    with np.errstate(all="raise"):
+        assert "problem tau3_nm is 0 in every row" in said(replace(good, effort=dead))
     assert "hint tau2_nm stays at -20" in said(replace(good, effort=cut))
 
 

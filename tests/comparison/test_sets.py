@@ -3,9 +3,11 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from armscope.comparison.result import Comparison
 from armscope.comparison.sets import stacked
+from armscope.core.inputs import InputError
 from tests.comparison.test_changes import ARM, session
 
 
@@ -19,3 +21,11 @@ def test_runs_and_targets_are_named_by_recording():
 
 def test_nothing_is_said_to_have_changed_where_nothing_is_listed():
     assert "Nothing changed" in Comparison("arm", ("a", "b"), (1, 1), 0.1, 0.7, 0.05, 10, ()).headline
+
+
+@pytest.mark.parametrize("word", ["run", "target"])
+def test_rows_that_base_and_tool_use_up_say_nothing_of_a_change(word):
+    first, second = session(1, rows=20), session(2, rows=30)
+    scattered = replace(first, **{word: np.array([f"{row}" for row in range(20)])})
+    with pytest.raises(InputError, match="20 rows, which hold 60 numbers"):
+        stacked(ARM, {"a": scattered, "b": second})

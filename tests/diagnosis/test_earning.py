@@ -16,11 +16,11 @@ HELPFUL, WIDE = 0, 1
 LARGE = 4
 
 
-def blocks_and_problem() -> tuple[list[NormalEquations], Problem]:
+def blocks_and_problem(helpful: float = 0.5) -> tuple[list[NormalEquations], Problem]:
     """One column that made the response, and thirty that follow nothing, as one candidate."""
     rng = np.random.default_rng(5)
     X = rng.normal(size=(BLOCKS * ROWS, FRAMES + 31))
-    y = 0.5 * X[:, FRAMES] + rng.normal(0, NOISE, len(X))
+    y = helpful * X[:, FRAMES] + rng.normal(0, NOISE, len(X))
     space = ModelSpace(
         np.arange(FRAMES),
         (),
@@ -38,6 +38,16 @@ def test_what_makes_held_out_rows_worse_is_not_named() -> None:
     blocks, problem = blocks_and_problem()
     both = evaluate(problem, (SelectedEffect(HELPFUL, LARGE), SelectedEffect(WIDE, LARGE)), (), NOISE)
     assert earned(problem, blocks, both).candidates == {HELPFUL}
+
+
+def test_what_is_not_worth_its_price_once_others_went_goes_with_them() -> None:
+    """It foretells rows a little better; without the wide one it is not worth a name."""
+    blocks, problem = blocks_and_problem(0.025)
+    chosen = (SelectedEffect(HELPFUL, 1), SelectedEffect(WIDE, LARGE))
+    assert held_out_gains(problem, blocks, evaluate(problem, chosen[:1], (), NOISE), [((), ())])[0] > 0
+    assert earned(problem, blocks, evaluate(problem, chosen, (), NOISE)).candidates == frozenset()
+    alone = evaluate(problem, chosen[:1], (), NOISE)
+    assert earned(problem, blocks, alone).candidates == {HELPFUL}
 
 
 def test_a_name_within_something_else_is_not_asked() -> None:

@@ -156,7 +156,7 @@ def test_a_diagnosis_keeps_the_table_as_it_was_used(clean: tuple[Arm, Recordings
     whole = replace(table, motor_angles=angles, positions=positions)
     used = diagnose(arm, whole, QUICK).recordings
     assert len(used) == 76
-    far = np.full((1, len(identified_on(arm, used).domain.names)), 0.0)
+    far = np.full((1, len(identified_on(arm, used).domain.inputs)), 0.0)
     far[0, 0] = 9.0
     assert identified_on(arm, whole).domain.outside(far)[0] < identified_on(arm, used).domain.outside(far)[0]
 

@@ -20,4 +20,4 @@ def test_one_bad_table_leaves_the_others_their_verdicts(tmp_path: Path) -> None:
     diagnose_members([gone, good, other], tmp_path / "verdicts", QUICK)
     assert read_verdict(tmp_path / "verdicts" / "good" / "verdict.json").answer == "nothing missing"
     assert "nothing.csv" in (tmp_path / "verdicts" / "gone" / FAILURE).read_text()
-    assert "no run no such run" in (tmp_path / "verdicts" / other.name / FAILURE).read_text()
+    assert "found no such run; no row has this run" in (tmp_path / "verdicts" / other.name / FAILURE).read_text()

@@ -25,7 +25,6 @@ from armscope.real.reference import load_reference
 from armscope.recordings import read_recordings
 from armscope.recordings.importing.draft import draft_mapping
 from armscope.recordings.importing.fetching import load_source
-from armscope.recordings.importing.mapping import load_mapping
 from armscope.recordings.importing.motions import load_any_mapping
 from armscope.recordings.importing.tables import import_recordings
 from armscope.recordings.motions import read_motions
@@ -88,7 +87,7 @@ def _black_box(path: Path) -> None:
     model = load_error_model(path)
     angles = np.linspace(-1, 1, 3 * model.arm.n_motors).reshape(3, -1)
     model.as_measured(angles)
-    model.domain.outside(np.zeros((1, len(model.domain.names))))
+    model.domain.outside(np.zeros((1, len(model.domain.inputs))))
 
 
 def _played(path: Path) -> None:
@@ -101,7 +100,7 @@ def _converted(path: Path) -> None:
 
 
 def _mapped(path: Path) -> None:
-    load_mapping(path)
+    load_any_mapping(path)
     import_recordings([RAW], path, path.with_name("out.csv"))
 
 

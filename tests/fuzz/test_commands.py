@@ -82,6 +82,35 @@ def test_a_bad_file_is_an_answer_or_one_error_and_no_file_is_touched(kind, line,
         assert places["PATH"].read_bytes() == path
 
 
+BAD_OPTIONS = [
+    "diagnose RECORDINGS -r ROBOT -o OUT --seed -1",
+    "fit-error-model RECORDINGS -r ROBOT -o OUT.json --method swarm --seed -1",
+    "compensate MODEL PATH -o OUT.csv --allowed-outside nan",
+    "compensate MODEL PATH -o OUT.csv --allowed-outside inf",
+    "poses -r ROBOT -o OUT.csv --candidates 40 --radius-mm inf",
+    "poses -r ROBOT -o OUT.csv --candidates 40 --radius-mm 1e9",
+    "poses -r ROBOT -o OUT.csv --candidates 40 --floor-mm nan",
+    "poses -r ROBOT -o OUT.csv --candidates 40 --noise-mm inf",
+    "poses -r ROBOT -o OUT.csv --candidates 40 --effects ,",
+    "excite ARM -o OUT.csv --rounds 1 --period-s inf",
+    "excite ARM -o OUT.csv --rounds 1 --period-s 1e300",
+    "excite ARM -o OUT.csv --rounds 1 --rate-hz 1e308",
+    "excite ARM -o OUT.csv --rounds 1 --radius-mm 1e9",
+]
+"""Found by attacking: each ended in a traceback, or was taken for a number."""
+
+
+@pytest.mark.parametrize("line", BAD_OPTIONS)
+def test_a_number_that_no_command_can_follow_is_one_error(line, tmp_path):
+    places = {"ROBOT": EXAMPLE / "robot.yaml", "RECORDINGS": EXAMPLE / "recordings.csv", "OUT": tmp_path / "out"}
+    places |= {"ARM": MOVING / "robot.yaml", "PATH": READERS["path.csv"].seeds[0], "MODEL": tmp_path / "model.yaml"}
+    places["MODEL"].write_bytes(_five_effects("model.yaml"))
+    (tmp_path / "domain.json").write_bytes(_five_effects("domain.json"))
+    error = CliRunner().invoke(app, [_placed(word, places) for word in line.split()]).exception
+    assert isinstance(error, InputError) or (isinstance(error, SystemExit) and error.code == 2), error
+    assert not list(tmp_path.glob("out*"))
+
+
 def _five_effects(kind):
     """The file of a kind that belongs to the example's arm."""
     return next(path for path in READERS[kind].seeds if path.stem == "five-effects").read_bytes()

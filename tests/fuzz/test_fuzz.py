@@ -98,6 +98,7 @@ def bomb(name):
         "short lines": b"1 2 3 4\n" * 110_000,
         "nulls": bytes(900_000),
         "many joints": f'<robot name="a">{joints}<link name="l3000"/></robot>'.encode(),
+        "many rows": b"name: a\ndh:\n  joints:\n" + b"  - {a_mm: 1, alpha_deg: 90, d_mm: 1}\n" * 20_000,
         "deep elements": b"<robot>" + b"<a>" * 200_000,
         "entities": b'<!DOCTYPE r [<!ENTITY a "aaaaaaaaaa">'
         + b"".join(b'<!ENTITY %c "%s">' % (98 + i, b"&%c;" % (97 + i) * 10) for i in range(9))
@@ -108,7 +109,7 @@ def bomb(name):
 BOMBS = [
     *("aliases", "deep lists", "deep mappings", "long number", "many numbers", "many keys", "sixties", "long word"),
     *("commas", "many columns", "quotation mark", "long rows", "nulls", "many joints", "deep elements", "entities"),
-    *("long name", "short lines"),
+    *("long name", "short lines", "many rows"),
 ]
 
 

@@ -22,6 +22,7 @@ from armscope.motion.judgement import HeldOutErrors, answer_of, headline
 from armscope.motion.layout import TorqueLayout
 from armscope.motion.library import place_causes
 from armscope.motion.masses import place_masses
+from armscope.motion.pipeline import diagnose_motion
 from armscope.motion.preparation import parts, preparation
 from armscope.motion.rows import build_rows, stated_model
 from armscope.motion.sampling_constants import FILTER
@@ -71,7 +72,22 @@ def test_a_gap_parts_a_run_and_runs_of_other_rates_are_laid_on_one_grid() -> Non
     kept = np.r_[0:1000, 1100:3000, 3000:6000:2]  # a hole in path 1, half the rate in path 2
     found = list(stretches(motions.rows(kept)))
     assert [stretch.run for stretch in found] == ["path 1", "path 1", "path 2"]
-    assert len({stretch.rate for stretch in found}) == 1
+    assert {stretch.rate for stretch in found} == {100.0}  # of a run, not between them
+
+
+@pytest.mark.parametrize("kept", [np.r_[0:3000, 3000:6000:2], np.r_[0:6000, 6000:9000:2]])
+def test_an_arm_whose_runs_have_other_rates_has_nothing_missing(kept: np.ndarray) -> None:
+    motions = moved(robot(), 3, runs=len(kept) // 3000 + 1)
+    found = diagnose_motion(robot(), motions.rows(kept)).verdict
+    assert found.answer == "nothing missing"
+    assert not found.effects
+
+
+def test_positions_of_a_slower_run_are_laid_without_corners() -> None:
+    motions = moved(robot(), 3, runs=3, noise=0.0)
+    slow = next(each for each in stretches(motions.rows(np.r_[0:6000, 6000:9000:8])) if each.run == "path 3")
+    known = motions.q[6000 : 6000 + len(slow)]
+    assert np.abs(slow.q - known).max() < 2e-4
 
 
 def test_the_filter_has_no_lag_and_derivatives_are_those_of_the_path() -> None:
@@ -225,9 +241,18 @@ def test_tables_that_show_nothing_are_refused_and_doubts_are_told() -> None:
         check_motions(robot(), dataclasses.replace(motions, kind="current"))
     one_way = motions.q.copy()
     one_way[:, 0] = np.linspace(0, 3, len(one_way))
+    again = dataclasses.replace(motions, q=one_way.copy(), run=np.repeat(["there", "again"], len(one_way) // 2))
+    again.q[len(one_way) // 2 :, 0] -= 1.5  # each run anew from the start
+    assert "one way only" in {notice.kind for notice in check_motions(robot(), again)}
     kinds = {notice.kind for notice in check_motions(robot(), dataclasses.replace(motions, q=one_way))}
     assert "one way only" in kinds
     assert json.dumps(sorted(kinds))
+
+
+def test_too_few_rows_are_refused_before_anything_is_fitted() -> None:
+    few = moved(robot(), 3, runs=1, seconds=2.6)
+    with pytest.raises(InputError, match="39 values of friction and masses need at least 78 numbers"):
+        diagnose_motion(robot(), few.rows(slice(None, None, 20)))
 
 
 def test_what_is_wrong_with_the_time_of_many_runs_is_said_once() -> None:

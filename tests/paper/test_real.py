@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from armscope.core.inputs import InputError
 from armscope.errormodels import FDP_AI, FDP_CI, fit_swarms
-from armscope.paper.real import real_measurements, select_rows
+from armscope.paper.real import real_measurements
 from armscope.paper.residuals import residual_table
 from armscope.paper.table2 import table2
 from armscope.recordings import as_recordings, read_recordings
@@ -89,11 +89,11 @@ def test_held_out_rows_have_no_say(arm):
 
 def test_rows_are_selected_by_run_and_id(arm):
     table = recordings(arm, 100)
-    assert len(select_rows(table, "r", 31)) == 70
+    assert len(table.of_runs(["r"], 31)) == 70
     with pytest.raises(InputError, match=r"column run: found 's'.*'r'|Known"):
-        select_rows(table, "s")
+        table.of_runs(["s"])
     with pytest.raises(InputError, match="no row has this id"):
-        select_rows(table, "r", 1000)
+        table.of_runs(["r"], 1000)
 
 
 def test_too_few_rows_and_another_arm_are_refused(arm):
@@ -121,7 +121,7 @@ def test_real_arms_in_the_form_of_table_2(folder, run, first_id, nominal_mm):
     if not (SHARED / folder).is_dir():
         pytest.skip(f"no {SHARED / folder}: the folder of shared recordings is not beside the checkout")
     real = load_arm(SHARED / folder / "robot.yaml")
-    rows = select_rows(read_recordings(SHARED / folder / "recordings.csv.gz"), run, first_id)
+    rows = read_recordings(SHARED / folder / "recordings.csv.gz").of_runs([run] if run else (), first_id)
     measurements = real_measurements(real, rows, seed=1).measurements
     fits = fit_swarms(measurements.fit_problems((FDP_CI, FDP_AI), list(measurements.robots)), seeds=[0, 1])
     table = table2(residual_table(measurements, fits)).set_index(["model", "trajectory", "axis"])

@@ -115,3 +115,10 @@ def test_what_poses_cannot_show_is_refused_with_the_reason(arm):
         candidates(arm, 50, Surroundings(floor=10.0), 0)
     with pytest.raises(InputError, match="9 at least"):
         choose(arm, 5, n_candidates=50)
+
+
+def test_an_arm_whose_effects_no_pose_shows_is_refused():
+    rows = {"convention": "standard", "joints": [{"a_mm": 300, "alpha_deg": -90, "d_mm": 800, "theta_offset_deg": 0}]}
+    one = build_arm(RobotDescription.model_validate({"name": "one joint", "dh": rows}))
+    with pytest.raises(InputError, match="nothing of them beside base and tool"):
+        choose(one, 12, n_candidates=40)

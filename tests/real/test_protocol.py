@@ -12,7 +12,7 @@ from armscope.calibration.splits import random_split
 from armscope.core.inputs import InputError
 from armscope.real import protocol
 from armscope.real.protocol import ARMSCOPE, ORIENTED, measure_run, paper_models, protocol_table
-from armscope.real.reference import Best, Reference, ReferenceRun, ReferenceTransfer, load_reference, rows_of_run
+from armscope.real.reference import Best, Reference, ReferenceRun, ReferenceTransfer, load_reference
 from armscope.real.transfer import calibrated_transfer, learn, measure_transfers
 from armscope.recordings import as_recordings
 from tests.real.recorded import arm, table
@@ -127,7 +127,7 @@ def test_committed_references_can_be_read(path):
 
 def test_a_misspelt_run_names_the_nearest():
     with pytest.raises(InputError, match="Did you mean 'one'"):
-        rows_of_run(recordings(table(20)), "onne")
+        recordings(table(20)).of_runs(["onne"])
 
 
 def test_an_unknown_level_in_a_reference_is_an_error():

@@ -95,6 +95,7 @@ def test_one_error_that_says_where_what_and_how_to_mend_it(tmp_path, text, words
         ({"approach1": 1, "approach2": 3}, ["row 2", "approach2", "3", "-1 or +1"]),
         ({"qw": 1, "qx": 0, "qy": 0, "qz": ""}, ["row 2", "qw ... qz", "3 of 4", "whole"]),
         ({"sigma_mm": -1}, ["row 2", "sigma_mm", "-1", "not negative"]),
+        ({"sigma_mm": 1e-300}, ["row 2", "sigma_mm", "1e-07 mm"]),
         ({"sigma_mm": 1e12}, ["row 2", "sigma_mm", "10 km"]),
         ({"sigma_mm": 1, "sigma_x_mm": 1, "sigma_y_mm": 1, "sigma_z_mm": 1}, ["sigma_mm and sigma_x_mm"]),
         ({"payload_kg": -2}, ["row 2", "payload_kg", "-2", "not negative"]),

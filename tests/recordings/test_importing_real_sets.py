@@ -43,14 +43,14 @@ def test_a_real_set_converts_to_the_reference_table_within_its_rounding(name, tm
 @pytest.mark.parametrize("folder", sorted((ROOT / "config" / "recordings").iterdir()), ids=lambda path: path.name)
 def test_every_real_set_has_an_arm_and_a_mapping_or_a_reason_for_none(folder):
     from armscope.recordings.importing.fetching import load_source
-    from armscope.recordings.importing.mapping import load_mapping
+    from armscope.recordings.importing.motions import load_any_mapping
     from armscope.robot import load_arm
 
     arm, source = load_arm(folder / "robot.yaml"), load_source(folder / "source.yaml")
     if source.not_importable:
         assert not (folder / "mapping.yaml").exists()
     else:
-        mapping = load_mapping(folder / "mapping.yaml")
+        mapping = load_any_mapping(folder / "mapping.yaml")
         assert len(mapping.columns.angles.columns) == arm.n_motors
         mapped = {name for run in mapping.runs for name in (run.file, *(other.file for other in run.beside))}
         assert mapped == {file.name for file in source.files}

@@ -230,6 +230,8 @@ def test_no_ones_name_ends_a_drawing():
 def test_ticks_are_round_and_within():
     assert ticks(-0.32, 0.29) == pytest.approx([-0.3, -0.2, -0.1, 0, 0.1, 0.2])
     assert ticks(0, float("nan")) == []
+    assert ticks(-1e-9, 1e-9, 2) == pytest.approx([-1e-9, 0, 1e-9])  # of a figure of nothing
+    assert ticks(0, 1e-320) == [] or max(ticks(0, 1e-320)) <= 1e-320
 
 
 def test_a_curve_is_drawn_in_degrees_with_the_95_percent_band():

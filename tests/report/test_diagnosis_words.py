@@ -142,6 +142,13 @@ def test_a_vague_name_stays_vague_and_says_its_best_reading():
     assert said.startswith("Either joint compliance at joint 2 or an unexplained curve at joint 3 –")
 
 
+@pytest.mark.parametrize(("share", "leads"), [(0.2, True), (0.01, False)])
+def test_small_errors_everywhere_are_led_by_what_is_worth_a_twentieth_of_them(share, leads):
+    said = cause_in_words("elastic", [compliance(share=share)], everywhere=True, share=0.5)
+    assert ("most of all: joint 2 gives way" in said) == leads
+    assert said.endswith("and none stands out") != leads
+
+
 def test_a_cause_has_one_pair_of_brackets():
     vague = compliance(named_as="region", title="elastic, around joint 1, joint 2")
     said = cause_in_words("elastic", [vague, compliance()], everywhere=True)

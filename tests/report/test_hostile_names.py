@@ -74,6 +74,55 @@ def test_a_report_on_hostile_names_has_the_scripts_of_one_on_harmless_names(repo
     assert EVIL in hostile.text
 
 
+NAME = EVIL.replace("/", "|").replace("\\", "|")
+"""A folder of a fleet's verdicts may have this name."""
+STEERING = "\x1b[31m\x9b31m\u202e"
+"""A file's name may hold any of these; names inside tables are refused if they do."""
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory):
+    """All pages of a diagnosis of motions and of a fleet whose names are hostile, those of files included."""
+    folder, word = tmp_path_factory.mktemp("pages"), NAME
+    moving = EXAMPLE.parent / "moving-arm"
+    motions = pd.read_csv(moving / "test.csv.gz").assign(**{"run": word, word: 1.0})
+    motions.to_csv(folder / f"{STEERING}{word}.csv", index=False)
+    arm = folder / "arm.yaml"
+    arm.write_text(yaml.safe_dump(yaml.safe_load((moving / "robot.yaml").read_text()) | {"name": word}))
+    points = pd.read_csv(EXAMPLE / "recordings.csv").head(60)
+    points.to_csv(folder / f"{STEERING}{word} points.csv", index=False)
+    files = {"robot": str(EXAMPLE / "robot.yaml"), "recordings": str(folder / f"{STEERING}{word} points.csv")}
+    rows = [{"arm": word + "1", "type": word, **files}, {"arm": word, "type": word, "robot": "no", "recordings": "no"}]
+    pd.DataFrame(rows).to_csv(folder / "fleet.csv", index=False)
+    table = folder / f"{STEERING}{word}.csv"
+    words = [["diagnose", table, "-r", arm, "-o", folder / "motions", "--anyway"]]
+    words += [["fleet", "diagnose", folder / "fleet.csv", "-o", folder / "verdicts"]]
+    words += [["fleet", "page", folder / "fleet.csv", "--verdicts", folder / "verdicts", "-o", folder / "fleet"]]
+    for line in words:
+        done = CliRunner().invoke(app, [str(each) for each in line])
+        assert done.exit_code == 0, done.exception
+    found = {path.relative_to(folder).as_posix(): path.read_text() for path in folder.rglob("*.html")}
+    assert {"motions/report.html", "motions/work-order.html", "fleet/report.html"} <= set(found)
+    return found
+
+
+def test_pages_of_motions_and_fleets_run_nothing_that_a_name_holds(pages):
+    for name, html in pages.items():
+        page = parsed(html)
+        assert page.handlers == page.scripts == [], name
+        assert NAME in page.text, name
+        assert not set("\x1b\x9b\u202e") & set(html), name
+
+
+def test_what_a_command_says_of_a_file_can_not_steer_a_terminal(tmp_path):
+    table = tmp_path / f"{STEERING}.csv"
+    table.write_text((EXAMPLE / "recordings.csv").read_text())
+    said = CliRunner().invoke(app, ["check", str(table)])
+    assert said.exit_code == 0
+    assert "\\x1b[31m\\x9b31m\\u202e.csv" in said.output
+    assert not set("\x1b\x9b\u202e") & set(said.output)
+
+
 def test_a_name_can_not_steer_a_terminal(tmp_path):
     (tmp_path / "a.csv").write_text("q1_rad,x_mm,y_mm,z_mm,\x1b[31mred\n1,2,3,4,5\n")
     (tmp_path / "b.csv").write_text("q1_rad,x_mm,y_mm,z_mm,run\n1,2,3,4,\x1b]0;title\x07\n")

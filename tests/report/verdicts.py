@@ -129,7 +129,7 @@ def unknown_curve(location: str = "joint 4", **changes: object) -> FoundEffect:
     at = np.linspace(-np.pi, np.pi, 181)
     curve = Curve(
         "angle of joint 4", "rad", at, 1.5e-4 * np.exp(-((at - 0.8) ** 2) / 0.1), np.full(181, 1.2e-5), "rad",
-        ((3, 4e-5),), "a local bump of 150 µrad near 46 degrees, 30 degrees wide",
+        "a local bump of 150 µrad near 46 degrees, 30 degrees wide",
     )  # fmt: skip
     parameters = tuple(Parameter(f"cosine_{k}", "rad", 1e-5 / k, 2e-6) for k in range(1, 13))
     return found(

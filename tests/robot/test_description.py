@@ -51,7 +51,7 @@ def test_the_plain_description_is_fine(tmp_path):
         ({"actuation": [{"q1": 1}, {"m2": 1}]}, ["actuation[1]", "'m2'", "q1, q2"]),
         ({"joint_limits_deg": [[-1, 1]]}, ["joint_limits_deg", "2 motors", "has 1"]),
         ({"joint_limits_deg": [[-1, 1], [2, 1]]}, ["joint_limits_deg[1]", "low < high"]),
-        ({"instrument": {"sigma_mm": 0}}, ["instrument.sigma_mm", "greater than 0"]),
+        ({"instrument": {"sigma_mm": 0}}, ["instrument.sigma_mm", "greater than or equal to 0.0001"]),
         ({"dh": None}, ["`dh`", "`urdf`"]),
         ({"urdf": "arm.urdf"}, ["`dh`", "`urdf`"]),
         ({"dh": None, "urdf": "arm.urdf"}, ["tip"]),
@@ -111,6 +111,7 @@ def test_the_sk120_says_where_its_numbers_come_from():
         ({"tool_mm": [0, 0, 1e6]}, "tool_mm[2]", "20000"),
         ({"instrument": {"sigma_mm": 1e4}}, "instrument.sigma_mm", "100"),
         ({"actuation": [{"q1": 1e9}]}, "actuation[0].q1", "1000"),
+        ({"dh": {"joints": [{"a_mm": 100, "alpha_deg": 0, "d_mm": 0}] * 100}}, "dh.joints", "99"),
     ],
 )
 def test_physics_that_no_arm_has_is_refused_where_it_stands(change, place, words, tmp_path):

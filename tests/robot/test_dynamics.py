@@ -6,7 +6,7 @@ import pytest
 
 from armscope.core.inputs import InputError
 from armscope.robot.description import RobotDescription
-from armscope.robot.dynamics import build_moving_arm
+from armscope.robot.dynamics import build_moving_arm, moved_centre
 from tests.motion.moving import ROBOT, robot
 
 
@@ -61,3 +61,16 @@ def test_what_drives_state_is_known_and_the_rest_is_not() -> None:
     assert np.array_equal(np.isfinite(arm.stated_background), [[0, 1, 0, 0], [0, 0, 0, 0], [0, 0, 0, 1]])
     assert arm.gains[1] == 9.0
     assert np.isnan(arm.gains[[0, 2]]).all()
+
+
+def test_a_centre_of_mass_that_moves_takes_the_inertia_about_the_joint_along() -> None:
+    """By pinocchio: bodies whose centre lies elsewhere, with the same mass and the same inertia about it."""
+    rng = np.random.default_rng(5)
+    body = pin.Inertia.Random()
+    slopes = moved_centre(body.toDynamicParameters())
+    for _ in range(4):
+        off = 1e-6 * rng.normal(size=3)
+        moved = pin.Inertia(body.mass, body.lever + off / body.mass, body.inertia)
+        changed = moved.toDynamicParameters() - body.toDynamicParameters()
+        np.testing.assert_allclose(slopes @ off, changed, atol=1e-10)
+    np.testing.assert_array_equal(moved_centre(np.zeros(10))[4:], 0)

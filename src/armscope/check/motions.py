@@ -211,7 +211,7 @@ def _torques(motions: Motions, samples: Samples, arm: MovingArm) -> Iterator[Sus
             yield Suspicion("problem", f"{name} has the sign opposite to what moves the stated masses", cure)
         elif not 1 / OTHER_SIZE < factor < OTHER_SIZE:
             # a load that nobody stated does that to a wrist, and is no mistake of the table
-            far = max(abs(np.log(factor)), abs(np.log(most))) > np.log(NO_LOAD)
+            far = not 1 / NO_LOAD <= factor <= NO_LOAD or not 1 / NO_LOAD <= most <= NO_LOAD
             weight: Literal["problem", "hint"] = "problem" if far or not 1 / OTHER_SIZE < most < OTHER_SIZE else "hint"
             cure = "Is it the torque before the gear, another unit, or another load than stated?"
             yield Suspicion(weight, f"{name} is {factor:.3g} times what the stated masses ask for", cure)

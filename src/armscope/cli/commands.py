@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import functools
 import inspect
+import math
 import os
 import sys
 from collections.abc import Callable, Iterable, Iterator
@@ -14,7 +15,7 @@ from typing import Annotated, Any, cast, get_type_hints
 import typer
 from typer.core import TyperCommand
 
-from armscope.cli.endings import told_to_end
+from armscope.cli.endings import plain_words, told_to_end
 from armscope.core.inputs import InputError, nearest
 from armscope.core.outputs import Delivery
 from armscope.core.parallel import processes
@@ -76,7 +77,8 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
 
     @functools.wraps(function)
     def run(*, force: bool = False, quiet: bool = False, **values: Any) -> None:
-        with _silence() if quiet else contextlib.nullcontext():
+        _refuse_endless(values)
+        with _silence() if quiet else plain_words():
             if outputs:
                 deliver(force, values)
             else:
@@ -99,6 +101,17 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
     cast(Any, run).__signature__ = signature.replace(parameters=[*parameters, *added])
     run.__annotations__ = {each.name: each.annotation for each in [*parameters, *added]} | {"return": None}
     return run
+
+
+def _refuse_endless(values: dict[str, Any]) -> None:
+    """Numbers of options are finite: click lets "nan" pass where there is no bound, and "inf" below a lower one.
+
+    Raises:
+        InputError: one is not.
+    """
+    for name, value in values.items():
+        if isinstance(value, float) and not math.isfinite(value):
+            raise InputError(f"--{name.replace('_', '-')}", "", value, "a finite number is needed here")
 
 
 @contextlib.contextmanager

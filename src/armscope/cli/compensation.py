@@ -92,7 +92,7 @@ def fit_error_model(
     output: Annotated[Path, typer.Option("--output", "-o", help="errormodel.json")],
     model: Annotated[str, typer.Option("--model", "-m", help="FDP(CI), SDP(AI), 'Fourier 2 (AI)', ...")] = "SDP(CI)",
     method: Annotated[str, typer.Option(help="least-squares or swarm")] = "least-squares",
-    seed: Annotated[int, typer.Option(help="of the swarm")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="of the swarm")] = 0,
     run: Annotated[str | None, typer.Option(help="only this run")] = None,
     target: Annotated[str | None, typer.Option(help="only this target")] = None,
     register: Annotated[bool, typer.Option(help="fit measurement frame and tool offset with the nominal arm")] = False,
@@ -116,13 +116,13 @@ def fit_error_model(
     from armscope.compensation.error_model_file import save_error_model
     from armscope.compensation.fitting import fit_error_model as fit
 
-    for column, wanted, values in (("run", run, table.run), ("target", target, table.target)):
-        if wanted is not None and wanted not in values:
-            cure = nearest(wanted, set(values.tolist()))
-            raise InputError(f"--{column}", "", wanted, f"{recordings} has no such {column}", cure)
-    for name, wanted in (("run", run), ("target", target)):
+    for column, wanted in (("run", run), ("target", target)):
         if wanted is not None:
-            table = table.rows(getattr(table, name) == wanted)
+            values = getattr(table, column)
+            if wanted not in values:
+                cure = nearest(wanted, set(values.tolist()))
+                raise InputError(f"--{column}", "", wanted, f"{recordings} has no such {column}", cure)
+            table = table.rows(values == wanted)
     count = None if regions == "auto" else int(regions)
     fitted = fit(arm, table, model_named(model), methods[method], seed, register, count, products, orientation)
     save_error_model(output, fitted)
@@ -161,7 +161,7 @@ def _identified(model: Path, fitted: FittedModel, recordings: Path | None) -> Id
             "Give the recordings of the diagnosis with --recordings.",
         )  # fmt: skip
     identified = load_identified(beside)
-    motors = sum(name.startswith("q") for name in identified.domain.names)
+    motors = sum(name.startswith("q") for name in identified.domain.inputs)
     if motors != fitted.arm.n_motors:
         rule = f"the model's arm has {fitted.arm.n_motors}"
         raise InputError(beside, "domain.inputs", f"{motors} motors", rule, "Is it of another diagnosis?")

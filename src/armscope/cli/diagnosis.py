@@ -15,10 +15,7 @@ from armscope.cli.endings import exit_code_of
 from armscope.core.types import unheard
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from armscope.recordings import Recordings
+    pass
 
 app = Commands()
 
@@ -32,7 +29,7 @@ def diagnose(
     output: Annotated[Path, typer.Option("--output", "-o", help="folder for report, verdict, model and figures")],
     run: Annotated[list[str] | None, typer.Option(help="only these runs (may be given several times)")] = None,
     first_id: Annotated[int | None, typer.Option(help="leave out rows with a smaller id")] = None,
-    seed: Annotated[int, typer.Option(help="of folds and resampling")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="of folds and resampling")] = 0,
     resamples: Annotated[int, typer.Option(min=0, help="how often rows are resampled; 0 saves time")] = 10,
     cross_validation: Annotated[bool, typer.Option(help="repeat the whole diagnosis on held-out folds")] = True,
     tool_per_run: Annotated[bool, typer.Option(help="the tool was taken off between runs")] = False,
@@ -92,10 +89,8 @@ def diagnose(
     from armscope.verdict.files import FILES
 
     writable(output, *FILES, DOMAIN, *(PAGES if report else ()))
-    if run:
-        table = table.rows(_rows_of_runs(table, run))
-    if first_id is not None:
-        table = table.rows(_rows_from(table, first_id))
+    if run or first_id is not None:
+        table = table.of_runs(run or (), first_id)
     if not anyway:
         refuse_unusable(arm, table)
     settings = Settings(seed, tool_per_run, resamples, cross_validation, estimate_gravity, orientation)
@@ -129,29 +124,6 @@ def _refuse_of_the_other(options: dict[str, Any], table: Path, moving: bool) -> 
             kind, other = ("motions", "measured points") if moving else ("measured points", "motions")
             rule = f"{table} is a table of {kind}, and this option is for tables of {other}"
             raise InputError(name, "", value, rule, "Leave it out.")
-
-
-def _rows_of_runs(table: Recordings, runs: list[str]) -> NDArray[np.bool_]:
-    import numpy as np
-
-    from armscope.core.inputs import InputError, nearest
-
-    known = set(table.run.tolist())
-    for name in runs:
-        if name not in known:
-            raise InputError("--run", "", name, f"{table.source} has no such run", nearest(name, known))
-    return np.isin(table.run, runs)
-
-
-def _rows_from(table: Recordings, first_id: int) -> NDArray[np.bool_]:
-    import numpy as np
-
-    from armscope.core.inputs import InputError
-
-    kept = np.array([text.isdecimal() and int(text) >= first_id for text in table.id])
-    if not kept.any():
-        raise InputError("--first-id", "", first_id, f"{table.source} has no row with this id or a later one")
-    return kept
 
 
 @contextlib.contextmanager

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import errno
 import os
 import resource
 import signal
@@ -12,8 +11,9 @@ import threading
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, TextIO
 
-from armscope.core.inputs import InputError
+from armscope.core.inputs import InputError, spelt_out
 from armscope.core.locks import Busy
+from armscope.core.outputs import OF_THE_DISK
 
 if TYPE_CHECKING:
     from armscope.verdict.schema import Answer
@@ -74,10 +74,34 @@ def endings() -> Iterator[None]:
         _silence_stdout()
         _end("nobody reads standard output any more", CLOSED)
     except OSError as error:
-        if error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EIO):
+        if error.errno in OF_THE_DISK:
             _silence_stdout()
         where = f"{error.filename}: " if error.filename is not None else ""
         _end(f"{where}{error.strerror or error}; nothing was written", NO_WRITING)
+
+
+@contextlib.contextmanager
+def plain_words() -> Iterator[None]:
+    """While a command speaks: names of users' files and in them are shown, and steer no terminal.
+
+    Tables that go to standard output are written past it, as they are.
+    """
+    with contextlib.redirect_stdout(_Plain(sys.stdout)), contextlib.redirect_stderr(_Plain(sys.stderr)):
+        yield
+
+
+class _Plain:
+    """A stream of words in which characters that steer a terminal are spelt out."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+
+    def write(self, text: str) -> int:
+        self._stream.write(spelt_out(text))
+        return len(text)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
 
 
 class _Patient:
@@ -120,7 +144,7 @@ def told_to_end() -> Iterator[None]:
 
 def _end(text: str, code: int) -> None:
     with contextlib.suppress(OSError):
-        print(f"armscope: {text}", file=sys.stderr, flush=True)
+        print(f"armscope: {spelt_out(text)}", file=sys.stderr, flush=True)
     sys.exit(code)
 
 

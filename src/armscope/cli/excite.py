@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 
 app = Commands()
 
+MOST_SAMPLES = 1_000_000
+"""Of a motion: an hour at 250 Hz, which no controller takes as one table."""
+
 
 @app.command()
 def excite(
@@ -45,6 +48,9 @@ def excite(
     if rate_hz < 2 * harmonics / period_s:
         rule = "a wave needs two samples at least: twice --harmonics / --period-s"
         raise InputError("--rate-hz", "", rate_hz, rule)
+    if rate_hz * period_s > MOST_SAMPLES:
+        asked = f"{rate_hz * period_s:.3g} samples"
+        raise InputError("--rate-hz", "", asked, f"--rate-hz times --period-s: at most {MOST_SAMPLES:,} samples")
     arm = load_arm(robot)
 
     from armscope.poses.exciting.output import pairs_of, trajectory_table, write_excitation

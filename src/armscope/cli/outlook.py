@@ -78,7 +78,7 @@ def full_pose(
     model: Models = None,
     products: Products = None,
     regions: Regions = None,
-    seed: Annotated[int, typer.Option(help="of the identification poses and the noise")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="of the identification poses and the noise")] = 0,
 ) -> None:
     """Position and orientation by every model, predicted and in closed loop, with the virtual arm's wrist bent."""
     from armscope.cli.studies import read_measurements
@@ -139,7 +139,7 @@ def regions_(
     output: Annotated[Path, typer.Option("--output", "-o", help="table: model, regions, held_out_rms_mm, ...")],
     model: Models = None,
     figure: Picture = None,
-    seed: Annotated[int, typer.Option(help="of the folds")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="of the folds")] = 0,
 ) -> None:
     """Error against the number of blended sub-volumes, chosen by cross-validation on the identification rows."""
     from armscope.cli.studies import read_measurements
@@ -161,7 +161,7 @@ def products_(
     errors: Errors,
     output: Annotated[Path, typer.Option("--output", "-o", help="table: model, kind, terms, held_out_rms_mm, ...")],
     model: Models = None,
-    seed: Annotated[int, typer.Option(help="of the folds")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="of the folds")] = 0,
 ) -> None:
     """Sums of one-input terms against a sparse choice of their products, on held-out rows and the test paths."""
     from armscope.cli.studies import read_measurements

@@ -69,13 +69,13 @@ def measure_real(
     """Take identification and held-out rows from real recordings, in the form of the paper's measurements."""
     from armscope.cli.paper_settings import RealSettings
     from armscope.core.files import write_table
-    from armscope.paper.real import real_measurements, select_rows
+    from armscope.paper.real import real_measurements
     from armscope.recordings import read_recordings
     from armscope.robot import load_arm
 
     chosen = parsed(RealSettings, settings)
     arm = load_arm(robot)
-    rows = select_rows(read_recordings(recordings, arm.n_motors), chosen.run, chosen.first_id)
+    rows = read_recordings(recordings, arm.n_motors).of_runs([chosen.run] if chosen.run else (), chosen.first_id)
     study = real_measurements(arm, rows, chosen.seed, chosen.poses)
     pose_rows, error_rows = study.measurements.to_tables()
     write_table(output / "poses.csv", pose_rows)
@@ -179,7 +179,7 @@ def outlook_(
     poses: Poses,
     errors: ManyErrors,
     output: Output,
-    seed: Annotated[int, typer.Option(help="of the folds")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="of the folds")] = 0,
 ) -> None:
     """What blended sub-volumes and products between inputs leave of the errors, chosen by cross-validation."""
     from armscope.core.files import write_table

@@ -64,7 +64,7 @@ def compliances(
     reference: Annotated[Path, typer.Argument(help="reference.yaml: runs, and compliances that others found")],
     output: Output,
     arms: Annotated[int, typer.Option(help="simulated arms on which the comparison is rehearsed")] = 40,
-    seed: Annotated[int, typer.Option(help="of the simulated arms")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="of the simulated arms")] = 0,
 ) -> None:
     """Do the drives' compliances agree between runs? Values, agreement, and the same on simulated arms."""
     from armscope.core.files import write_table

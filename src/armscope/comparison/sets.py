@@ -11,6 +11,7 @@ import numpy as np
 from armscope.check.preconditions import check_table
 from armscope.core.inputs import InputError
 from armscope.core.types import Array, Indices
+from armscope.physics.frames import free_frames
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -34,11 +35,13 @@ def stacked(arm: Arm, recordings: Mapping[str, Recordings]) -> tuple[Recordings,
         The table, and (N,) the number of the recording that each row is of.
 
     Raises:
-        InputError: fewer than two recordings, or one that does not fit the arm.
+        InputError: fewer than two recordings, one that does not fit the arm, or one of too few rows.
     """
     if len(recordings) < 2:
         raise InputError("compare", "", f"{len(recordings)} recordings", "two or more are needed")
     tables = [check_table(arm, table).recordings for table in recordings.values()]
+    for table in tables:
+        _check_rows(table)
     named = [
         replace(
             table,
@@ -53,6 +56,19 @@ def stacked(arm: Arm, recordings: Mapping[str, Recordings]) -> tuple[Recordings,
     parts: dict[str, Any] = {name: np.concatenate([getattr(table, name) for table in named]) for name in _ROWS}
     table = replace(named[0], **parts, **context, notes=(), source="recordings")
     return table, np.repeat(np.arange(len(named)), [len(each) for each in named])
+
+
+def _check_rows(table: Recordings) -> None:
+    """Its rows must tell more than where base and tool are, as a diagnosis asks, too.
+
+    Raises:
+        InputError: they don't.
+    """
+    numbers, frames = 3 * len(table), sum(len(placed.terms) for placed in free_frames(table, False))
+    if numbers <= 2 * frames:
+        found = f"{len(table)} rows, which hold {numbers} numbers"
+        rule = f"base and tool of each run and target take up {frames}: rows must hold more than twice as many"
+        raise InputError(table.source, "", found, rule, "Measure more poses in each run, or name the runs alike.")
 
 
 def of_same_poses(tables: Sequence[Recordings]) -> list[tuple[int, ...]]:

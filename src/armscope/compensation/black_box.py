@@ -170,4 +170,4 @@ def domain_inputs(model: ErrorModel, angles: Array) -> Array:
     """(N, k) the inputs of a model's domain at motor angles (N, m)."""
     by_name = {f"q{motor}": values for motor, values in enumerate(angles.T, start=1)}
     by_name |= dict(zip("xyz", chain(model.arm, angles).tool.T * 1e3, strict=True))
-    return np.column_stack([by_name[name] for name in model.domain.names])
+    return np.column_stack([by_name[name] for name in model.domain.inputs])

@@ -15,10 +15,10 @@ from armscope.compensation.physical import Identified
 from armscope.compensation.result import Compensated
 from armscope.compensation.task import Options
 from armscope.core.types import Array
-from armscope.physics.model import FittedModel, predict
+from armscope.physics.model import FittedModel, predict, predict_orientation
 from armscope.recordings.columns import angle_columns
 from armscope.recordings.table import unmeasured
-from armscope.robot import Arm, chain
+from armscope.robot import Arm
 
 ERROR_COLUMNS = ["dx_mm", "dy_mm", "dz_mm"]
 NO_MODEL = "Uncompensated"
@@ -30,11 +30,12 @@ class Corrector:
     """A model that predicts and compensates.
 
     Attributes:
-        predict: tool points (N, 3), m, at motor angles (N, m) rad, in the frame of the measurements.
+        stand: tool points (N, 3), m, and orientations (N, 3, 3) at motor angles (N, m) rad, in the frame of the
+            measurements.
         compensate: commands for a path in that frame.
     """
 
-    predict: Callable[[Array], Array]
+    stand: Callable[[Array], tuple[Array, Array]]
     compensate: Callable[[WantedPath], Compensated]
 
 
@@ -53,24 +54,29 @@ class MeasuredPath:
     errors_mm: Array
 
 
-def black_box_candidate(model: ErrorModel) -> Corrector:
-    """A black-box error model; measurements stand in the arm's base frame."""
-
-    def points(angles: Array) -> Array:
-        nominal = chain(model.arm, angles).tool
-        return nominal + model.error_and_slope(angles, nominal)[0]
-
-    return Corrector(points, lambda path: compensate_black_box(model, path))
+def black_box_candidate(model: ErrorModel, pose: bool = False) -> Corrector:
+    """A black-box error model, which corrects full poses if asked; measurements stand in the arm's base frame."""
+    return Corrector(model.stand, lambda path: compensate_black_box(model, path, Options(pose=pose)))
 
 
-def physical_candidate(model: FittedModel, identified: Identified) -> Corrector:
-    """Diagnosed physics; measurements stand in the measurement frame that it was diagnosed in."""
-    run, options = list(model.bases)[-1], Options(frame="measurement")
+def physical_candidate(model: FittedModel, identified: Identified, pose: bool = False) -> Corrector:
+    """Diagnosed physics; measurements stand in the measurement frame that it was diagnosed in.
 
-    def points(angles: Array) -> Array:
-        return predict(model, unmeasured(angles, run))
+    Args:
+        model: as diagnosed.
+        identified: where.
+        pose: full poses are corrected.
 
-    return Corrector(points, lambda path: compensate_physical(model, identified, path, options))
+    Returns:
+        It, to predict and to correct.
+    """
+    run, options = list(model.bases)[-1], Options(frame="measurement", pose=pose)
+
+    def stand(angles: Array) -> tuple[Array, Array]:
+        rows = unmeasured(angles, run)
+        return predict(model, rows), predict_orientation(model, rows)
+
+    return Corrector(stand, lambda path: compensate_physical(model, identified, path, options))
 
 
 def remaining_errors(
@@ -134,7 +140,7 @@ def _as_wanted(arm: Arm, path: MeasuredPath, name: str) -> WantedPath:
 
 
 def _left(candidate: Corrector, path: MeasuredPath) -> Array:
-    return path.wanted_mm + path.errors_mm - candidate.predict(path.motor_angles) * 1e3
+    return path.wanted_mm + path.errors_mm - candidate.stand(path.motor_angles)[0] * 1e3
 
 
 def vectors(model: str, trajectory: str, stage: str, error_mm: Array) -> pd.DataFrame:

@@ -36,23 +36,23 @@ class Domain:
     """The range of M identification rows in k inputs.
 
     Attributes:
-        names, units: (k) of the inputs; units are keys of `STILL`.
+        inputs, units: (k) names of the inputs, and their units, keys of `STILL`.
+        rows: M.
         mean, scale: (k,) in these units.
         moving: (k,) whether the input moved in the data.
         low, high: (d,) extent along each direction, in standard deviations.
-        neighbours: (M', k) standardised rows.
-        rows: M.
+        standardised_rows: (M', k) rows less their mean, over the scale.
     """
 
-    names: tuple[str, ...]
+    inputs: tuple[str, ...]
     units: tuple[str, ...]
+    rows: int
     mean: Array
     scale: Array
     moving: NDArray[np.bool_]
     low: Array
     high: Array
-    neighbours: Array
-    rows: int
+    standardised_rows: Array
 
     @staticmethod
     def of(inputs: ArrayLike, names: Sequence[str], units: Sequence[str]) -> Domain:
@@ -76,7 +76,7 @@ class Domain:
         extent = z @ _directions(moving, units).T
         thin = z[:: -(-len(z) // MOST_NEIGHBOURS)]
         return Domain(
-            tuple(names), tuple(units), mean, scale, moving, extent.min(axis=0), extent.max(axis=0), thin, len(table)
+            tuple(names), tuple(units), len(table), mean, scale, moving, extent.min(axis=0), extent.max(axis=0), thin
         )
 
     def outside(self, inputs: ArrayLike) -> tuple[Array, NDArray[np.str_]]:
@@ -88,57 +88,40 @@ class Domain:
             extent = (table[at] - self.mean) / self.scale @ directions.T
             excess = np.maximum(np.maximum(self.low - extent, extent - self.high), 0.0)
             distance[at], worst[at] = excess.max(axis=1), np.argmax(excess, axis=1)
-        labels = np.array(_labels(self.names, self.moving, self.units))
+        labels = np.array(_labels(self.inputs, self.moving, self.units))
         return distance, np.where(distance > 0, labels[worst], "")
 
     def nearest(self, inputs: ArrayLike) -> Array:
         """(N,) distance to the nearest identification row, in standard deviations per input (root mean square)."""
         z = (np.asarray(inputs, dtype=float) - self.mean) / self.scale
-        distance: Array = cKDTree(self.neighbours).query(z)[0] / np.sqrt(len(self.names))
+        distance: Array = cKDTree(self.standardised_rows).query(z)[0] / np.sqrt(len(self.inputs))
         return distance
 
     def still(self, unit: str) -> dict[str, float]:
         """Inputs of a unit that stood still, with their values."""
         return {
             name: float(value)
-            for name, of, value, moves in zip(self.names, self.units, self.mean, self.moving, strict=True)
+            for name, of, value, moves in zip(self.inputs, self.units, self.mean, self.moving, strict=True)
             if of == unit and not moves
         }
 
     def value(self, name: str) -> float:
         """The mean of an input."""
-        return float(self.mean[self.names.index(name)])
+        return float(self.mean[self.inputs.index(name)])
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values."""
-        return {
-            "inputs": list(self.names),
-            "units": list(self.units),
-            "rows": self.rows,
-            "mean": self.mean.tolist(),
-            "scale": self.scale.tolist(),
-            "moving": self.moving.tolist(),
-            "low": self.low.tolist(),
-            "high": self.high.tolist(),
-            "standardised_rows": self.neighbours.round(4).tolist(),
-        }
+        said = {**vars(self), "standardised_rows": self.standardised_rows.round(4)}
+        return {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in said.items()}
 
     @staticmethod
     def from_dict(content: dict[str, Any]) -> Domain:
         """The inverse of `to_dict`."""
-        arrays = (np.array(content[name], dtype=float) for name in ("mean", "scale"))
-        mean, scale = arrays
-        return Domain(
-            tuple(content["inputs"]),
-            tuple(content["units"]),
-            mean,
-            scale,
-            np.array(content["moving"], dtype=bool),
-            np.array(content["low"], dtype=float),
-            np.array(content["high"], dtype=float),
-            np.array(content["standardised_rows"], dtype=float),
-            int(content["rows"]),
-        )
+        known: dict[str, Any] = {
+            name: np.array(content[name], dtype=float) for name in ("mean", "scale", "low", "high", "standardised_rows")
+        }
+        known["moving"] = np.array(content["moving"], dtype=bool)
+        return Domain(**content | known)
 
 
 def count_directions(moving: NDArray[np.bool_], units: Sequence[str]) -> int:

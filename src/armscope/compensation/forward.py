@@ -117,5 +117,4 @@ class PhysicalArm:
 def frame_jacobian(arm: Arm, frames: Chain) -> Array:
     """(N, 6, m) displacement (m/rad) and turn (rad/rad) of the tool by unit turns of the motors, base axes."""
     turning = np.swapaxes(frames.joint_rotation[..., 2], 1, 2)
-    jacobian: Array = np.concatenate([joint_jacobian(frames), turning], axis=1) @ arm.actuation
-    return jacobian
+    return np.concatenate([joint_jacobian(frames), turning], axis=1) @ arm.actuation

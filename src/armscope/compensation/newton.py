@@ -56,8 +56,7 @@ class Wanted:
         """(N, 3) the rotation vector that is missing, rad, base axes; NaN where the orientation is free."""
         if self.rotations is None:
             return np.full((len(self.points), 3), np.nan)
-        turn: Array = Rotation.from_matrix(self.rotations @ np.swapaxes(stand.rotations, 1, 2)).as_rotvec()
-        return turn
+        return Rotation.from_matrix(self.rotations @ np.swapaxes(stand.rotations, 1, 2)).as_rotvec()
 
     def jacobian(self, stand: Stand, lever: float) -> Array:
         """(N, 3 or 6, m) how the gap closes by unit turns of the motors, m/rad."""

@@ -49,7 +49,7 @@ class Identified:
         """(N, k) the domain's inputs at motor angles (N, m) rad; context that is not stated counts as usual."""
         context = {"payload_kg": rows.payload, "temperature_c": rows.temperature}
         columns = [angles]
-        for name in self.domain.names[angles.shape[1] :]:
+        for name in self.domain.inputs[angles.shape[1] :]:
             values = context[name]
             known = np.full(len(rows), np.nan) if values is None else values
             columns.append(np.where(np.isnan(known), self.domain.value(name), known)[:, None])

@@ -162,7 +162,7 @@ class PathTask:
             return angles if self.path.points is None else self._nearest(wanted, angles, held, refused)
         start = self.options.start
         if start is None:
-            middle = [self.domain.value(f"q{j}") if f"q{j}" in self.domain.names else np.nan for j in self._motors]
+            middle = [self.domain.value(f"q{j}") if f"q{j}" in self.domain.inputs else np.nan for j in self._motors]
             limits = np.where(np.isfinite(self.arm.limits).all(axis=1), np.nan_to_num(self.arm.limits).mean(axis=1), 0)
             start = np.where(np.isnan(middle), limits, middle)
         branch = nominal_branch(self.arm, wanted, start, held, self.options.largest_step)

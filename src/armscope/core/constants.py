@@ -56,8 +56,7 @@ def constant(value: Value, meaning: str, basis: str, *, unit: str = "") -> Value
     kind, colon, reason = basis.partition(": ")
     if not meaning or kind not in BASES or (kind != "convention" and not (colon and reason.strip())):
         raise ValueError(f"{meaning or value!r}: basis {basis!r} must be one of {', '.join(BASES)}, with a reason")
-    told: Value = field(default=value, metadata={"meaning": meaning, "basis": basis, "unit": unit})
-    return told
+    return field(default=value, metadata={"meaning": meaning, "basis": basis, "unit": unit})
 
 
 def entries(group: type[Constants]) -> list[Entry]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
+import re
 import stat
 from collections.abc import Iterable
 from contextvars import ContextVar
@@ -14,6 +15,9 @@ import pydantic
 import yaml
 
 from armscope.core.plainyaml import CONTROL, NotPlain, plain_yaml
+
+_STEERING = re.compile(f"{CONTROL.pattern}|[\u202a-\u202e\u2066-\u2069]")
+"""Control characters, and those that turn the order of what stands beside them."""
 
 Model = TypeVar("Model", bound=pydantic.BaseModel)
 
@@ -37,6 +41,11 @@ def identity(path: Path | str) -> tuple[int, int] | None:
     return (about.st_dev, about.st_ino) if stat.S_ISREG(about.st_mode) else None
 
 
+def spelt_out(text: str) -> str:
+    """Words for a terminal: characters that would steer it are shown as escapes."""
+    return _STEERING.sub(lambda found: ascii(found.group())[1:-1], text)
+
+
 class InputError(ValueError):
     """Something that a user gave can't be used: where it stands, what was found, what is allowed, how to mend it.
 
@@ -52,7 +61,7 @@ class InputError(ValueError):
         self.file, self.place, self.found, self.rule, self.cure = str(file), place, found, rule, cure
         where = f"{file}: {place}" if place else str(file)
         text = f"{where}: found {_quote(found)}; {rule}." + (f" {cure}" if cure else "")
-        super().__init__(CONTROL.sub(lambda found: ascii(found.group())[1:-1], text))  # goes to a terminal
+        super().__init__(spelt_out(text))  # goes to a terminal
 
 
 def _quote(value: object) -> str:

@@ -9,8 +9,8 @@ finished by the next run, if it had begun to put its files in place, and else re
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
-import shutil
 import sys
 from collections.abc import Iterable, Iterator
 from contextvars import ContextVar
@@ -18,8 +18,11 @@ from pathlib import Path
 
 from armscope.core.inputs import FILES_READ, InputError, identity
 from armscope.core.locks import Lock
-from armscope.core.records import HIDDEN, carry_out, digest_of, read_record, tidy, write_record
+from armscope.core.records import HIDDEN, carry_out, digest_of, drop_drafts, read_record, tidy, write_record
 from armscope.core.streams import is_stream
+
+OF_THE_DISK = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EIO)
+"""What is wrong with the disk, and with no name that a user gave."""
 
 _CURRENT: ContextVar[Delivery | None] = ContextVar("delivery", default=None)
 
@@ -62,6 +65,7 @@ class Result:
         Raises:
             Busy: another process writes there.
             InputError: nothing can be written there.
+            OSError: the disk is full, read-only or broken.
         """
         try:
             try:
@@ -72,6 +76,8 @@ class Result:
                 self._lock.take()
         except OSError as error:
             self._forget_folders()
+            if error.errno in OF_THE_DISK:
+                raise
             rule = f"output goes into this folder ({error.strerror})"
             raise InputError(self.home, "", "no folder that can be written to", rule) from error
         tidy(self.home, self.key)
@@ -150,7 +156,7 @@ class Result:
     def close(self) -> None:
         """Leave nothing behind but what was put in place."""
         if not self._hidden(".plan").exists():  # else the next run finishes what a full disk may have interrupted
-            shutil.rmtree(self._hidden(".new"), ignore_errors=True)
+            drop_drafts(self.home, self.key)
         self._lock.give_back()
         self._forget_folders()
 

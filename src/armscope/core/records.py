@@ -46,11 +46,16 @@ def carry_out(home: Path, key: str) -> None:
                 path.unlink()
                 with contextlib.suppress(OSError):
                     path.parent.rmdir()
-        write_record(record, {"files": files})
-        plan.unlink()
-    for left in (plan, record):
+        plan.replace(record)  # and no file is written any more, for which a full disk might have no room
+    drop_drafts(home, key)
+
+
+def drop_drafts(home: Path, key: str) -> None:
+    """Remove what was made ready and not put in place."""
+    hidden = home / HIDDEN
+    for left in (hidden / f"{key}.plan", hidden / f"{key}.json"):
         _draft(left).unlink(missing_ok=True)
-    shutil.rmtree(stage, ignore_errors=True)
+    shutil.rmtree(hidden / f"{key}.new", ignore_errors=True)
 
 
 def _move(source: Path, target: Path) -> None:

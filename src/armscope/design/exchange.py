@@ -118,8 +118,7 @@ class _Information:
     def variance_of(self, row: int) -> Array:
         """(3, 3) D of one candidate."""
         pose = self.whitened[:, row]
-        inner: Array = pose @ self.inverse @ pose.T
-        return inner
+        return pose @ self.inverse @ pose.T
 
     def changed(self, row: int, sign: float) -> _Information:
         """With one pose more (sign 1) or less (-1): rank three (Sherman, Morrison & Woodbury)."""
@@ -161,8 +160,7 @@ def _grown(whitened: Array, count: int) -> Rows:
 
 def _gram(whitened: Array, rows: Rows) -> Array:
     stacked = whitened[:, rows].reshape(-1, whitened.shape[2])
-    gram: Array = stacked.T @ stacked
-    return gram
+    return stacked.T @ stacked
 
 
 def _exchanged(whitened: Array, rows: Rows) -> Rows:

@@ -108,5 +108,4 @@ def random_path(limits: Limits, harmonics: int, period: float, rng: np.random.Ge
 
 def _without(coefficients: Array, direction: Array) -> Array:
     """Coefficients (m, K) without their part along a direction (K,)."""
-    along: Array = coefficients - np.outer(coefficients @ direction, direction) / (direction @ direction)
-    return along
+    return coefficients - np.outer(coefficients @ direction, direction) / (direction @ direction)

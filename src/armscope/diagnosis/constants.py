@@ -125,6 +125,12 @@ class FoldRules(Constants):
         "judgement: four to a fold",
         unit="blocks",
     )
+    overfitted: float = constant(
+        1.5,
+        "times the noise that held-out errors exceed where free curves are asked whether they foretell rows",
+        "derived: as where a fit's free values are four tenths of its numbers, sqrt((1 + 0.4) / (1 - 0.4))",
+        unit="times",
+    )
     judged_rows: int = constant(
         20_000,
         "whose held-out errors are computed, spread evenly; folds are fitted to all",

@@ -11,7 +11,7 @@ from collections.abc import Collection, Iterator, Sequence
 import numpy as np
 
 from armscope.core.types import Array, Indices
-from armscope.diagnosis.constants import FOLDING
+from armscope.diagnosis.constants import FOLDING, LOOP
 from armscope.inference.edits import Edits, replaced
 from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.model_space import BackgroundSizes
@@ -26,7 +26,8 @@ Reading = tuple[tuple[SelectedEffect, ...], BackgroundSizes]
 def earned(problem: Problem, blocks: Sequence[NormalEquations], hypothesis: Hypothesis) -> Hypothesis:
     """The hypothesis without the names that make held-out rows worse, the worst first.
 
-    A name that a background or a curve holds, too, changes nothing that is predicted, and is not asked.
+    Names that without those are not worth their price go, too. A name that a background or a curve holds, too, changes
+    nothing that is predicted, and is not asked.
 
     Args:
         problem: the sums of all rows, priors and costs.
@@ -36,15 +37,41 @@ def earned(problem: Problem, blocks: Sequence[NormalEquations], hypothesis: Hypo
     Returns:
         The hypothesis with the names that earn their place.
     """
-    search = Search.on(problem)
+    search, found = Search.on(problem), hypothesis
     while own := [c for c in hypothesis.chosen if not c.nested and not search.in_background(hypothesis, c.candidate)]:
         without = [(search.kept(hypothesis, [c.candidate]), hypothesis.background) for c in own]
         gains = held_out_gains(problem, blocks, hypothesis, without)
         worst = int(np.argmin(gains))
         if not gains[worst] < 0:
-            return hypothesis
+            break
         hypothesis = search.evaluated(without[worst][0], hypothesis)
+    while hypothesis is not found and (weakest := search.weakest(hypothesis)) is not None:
+        hypothesis = search.without(hypothesis, [weakest.candidate])
     return hypothesis
+
+
+def steady(
+    problem: Problem, blocks: Sequence[NormalEquations], hypothesis: Hypothesis, wander: int, of_rows: Sequence[Indices]
+) -> Hypothesis:
+    """A hypothesis without a wander in the order of rows that is barely seen and makes other rows worse.
+
+    Args:
+        problem: the sums of all rows, priors and costs.
+        blocks: sums of blocks of rows.
+        hypothesis: chosen on all rows.
+        wander: number of the wander's family.
+        of_rows: its columns that follow the order of rows.
+
+    Returns:
+        The hypothesis, with or without it.
+    """
+    if not hypothesis.background[wander] or not of_rows:
+        return hypothesis
+    without = Search.on(problem).with_background(hypothesis, wander, 0)
+    sure = hypothesis.log_posterior - without.log_posterior > LOOP.surely_wanders
+    if sure or foretold_better(problem, blocks, hypothesis, wander, np.concatenate(of_rows)):
+        return hypothesis
+    return without
 
 
 def foretold_better(

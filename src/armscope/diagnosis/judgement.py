@@ -85,7 +85,7 @@ def judge(
         search,
         certainty.judged_elsewhere(
             state,
-            {c.candidate: certainty.alternatives(search, best, c.candidate) for c in best.chosen},
+            certainty.alternatives(search, best),
             rng.spawn(1)[0],
         ),
         certainty.inclusion_frequency(state, resamples, rng),

@@ -6,7 +6,7 @@ All that is known of physics when names compete is decided here, once.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -22,15 +22,10 @@ from armscope.inference.model_space import (
 )
 from armscope.physics.backgrounds import DRIFT, FAMILIES, GEOMETRIC, MASSES, SOFT
 from armscope.physics.drift import BASE_DRIFT
-from armscope.physics.effect import Effect, Placed, clash, region
+from armscope.physics.effect import Placed, clash, region
 from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
-from armscope.physics.loads import STATED_MASSES, mass_errors
-from armscope.physics.model import FittedModel
-from armscope.physics.payload import PAYLOAD_ERROR, payload_errors
-from armscope.physics.scene import Part
 from armscope.physics.soft_start import SOFT_START
 from armscope.physics.transmission import BACKLASH
-from armscope.recordings import Recordings
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -187,28 +182,3 @@ def _trusting_stated_masses(placed: Sequence[Placed]) -> tuple[Exchange, ...]:
     twins = {n: stated.get(p.key) for n, p in enumerate(placed) if p.variant == UNKNOWN_MASSES}
     payloads = tuple(n for n, p in enumerate(placed) if p.effect.requires)
     return (Exchange(twins, payloads),) if twins and payloads else ()
-
-
-def on_loads(model: FittedModel, recordings: Recordings) -> tuple[FittedModel, list[Placed], list[Placed]]:
-    """The model with its errors of loads written anew, and those errors on top of what gives way in it.
-
-    Args:
-        model: as fitted.
-        recordings: the rows.
-
-    Returns:
-        The model, payload errors, and the masses' errors.
-    """
-    parts = [part for part in model.parts if part.placed.effect is not PAYLOAD_ERROR]
-    background = [part for part in model.background if part.placed.effect is not STATED_MASSES]
-    payload = list(payload_errors(recordings, [part for part in parts if part.placed.parametrisation == "plain"]))
-    masses = mass_errors(model.arm, recordings, [*background, *parts])
-    by_place = {(p.key, p.variant): p for p in (*payload, *masses)}
-
-    def anew(some: Sequence[Part], effect: Effect) -> list[Part]:
-        known = [(part, by_place.get((part.placed.key, part.placed.variant))) for part in some]
-        return [Part(p, part.values) for part, p in known if p is not None and p.effect is effect]
-
-    parts += anew(model.parts, PAYLOAD_ERROR)
-    background += anew(model.background, STATED_MASSES)
-    return replace(model, parts=tuple(parts), background=tuple(background)), payload, masses

@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Indices, Progress
 from armscope.diagnosis.constants import LOOP
-from armscope.diagnosis.earning import earned, foretold_better
-from armscope.diagnosis.model_space import EffectSpace, build_model_space, on_loads
+from armscope.diagnosis.earning import earned, steady
+from armscope.diagnosis.errors_of_loads import on_loads
+from armscope.diagnosis.free_curves import foretold_without_curves
+from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.row_noise import NoiseOfRows
 from armscope.diagnosis.scans.constants import SCANS
@@ -106,10 +108,26 @@ class SelectionLoop:
         self.loads: list[Placed] = []
         self.last: tuple[Hypothesis, EffectSpace] | None = None
         self.scans = 0
+        self.by_block: list[NormalEquations] | None = None
         self.fit: Refit
 
     def run(self, of_a_sample: bool = False) -> Selected:
-        """Rounds until nothing changes; those on all rows still follow where these are a sample."""
+        """Rounds until nothing changes, without free curves if that foretells more.
+
+        Those on all rows still follow where these are a sample.
+        """
+        self._settle()
+        plainer = foretold_without_curves(self.problem, self.blocks, self.found)
+        if plainer is not None:
+            self._take(Search.on(self.problem), plainer)
+            self.model = self.fit.model
+            self.candidates = [placed for placed in self.candidates if placed.parametrisation != "curve"]
+            self._settle()
+        self._refine(of_a_sample)
+        return self.selected() if of_a_sample else self.earned()
+
+    def _settle(self) -> None:
+        """Rounds until nothing changes."""
         previous: State | None = None
         settled = False
         for number in range(LOOP.rounds):
@@ -125,11 +143,6 @@ class SelectionLoop:
             settled = same
             previous = state
             self.candidates = [*self.candidates, *new]
-        self._refine(of_a_sample)
-        if of_a_sample:
-            return self.selected()
-        self.blocks = self._sums(self.block_of_row)
-        return self.earned()
 
     def _refine(self, of_a_sample: bool) -> None:
         """Finer forms of the curves and gears that were chosen; what they can't follow may be scatter."""
@@ -160,14 +173,14 @@ class SelectionLoop:
         return None if self.last is None else [self.last[0].background]
 
     def round(
-        self, starts: Sequence[BackgroundSizes] | None = None, scanning: bool = False, by_block: bool = False
+        self, starts: Sequence[BackgroundSizes] | None = None, scanning: bool = False, last: bool = False
     ) -> list[Placed]:
         """One round.
 
         Args:
             starts: backgrounds from which the search starts; all of the space's where not given.
             scanning: whether scanned numbers are looked for.
-            by_block: whether sums are kept block by block: of a round that is known to be the last.
+            last: whether it is known to be the last: its sums are then kept block by block.
 
         Returns:
             New candidates that scanning found.
@@ -181,10 +194,27 @@ class SelectionLoop:
         self.point, payload, self.loads = on_loads(self.model, self.recordings)
         self.space = build_model_space(self.frames, self.families, [*self.candidates, *payload], self.loads)
         self.weights = self.noise.weights
-        self.blocks = self._sums(self.block_of_row if by_block else 0 * self.block_of_row)
-        self.problem = build_problem(self.space, total(self.blocks), self.noise.least_mm)
+        sums = self._sums(self.block_of_row if last else 0 * self.block_of_row)
+        self.by_block = sums if last else None
+        self.problem = build_problem(self.space, total(sums), self.noise.least_mm)
         search = Search.on(self.problem)
-        found = search.best(starts, None if self.last is None else search.transferred(*self.last))
+        self._take(search, search.best(starts, None if self.last is None else search.transferred(*self.last)))
+        new = self._scanned(search) if scanning else []
+        self.model = self.fit.model
+        self.noise.weigh(self.fit.left, self.fit.noise, self.fit.weights.whitening)
+        return new
+
+    @property
+    def blocks(self) -> list[NormalEquations]:
+        """Sums over each block of rows in the last round; rounds on the way need their total alone."""
+        self.by_block = self.by_block or self._sums(self.block_of_row)
+        return self.by_block
+
+    def _sums(self, block_of_row: Indices) -> list[NormalEquations]:
+        return normal_equations_by_block(self.space.layout, self.point, self.table, self.weights, block_of_row)
+
+    def _take(self, search: Search, found: Hypothesis) -> None:
+        """Names and the exact fit of a hypothesis."""
         self.found = search.refined(found)
         self.best, self.last = named(search, self.space, self.found), (found, self.space)
         self.fit = self._fitted()
@@ -192,14 +222,6 @@ class SelectionLoop:
         if against:
             self.best = search.without(self.best, against)
             self.fit = self._fitted()
-        new = self._scanned(search) if scanning else []
-        self.model = self.fit.model
-        self.noise.weigh(self.fit.left, self.fit.noise, self.fit.weights.whitening)
-        return new
-
-    def _sums(self, block_of_row: Indices) -> list[NormalEquations]:
-        """Normal equations of the round's columns, block by block of rows."""
-        return normal_equations_by_block(self.space.layout, self.point, self.table, self.weights, block_of_row)
 
     def _fitted(self) -> Refit:
         """The best hypothesis fitted with the exact model."""
@@ -224,7 +246,9 @@ class SelectionLoop:
 
     def earned(self) -> Selected:
         """Where the rounds stand, without what makes held-out rows worse, gears' waves as the rows say."""
-        left = self._steady(earned(self.problem, self.blocks, self.best))
+        wander = FAMILIES.index(DRIFT)
+        of_rows = [self.space.layout.of(placed) for placed in self.families[wander] if is_of_rows(placed)]
+        left = steady(self.problem, self.blocks, earned(self.problem, self.blocks, self.best), wander, of_rows)
         gears = FAMILIES.index(TRANSMISSION)
         waves = with_sizes_of_rows(self.problem, self.space, self.blocks, left, self.families[gears])
         if left is not self.best or waves != self.families[gears]:
@@ -232,18 +256,6 @@ class SelectionLoop:
             self.fit = self._fitted()
             self.model = self.fit.model
         return self.selected()
-
-    def _steady(self, hypothesis: Hypothesis) -> Hypothesis:
-        """A hypothesis without a wander in the order of rows that is barely seen and makes other rows worse."""
-        wander = FAMILIES.index(DRIFT)
-        of_rows = [self.space.layout.of(placed) for placed in self.families[wander] if is_of_rows(placed)]
-        if not hypothesis.background[wander] or not of_rows:
-            return hypothesis
-        without = Search.on(self.problem).with_background(hypothesis, wander, 0)
-        sure = hypothesis.log_posterior - without.log_posterior > LOOP.surely_wanders
-        if sure or foretold_better(self.problem, self.blocks, hypothesis, wander, np.concatenate(of_rows)):
-            return hypothesis
-        return without
 
     def _pushes(self, part: Part) -> bool:
         """Whether a compliance about two axes is surely negative about one of them."""

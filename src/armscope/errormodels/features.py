@@ -154,23 +154,13 @@ class FeatureSet:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values, for YAML or JSON."""
-        return {
-            "model": asdict(self.spec),
-            "inputs": list(self.inputs),
-            "moving": list(self.moving),
-            "wavelengths_mm": None if self.wavelengths_mm is None else list(self.wavelengths_mm),
-        }
+        return {"model": asdict(self.spec), **{name: value for name, value in vars(self).items() if name != "spec"}}
 
     @staticmethod
     def from_dict(content: dict[str, Any]) -> FeatureSet:
         """The inverse of `to_dict`."""
-        wavelengths = content["wavelengths_mm"]
-        return FeatureSet(
-            ModelSpec(**content["model"]),
-            tuple(content["inputs"]),
-            tuple(content["moving"]),
-            None if wavelengths is None else tuple(wavelengths),
-        )
+        spec, waves = ModelSpec(**content["model"]), content["wavelengths_mm"]
+        return FeatureSet(spec, tuple(content["inputs"]), tuple(content["moving"]), waves and tuple(waves))
 
     def _moving_indices(self) -> list[int]:
         return [k for k, moves in enumerate(self.moving) if moves]

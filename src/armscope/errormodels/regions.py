@@ -9,7 +9,7 @@ up to one everywhere; each region's model is a least-squares fit with these weig
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -46,13 +46,7 @@ class Cut:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values."""
-        return {
-            "axis": self.axis,
-            "at": self.at,
-            "half_width": self.half_width,
-            "below": None if self.below is None else self.below.to_dict(),
-            "above": None if self.above is None else self.above.to_dict(),
-        }
+        return asdict(self)
 
     @staticmethod
     def from_dict(content: dict[str, Any] | None) -> Cut | None:

@@ -7,6 +7,7 @@ in this case", as section 5 of the paper has it.
 
 from __future__ import annotations
 
+import functools
 import zlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -70,10 +71,7 @@ def fit_swarms(
         ValueError: problems, seeds or settings that can't be used.
     """
     settings = settings or SwarmSettings()
-
-    def search(objective: LeastSquares, low: Array, high: Array, generators: list[np.random.Generator]) -> SwarmResult:
-        return minimise_least_squares(objective, low, high, generators, settings, engine)
-
+    search = functools.partial(minimise_least_squares, settings=settings, engine=engine)
     return _fit(problems, seeds, _Job("swarm", BasisKind(basis), Layout(layout), settings.particles), search)
 
 
@@ -100,10 +98,7 @@ def fit_random_search(
         ValueError: as `fit_swarms`.
     """
     settings = settings or SwarmSettings()
-
-    def search(objective: LeastSquares, low: Array, high: Array, generators: list[np.random.Generator]) -> SwarmResult:
-        return random_search(objective, low, high, generators, settings)
-
+    search = functools.partial(random_search, settings=settings)
     return _fit(problems, seeds, _Job("random search", BasisKind(basis), Layout(layout), settings.particles), search)
 
 

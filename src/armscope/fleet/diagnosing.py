@@ -9,8 +9,8 @@ from armscope.core.files import new_folder, write_text
 from armscope.core.inputs import InputError
 from armscope.diagnosis import Settings, diagnose, write_verdict
 from armscope.fleet.members import Member
-from armscope.recordings import Recordings, read_recordings
-from armscope.robot import Arm, load_arm
+from armscope.recordings import read_recordings
+from armscope.robot import load_arm
 
 FAILURE = "failure.txt"
 
@@ -27,16 +27,8 @@ def diagnose_members(members: Iterable[Member], output: Path, settings: Settings
     for member in members:
         try:
             arm = load_arm(member.robot)
-            write_verdict(diagnose(arm, _rows_of(member, arm), settings), output / member.name)
+            table = read_recordings(member.recordings, arm.n_motors)
+            rows = table.of_runs([member.run]) if member.run else table
+            write_verdict(diagnose(arm, rows, settings), output / member.name)
         except InputError as error:  # one arm's bad table must not lose the others' answers
             write_text(output / member.name / FAILURE, f"{error}\n")
-
-
-def _rows_of(member: Member, arm: Arm) -> Recordings:
-    """The rows of a member's run, or of all of them."""
-    table = read_recordings(member.recordings, arm.n_motors)
-    if not member.run:
-        return table
-    if not (table.run == member.run).any():
-        raise InputError(member.recordings, "", f"no run {member.run}", "the fleet's table names it")
-    return table.rows(table.run == member.run)

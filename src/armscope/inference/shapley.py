@@ -60,8 +60,7 @@ def shares(
 def _explained(G: Array, b: Array, held: Array, columns: Indices) -> Array:
     """What each column explains beyond those before it, mm^2."""
     factor = lower_cholesky(G[np.ix_(columns, columns)], held[columns])
-    explained: Array = solve_lower(factor, b[columns]) ** 2
-    return explained
+    return solve_lower(factor, b[columns]) ** 2
 
 
 def _orders(count: int) -> Iterator[tuple[int, ...]]:

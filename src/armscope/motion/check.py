@@ -13,7 +13,7 @@ from armscope.robot.dynamics import MovingArm
 from armscope.verdict.schema import Notice
 
 if TYPE_CHECKING:
-    from armscope.motion.rows import MotionRows
+    from armscope.motion.layout import TorqueLayout
 
 
 def check_motions(arm: MovingArm, motions: Motions) -> list[Notice]:
@@ -80,7 +80,7 @@ def _still_joints(motions: Motions) -> list[Notice]:
 def _one_way(motions: Motions) -> list[Notice]:
     notices = []
     for j in range(motions.n_motors):
-        travel = np.diff(motions.q[:, j])
+        travel = np.concatenate([np.diff(motions.q[motions.run == run, j]) for run in motions.runs])
         travel = travel[np.abs(travel) > 0]
         if len(travel) and np.ptp(motions.q[:, j]) > LIBRARY.still_rad:
             forward = float(travel[travel > 0].sum() / np.abs(travel).sum())
@@ -90,19 +90,21 @@ def _one_way(motions: Motions) -> list[Notice]:
     return notices
 
 
-def check_rows(rows: MotionRows, source: str) -> list[Notice]:
-    """What shows once samples have become rows.
+def refuse_few(layout: TorqueLayout, rows: int, source: str) -> None:
+    """Make sure that there are rows for friction and masses.
+
+    Args:
+        layout: of the columns.
+        rows: how many.
+        source: of the table, for the message.
 
     Raises:
-        InputError: there are fewer rows than parameters of the background.
+        InputError: there are fewer numbers than parameters ask for.
     """
-    numbers = len(rows) * rows.torque.shape[1]
-    parameters = len(rows.layout.frames) + len(rows.layout.inertial)
-    if numbers < CHECK.rows_per_parameter * parameters:
+    joints = layout.arm.n_motors
+    parameters = len(layout.frames) + len(layout.inertial)
+    if rows * joints < CHECK.rows_per_parameter * parameters:
         rule = (
             f"{parameters} values of friction and masses need at least {CHECK.rows_per_parameter * parameters} numbers"
         )
-        raise InputError(
-            source, "", f"{len(rows)} independent rows of {rows.torque.shape[1]} joints", rule, "Record longer."
-        )
-    return []
+        raise InputError(source, "", f"{rows} independent rows of {joints} joints", rule, "Record longer.")

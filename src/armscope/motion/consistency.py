@@ -11,6 +11,9 @@ from armscope.inference.normal_equations import NormalEquations
 from armscope.motion.constants import CONSISTENCY
 from armscope.motion.selection import SelectedCauses, coefficients_of
 
+PARTS = "fifths of the motion"
+"""What blocks of a single run are; `NOISE.blocks_of_time` of them."""
+
 
 @dataclass(frozen=True, eq=False)
 class PathAgreement:
@@ -19,10 +22,14 @@ class PathAgreement:
     Attributes:
         size: of each block that tells it, as a share of the size from all.
         stderr: of these.
+        paths: whether blocks are runs; else they are parts of one run.
+        runs: the only runs in which the cause is there; empty for all.
     """
 
     size: Array
     stderr: Array
+    paths: bool = True
+    runs: tuple[str, ...] = ()
 
     @property
     def tested(self) -> bool:
@@ -39,13 +46,22 @@ class PathAgreement:
         return bool(np.all(np.abs(size - 1) < CONSISTENCY.widths * spread))
 
     @property
+    def undetermined(self) -> bool:
+        """Whether nothing but all of the motion together tells a size that every part of it should have."""
+        return not self.tested and not self.runs
+
+    @property
     def words(self) -> str:
         """In a sentence."""
+        if self.runs:
+            return f"it is there in run {', '.join(self.runs)} only: no other path tells its size"
         if not self.tested:
-            return ""
+            return f"by themselves, no two {'paths' if self.paths else PARTS} tell its size"
         telling = self.stderr < CONSISTENCY.telling
         shares = ", ".join(f"{100 * share:.0f}" for share in self.size[telling])
-        return f"by itself, each path gives {shares} % of the size from all"
+        if self.paths:
+            return f"by itself, each path gives {shares} % of the size from all"
+        return f"by themselves, {PARTS} give {shares} % of the size from all; no other path was recorded"
 
 
 def agreement(selected: SelectedCauses, candidate: int) -> PathAgreement:
@@ -69,7 +85,8 @@ def agreement(selected: SelectedCauses, candidate: int) -> PathAgreement:
         size, error = _factor(block.scaled(problem.scale), columns, own, others, (precision, mean), best.noise)
         sizes.append(size)
         errors.append(error)
-    return PathAgreement(np.array(sizes), np.array(errors))
+    paths = len(set(selected.rows.run.tolist())) > 1
+    return PathAgreement(np.array(sizes), np.array(errors), paths, selected.rows.layout.placed[candidate].runs)
 
 
 def _factor(

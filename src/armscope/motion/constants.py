@@ -17,6 +17,11 @@ class CheckRules(Constants):
     rows_per_parameter: int = constant(
         2, "numbers for each value of friction and masses", "judgement: fewer fit anything"
     )
+    well_excited: float = constant(
+        100.0,
+        "condition number of what a motion tells of masses, beyond which it is said",
+        "convention: of exciting motions (Gautier & Khalil 1992); three real sets and a generated one have 3 to 7",
+    )
 
 
 @dataclass(frozen=True)

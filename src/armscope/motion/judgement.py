@@ -15,7 +15,9 @@ from armscope.motion.causes import PlacedCause
 from armscope.motion.confounding import gains_instead
 from armscope.motion.consistency import PathAgreement, agreement
 from armscope.motion.constants import TELLING
+from armscope.motion.doubts import doubt_of
 from armscope.motion.intervals import Sureness, covariance_of
+from armscope.motion.lasting import LastingTorque
 from armscope.motion.layout import OWN
 from armscope.motion.selection import SelectedCauses
 from armscope.motion.verdict import FoundCause, JointBackground, UnexplainedTorque
@@ -68,6 +70,7 @@ def _found(
         physics=placed.cause.physics,
         confirm=placed.cause.confirm,
         cure=cure(placed, parameters, layout.arm),
+        doubt=doubt_of(selected, number, agreed),
     )
 
 
@@ -164,12 +167,23 @@ def joint_backgrounds(selected: SelectedCauses, sure: Sureness) -> tuple[JointBa
     return tuple(told)
 
 
-def unexplained(found: Sequence[FoundCause]) -> UnexplainedTorque:
-    """The largest free curve, if one is not minor."""
+def unexplained(found: Sequence[FoundCause], lasting: Sequence[LastingTorque]) -> UnexplainedTorque:
+    """The largest free curve, if one is not minor; else the largest torque that lasts and has no law at all."""
     curves = [cause for cause in found if cause.nameless and not cause.minor]
-    if not curves:
-        return UnexplainedTorque(False)
-    return UnexplainedTorque(True, curves[0].location, curves[0].driver, curves[0].title)
+    if curves:
+        return UnexplainedTorque(True, curves[0].location, curves[0].driver, curves[0].title)
+    if lasting:
+        return UnexplainedTorque(True, f"joint {lasting[0].joint + 1}", lasting[0].driver, lasting_words(lasting[:1]))
+    return UnexplainedTorque(False)
+
+
+def lasting_words(lasting: Sequence[LastingTorque]) -> str:
+    """What lasts and has no law, joint by joint, in a sentence without its full stop."""
+    told = [
+        f"{percent(each.of_torque)} of the torque of joint {each.joint + 1}, following the {each.driver}"
+        for each in lasting
+    ]
+    return f"something lasts that has no law here: {'; '.join(told)}"
 
 
 @dataclass(frozen=True)
@@ -217,7 +231,7 @@ def answer_of(found: Sequence[FoundCause], left: UnexplainedTorque, errors: Held
         Both.
     """
     if not found:
-        return "nothing missing", False
+        return ("cannot tell", True) if left.present else ("nothing missing", False)
     if errors.no_answer:
         return "cannot tell", True
     named = [cause for cause in found if not cause.nameless and not cause.minor]
@@ -226,9 +240,21 @@ def answer_of(found: Sequence[FoundCause], left: UnexplainedTorque, errors: Held
     return "explained", True
 
 
-def headline(found: Sequence[FoundCause], errors: HeldOutErrors) -> str:
-    """The largest causes with what each has of the torque that friction and rotors leave, the others by family."""
+def headline(found: Sequence[FoundCause], errors: HeldOutErrors, lasting: Sequence[LastingTorque] = ()) -> str:
+    """The largest causes with what each has of the torque that friction and rotors leave, the others by family.
+
+    Args:
+        found: the causes, largest first.
+        errors: on motion that took no part.
+        lasting: what lasts and has no law, largest first.
+
+    Returns:
+        A sentence or some.
+    """
     main = [cause for cause in found if not cause.minor]
+    beyond = f"{capitalised(lasting_words(lasting[:1]))}. " if lasting else ""
+    if not found and lasting:
+        return f"{beyond}No cause of the library explains it. {errors.words()}"
     if not found:
         met = f"{ON_HELD_OUT} the torque is met to {rounded(100 * errors.anew)} %."
         return f"Nothing is missing beyond friction and rotors of the joints. {met}"
@@ -237,8 +263,10 @@ def headline(found: Sequence[FoundCause], errors: HeldOutErrors) -> str:
     if errors.no_answer:
         doubt = "Cannot tell what is missing: nothing that was found helps on motion that took no part"
         return f"{doubt}. The reading that fits best: {clause(told[0])}. {errors.words()}"
-    causes = "; ".join(f"{clause(c)} – {percent(c.share)}{of_what[n]}" for n, c in enumerate(told))
-    return f"{capitalised(causes)}. {_further(rest)}{errors.words()}"
+    causes = "; ".join(
+        f"{clause(c)} – {percent(c.share)}{of_what[n]}{', in doubt' if c.doubt else ''}" for n, c in enumerate(told)
+    )
+    return f"{capitalised(causes)}. {_further(rest)}{beyond}{errors.words()}"
 
 
 ON_HELD_OUT = "On held-out motion"

@@ -13,7 +13,7 @@ from armscope.motion import catalogue
 from armscope.motion.causes import Cause, PlacedCause, Seen
 from armscope.motion.constants import LIBRARY
 from armscope.motion.laws import Law
-from armscope.robot.dynamics import leaning_gravity
+from armscope.robot.dynamics import leaning_gravity, moved_centre
 
 
 def place_masses(seen: Seen) -> Iterator[PlacedCause]:
@@ -26,7 +26,7 @@ def place_masses(seen: Seen) -> Iterator[PlacedCause]:
             heavier[own, 0] = arm.inertial[own] / mass
             yield from _inertial(seen, catalogue.LINK_MASS, place, (("mass", "kg"),), heavier)
         if arm.n_links > 1:
-            first, second = identity[:, 10 * link + 1 : 10 * link + 4], identity[:, 10 * link + 4 : 10 * link + 10]
+            first, second = identity[:, own] @ moved_centre(arm.inertial[own]), identity[:, 10 * link + 4 : own.stop]
             moments = tuple((f"m{axis}", "kg m") for axis in "xyz")
             yield from _inertial(seen, catalogue.LINK_CENTRE, place, moments, first)
             names = tuple((name, "kg m^2") for name in ("Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz"))

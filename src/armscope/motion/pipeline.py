@@ -11,7 +11,7 @@ import numpy as np
 
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Progress, unheard
-from armscope.motion.check import check_motions, check_rows
+from armscope.motion.check import check_motions, refuse_few
 from armscope.motion.constants import LIBRARY
 from armscope.motion.cutoff import chosen_cutoff
 from armscope.motion.holding_out import (
@@ -25,6 +25,7 @@ from armscope.motion.holding_out import (
     own_fold,
     waterfall,
 )
+from armscope.motion.identifiable import identifiable, little_excited
 from armscope.motion.intervals import Sureness, covariance_of, level_told, sureness
 from armscope.motion.judgement import (
     HeldOutErrors,
@@ -32,8 +33,10 @@ from armscope.motion.judgement import (
     found_causes,
     headline,
     joint_backgrounds,
+    lasting_words,
     unexplained,
 )
+from armscope.motion.lasting import lasting_torques
 from armscope.motion.layout import TorqueLayout
 from armscope.motion.library import place_causes
 from armscope.motion.model import MotionModel, fitted_model
@@ -50,6 +53,7 @@ from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.diagnosis import Atlas
 from armscope.verdict.schema import Notice
+from armscope.verdict.wording import capitalised
 
 
 @dataclass(frozen=True)
@@ -138,11 +142,12 @@ def diagnose_motion(
     how, first = chosen_cutoff(arm, train, settings.cutoff)
     seen = replace(seen_in(arm, train, LIBRARY.still_rad), waves=first.waves, motion_hz=how.motion_hz)
     layout = TorqueLayout(arm, tuple(place_causes(seen)), motions.kind == "current")
+    refuse_few(layout, sum(how.rows_of(len(stretch)) for stretch in train), motions.source)
     runs = tuple(dict.fromkeys(stretch.run for stretch in train))
     weighing = lambda text, share: progress(text, 0.1 + 0.6 * share)
     selected = tenable(select_causes(layout, train, how, runs, weighing, first.model), how.rate)
     layout = selected.rows.layout
-    notices += [*told, *check_rows(selected.rows, motions.source)]
+    notices += [*told, *little_excited(selected)]
     progress("measuring on motion that took no part", 0.75)
     apart = None
     if test:
@@ -153,7 +158,7 @@ def diagnose_motion(
     verdict = replace(
         verdict,
         preparation=how.words,
-        notices=tuple(notices),
+        notices=(*notices, *verdict.notices),
         samples=len(motions),
         runs=runs,
         seconds=time.perf_counter() - started,
@@ -205,13 +210,14 @@ def _judged(
     found = [cause for _, cause in numbered]
     order = [number for number, _ in numbered]
     steps = waterfall(selected, parts, order, [cause.title for cause in found])
-    left = unexplained(found)
+    lasting = lasting_torques(selected)
+    left = unexplained(found, lasting)
     errors = HeldOutErrors(held_out.background, held_out.model, steps[-1].held_out)
     answer, mismatch = answer_of(found, left, errors)
     sizes = {family.name: share for family, share in zip(selected.space.families, _sizes(selected), strict=True)}
     verdict = MotionVerdict(
         answer=answer,
-        headline=headline(found, errors),
+        headline=headline(found, errors, lasting),
         mismatch=mismatch,
         effects=tuple(found),
         unexplained=left,
@@ -220,9 +226,9 @@ def _judged(
         held_out=held_out,
         fitted=steps[-1],
         waterfall=steps,
-        identifiable=_identifiable(selected),
+        identifiable=identifiable(selected),
         preparation="",
-        notices=(),
+        notices=(Notice("lasting torque", f"{capitalised(lasting_words(lasting))}."),) if len(lasting) > 1 else (),
         rows=len(selected.rows),
         samples=0,
         runs=(),
@@ -247,18 +253,3 @@ def _that_others_tell(
 def _sizes(selected: SelectedCauses) -> list[float]:
     families = zip(selected.space.families, selected.best.background, strict=True)
     return [float(family.label(size)) for family, size in families]
-
-
-def _identifiable(selected: SelectedCauses) -> dict[str, float]:
-    """How many combinations of inertial parameters the motion tells, and their condition number."""
-    G = selected.problem.equations.G
-    inertial = selected.rows.layout.inertial
-    own = G[np.ix_(inertial, inertial)]
-    scale = np.sqrt(np.maximum(np.diag(own), 1e-300))
-    values = np.sqrt(np.maximum(np.linalg.eigvalsh(own / np.outer(scale, scale)), 0.0))
-    telling = values[values > LIBRARY.redundant * values.max()]
-    return {
-        "parameters": float(len(inertial)),
-        "combinations": float(len(telling)),
-        "condition": float(telling.max() / telling.min()),
-    }

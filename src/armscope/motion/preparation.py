@@ -49,6 +49,10 @@ class Preparation:
         """Samples left out at both ends of a stretch."""
         return int(np.ceil(FILTER.edge_s * self.rate))
 
+    def rows_of(self, samples: int) -> int:
+        """How many rows a stretch of samples gives."""
+        return len(range(self.edge, samples - self.edge, self.every))
+
     def smoothed(self, positions: Array) -> Array:
         """(N, m) positions through a zero-phase low-pass at their own cut-off."""
         return without_lag(positions, self.position_cutoff, self.rate, 15 * self.every)

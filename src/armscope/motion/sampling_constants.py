@@ -19,6 +19,11 @@ class TimingRules(Constants):
         "share of what angle and velocity disagree by that must go for time to be rebuilt from them",
         "judgement: whole steps always fit a little better; measured on the Panda 0.1, on the UR10e 1.0",
     )
+    slower: float = constant(
+        1.2,
+        "a run sampled more slowly than the common rate by this factor has its positions laid by a spline",
+        "judgement: beyond jitter",
+    )
     gap: float = constant(
         5.0,
         "a longer step than this parts a run in two",

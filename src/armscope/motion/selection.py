@@ -22,8 +22,9 @@ from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.preparation import Preparation
 from armscope.motion.rows import MotionRows, SoFar, build_rows, stated_model
 from armscope.motion.space import build_space
+from armscope.motion.sums import Earlier, JointSums, sums_by_joint
 from armscope.motion.timing import Stretch
-from armscope.motion.weights import JointSums, TorqueWeights, estimate_weights, left_apart, sums_by_joint, weighed
+from armscope.motion.weights import TorqueWeights, estimate_weights, left_apart, weighed
 
 SCANNED = (catalogue.STRIBECK, catalogue.DELAY, catalogue.COMPLIANCE)
 """Causes whose law holds a number that is fitted by its slope."""
@@ -112,13 +113,13 @@ def select_causes(
         space = build_space(layout, np.sqrt(np.mean(rows.torque**2, axis=0)), how.rate)
         progress("weighing causes", share + 0.15)
         if selected is None:
-            first = chosen(rows, _start(rows), block, space)
-            found, last = None, (first.best, first.best.chosen)
-            weights = estimate_weights(rows, first.residuals)
+            selected = chosen(rows, _start(rows), block, space)
+            found, last = None, (selected.best, selected.best.chosen)
+            weights = estimate_weights(rows, selected.residuals)
         else:
             found, last = selected.best.candidates, (selected.best, selected.best.chosen)
             weights = estimate_weights(rows, selected.residuals)
-        selected = chosen(rows, weights, block, space, last)
+        selected = chosen(rows, weights, block, space, last, selected)
         finer = refined(selected)
         if finer is None and (selected.best.candidates == found or number + 1 >= NOISE.rounds):
             break
@@ -166,6 +167,7 @@ def chosen(
     block: Indices,
     space: ModelSpace,
     before: tuple[Hypothesis, Sequence[SelectedEffect]] | None = None,
+    earlier: SelectedCauses | None = None,
 ) -> SelectedCauses:
     """The selection at given weights.
 
@@ -175,11 +177,13 @@ def chosen(
         block: (K,) number of each row's block.
         space: what competes.
         before: a hypothesis found on much the same sums, and those of its effects to start from.
+        earlier: a selection on the same rows and blocks, whose columns may be other functions.
 
     Returns:
         What won.
     """
-    by_joint = sums_by_joint(rows, weights.row, block)
+    known = None if earlier is None else Earlier(earlier.rows, earlier.weights.row, earlier.by_joint)
+    by_joint = sums_by_joint(rows, weights.row, block, known)
     blocks = [weighed(rows.layout, parts, weights) for parts in by_joint]
     problem = build_problem(space, total(blocks), least_noise=0.5 * PRIOR.unit)
     search = Search.on(problem)

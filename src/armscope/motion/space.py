@@ -48,9 +48,12 @@ def build_space(layout: TorqueLayout, torque: Array, rate: float, barred: frozen
 
 def _candidates(layout: TorqueLayout, barred: frozenset[int]) -> tuple[Candidate, ...]:
     placed = layout.placed
+    beside: dict[str, list[int]] = {}
+    for number, cause in enumerate(placed):
+        beside.setdefault(cause.location, []).append(number)
     candidates = []
     for number, (cause, columns) in enumerate(zip(placed, layout.columns, strict=True)):
-        excludes = frozenset(n for n, other in enumerate(placed) if n != number and _clash(cause, other))
+        excludes = frozenset(n for n in beside[cause.location] if n != number and _clash(cause, placed[n]))
         candidates.append(
             Candidate(
                 kind=cause.cause.name,
@@ -106,9 +109,7 @@ OWNS = {catalogue.BALANCER: catalogue.OFFSET}
 
 
 def _clash(one: PlacedCause, other: PlacedCause) -> bool:
-    """Whether two causes can't stand side by side: two forms of one, or a free curve and what it contains."""
-    if one.location != other.location:
-        return False
+    """Whether causes at one place can't stand side by side: two forms of one, or a free curve and what it contains."""
     if one.is_curve and other.is_curve:
         return one.driver == other.driver
     if one.is_curve or other.is_curve:

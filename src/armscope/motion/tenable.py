@@ -18,6 +18,7 @@ from armscope.inference.problem import Problem, SelectedEffect
 from armscope.motion import catalogue
 from armscope.motion.consistency import agreement
 from armscope.motion.constants import CONSISTENCY
+from armscope.motion.doubts import motion_hz, swing_hz
 from armscope.motion.layout import OWN
 from armscope.motion.selection import SelectedCauses, chosen
 from armscope.motion.space import build_space
@@ -42,12 +43,15 @@ def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
         barred |= wrong
         space = build_space(selected.rows.layout, torque, rate, barred)
         kept = [effect for effect in selected.best.chosen if effect.candidate not in barred]
-        selected = chosen(selected.rows, selected.weights, selected.block, space, (selected.best, kept))
+        selected = chosen(selected.rows, selected.weights, selected.block, space, (selected.best, kept), selected)
     return selected
 
 
 def _impossible(selected: SelectedCauses) -> Iterator[int]:
-    """Friction or rotors below zero, the stated part counted in, by more than two standard errors."""
+    """Friction or rotors below zero, the stated part counted in, by more than two standard errors; links that swing.
+
+    A link that swings on its drive more slowly than its motor moves is not where motor and torque put it.
+    """
     layout, stated = selected.rows.layout, np.nan_to_num(selected.rows.layout.arm.stated_background)
     for number in selected.best.candidates:
         placed, columns = layout.placed[number], layout.columns[number]
@@ -61,6 +65,8 @@ def _impossible(selected: SelectedCauses) -> Iterator[int]:
         error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
         if np.any(selected.coefficients[columns] < least - CONSISTENCY.below * error):
             yield number
+        elif (swing := swing_hz(selected, number)) is not None and swing < motion_hz(selected, placed.joints[0]):
+            yield number  # no link follows a motor that moves to and fro faster than it swings itself
     yield from _in_place_of_friction(selected)
 
 

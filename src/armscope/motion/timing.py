@@ -145,11 +145,11 @@ def _rebuilt(motions: Motions, rows: np.ndarray, period: float) -> Array | None:
 
 
 def stretches(motions: Motions) -> Iterator[Stretch]:
-    """The runs on even grids, parted where samples are missing; all at one rate."""
+    """The runs on even grids, parted where samples are missing; all at one rate, that of the middle one of them."""
     usual = {}
     for run in motions.runs:
         usual[run] = float(np.median(np.diff(motions.time[motions.run == run])))
-    period = float(np.median(list(usual.values())))
+    period = float(np.percentile(list(usual.values()), 50, method="higher"))
     period = round(period, 4) if period > 5e-4 else period
     for run in motions.runs:
         rows = np.flatnonzero(motions.run == run)
@@ -169,6 +169,11 @@ def _even(motions: Motions, rows: np.ndarray, run: str, period: float) -> Stretc
         return np.column_stack([np.interp(grid, time, column) for column in values[rows].reshape(len(rows), -1).T])
 
     q, effort = laid(motions.q), laid(motions.effort)
+    if float(np.median(np.diff(time))) > TIMING.slower * period and len(rows) > 3:
+        from scipy.interpolate import make_interp_spline  # takes long to import: a table that is refused needs none
+
+        # straight lines between samples that are far apart have corners: acceleration that the arm never had
+        q = np.asarray(make_interp_spline(time, motions.q[rows], k=3)(grid))
     assert q is not None
     assert effort is not None
     payload = (

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -16,6 +16,9 @@ from armscope.core.files import read_json, write_json
 from armscope.core.types import Array, Number
 from armscope.verdict.effects import UNKNOWN, Alternative, Parameter
 from armscope.verdict.schema import Answer, Notice
+
+Format = Literal["armscope motion verdict 1"]
+FORMAT: Format = "armscope motion verdict 1"
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +44,7 @@ class FoundCause:
         physics: what happens, in one sentence.
         confirm: how to confirm it on the arm.
         cure: how to take it out.
+        doubt: why it is to be taken with care; empty where nothing speaks against it.
     """
 
     effect: str
@@ -50,17 +54,18 @@ class FoundCause:
     title: str
     minor: bool
     parameters: tuple[Parameter, ...]
-    rms: float
+    rms: Number
     unit: str
     joint: str
-    share: float
-    evidence_nats: float
+    share: Number
+    evidence_nats: Number
     alternatives: tuple[Alternative, ...] = ()
     carries_over: str = ""
     consistent: bool | None = None
     physics: str = ""
     confirm: str = ""
     cure: str = ""
+    doubt: str = ""
 
     @property
     def nameless(self) -> bool:
@@ -128,7 +133,7 @@ class HeldOutMotion:
 
 @dataclass(frozen=True)
 class UnexplainedTorque:
-    """Structure for which the library has no cause.
+    """Structure for which the library has no cause: a free curve, or what lasts and repeats beyond all of them.
 
     Attributes:
         present: whether there is any.
@@ -143,11 +148,12 @@ class UnexplainedTorque:
     description: str = ""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class MotionVerdict:
     """What verdict.json of a motion holds.
 
     Attributes:
+        format: the file's kind and version.
         answer: in two words.
         headline: the answer in one sentence.
         mismatch: whether the model misses something; None where the motion cannot tell.
@@ -169,23 +175,24 @@ class MotionVerdict:
         settings: what was asked for.
     """
 
+    format: Format = FORMAT
     answer: Answer
     headline: str
     mismatch: bool | None
     effects: tuple[FoundCause, ...]
     unexplained: UnexplainedTorque
     background: tuple[JointBackground, ...]
-    masses_share: float
+    masses_share: Number
     held_out: HeldOutMotion
     fitted: Step
     waterfall: tuple[Step, ...]
-    identifiable: dict[str, float]
+    identifiable: dict[str, Number]
     preparation: str
     notices: tuple[Notice, ...]
     rows: int
     samples: int
     runs: tuple[str, ...]
-    seconds: float = 0.0
+    seconds: Number = 0.0
     settings: dict[str, Any] = field(default_factory=dict)
 
     def to_json(self) -> dict[str, Any]:

@@ -11,7 +11,6 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
 from armscope.inference.linear_algebra import lower_cholesky, solve_lower
@@ -20,6 +19,8 @@ from armscope.measurement.robust import huber_weights
 from armscope.motion.constants import NOISE, PRIOR
 from armscope.motion.layout import TorqueLayout
 from armscope.motion.rows import MotionRows
+from armscope.motion.sampling_constants import FILTER
+from armscope.motion.sums import JointSums, sums_by_joint
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,57 +90,6 @@ def _autocorrelation_time(rows: MotionRows, left: Array) -> float:
     lags = np.arange(1, len(times) + 1)
     enough = np.flatnonzero(lags >= NOISE.window * np.maximum(times, 1.0))
     return float(max(times[enough[0]] if len(enough) else times[-1] if len(times) else 1.0, 1.0))
-
-
-@dataclass(frozen=True, eq=False)
-class JointSums:
-    """Sums over the rows of one joint's torque in one run and block, each row by its weight; N m.
-
-    Attributes:
-        joint: from 0.
-        run: its name.
-        at: (p_j,) which columns.
-        sums: of these columns.
-    """
-
-    joint: int
-    run: str
-    at: Indices
-    sums: NormalEquations
-
-
-def sums_by_joint(rows: MotionRows, row: Array, block: Indices) -> list[list[JointSums]]:
-    """Sums over the rows of each block, by joint; the response is the measured torque less the nominal one.
-
-    Args:
-        rows: K rows.
-        row: (K, m) how much each counts.
-        block: (K,) number of each row's block, from 0.
-
-    Returns:
-        Of each block those of its joints, and of its runs where causes differ by run.
-    """
-    runs = np.unique(rows.run) if rows.layout.differs_by_run else rows.run[:1]
-    found = []
-    for number in range(int(block.max()) + 1):
-        inside = block == number
-        there = [(str(run), inside & (rows.run == run) if len(runs) > 1 else inside) for run in runs]
-        pairs = [(run, which, j) for run, which in there if which.any() for j in range(row.shape[1])]
-        found.append([JointSums(j, run, rows.at[j], _sums(rows, row[:, j], which, j)) for run, which, j in pairs])
-    return found
-
-
-def _sums(rows: MotionRows, row: Array, among: NDArray[np.bool_], joint: int) -> NormalEquations:
-    columns, response = rows.columns[joint], rows.torque[:, joint] - rows.nominal[:, joint]
-    G, b, yy = np.zeros((columns.shape[1],) * 2), np.zeros(columns.shape[1]), 0.0
-    which = np.flatnonzero(among & (row > 0))
-    for some in np.array_split(which, max(-(-len(which) // NOISE.rows_at_once), 1)):
-        root = np.sqrt(row[some])
-        X, y = columns[some].astype(np.float64) * root[:, None], response[some] * root
-        G += X.T @ X
-        b += X.T @ y
-        yy += float(y @ y)
-    return NormalEquations(G, b, yy, float(row[which].sum()))
 
 
 def weighed(layout: TorqueLayout, parts: Iterable[JointSums], weights: TorqueWeights) -> NormalEquations:
@@ -215,7 +165,7 @@ def _plain(rows: MotionRows) -> TorqueWeights:
 
 def _solved(sums: NormalEquations, among: Indices) -> Array:
     scale = np.sqrt(np.maximum(np.diag(sums.G), 1e-300))
-    used = among[np.diag(sums.G)[among] > 0]
+    used = among[np.diag(sums.G)[among] > FILTER.rounding * sums.yy]  # of what moves nothing nothing is told
     G = sums.G[np.ix_(used, used)] / np.outer(scale[used], scale[used])
     factor = lower_cholesky(G, np.full(len(used), NOISE.ridge))
     coefficients = np.zeros(len(scale))

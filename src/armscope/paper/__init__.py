@@ -18,7 +18,7 @@ The way of a study, each step a pure function of the ones before:
     cross_check(residuals, fits)                                              # printed numbers anchoring did not use
     audit()                                                                   # printed against printed
 
-    rows = select_rows(recordings, run, first_id)                             # a real arm's
+    rows = recordings.of_runs([run], first_id)                                # a real arm's
     real_measurements(arm, rows, seed).measurements                           # for the same fits and tables
 
 Everything here is in mm and rad, as the paper's equations.

@@ -25,6 +25,7 @@ from armscope.errormodels import SwarmFit
 from armscope.errormodels.extended import ExtendedModel, ModelSet, with_products, with_regions
 from armscope.paper.measurements import Measurements, PoseSet
 from armscope.physics.model import Base
+from armscope.recordings import Recordings
 from armscope.recordings.columns import angle_columns
 from armscope.recordings.table import as_recordings
 from armscope.robot import Arm
@@ -65,7 +66,7 @@ def paper_closed_loop(
     for model in _extended(models, identification):
         candidates[model.name] = black_box_candidate(_error_model(arm, model, identification))
     if diagnosed:
-        candidates[DIAGNOSED] = _diagnosed(arm, identification)
+        candidates[DIAGNOSED] = diagnosed_candidate(arm, _recordings(identification))
     return remaining_errors(
         arm,
         candidates,
@@ -127,10 +128,23 @@ def _predictor(model: SwarmFit | ExtendedModel) -> Callable[[PoseSet], Array]:
     return lambda poses: model.predict(poses.inputs(model.features.spec))
 
 
-def _diagnosed(arm: Arm, identification: PoseSet) -> Corrector:
+def _recordings(identification: PoseSet) -> Recordings:
     columns = angle_columns(identification.motor_angles)
     measured = identification.nominal_mm + identification.errors_mm[0]
     columns |= {f"{axis}_mm": measured[:, n] for n, axis in enumerate("xyz")}
-    recordings = replace(as_recordings(pd.DataFrame(columns)), source="identification")
+    return replace(as_recordings(pd.DataFrame(columns)), source="identification")
+
+
+def diagnosed_candidate(arm: Arm, recordings: Recordings, pose: bool = False) -> Corrector:
+    """Physics as diagnosed on identification rows.
+
+    Args:
+        arm: the nominal arm.
+        recordings: the rows.
+        pose: full poses are corrected.
+
+    Returns:
+        The model, to predict and to correct.
+    """
     verdict = diagnose(arm, recordings, Settings(0, False, 0, False))
-    return physical_candidate(verdict.model, identified_on(arm, verdict.recordings))
+    return physical_candidate(verdict.model, identified_on(arm, verdict.recordings), pose)

@@ -7,31 +7,24 @@ same tool points are followed with a bent wrist, and identification poses of the
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation
 
-from armscope.compensation.black_box import ErrorModel
-from armscope.compensation.closed_loop import NO_MODEL
-from armscope.compensation.compensate import compensate_black_box, compensate_physical
+from armscope.compensation.closed_loop import NO_MODEL, Corrector, black_box_candidate
 from armscope.compensation.fitting import fit_error_model
 from armscope.compensation.path import WantedPath, as_path
-from armscope.compensation.physical import identified_on
-from armscope.compensation.result import Compensated
-from armscope.compensation.task import Options
 from armscope.core.averages import rms_distance
 from armscope.core.types import Array
-from armscope.diagnosis import Settings, diagnose
 from armscope.errormodels.extended import ModelSet
-from armscope.paper.closed_loop import DIAGNOSED
+from armscope.paper.closed_loop import DIAGNOSED, diagnosed_candidate
 from armscope.paper.measurements import Measurements
-from armscope.physics.model import predict, predict_orientation
 from armscope.recordings import Recordings
 from armscope.recordings.columns import angle_columns
-from armscope.recordings.table import as_recordings, unmeasured
+from armscope.recordings.table import as_recordings
 from armscope.robot import Arm, Chain, chain
 from armscope.robot.inverse import follow_path
 from armscope.world.poses import candidate_poses, choose_poses, joint_ranges
@@ -45,14 +38,6 @@ WRIST_MARGIN_RAD = 0.3
 CANDIDATES = 2000
 NOISE_MM, NOISE_MRAD = 0.03, 0.05
 """1-sigma per axis of a tracker with an orientation probe (assumed)."""
-
-
-@dataclass(frozen=True, eq=False)
-class _Model:
-    """Predicts points (N, 3), m, and orientations (N, 3, 3) at motor angles, and corrects paths."""
-
-    stand: Callable[[Array], tuple[Array, Array]]
-    compensate: Callable[[WantedPath], Compensated]
 
 
 def paper_full_pose(
@@ -88,7 +73,7 @@ def paper_full_pose(
     recordings = _measured(truth, errors, identification, np.random.default_rng(seed))
     fitted = _models(arm, recordings, models)
     if diagnosed:
-        fitted[DIAGNOSED] = _physics(arm, recordings)
+        fitted[DIAGNOSED] = diagnosed_candidate(arm, recordings, pose=True)
     rows = _rows(NO_MODEL, "identification", "fit", *_gap(_of(recordings), _nominal(arm, identification)))
     for name, angles in paths.items():
         real = _pose(truth.stand(angles, errors / truth.sigmas))
@@ -145,29 +130,12 @@ def _wanted(arm: Arm, angles: Array, name: str) -> WantedPath:
     return as_path(_table(angles, *_nominal(arm, angles)), f"trajectory {name}", arm)
 
 
-def _models(arm: Arm, recordings: Recordings, models: ModelSet) -> dict[str, _Model]:
+def _models(arm: Arm, recordings: Recordings, models: ModelSet) -> dict[str, Corrector]:
     fit = functools.partial(fit_error_model, arm, recordings)
     fitted = {spec.name: fit(spec) for spec in models.plain}
     fitted |= {f"{spec.name} with products": fit(spec, products=True) for spec in models.products}
     fitted |= {f"{spec.name}, {count} regions": fit(spec, regions=count) for spec, count in models.regions}
-    return {name: _black_box(model) for name, model in fitted.items()}
-
-
-def _black_box(model: ErrorModel) -> _Model:
-    return _Model(model.stand, lambda path: compensate_black_box(model, path, Options(pose=True)))
-
-
-def _physics(arm: Arm, recordings: Recordings) -> _Model:
-    """Diagnosed from positions; the orientation follows from what was found."""
-    verdict = diagnose(arm, recordings, Settings(0, False, 0, False))
-    identified, model = identified_on(arm, verdict.recordings), verdict.model
-
-    def stand(angles: Array) -> tuple[Array, Array]:
-        rows = unmeasured(angles, list(model.bases)[-1])
-        return predict(model, rows), predict_orientation(model, rows)
-
-    options = Options(frame="measurement", pose=True)
-    return _Model(stand, lambda path: compensate_physical(model, identified, path, options))
+    return {name: black_box_candidate(model, pose=True) for name, model in fitted.items()}
 
 
 def _pose(frames: Chain) -> tuple[Array, Array]:

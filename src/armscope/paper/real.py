@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.core.inputs import InputError, nearest
+from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.fitting.constants import STEPS
 from armscope.fitting.placement import FlangePoses, all_alike, place_frames
@@ -45,34 +45,6 @@ class RealStudy:
     base_position_m: Array
     base_rotation: Array
     tools_m: dict[str, Array]
-
-
-def select_rows(recordings: Recordings, run: str | None = None, first_id: int | None = None) -> Recordings:
-    """The rows of one run, from an id on (numbers), in their order.
-
-    Args:
-        recordings: all runs of a set.
-        run: which; None takes all.
-        first_id: the first row's id; None takes all.
-
-    Returns:
-        The rows.
-
-    Raises:
-        InputError: a run that the recordings don't have; nothing left.
-    """
-    keep = np.ones(len(recordings), dtype=bool)
-    if run is not None:
-        keep &= recordings.run == run
-        if not keep.any():
-            cure = nearest(run, set(recordings.run.tolist()))
-            raise InputError(recordings.source, "column run", run, "no row has this run", cure)
-    if first_id is not None:
-        numbers = np.array([float(text) if text.isdecimal() else np.nan for text in recordings.id])
-        keep &= numbers >= first_id
-        if not keep.any():
-            raise InputError(recordings.source, "column id", first_id, "no row has this id or a later one")
-    return recordings.rows(keep)
 
 
 def real_measurements(arm: Arm, recordings: Recordings, seed: int, count: int = 85) -> RealStudy:

@@ -129,8 +129,7 @@ def meaning(name: str) -> str:
 
 def _columns(errors: Array, chosen: list[int]) -> Array:
     mine = errors[:, chosen]
-    columns: Array = np.column_stack([np.ones(len(errors)), mine, np.abs(mine)])
-    return columns
+    return np.column_stack([np.ones(len(errors)), mine, np.abs(mine)])
 
 
 def _chosen(errors: Array, number: Array) -> list[int]:

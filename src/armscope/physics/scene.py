@@ -76,8 +76,7 @@ class Scene(LoadedArm):
         """(N,) D-H angle of the joint that the parallelogram drives, rad."""
         rows = self.arm.description.dh
         offset = 0.0 if rows is None else np.radians(rows.joints[LINKAGE_JOINT - 1].theta_offset_deg)
-        angle: Array = self.chain_angles[:, LINKAGE_JOINT - 1] + offset
-        return angle
+        return self.chain_angles[:, LINKAGE_JOINT - 1] + offset
 
     def amounts(self, parts: Sequence[Part]) -> dict[Direction, Array]:
         """How much (N,) of every direction all parts together do, SI units."""

@@ -86,6 +86,9 @@ def choose(
     around = around or Surroundings()
     pool = candidates(arm, n_candidates, around, seed, payload_kg)
     seen = shown(arm, pool.table, effects)
+    if seen.is_frame.all():
+        rule = "poses of this arm show nothing of them beside base and tool"
+        raise InputError("--effects", "", ", ".join(effects), rule, "Choose other effects.")
     jacobian = seen.jacobian(pool.table)
     try:
         rows = optimal(index, jacobian, count, np.random.default_rng(seed), starts)

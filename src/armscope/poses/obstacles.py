@@ -13,6 +13,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.poses.body import Capsule, Shape, collision_shapes, pieces
 from armscope.robot import Arm, chain
@@ -73,6 +74,9 @@ def refusals(arm: Arm, motor_angles: Array, around: Surroundings) -> NDArray[np.
 
     Returns:
         (N,) texts.
+
+    Raises:
+        InputError: links so thick that no two parts of the arm are apart.
     """
     from scipy.stats import qmc  # takes long to import: only where poses are chosen
 
@@ -81,6 +85,9 @@ def refusals(arm: Arm, motor_angles: Array, around: Surroundings) -> NDArray[np.
     frames = chain(arm, np.concatenate([probes, motor_angles]))
     radius = around.radius_of(arm)
     body = pieces(arm, frames, around.shapes_of(arm), radius)
+    if not body:
+        found = f"{1e3 * radius:.6g} mm"
+        raise InputError("--radius-mm", "", found, "links this thick would touch one another in every pose")
     reasons = np.full(PROBES + len(motor_angles), "", dtype="<U30")
     if around.tracker is not None:
         reasons[_hidden(body, frames.tool, around.tracker, radius)] = REASONS[2]

@@ -2,17 +2,27 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
 import pandas as pd
 
 from armscope.core.files import read_table
+from armscope.motion.verdict import FoundCause
 from armscope.proof.definitions import Name
-from armscope.verdict.effects import FoundEffect
+from armscope.verdict.effects import FoundEffect, Parameter
 from armscope.verdict.files import VERDICT, read_verdict
 
 PREDICTED, FAILURE = "test_predicted.csv", "failed.txt"
+Numbers = dict[str, tuple[float, float, str]]
+"""Value, standard error and unit by name."""
+
+
+def numbers_of(parameters: Iterable[Parameter]) -> Numbers:
+    """Fitted numbers by name."""
+    return {each.name: (each.value, each.stderr, each.unit) for each in parameters}
 
 
 @dataclass(frozen=True)
@@ -26,8 +36,26 @@ class NamedEffect:
     named_as: str
     rms_mm: float
     evidence_nats: float
-    parameters: dict[str, tuple[float, float, str]]
+    parameters: Numbers
     alternatives: tuple[Name, ...]
+
+    @staticmethod
+    def of(effect: FoundEffect | FoundCause) -> NamedEffect:
+        """An effect of a verdict on positions, or on a motion (which has no size at the tool), as scoring reads it."""
+        known, rms = (
+            (effect.named_as, effect.rms_at_tool_mm) if isinstance(effect, FoundEffect) else ("effect", math.nan)
+        )
+        return NamedEffect(
+            effect=effect.effect,
+            location=effect.location,
+            driver=effect.driver,
+            minor=effect.minor,
+            named_as=known,
+            rms_mm=rms,
+            evidence_nats=effect.evidence_nats,
+            parameters=numbers_of(effect.parameters),
+            alternatives=tuple((other.effect, other.location) for other in effect.alternatives),
+        )
 
     @property
     def name(self) -> Name:
@@ -61,26 +89,11 @@ def read_answer(folder: Path) -> Answer:
     verdict = read_verdict(folder / VERDICT)
     return Answer(
         world=folder.name,
-        claims=tuple(claim_of(effect) for effect in verdict.effects),
+        claims=tuple(map(NamedEffect.of, verdict.effects)),
         mismatch=verdict.mismatch,
         answer=verdict.answer,
         noise_mm=verdict.noise_mm,
         headline=verdict.headline,
         background_mm=verdict.background.rms_at_tool_mm,
         predicted=read_table(folder / PREDICTED),
-    )
-
-
-def claim_of(effect: FoundEffect) -> NamedEffect:
-    """An effect of a verdict as scoring reads it."""
-    return NamedEffect(
-        effect=effect.effect,
-        location=effect.location,
-        driver=effect.driver,
-        minor=effect.minor,
-        named_as=effect.named_as,
-        rms_mm=effect.rms_at_tool_mm,
-        evidence_nats=effect.evidence_nats,
-        parameters={p.name: (p.value, p.stderr, p.unit) for p in effect.parameters},
-        alternatives=tuple((other.effect, other.location) for other in effect.alternatives),
     )

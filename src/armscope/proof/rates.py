@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -106,15 +107,20 @@ def strength_table(effects: pd.DataFrame) -> pd.DataFrame:
     return _found_over(alone, "strength", alone["strength"].astype(float).round(1))
 
 
+def _groups(table: pd.DataFrame, by: Any, **options: Any) -> Iterator[tuple[str, Any, pd.DataFrame]]:
+    """Groups of the worlds of fixed seeds, of fresh ones, of all: seeds, key, rows."""
+    for seeds in SEEDS:
+        for key, group in of_seeds(table, seeds).groupby(by, **options):
+            yield seeds, key, group
+
+
 def _found_over(effects: pd.DataFrame, name: str, over: pd.Series) -> pd.DataFrame:
     """By seeds and ``over``: found (seen, right), its rate, and how often the oracle finds it."""
     rows: list[Row] = []
-    for seeds in SEEDS:
-        chosen = of_seeds(effects, seeds)
-        for at, group in chosen.groupby(over.loc[chosen.index]):
-            for column in ("seen", "right"):
-                counted = vars(rate(group[column])) | {"oracle": group["oracle_power"].mean()}
-                rows.append({"seeds": seeds, name: at, "found": column} | counted)
+    for seeds, at, group in _groups(effects, over):
+        for column in ("seen", "right"):
+            counted = vars(rate(group[column])) | {"oracle": group["oracle_power"].mean()}
+            rows.append({"seeds": seeds, name: at, "found": column} | counted)
     columns = ["seeds", name, "found", "cases", "right", "estimate", "low", "high", "oracle"]
     return pd.DataFrame(rows, columns=columns)
 
@@ -149,10 +155,8 @@ def evidence_table(names: pd.DataFrame) -> pd.DataFrame:
     named = names[names["effect"] != UNKNOWN]
     bins = pd.cut(named["evidence_nats"].astype(float), EVIDENCE_BINS)
     rows: list[Row] = []
-    for seeds in SEEDS:
-        chosen = of_seeds(named, seeds)
-        for span, group in chosen.groupby(bins.loc[chosen.index], observed=True):
-            rows.append({"seeds": seeds, "evidence_nats": _span(span), **vars(rate(group["right"]))})
+    for seeds, span, group in _groups(named, bins, observed=True):
+        rows.append({"seeds": seeds, "evidence_nats": _span(span), **vars(rate(group["right"]))})
     return pd.DataFrame(rows, columns=["seeds", "evidence_nats", *RATE])
 
 
@@ -165,15 +169,14 @@ def _span(nats: pd.Interval) -> str:
 def outcomes_table(cases: Cases) -> pd.DataFrame:
     """What became of each category: category, seeds, score, cases, right, estimate, low, high."""
     rows: list[Row] = []
-    for seeds in SEEDS:
-        for category, group in of_seeds(cases.worlds, seeds).groupby("category", sort=False):
-            scores = {name: group[name] for name in OUTCOMES} | {
-                "no wrong name": group["wrong_names"] == 0,
-                "cannot tell": group["answer"] == "cannot tell",
-                "nothing missing": group["answer"] == "nothing missing",
-                "failed": group["failed"] != "",
-            }
-            rows += [{"category": category, "seeds": seeds, "score": s, **vars(rate(v))} for s, v in scores.items()]
+    for seeds, category, group in _groups(cases.worlds, "category", sort=False):
+        scores = {name: group[name] for name in OUTCOMES} | {
+            "no wrong name": group["wrong_names"] == 0,
+            "cannot tell": group["answer"] == "cannot tell",
+            "nothing missing": group["answer"] == "nothing missing",
+            "failed": group["failed"] != "",
+        }
+        rows += [{"category": category, "seeds": seeds, "score": s, **vars(rate(v))} for s, v in scores.items()]
     return pd.DataFrame(rows)
 
 
@@ -181,18 +184,10 @@ def effect_outcomes_table(cases: Cases) -> pd.DataFrame:
     """How the concealed effects of each category ended: category, seeds, outcome, effects, share."""
     story = cases.effects[~cases.effects["minor"].astype(bool)]
     rows: list[Row] = []
-    for seeds in SEEDS:
-        for category, group in of_seeds(story, seeds).groupby("category", sort=False):
-            for outcome, count in group["outcome"].value_counts().items():
-                rows.append(
-                    {
-                        "category": category,
-                        "seeds": seeds,
-                        "outcome": outcome,
-                        "effects": count,
-                        "share": count / len(group),
-                    }
-                )
+    for seeds, category, group in _groups(story, "category", sort=False):
+        for outcome, count in group["outcome"].value_counts().items():
+            row: Row = {"category": category, "seeds": seeds, "outcome": outcome, "effects": count}
+            rows.append(row | {"share": count / len(group)})
     return pd.DataFrame(rows, columns=["category", "seeds", "outcome", "effects", "share"])
 
 
@@ -211,15 +206,14 @@ def outside_table(cases: Cases) -> pd.DataFrame:
 def held_out_table(worlds: pd.DataFrame) -> pd.DataFrame:
     """Held-out RMS over the true model's by category: median, nine in ten, price, share within 5 %."""
     rows: list[Row] = []
-    for seeds in SEEDS:
-        for category, group in of_seeds(worlds, seeds).groupby("category", sort=False):
-            ratio = group["held_out_ratio"]
-            rows.append(
-                {"category": category, "seeds": seeds, "worlds": len(ratio), "median": ratio.median()}
-                | {"nine_in_ten_below": ratio.quantile(0.9, interpolation="higher"), "largest": ratio.max()}
-                | {"price_of_fitting": group["price_of_fitting"].median()}
-                | {"within_5_percent": float((ratio <= HELD_OUT_TOLERANCE).mean())}
-            )
+    for seeds, category, group in _groups(worlds, "category", sort=False):
+        ratio = group["held_out_ratio"]
+        rows.append(
+            {"category": category, "seeds": seeds, "worlds": len(ratio), "median": ratio.median()}
+            | {"nine_in_ten_below": ratio.quantile(0.9, interpolation="higher"), "largest": ratio.max()}
+            | {"price_of_fitting": group["price_of_fitting"].median()}
+            | {"within_5_percent": float((ratio <= HELD_OUT_TOLERANCE).mean())}
+        )
     return pd.DataFrame(rows)
 
 
@@ -245,22 +239,8 @@ def wrong_worlds(cases: Cases) -> pd.DataFrame:
     silent = (worlds["category"] == "faint") & (worlds["wrong_names"] == 0) & (worlds["failed"] == "")
     good = worlds["exact"].where(~worlds["category"].isin(ROUGH), worlds["right"])
     wrong = worlds[~good.astype(bool) & ~silent]
-    columns = [
-        "world",
-        "category",
-        "fresh",
-        "arm",
-        "rows",
-        "weakest",
-        "left_out",
-        "rough",
-        "concealed",
-        "said",
-        "answer",
-        "held_out_ratio",
-        "failed",
-    ]
-    return wrong[columns]
+    columns = "world category fresh arm rows weakest left_out rough concealed said answer held_out_ratio failed"
+    return wrong[columns.split()]
 
 
 def tables(cases: Cases, seed: int = 0) -> dict[str, pd.DataFrame]:

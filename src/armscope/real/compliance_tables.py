@@ -13,7 +13,7 @@ from scipy.stats import t as t_distribution
 from armscope.core.location import Location
 from armscope.core.types import Array, unheard
 from armscope.real.compliances import BLOCKS, Agreement, Give, compare_compliances, fit_give
-from armscope.real.reference import ReferenceCompliances, rows_of_run
+from armscope.real.reference import ReferenceCompliances
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -68,7 +68,7 @@ def compare_runs(
         rows = replace(recordings, orientation=None) if learned == POINTS else recordings
         if learned == ORIENTATIONS and not recordings.oriented.any():
             continue
-        found = {run: fit_give(arm, rows_of_run(rows, run), run) for run in reference.runs}
+        found = {run: fit_give(arm, rows.of_runs([run]), run) for run in reference.runs}
         for name, runs in reference.together.items():
             found[name] = fit_give(arm, rows.rows(np.isin(rows.run, runs)), name)
         tell(

@@ -25,7 +25,7 @@ from armscope.measurement.orientations import ORIENTATIONS
 from armscope.paper.printed import IDENTIFICATION
 from armscope.paper.real import real_measurements
 from armscope.physics.model import predict
-from armscope.real.reference import ReferenceRun, rows_of_run
+from armscope.real.reference import ReferenceRun
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -69,7 +69,7 @@ def measure_run(
     Returns:
         Held-out errors by model and split, mm, and what was named on each split.
     """
-    table = rows_of_run(recordings, reference.run, reference.first_id)
+    table = recordings.of_runs([reference.run], reference.first_id)
     seeds = range(reference.splits)
     tell(f"{reference.name}: {len(table)} rows, {len(seeds)} splits")
     rows = [

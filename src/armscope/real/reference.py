@@ -7,8 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from armscope.core.inputs import InputError, Strict, load, nearest
-from armscope.recordings import Recordings
+from armscope.core.inputs import Strict, load
 
 Millimetres = Annotated[float, Field(gt=0)]
 Count = Annotated[int, Field(ge=1)]
@@ -104,27 +103,3 @@ def load_reference(path: Path | str) -> Reference:
         InputError: it says something that can't be.
     """
     return load(Reference, path)
-
-
-def rows_of_run(recordings: Recordings, run: str, first_id: int | None = None) -> Recordings:
-    """The rows of a run, from an id on.
-
-    Args:
-        recordings: all runs of a set.
-        run: which.
-        first_id: the first row's id; None takes all.
-
-    Returns:
-        The rows.
-
-    Raises:
-        InputError: there are none.
-    """
-    kept = recordings.run == run
-    if not kept.any():
-        raise InputError(recordings.source, "column run", run, "no row has it", nearest(run, recordings.run.tolist()))
-    if first_id is not None:
-        kept &= [text.isdecimal() and int(text) >= first_id for text in recordings.id]
-        if not kept.any():
-            raise InputError(recordings.source, "column id", first_id, "no row has this id or a later one")
-    return recordings.rows(kept)

@@ -22,7 +22,7 @@ from armscope.physics.model import Base, FittedModel, predict, predict_orientati
 from armscope.physics.scene import Part
 from armscope.real.compliance_tables import ORIENTATIONS, POINTS, half_width
 from armscope.real.compliances import as_heavy_as_recorded, compare_compliances, fit_give, gravity_as_recorded
-from armscope.real.reference import ReferenceCompliances, rows_of_run
+from armscope.real.reference import ReferenceCompliances
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -167,7 +167,7 @@ def rehearse_runs(
     found = []
     for learned in (POINTS, ORIENTATIONS) if recordings.oriented.any() else (POINTS,):
         rows = replace(recordings, orientation=None) if learned == POINTS else recordings
-        first, second = rows_of_run(rows, one), rows_of_run(rows, other)
+        first, second = rows.of_runs([one]), rows.of_runs([other])
         table = rehearse(arm, first, second, list(reference.microrad_per_nm), arms, seed)
         found.append(table.assign(learned=learned, one=one, other=other))
     return pd.concat(found, ignore_index=True)

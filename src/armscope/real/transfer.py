@@ -19,7 +19,7 @@ from armscope.diagnosis import Diagnosis, Settings, diagnose
 from armscope.fitting.transfer import transfer as carry_over
 from armscope.real.curves import turned_by_curves
 from armscope.real.protocol import ARMSCOPE
-from armscope.real.reference import ReferenceTransfer, rows_of_run
+from armscope.real.reference import ReferenceTransfer
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -42,8 +42,8 @@ def calibrated_transfer(arm: Arm, recordings: Recordings, transfer: ReferenceTra
     Returns:
         mm by level.
     """
-    learned = set_up(arm, rows_of_run(recordings, transfer.learned))
-    applied = _of_kind(set_up(arm, rows_of_run(recordings, transfer.applied)))
+    learned = set_up(arm, recordings.of_runs([transfer.learned]))
+    applied = _of_kind(set_up(arm, recordings.of_runs([transfer.applied])))
     start = placed(learned)
     own = placed(applied) if "base" in transfer.refitted else None
     found = {}
@@ -114,7 +114,7 @@ def learn(arm: Arm, recordings: Recordings, transfers: Sequence[ReferenceTransfe
     """
     settings = Settings(resamples=0, cross_validation=False, orientation=False)
     runs = dict.fromkeys(transfer.learned for transfer in transfers)
-    return {run: diagnose(arm, rows_of_run(recordings, run), settings) for run in runs}
+    return {run: diagnose(arm, recordings.of_runs([run]), settings) for run in runs}
 
 
 def measure_transfers(
@@ -138,7 +138,7 @@ def measure_transfers(
     """
     found = []
     for transfer in transfers:
-        rows = rows_of_run(recordings, transfer.applied)
+        rows = recordings.of_runs([transfer.applied])
         by_model = calibrated_transfer(arm, recordings, transfer)
         by_model |= diagnosed_transfer(verdicts[transfer.learned], rows, transfer)
         by_model |= curves_transfer(arm, verdicts[transfer.learned], rows)

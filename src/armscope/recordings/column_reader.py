@@ -14,6 +14,7 @@ from armscope.recordings.columns import (
     LARGEST_ANGLE_RAD,
     LARGEST_NUMBER,
     LARGEST_POSITION_M,
+    SMALLEST_SIGMA_M,
     UNITS,
     Names,
     column_named,
@@ -187,10 +188,14 @@ class ColumnReader:
         sigma = self.optional([f"sigma_{axis}_mm" for axis in "xyz"], UNITS["mm"])
         if sigma is None and isotropic is not None:
             sigma = np.repeat(isotropic, 3, axis=1)
-        if sigma is not None and ((sigma < 0) | (sigma > LARGEST_POSITION_M)).any():
-            row, axis = np.argwhere((sigma < 0) | (sigma > LARGEST_POSITION_M))[0]
+        impossible = (
+            None if sigma is None else ((sigma < SMALLEST_SIGMA_M) & (sigma != 0)) | (sigma > LARGEST_POSITION_M)
+        )
+        if sigma is not None and impossible is not None and impossible.any():
+            row, axis = np.argwhere(impossible)[0]
             column = "sigma_mm" if "sigma_mm" in self.table else f"sigma_{'xyz'[axis]}_mm"
-            rule = f"an uncertainty is not negative, and at most {LARGEST_POSITION_M / 1e3:g} km"
+            least, most = f"{SMALLEST_SIGMA_M * 1e3:g} mm (an atom)", f"{LARGEST_POSITION_M / 1e3:g} km"
+            rule = f"an uncertainty is not negative: 0 where it is not known, else {least} to {most}"
             raise self._error(int(row), column, sigma[row, axis] * 1e3, rule)
         return sigma
 

@@ -19,6 +19,9 @@ LARGEST_ANGLE_RAD = 4 * np.pi
 LARGEST_POSITION_M = 1e4
 """No instrument sees further, and tables with ten digits hold less than a micrometre up to here."""
 
+SMALLEST_SIGMA_M = 1e-10
+"""The size of an atom: no instrument is surer of a point. 0 stands for what is not known."""
+
 LARGEST_NUMBER = 1e15
 """No recorded quantity reaches it in its unit; what lies beyond stands for no value, or overflows when squared."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.core.inputs import InputError
+from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array
 from armscope.recordings.column_reader import ColumnReader
 from armscope.recordings.columns import Names, as_in_contract, column_named
@@ -100,6 +101,23 @@ class Recordings:
         }
         extra = None if self.extra is None else self.extra.iloc[which].reset_index(drop=True)
         return replace(self, **per_row, extra=extra)
+
+    def of_runs(self, runs: Collection[str], first_id: int | None = None) -> Recordings:
+        """The rows of some runs (none named: of all), from an id on.
+
+        Raises:
+            InputError: a run that no row has, or nothing left.
+        """
+        known = set(self.run.tolist())
+        for run in runs:
+            if run not in known:
+                raise InputError(self.source, "column run", run, "no row has this run", nearest(run, known))
+        kept = np.isin(self.run, [*runs]) if runs else np.ones(len(self), dtype=bool)
+        if first_id is not None:
+            kept &= [text.isdecimal() and int(text) >= first_id for text in self.id]
+            if not kept.any():
+                raise InputError(self.source, "column id", first_id, "no row has this id or a later one")
+        return self.rows(kept)
 
 
 def _numbered(ids: NDArray[np.str_], runs: NDArray[np.str_]) -> Array:

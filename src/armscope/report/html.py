@@ -14,6 +14,7 @@ import pandas as pd
 from markupsafe import Markup, escape
 
 from armscope.core.files import write_text
+from armscope.core.inputs import spelt_out
 from armscope.core.outputs import readable
 from armscope.verdict.wording import plain
 
@@ -37,7 +38,8 @@ _TEMPLATES.filters["plain"] = plain
 
 def render_page(template: str, **content: Any) -> str:
     """The HTML of ``templates/<template>`` filled with ``content``."""
-    return _TEMPLATES.get_template(template).render(embed=embed, beside=beside, table=html_table, **content)
+    html = _TEMPLATES.get_template(template).render(embed=embed, beside=beside, table=html_table, **content)
+    return spelt_out(html)
 
 
 def write_page(path: Path | str, template: str, **content: Any) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +12,7 @@ from cycler import cycler
 mpl.use("Agg")
 
 import matplotlib.pyplot as plt
+from matplotlib.axes import Axes
 from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
@@ -97,14 +98,48 @@ def _names_are_no_formulas(figure: Figure) -> None:
                 text.set_parse_math(False)
 
 
-def legend_above(figure: Figure, handles: Any = None, labels: Any = None, columns: int = 4) -> None:
+def legend_above(figure: Figure, handles: Iterable[Any] | None = None, columns: int = 4) -> None:
     """Put one legend above all panels, where it hides no data.
 
     Args:
         figure: with its panels drawn.
-        handles, labels: as matplotlib gives them.
+        handles: with their labels; those of the first panel if left out.
         columns: of the legend.
     """
-    if handles is None:
-        handles, labels = figure.axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=columns)
+    shown = figure.axes[0].get_legend_handles_labels()[0] if handles is None else list(handles)
+    figure.legend(handles=shown, loc="outside upper center", ncols=columns)
+
+
+def panel_grid(count: int, columns: int, size: tuple[float, float], **shared: Any) -> tuple[Figure, list[Axes]]:
+    """A figure of so many panels, row after row.
+
+    Args:
+        count: of panels.
+        columns: in a row, at most.
+        size: (2,) width and height of a panel, inches; the legend above them has room of its own.
+        shared: axes, as `sharex` and `sharey`.
+
+    Returns:
+        The figure and its panels.
+    """
+    columns = max(1, min(columns, count))
+    rows = max(1, -(-count // columns))
+    figure, panels = plt.subplots(
+        rows, columns, figsize=(size[0] * columns, size[1] * rows + 0.5), squeeze=False, **shared
+    )
+    for panel in panels.flat[count:]:
+        panel.set_visible(False)
+    return figure, list(panels.flat[:count])
+
+
+def in_margin(panel: Axes, y: float, words: str, colour: str = GREY, x: float = 1.02) -> None:
+    """Words beside a panel, at a value of its y axis.
+
+    Args:
+        panel: beside which.
+        y: the value.
+        words: small ones.
+        colour: of them.
+        x: where along the panel, 0 ... 1; beyond 1 on the right of it.
+    """
+    panel.text(x, y, words, transform=panel.get_yaxis_transform(), va="center", fontsize=7, color=colour)

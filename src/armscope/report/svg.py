@@ -15,6 +15,8 @@ from armscope.report.colours import INK, LINE, QUIET
 FONT = "system-ui, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
 LETTER = 0.56
 """Width of a letter in heights of its font, on average."""
+TINY = 1e-300
+"""Below it steps between ticks are no numbers any more."""
 
 
 @dataclass
@@ -216,7 +218,8 @@ def ticks(low: float, high: float, wanted: int = 5) -> list[float]:
 
 def nice(value: float) -> float:
     """The largest of 1, 2, 5, 10, 20, ... that does not exceed the value."""
-    power = 10.0 ** math.floor(math.log10(max(value, 1e-9)))
+    value = max(value, TINY)
+    power = 10.0 ** math.floor(math.log10(value))
     return float(max(step * power for step in (1, 2, 5) if step * power <= value * (1 + 1e-9)))
 
 

@@ -12,7 +12,7 @@ import pinocchio as pin
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.robot.arm_type import ArmType
-from armscope.robot.description import RobotDescription
+from armscope.robot.description import MOST_JOINTS, RobotDescription
 from armscope.robot.description_file import load_description
 from armscope.robot.model import TIP, dh_halves, pinocchio_model
 
@@ -103,6 +103,9 @@ def build_arm(description: RobotDescription) -> Arm:
     """The arm of a description."""
     model = pinocchio_model(description)
     n_joints = model.njoints - 1
+    if n_joints > MOST_JOINTS:
+        rule = f"motors are called q1 ... q{MOST_JOINTS}, and no chain of an arm is that long"
+        raise InputError(description.urdf or description.name, "", f"{n_joints} joints in a chain", rule)
     if description.dh is None:
         _check_motors(description, model)
     before, axis_turns = _joint_frames(model)
@@ -137,20 +140,20 @@ def _joint_frames(model: pin.Model) -> tuple[Array, Array]:
     """(before, turns): joint placements with the axis along z, and the turn of each joint's frame that does it."""
     turns = np.tile(np.eye(4), (model.njoints, 1, 1))
     before = np.empty((model.njoints - 1, 4, 4))
+    data = model.createData()
+    pin.computeJointJacobians(model, data, pin.neutral(model))
     for joint in range(1, model.njoints):
         if model.parents[joint] != joint - 1:
             raise InputError(model.name, model.names[joint], "a branch", "the joints must form one chain")
-        turns[joint, :3, :3] = _turn_to_z(_axis(model, joint))
+        turns[joint, :3, :3] = _turn_to_z(_axis(model, data, joint))
         before[joint - 1] = (
             _inverse_rotation(turns[joint - 1]) @ model.jointPlacements[joint].homogeneous @ turns[joint]
         )
     return before, turns
 
 
-def _axis(model: pin.Model, joint: int) -> Array:
-    """Axis of a revolute joint in its own frame."""
-    data = model.createData()
-    pin.computeJointJacobians(model, data, pin.neutral(model))
+def _axis(model: pin.Model, data: pin.Data, joint: int) -> Array:
+    """Axis of a revolute joint in its own frame; ``data`` holds the Jacobians."""
     local = np.reshape(pin.getJointJacobian(model, data, joint, pin.ReferenceFrame.LOCAL), (6, model.nv))
     return np.asarray(local[3:, model.joints[joint].idx_v])
 

@@ -20,12 +20,15 @@ Millimetres = Annotated[float, Field(ge=-LONGEST_MM, le=LONGEST_MM)]
 Length = Annotated[float, Field(gt=0, le=LONGEST_MM)]
 Point = tuple[Millimetres, Millimetres, Millimetres]
 
+MOST_JOINTS = 99
+"""Of a chain: motors are called q1 ... q99; the longest snake robots that are built have 30 to 40."""
 HEAVIEST_KG = 20_000.0
 """The heaviest robot arm that is sold weighs 11,000 kg and carries 2,300 kg (FANUC M-2000iA/2300, data sheet)."""
 STRONGEST_GRAVITY = 12.0
 """m/s2; on Earth 9.76 to 9.84 (International Gravity Formula 1980 and altitude); less on the Moon, none in orbit."""
-COARSEST_MM = 100.0
-"""1-sigma per axis: what is coarser than 0.1 m measures no arm (indoor radio positioning is that coarse)."""
+FINEST_MM, COARSEST_MM = 1e-4, 100.0
+"""1-sigma per axis: an interferometer on its stable table tells 0.1 um, an arm repeats a hundred times worse; what is
+coarser than 0.1 m measures no arm (indoor radio positioning is that coarse)."""
 LARGEST_RATIO = 1000.0
 """Of an actuation: gears of arms reduce by 30 to 320 (harmonic and cycloidal drives, makers' catalogues)."""
 ROUNDED = 1e-3
@@ -66,7 +69,9 @@ class DH(Strict):
         default="standard",
         description="standard: Rz(theta) Tz(d) Tx(a) Rx(alpha); modified: Rx(alpha) Tx(a) Rz(theta) Tz(d)",
     )
-    joints: tuple[DHRow, ...] = Field(min_length=1, description="one row per joint of the chain, from the base")
+    joints: tuple[DHRow, ...] = Field(
+        min_length=1, max_length=MOST_JOINTS, description="one row per joint of the chain, from the base"
+    )
 
 
 class LinkMass(Strict):
@@ -119,7 +124,7 @@ class Drive(Strict):
 class Instrument(Strict):
     """1-sigma per axis of the instrument and the robot's repeatability together."""
 
-    sigma_mm: float = Field(gt=0, le=COARSEST_MM, description="1-sigma per axis, mm")
+    sigma_mm: float = Field(ge=FINEST_MM, le=COARSEST_MM, description="1-sigma per axis, mm")
 
 
 class Parallelogram(Strict):

@@ -171,6 +171,28 @@ def inertial_parameters(model: pin.Model) -> Array:
     return np.concatenate([model.inertias[joint].toDynamicParameters() for joint in range(1, model.njoints)])
 
 
+def moved_centre(inertial: Array) -> Array:
+    """How a body's inertial parameters change as its centre of mass lies elsewhere, mass and inertia about it kept.
+
+    The inertia about the joint changes with it (Huygens and Steiner), along its slope.
+
+    Args:
+        inertial: (10,) `PARAMETERS` of the body; one without mass has no inertia to move.
+
+    Returns:
+        (10, 3) per kg m of the first moments.
+    """
+    mass, moment = inertial[0], inertial[1:4]
+    found = np.zeros((10, 3))
+    found[1:4] = np.eye(3)
+    if mass > 0:
+        for axis, unit in enumerate(np.eye(3)):
+            across = np.outer(moment, unit)
+            bent = (2 * moment[axis] * np.eye(3) - across - across.T) / mass
+            found[4:, axis] = bent[*np.array([[0, 0], [0, 1], [1, 1], [0, 2], [1, 2], [2, 2]]).T]
+    return found
+
+
 def leaning_gravity(down: Array) -> Array:
     """(2, 3) m/s^2 by which gravity ``down`` (3,), not zero, changes per rad about each of two axes across it."""
     level = np.linalg.svd(down[None] / np.linalg.norm(down))[2][1:]

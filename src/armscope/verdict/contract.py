@@ -9,7 +9,7 @@ from dataclasses import fields
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import numpy as np
-from pydantic import AliasChoices, BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict
 from pydantic.json_schema import GenerateJsonSchema
 
 from armscope.core.inputs import InputError, format_of, validate
@@ -41,20 +41,6 @@ class FilePart(BaseModel):
     model_config = ConfigDict(from_attributes=True)
 
 
-class ParameterFile(FilePart):
-    """A fitted number in its unit.
-
-    Attributes:
-        interval_95: the 95 % interval, from its standard error.
-    """
-
-    name: str
-    unit: str
-    value: Number
-    stderr: Number
-    interval_95: tuple[Number, Number] = Field(validation_alias=AliasChoices("interval_95", "interval"))
-
-
 class EffectFile(FilePart):
     """An effect that the evidence asks for; the attributes of `armscope.verdict.effects.FoundEffect`."""
 
@@ -65,7 +51,7 @@ class EffectFile(FilePart):
     named_as: Specific
     title: str
     minor: bool
-    parameters: tuple[ParameterFile, ...]
+    parameters: tuple[Parameter, ...]
     rms_at_tool_mm: Number
     share: Number
     evidence_nats: Number
@@ -178,7 +164,7 @@ def to_json(verdict: Verdict) -> dict[str, Any]:
         orientation=None if seen is None else OrientationFile(**vars(seen), held_out_rms_mrad=turned),
         fitted_rms_mm=BeforeAfter(before=verdict.residual_before_mm, after=verdict.residual_after_mm),
     )
-    return file.model_dump()
+    return file.model_dump(by_alias=True)
 
 
 def from_json(content: Any, source: object) -> Verdict:
@@ -191,16 +177,12 @@ def from_json(content: Any, source: object) -> Verdict:
     turned = seen.held_out_rms_mrad if seen else BeforeAfter(before=np.nan, after=np.nan)
     return Verdict(
         **{name: getattr(file, name) for name in _SAME if name != "effects"},
-        effects=tuple(_effect(effect) for effect in file.effects),
+        effects=tuple(in_memory(FoundEffect, effect) for effect in file.effects),
         held_out=in_memory(HeldOut, file.held_out_rms_mm, turn_before=turned.before, turn_after=turned.after),
         residual_before_mm=file.fitted_rms_mm.before,
         residual_after_mm=file.fitted_rms_mm.after,
         orientations=in_memory(Orientations, seen) if seen else None,
     )
-
-
-def _effect(effect: EffectFile) -> FoundEffect:
-    return in_memory(FoundEffect, effect, parameters=tuple(in_memory(Parameter, each) for each in effect.parameters))
 
 
 def in_memory(kind: type[Made], part: BaseModel, **changes: Any) -> Made:

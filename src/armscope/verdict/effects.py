@@ -8,6 +8,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from pydantic import computed_field
+from pydantic.dataclasses import dataclass as told_in_files
+
 from armscope.core.types import Array, Number
 
 Specific = Literal["effect", "region", "family"]
@@ -20,7 +23,7 @@ UNKNOWN = "unknown"
 """The family of what no known physics explains."""
 
 
-@dataclass(frozen=True)
+@told_in_files(frozen=True)
 class Parameter:
     """A fitted number in its file unit.
 
@@ -33,12 +36,13 @@ class Parameter:
 
     name: str
     unit: str
-    value: float
-    stderr: float
+    value: Number
+    stderr: Number
 
+    @computed_field(alias="interval_95")  # type: ignore[prop-decorator]
     @property
-    def interval(self) -> tuple[float, float]:
-        """95 % interval."""
+    def interval(self) -> tuple[Number, Number]:
+        """The 95 % interval, from its standard error."""
         return self.value - INTERVAL * self.stderr, self.value + INTERVAL * self.stderr
 
 
@@ -74,10 +78,7 @@ class Alternative:
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """What an effect does over its driver: (K,) driver values, the turn or shift there and its standard error.
-
-    ``periods``: the strongest waves per turn as (per_turn, amplitude), strongest first, for angles.
-    """
+    """What an effect does over its driver: (K,) driver values, the turn or shift there and its standard error."""
 
     driver: str
     driver_unit: str
@@ -85,7 +86,6 @@ class Curve:
     value: Array
     stderr: Array
     value_unit: str
-    periods: tuple[tuple[float, float], ...] = ()
     description: str = ""
 
 

@@ -106,7 +106,7 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], everywhere: bool
         family: of the cause.
         members: its effects, largest share first; those that are minor are counted, not told.
         everywhere: whether small errors of the family in the whole arm belong to it.
-        share: of these small errors; where it is the larger part, they are told first.
+        share: of these small errors; where it is the larger part, they are told first, beside what is a 20th of them.
 
     Returns:
         The clause.
@@ -116,6 +116,8 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], everywhere: bool
     if not told:
         return small
     more = len(members) - len(told)
+    if everywhere and told[0].share < TOLD * share:
+        return small
     if everywhere and share > sum(effect.share for effect in members) and family in _ALL:
         others = f" and {spelled(more)} more" if more else ""
         return f"{_ALL[family]}, most of all: {phrase(told[0])}{others}"

@@ -7,7 +7,7 @@ anything to them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Literal
 
 import numpy as np
@@ -16,7 +16,7 @@ from armscope.world.effects import LIBRARY
 from armscope.world.kinds import PAYLOAD
 from armscope.world.outside import OUTSIDE
 from armscope.world.rough import draw_broken
-from armscope.world.spec import ARMS, KINDS, NOISE_MM, Category, WorldSpec
+from armscope.world.spec import ARMS, KINDS, NOISE_MM, Category, Details, Recipe, WorldSpec, seeded
 
 STRENGTHS = (0.5, 1.0, 2.0, 3.0, 5.0, 10.0)
 FAINT = (2.0, 3.0, 4.0, 5.0, 6.5, 9.0)
@@ -30,8 +30,6 @@ COMMON_KINDS = (
     "axis_wobble", "link_bending", "base_compliance", "joint_coupling", "base_drift", "gear_mesh", "servo_lag",
 )  # fmt: skip
 """What real arms have together, the usual suspects twice."""
-Details = dict[str, object]
-Recipe = Callable[[np.random.Generator], Details]
 
 
 def catalogue(proof_seed: int, size: Literal["small", "full"] = "small") -> list[WorldSpec]:
@@ -46,10 +44,7 @@ def catalogue(proof_seed: int, size: Literal["small", "full"] = "small") -> list
 
 
 def _spec(number: int, category: Category, recipe: Recipe, proof_seed: int) -> WorldSpec:
-    # the Thue-Morse sequence: half of the worlds, and in step with no period in the list of recipes
-    fresh = number.bit_count() % 2 == 1
-    sequence = np.random.SeedSequence([proof_seed if fresh else FIXED_SEED, int(fresh), number])
-    rng = np.random.default_rng(sequence)
+    seeds, rng = seeded(number, FIXED_SEED, proof_seed)
     arm = ARMS[int(rng.integers(len(ARMS)))]
     details: Details = {"arm": arm, "rows": int(rng.choice([60, 100, 150, 200, 250, 300])), **recipe(rng)}
     low, high = NOISE_MM[str(details["arm"])]
@@ -57,8 +52,7 @@ def _spec(number: int, category: Category, recipe: Recipe, proof_seed: int) -> W
         {
             "id": f"world-{number:03d}",
             "category": category,
-            "seed": int(sequence.generate_state(1)[0]),
-            "fresh": fresh,
+            **seeds,
             "sigma_mm": round(float(rng.uniform(low, high)), 3),
             "noise_stated": bool(rng.random() < 0.6),
             **details,

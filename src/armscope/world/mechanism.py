@@ -6,6 +6,8 @@ uses: frames, Jacobians and generalised forces all come from MuJoCo. `armscope.w
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import mujoco
 import numpy as np
 
@@ -44,6 +46,12 @@ class Mechanism:
         """Hang ``mass`` kg at the payload's place."""
         self.model.body_mass[self._payload_body] = mass
         mujoco.mj_setConst(self.model, self.data)
+
+    def each_row(self, payload: Array) -> Iterator[int]:
+        """Row numbers of (N,) payloads, kg, payload by payload: the mechanism carries each row's."""
+        for mass in np.unique(payload):
+            self.set_payload(float(mass))
+            yield from np.flatnonzero(payload == mass).tolist()
 
     def stand(self, qpos: Array) -> None:
         """Frames at ``qpos``."""

@@ -58,12 +58,10 @@ class Patterns:
         self.tool = np.empty((len(session), 3))
         qpos = np.zeros((len(session), mechanism.n_freedoms))
         qpos[:, mechanism.angle_columns()] = scene.chain_angles() + geometry.rows[:, 3]
-        for mass in np.unique(session.payload):
-            mechanism.set_payload(float(mass))
-            for row in np.flatnonzero(session.payload == mass):
-                self.load[row], _ = mechanism.load(qpos[row])
-                self.jacobian[row] = mechanism.tool_jacobian()
-                self.tool[row] = mechanism.tool()
+        for row in mechanism.each_row(session.payload):
+            self.load[row], _ = mechanism.load(qpos[row])
+            self.jacobian[row] = mechanism.tool_jacobian()
+            self.tool[row] = mechanism.tool()
         angles = mechanism.angle_columns()
         self.motor_jacobian = self.jacobian[:, :, angles] @ geometry.actuation
         self.chain_jacobian = self.jacobian[:, :, angles]

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Literal
+
+import numpy as np
 
 from armscope.core.inputs import Strict
 from armscope.world.effects import LIBRARY
@@ -16,26 +19,38 @@ ARMS = ("parallelogram-120kg", "six-axis", "seven-axis")
 LARGEST_PAYLOAD_KG = {"parallelogram-120kg": 120.0, "six-axis": 20.0, "seven-axis": 12.0}
 NOISE_MM = {"parallelogram-120kg": (0.02, 0.06), "six-axis": (0.012, 0.04), "seven-axis": (0.008, 0.025)}
 Category = Literal[
-    "clean",
-    "single",
-    "multiple",
-    "outside",
-    "misleading",
-    "inseparable",
-    "real",
-    "bad_shots",
-    "faint",
-    "rough",
+    "clean", "single", "multiple", "outside", "misleading", "inseparable", "real", "bad_shots", "faint", "rough",
     "rough_misleading",
-]
+]  # fmt: skip
+
+
+Details = dict[str, object]
+Recipe = Callable[[np.random.Generator], Details]
+"""What a world of a kind is made from, as far as that is drawn."""
+
+
+def seeded(number: int, fixed_seed: int, proof_seed: int) -> tuple[Details, np.random.Generator]:
+    """Seeds of a catalogue's world: every other one's stays, by the Thue-Morse sequence, the others' are the proof's.
+
+    Args:
+        number: of the world, from 0; the sequence is in step with no period in a list of recipes.
+        fixed_seed: of the worlds that stay.
+        proof_seed: of the others.
+
+    Returns:
+        `seed` and `fresh` of its specification, and the generator that draws the rest.
+    """
+    fresh = number.bit_count() % 2 == 1
+    sequence = np.random.SeedSequence([proof_seed if fresh else fixed_seed, int(fresh), number])
+    return {"seed": int(sequence.generate_state(1)[0]), "fresh": fresh}, np.random.default_rng(sequence)
 
 
 class Wish(Strict):
-    """An effect that a world is to conceal.
+    """An effect that a world is to conceal, of an arm that stands or of one that moves.
 
     Attributes:
         kind: key of `KINDS`.
-        strength: RMS at the tool in multiples of the noise.
+        strength: RMS at the tool in multiples of the noise; of an arm that moves, RMS torque.
         location: where; drawn among the places where it can be seen if left out.
         minor: belongs to the background of a real arm, not to the story.
     """

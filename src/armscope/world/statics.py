@@ -156,15 +156,13 @@ def balance(geometry: Geometry, session: Session, hidden: Hidden) -> Balance:
     residual = largest = 0.0
     needs_load = springs.count > 0 or bool(hidden.curves)
     payload = session.payload * (1 + hidden.payload_share) + hidden.payload_mass
-    for mass in np.unique(payload):
-        mechanism.set_payload(float(mass))
-        for row in np.flatnonzero(payload == mass):
-            if needs_load:
-                torque[row], left, load = _settle(mechanism, start[row], springs, hidden.curves)
-                residual, largest = max(residual, left), max(largest, load)
-            else:
-                mechanism.stand(start[row])
-            tool[row], turn[row] = mechanism.tool(), mechanism.tool_turn()
+    for row in mechanism.each_row(payload):
+        if needs_load:
+            torque[row], left, load = _settle(mechanism, start[row], springs, hidden.curves)
+            residual, largest = max(residual, left), max(largest, load)
+        else:
+            mechanism.stand(start[row])
+        tool[row], turn[row] = mechanism.tool(), mechanism.tool_turn()
     return Balance(tool * (1 + hidden.scale), torque, residual / largest if largest > 0 else 0.0, turn)
 
 

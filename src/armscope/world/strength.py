@@ -105,15 +105,12 @@ def make_scene(description: RobotDescription, session: Session) -> tuple[Scene, 
     turns, tools = np.empty((len(session), 3, 3)), np.empty((len(session), 3))
     torque = np.empty((len(session), geometry.n_motors))
     angles = session.commanded @ geometry.actuation.T + geometry.rows[:, 3]
-    for mass in np.unique(session.payload):
-        mechanism.set_payload(float(mass))
-        for row in np.flatnonzero(session.payload == mass):
-            qpos = np.zeros(mechanism.n_freedoms)
-            qpos[columns] = angles[row]
-            gravity, _ = mechanism.load(qpos)
-            torque[row] = geometry.actuation.T @ gravity[columns]
-            tools[row] = mechanism.tool()
-            turns[row] = mechanism.data.site_xmat[mechanism.tool_site].reshape(3, 3)
+    for row in mechanism.each_row(session.payload):
+        qpos = np.zeros(mechanism.n_freedoms)
+        qpos[columns] = angles[row]
+        gravity, _ = mechanism.load(qpos)
+        torque[row] = geometry.actuation.T @ gravity[columns]
+        tools[row], turns[row] = mechanism.tool(), mechanism.tool_turn()
     return Scene(description, geometry, session, torque, np.abs(torque).max(axis=0), turns), tools
 
 

@@ -12,8 +12,10 @@ import pytest
 from armscope.diagnosis import Settings, diagnose
 from armscope.diagnosis.earning import held_out_errors
 from armscope.diagnosis.summary.alternatives import _held_out_errors, alternatives, too_close
+from armscope.inference.edits import by_posterior
 from armscope.inference.evidence import evaluate
-from armscope.inference.problem import SelectedEffect
+from armscope.inference.model_space import Candidate, ModelSpace
+from armscope.inference.problem import SelectedEffect, build_problem
 from armscope.inference.search import Search
 from tests.diagnosis.planted import one_run, planted, recorded
 from tests.diagnosis.test_better_placed import (
@@ -61,7 +63,7 @@ def test_a_rival_in_the_same_background_pays_no_more_than_the_name() -> None:
     """The gap is that of the evidence: what is freed, the name's own column held at zero, at no price."""
     problem = problem_where(DRIVE_AT, 0.98, drive=-0.2)
     best = with_drive_named(problem)
-    (rival,) = [r for r in alternatives(Search.on(problem), best, DRIVE_AT) if r.hypothesis.candidates == {TILT_AT}]
+    (rival,) = [r for r in alternatives(Search.on(problem), best)[DRIVE_AT] if r.hypothesis.candidates == {TILT_AT}]
     held = problem.holding(problem.space.candidates[DRIVE_AT].columns)
     by_hand = max(
         evaluate(held, (SelectedEffect(TILT_AT, size, nested=True),), best.background, NOISE).log_posterior
@@ -77,7 +79,7 @@ def test_a_rival_is_judged_on_held_out_rows_with_the_names_own_column_at_zero() 
     blocks = [sums(X[n::10], y[n::10]) for n in range(10)]
     problem = problem_where(DRIVE_AT, 0.98, drive=-0.2)
     best = with_drive_named(problem)
-    rival = next(r for r in alternatives(Search.on(problem), best, DRIVE_AT) if r.hypothesis.candidates == {TILT_AT})
+    rival = next(r for r in alternatives(Search.on(problem), best)[DRIVE_AT] if r.hypothesis.candidates == {TILT_AT})
     state: Any = SimpleNamespace(problem=problem, best=best, blocks=blocks)
     told = _held_out_errors(state, [rival]).sum(axis=0)
     without = problem.holding(np.array(rival.held))
@@ -96,7 +98,7 @@ def test_a_name_out_of_a_background_is_sure_where_held_out_rows_exclude_its_riva
 ) -> None:
     problem = problem_where(DRIVE_AT, 0.98, drive=-0.2)
     best = with_drive_named(problem)
-    rival = next(r for r in alternatives(Search.on(problem), best, DRIVE_AT) if r.hypothesis.candidates == {TILT_AT})
+    rival = next(r for r in alternatives(Search.on(problem), best)[DRIVE_AT] if r.hypothesis.candidates == {TILT_AT})
     effect = replace(problem.space.candidates[DRIVE_AT], family="elastic")
     judged = rival._replace(excluded=excluded, candidate=replace(rival.candidate, family=family))
     assert (too_close(effect, [judged], [nats]) == []) == sure
@@ -109,4 +111,20 @@ def test_what_explains_nothing_is_no_rival_however_faint_the_name() -> None:
     best = with_drive_named(problem)
     base = Search.on(problem).holding(problem.space.candidates[DRIVE_AT].columns).without(best, [DRIVE_AT])
     assert 3 < best.log_posterior - base.log_posterior < 10  # any other would be near enough to be listed
-    assert alternatives(Search.on(problem), best, DRIVE_AT) == []
+    assert alternatives(Search.on(problem), best)[DRIVE_AT] == []
+
+
+@pytest.mark.parametrize("alike", [0.0, 1.0])
+def test_what_was_refused_beside_an_effect_does_not_take_its_place(alike: float) -> None:
+    """The other column is large and by itself; or it is nearly the effect's own, and may well be it instead."""
+    rng = np.random.default_rng(9)
+    X = rng.normal(size=(200, 3))
+    X[:, 2] = alike * X[:, 1] + (1 - 0.95 * alike) * X[:, 2]
+    y = 0.04 * X[:, 1] + (0.5 if not alike else 0.0) * X[:, 2] + rng.normal(0, 0.1, len(X))
+    both = tuple(Candidate(name, "here", np.array([n]), np.ones(1)) for n, name in ((1, "faint"), (2, "other")))
+    problem = build_problem(ModelSpace(np.array([0]), (), both), sums(X, y), 0.05)
+    best = max(
+        (evaluate(problem, (SelectedEffect(0, size),), (), 0.1) for size in range(len(problem.sizes))), key=by_posterior
+    )
+    rivals = alternatives(Search.on(problem), best)[0]
+    assert [rival.candidate.kind for rival in rivals] == (["other"] if alike else [])

@@ -6,11 +6,20 @@ import numpy as np
 import pandas as pd
 import pinocchio as pin
 import pytest
+from scipy.interpolate import make_interp_spline
 from typer.testing import CliRunner
 
 from armscope.cli import app
 from armscope.core.inputs import InputError
-from armscope.poses.exciting.columns import Motion, all_columns, names, stated_friction
+from armscope.design.fourier import random_path
+from armscope.poses.exciting.columns import (
+    Motion,
+    all_columns,
+    cause_columns,
+    link_columns,
+    names,
+    stated_friction,
+)
 from armscope.poses.exciting.criterion import motion_score, separation, shown_at_all
 from armscope.poses.exciting.limits import limits_of
 from armscope.poses.exciting.output import pairs_of, trajectory_table
@@ -181,3 +190,37 @@ def test_the_command_writes_table_json_and_figure(tmp_path):
     assert told["separates"] == ["torque_offset joint 1 | coulomb_friction joint 1"]
     assert told["this_motion"]["share_not_imitated"][0] >= told["random_motion"]["share_not_imitated"][0]
     assert output.with_suffix(".png").is_file()
+
+
+def test_a_drive_that_gives_way_has_the_torque_of_a_link_that_lags(six):
+    """By hand: links on a path that repeats, the motor ahead by compliance x torque; torques by pinocchio."""
+    joint, compliance, period = 1, 1e-7, 10.0
+    time = np.arange(400) * period / 400
+    path = random_path(limits_of(six).path, 4, period, np.random.default_rng(2))
+    links = path.at(time)
+    data = six.model.createData()
+
+    def torques(*moved):
+        return np.array([pin.rnea(six.model, data, *row).copy() for row in zip(*moved, strict=True)])
+
+    torque = torques(*links)
+    three = np.tile(torque[:, joint], 3)
+    lag = make_interp_spline(np.arange(len(three)) * period / 400, three, k=5)
+    motor = [np.array(each) for each in links]
+    for order, values in enumerate(motor):
+        values[:, joint] += compliance * lag(time + period, order)
+    expected = (torque - torques(*motor)) / compliance
+    states = Motion(*motor, step=period / 400)
+    found = cause_columns(six, states, link_columns(six, states), "joint_compliance", f"joint {joint + 1}")
+    assert found.shape == (400, 6, 1)
+    np.testing.assert_allclose(found[:, :, 0], expected, atol=2e-3 * np.abs(expected).max())
+
+
+def test_a_motion_is_planned_that_tells_a_belt_from_a_mass(six):
+    pair = (("joint_compliance", "joint 2"), ("link_mass", "link 3"))
+    planned = excite(six, MotionWish(period=10.0, rounds=40, seed=3, pairs=(pair,)), NOWHERE)
+    assert planned.pairs == (pair,)
+    assert planned.lawless == ()
+    assert planned.after.separations[0] > planned.before.separations[0]
+    behind_no_motor = (("joint_compliance", "joint 9"), pair[1])
+    assert excite(six, MotionWish(rounds=0, pairs=(behind_no_motor,)), NOWHERE).lawless == (behind_no_motor,)

@@ -10,7 +10,8 @@ from armscope.proof.motion import making, reading
 from armscope.proof.motion.answers import read_answer
 from armscope.proof.motion.diagnosing import diagnose_worlds
 from armscope.proof.motion.truth import unseal
-from armscope.world.motion.catalogue import MotionSpec, Wish
+from armscope.world.motion.catalogue import MotionSpec
+from armscope.world.spec import Wish
 from tests.proof.motion.cases import said, verdict_of
 from tests.world.motion.arms import FOLDER
 

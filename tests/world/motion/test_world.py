@@ -9,12 +9,13 @@ import yaml
 
 from armscope.robot.description_file import load_description
 from armscope.world.motion import folder
-from armscope.world.motion.catalogue import KINDS, MotionSpec, Wish, catalogue
+from armscope.world.motion.catalogue import KINDS, MotionSpec, catalogue
 from armscope.world.motion.folder import build, make
 from armscope.world.motion.recording import independent_share, record
-from armscope.world.motion.rivals import ALTERNATIVE_NATS
 from armscope.world.motion.session import make_session
 from armscope.world.motion.virtual_arm import ImpossibleWish, VirtualArm, place
+from armscope.world.rivals import ALTERNATIVE_NATS
+from armscope.world.spec import Wish
 from tests.world.motion.arms import FOLDER, arm
 
 SHORT = {"id": "motion-x", "seed": 11, "fresh": False, "rate": 100, "noise": 0.01, "durations": (6.0, 6.0)}

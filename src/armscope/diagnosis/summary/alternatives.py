@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
@@ -19,6 +20,7 @@ from armscope.inference.constants import BUDGET, PRIORS
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import Candidate
 from armscope.inference.normal_equations import weighted_total
+from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS, Alternative, Specific
 
@@ -46,35 +48,63 @@ class Rival(NamedTuple):
         return bool(self.held) and self.hypothesis.chosen[-1].nested and self.candidate.family == effect.family
 
 
-def alternatives(search: Search, best: Hypothesis, number: int) -> list[Rival]:
-    """What could replace one effect, nearest first, each name once.
+def alternatives(search: Search, best: Hypothesis) -> dict[int, list[Rival]]:
+    """What could replace each effect, by its candidate: nearest first, each name once.
 
     What got its name out of a background is rivalled by what could be out of the ordinary instead, its own values held
     right; what is in a background, too, pays as little for its name. A line taken from a curve of load is rivalled by
     what rivals the curve, and by what could stand beside the curve's rest; a curve of another drive's load is told as
-    its compliance.
+    its compliance. What would be worth as much beside the effect takes no place of it: held-out rows have refused it.
 
     Args:
         search: the finished one.
         best: the hypothesis chosen.
-        number: of the effect's candidate.
 
     Returns:
         Gap, effect in place, and the hypothesis with it.
     """
+    refused = _Refused(search, best, none=not search.additions(best, 1, least=0.0))
+    return {c.candidate: _of_one(search, best, c.candidate, refused) for c in best.chosen}
+
+
+@dataclass(eq=False)
+class _Refused:
+    """What effects would gain beside all that were chosen, had held-out rows not refused them; ``none`` were."""
+
+    search: Search
+    best: Hypothesis
+    none: bool
+    known: dict[tuple[SelectedEffect, bool], float] = field(default_factory=dict)
+
+    def gain(self, effect: SelectedEffect, of_background: bool) -> float:
+        """Nats; what is in a background, too, pays nothing for its name."""
+        if self.none:
+            return 0.0
+        if (effect, of_background) not in self.known:
+            added = self.search.evaluated((*self.best.chosen, effect), self.best)
+            added = self.search.unpaid(added) if of_background else added
+            self.known[effect, of_background] = max(added.log_posterior - self.best.log_posterior, 0.0)
+        return self.known[effect, of_background]
+
+
+def _of_one(search: Search, best: Hypothesis, number: int, refused: _Refused) -> list[Rival]:
+    """What could replace one effect."""
     candidate, rest = search.candidate(number), rest_of(search.problem, best, number)
     explained_anyway = search.in_background(best, number)
     paid = _price_of_curve(search, candidate) if rest and candidate.kind == DRIVE else 0.0
-    rivals = _in_place_of(search, best, number, rest, paid)
+    rivals = _in_place_of(search, best, number, rest, paid, refused)
     if rest and not explained_anyway:
-        rivals += [rival for rival in _in_place_of(search, best, number, [], 0.0) if not rival.candidate.is_curve]
+        alone = _in_place_of(search, best, number, [], 0.0, refused)
+        rivals += [rival for rival in alone if not rival.candidate.is_curve]
     nearest: dict[tuple[str, str], Rival] = {}
     for rival in sorted(rivals, key=lambda rival: rival.gap):
         nearest.setdefault(rival.candidate.key, rival)
     return list(nearest.values())
 
 
-def _in_place_of(search: Search, best: Hypothesis, number: int, rest: Sequence[int], paid: float) -> list[Rival]:
+def _in_place_of(
+    search: Search, best: Hypothesis, number: int, rest: Sequence[int], paid: float, refused: _Refused
+) -> list[Rival]:
     """What could replace an effect together with the rest of its curve, or alone; ``paid``: the curve's price, nats."""
     candidate, found = search.candidate(number), []
     held: tuple[int, ...] = ()
@@ -90,7 +120,8 @@ def _in_place_of(search: Search, best: Hypothesis, number: int, rest: Sequence[i
     for added in search.additions(base, NAMING.looked_at, [number], least):
         of_background = held and search.in_background(added, added.chosen[-1].candidate)
         other = search.unpaid(added) if of_background else added
-        rival, gap = search.candidate(other.chosen[-1].candidate), best.log_posterior - other.log_posterior - paid
+        rival, own = search.candidate(other.chosen[-1].candidate), refused.gain(added.chosen[-1], bool(of_background))
+        gap = best.log_posterior - other.log_posterior - paid + own
         excluded = other.chosen[-1].candidate in candidate.excludes
         misfit = (other.rss - best.rss) / (2 * best.noise**2)
         as_likely = (candidate.is_curve and excluded) or (misfit < NAMING.alike_nats and _is_other(candidate, rival))
@@ -98,7 +129,7 @@ def _in_place_of(search: Search, best: Hypothesis, number: int, rest: Sequence[i
         asked = misfit < NAMING.listed_nats and gap <= NAMING.listed_nats_of_special_cases and not rival.is_curve
         if (rest and excluded) or rival.key in taken or not (near or asked):
             continue
-        if held and other.log_posterior < base.log_posterior + PRIORS.sure_nats:
+        if (held or own) and other.log_posterior - own < base.log_posterior + PRIORS.sure_nats:
             continue  # it explains nothing of what the effect does
         if rest and rival.variant == "load" and rival.is_curve:
             rival = lines.get(rival.location, rival)

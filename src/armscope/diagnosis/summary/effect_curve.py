@@ -62,16 +62,7 @@ def curve_of(placed: Placed, values: Array, covariance: Array, scene: Scene) -> 
     assert best is not None
     value, band = best[1], best[2]
     periods = _periods(placed, values) if source.kind == "angle" else ()
-    return Curve(
-        placed.driver,
-        unit,
-        at,
-        value,
-        band,
-        best[3],
-        periods,
-        describe(at, value, recorded, periods, unit),
-    )
+    return Curve(placed.driver, unit, at, value, band, best[3], describe(at, value, recorded, periods, unit))
 
 
 def _basis(placed: Placed, inside: Sequence[int], at: Array) -> Array:

@@ -13,7 +13,13 @@ import numpy as np
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.robot import Arm
-from armscope.robot.dynamics import attached_bodies, inertial_parameters, leaning_gravity, torque_regressor
+from armscope.robot.dynamics import (
+    attached_bodies,
+    inertial_parameters,
+    leaning_gravity,
+    moved_centre,
+    torque_regressor,
+)
 
 LINK_NAMES = ("mass", "m x", "m y", "m z", "I xx", "I xy", "I yy", "I xz", "I yz", "I zz")
 JOINT_NAMES = ("offset", "Coulomb", "viscous", "rotor inertia")
@@ -22,6 +28,8 @@ STANDSTILL = 0.01
 STRIBECK = 0.1
 """rad/s: a typical speed of the Stribeck effect, for its pattern."""
 CURVE_DEGREE = 5
+SMALL, FEEBLE = 1e-5, 1e-9
+"""Share of a motion by which a link lags, so that torque follows along its slope; and what counts as nothing."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,8 +43,7 @@ class Motion:
 
     def sign(self) -> Array:
         """(N, m) of the speeds."""
-        found: Array = np.tanh(self.speed / STANDSTILL)
-        return found
+        return np.tanh(self.speed / STANDSTILL)
 
 
 def link_columns(arm: Arm, motion: Motion) -> Array:
@@ -88,6 +95,9 @@ def cause_columns(arm: Arm, motion: Motion, links: Array, effect: str, location:
         (N, m, k) torques; None of a cause without a law by which a motion could be planned.
     """
     where = Location.of(location)
+    if effect == "joint_compliance":
+        turns = where.kind == "joint" and not where.source and where.index < motion.angle.shape[1]
+        return _behind_a_drive(arm, motion, links, where.index) if turns else None
     masses = _of_masses(arm, effect, where)
     if masses is not None:
         return links @ masses
@@ -105,10 +115,6 @@ def cause_columns(arm: Arm, motion: Motion, links: Array, effect: str, location:
     return found
 
 
-LINK_SLICES = {"link_first_moment": range(1, 4), "link_inertia": range(4, 10)}
-"""Parameters of a link that a cause moves."""
-
-
 def _of_masses(arm: Arm, effect: str, where: Location) -> Array | None:
     """(10 n, k) inertial parameters that a cause is made of, as the diagnosis has it; None of other causes."""
     stated = inertial_parameters(arm.model)
@@ -123,7 +129,9 @@ def _of_masses(arm: Arm, effect: str, where: Location) -> Array | None:
     own = 10 * where.index + np.arange(10)
     if effect == "link_mass":  # heavier with its centre where it was
         return identity[:, own] @ stated[own, None] / stated[own[0]] if stated[own[0]] > 0 else identity[:, own[:4]]
-    return identity[:, own[LINK_SLICES[effect]]] if effect in LINK_SLICES else None
+    if effect == "link_first_moment":
+        return identity[:, own] @ moved_centre(stated[own])
+    return identity[:, own[4:]] if effect == "link_inertia" else None
 
 
 def _leaning(arm: Arm, motion: Motion) -> Array | None:
@@ -137,6 +145,25 @@ def _leaning(arm: Arm, motion: Motion) -> Array | None:
         columns = torque_regressor(model, arm.actuation, (motion.angle, still, still))
         torques.append(columns @ inertial_parameters(arm.model))
     return np.stack(torques, axis=2)
+
+
+def _behind_a_drive(arm: Arm, motion: Motion, links: Array, j: int) -> Array:
+    """(N, m, 1) torque per unit of a drive's compliance: its link is where the motor is less compliance x its torque.
+
+    To first order; the link's lag is derived as a wave that repeats, as the motions of the search do.
+    """
+    stated = inertial_parameters(arm.model)
+    rigid = links @ stated
+    waves = 2j * np.pi * np.fft.rfftfreq(len(rigid), motion.step)
+    lag = [np.fft.irfft(waves**order * np.fft.rfft(rigid[:, j]), len(rigid)) for order in range(3)]
+    moved = [np.array(each) for each in (motion.angle, motion.speed, motion.acceleration)]
+    largest = [float(np.abs(each[:, j]).max()) for each in moved]
+    unit = SMALL * min(most / max(float(np.abs(each).max()), FEEBLE) for most, each in zip(largest, lag, strict=True))
+    for values, late in zip(moved, lag, strict=True):
+        values[:, j] -= unit * late
+    behind = torque_regressor(arm.model, arm.actuation, (moved[0], moved[1], moved[2])) @ stated
+    found: Array = ((behind - rigid) / max(unit, FEEBLE**2))[:, :, None]
+    return found
 
 
 def _joint_patterns(motion: Motion, rigid: Array, j: int) -> dict[str, Array]:

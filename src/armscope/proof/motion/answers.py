@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import pandas as pd
 
 from armscope.core.files import read_table
-from armscope.motion.verdict import FoundCause, MotionVerdict, read_motion_verdict
-from armscope.proof.answers import FAILURE, NamedEffect
+from armscope.motion.verdict import MotionVerdict, read_motion_verdict
+from armscope.proof.answers import FAILURE, NamedEffect, Numbers, numbers_of
 from armscope.proof.definitions import Name
 from armscope.proof.matching import UNKNOWN
-from armscope.verdict.effects import Parameter
 
 VERDICT, PREDICTED = "verdict.json", "test_predicted.csv"
 NOT_PREDICTED = "not_predicted.txt"
 """Why there is a verdict but no prediction: names count then, the held-out error is infinite."""
 KEPT = (VERDICT, "model.yaml", PREDICTED)
-Numbers = dict[str, tuple[float, float, str]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +52,7 @@ def read_answer(folder: Path) -> MotionAnswer:
         claims=claims_of(verdict),
         mismatch=verdict.mismatch,
         answer=verdict.answer,
-        background=tuple((joint.joint, _numbers(joint.parameters)) for joint in verdict.background),
+        background=tuple((joint.joint, numbers_of(joint.parameters)) for joint in verdict.background),
         predicted=None if why.is_file() else read_table(folder / PREDICTED),
         not_predicted=why.read_text(encoding="utf-8").strip() if why.is_file() else "",
     )
@@ -65,7 +62,7 @@ def claims_of(verdict: MotionVerdict) -> tuple[NamedEffect, ...]:
     """One per name, minor only if all of that name are; structure without a cause counts as `unknown`."""
     by_name: dict[Name, NamedEffect] = {}
     for cause in sorted(verdict.effects, key=lambda cause: cause.minor):
-        by_name.setdefault((cause.effect, cause.location), _claim(cause))
+        by_name.setdefault((cause.effect, cause.location), NamedEffect.of(cause))
     left = verdict.unexplained
     if left.present and left.location:
         unknown = NamedEffect(
@@ -73,21 +70,3 @@ def claims_of(verdict: MotionVerdict) -> tuple[NamedEffect, ...]:
         )
         by_name.setdefault(unknown.name, unknown)
     return tuple(by_name.values())
-
-
-def _claim(cause: FoundCause) -> NamedEffect:
-    return NamedEffect(
-        effect=cause.effect,
-        location=cause.location,
-        driver=cause.driver,
-        minor=cause.minor,
-        named_as="effect",
-        rms_mm=float("nan"),  # of positions only
-        evidence_nats=cause.evidence_nats,
-        parameters=_numbers(cause.parameters),
-        alternatives=tuple((other.effect, other.location) for other in cause.alternatives),
-    )
-
-
-def _numbers(parameters: Sequence[Parameter]) -> Numbers:
-    return {each.name: (each.value, each.stderr, each.unit) for each in parameters}

@@ -9,13 +9,12 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Annotated, Literal, Self
 
 import pydantic
 from pydantic import Field
 
-from armscope.core.inputs import Strict, load, nearest
+from armscope.core.inputs import Strict, nearest
 from armscope.recordings.importing.formats import Column, Format, RowFilter, TextFormat, Time
 
 AngleUnit = Literal["rad", "deg"]
@@ -267,12 +266,3 @@ class Mapping(Strict):
         if twice is not None:
             raise ValueError(f"the column {twice!r} is one quantity, and stands in two places{of_run}")
         columns.check_beside({beside.name for beside in run.beside}, of_run)
-
-
-def load_mapping(path: Path | str) -> Mapping:
-    """Read mapping.yaml.
-
-    Raises:
-        InputError: a key, unit or group that can't be; it names the place, the rule and the nearest known key.
-    """
-    return load(Mapping, path)

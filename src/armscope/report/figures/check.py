@@ -47,13 +47,7 @@ def draw_check(recordings: Recordings, arm: Arm | None = None) -> Figure:
         panels["above"].set_title(f"Tool points ({frame})", loc="left")
         _draw_coverage(figure, panels["coverage"], recordings, arm if fits else None)
         if len(runs) > 1:
-            styles = [_style(number, run) for number, run in enumerate(runs)]
-            plain = [style | {"alpha": 1.0, "markersize": max(style["markersize"], 4)} for style in styles]
-            legend_above(
-                figure,
-                [Line2D([], [], **style) for style in plain],
-                [f"run {run.name}" if run.name.isdigit() else run.name for run in runs],
-            )
+            legend_above(figure, [_key(number, run) for number, run in enumerate(runs)])
     return figure
 
 
@@ -102,6 +96,12 @@ def _style(number: int, run: _Run) -> dict[str, Any]:
     if run.still:
         return look | {"marker": "D", "markersize": 4.5, "markeredgecolor": "white", "zorder": 3}
     return look | {"markersize": 1.6, "alpha": 0.6}
+
+
+def _key(number: int, run: _Run) -> Line2D:
+    style = _style(number, run)
+    plain = style | {"alpha": 1.0, "markersize": max(style["markersize"], 4)}
+    return Line2D([], [], label=f"run {run.name}" if run.name.isdigit() else run.name, **plain)
 
 
 def _colour(run: int) -> str:

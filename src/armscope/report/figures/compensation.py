@@ -77,6 +77,5 @@ def regions_figure(table: pd.DataFrame) -> Figure:
             panel.set_title(model)
             panel.set_xlabel("regions")
         panels[0, 0].set_ylabel("error left (mm, 3D RMS)")
-        handles, labels = panels[0, 0].get_legend_handles_labels()
-        legend_above(figure, handles, labels, columns=len(labels))
+        legend_above(figure, columns=3 + len(paths))
     return figure

@@ -43,7 +43,7 @@ def draw_compliances(values: pd.DataFrame) -> Figure:
             if name in present
         ]
         handles.append(Line2D([], [], ls="", color=VERMILION, marker="|", ms=12, mew=2, label=OTHERS))
-        legend_above(figure, handles, [str(handle.get_label()) for handle in handles], columns=3)
+        legend_above(figure, handles, columns=3)
     return figure
 
 

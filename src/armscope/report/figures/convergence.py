@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import matplotlib.pyplot as plt
 import pandas as pd
 from matplotlib.figure import Figure
 
-from armscope.report.style import BLACK, BLUE, GREEN, ORANGE, SKY, VERMILION, legend_above, styled
+from armscope.report.style import BLACK, BLUE, GREEN, ORANGE, SKY, VERMILION, legend_above, panel_grid, styled
 
 
 def convergence(history: pd.DataFrame) -> Figure:
@@ -21,14 +20,8 @@ def convergence(history: pd.DataFrame) -> Figure:
     dashes = {"random search": ":", "original, clamped": "--"}
     models = list(dict.fromkeys(history["model"]))
     with styled():
-        columns = min(3, len(models))
-        rows = -(-len(models) // columns)
-        figure, panels = plt.subplots(
-            rows, columns, figsize=(3.2 * columns, 2.7 * rows + 0.5), sharex=True, sharey=True, squeeze=False
-        )
-        for panel in panels.flat[len(models) :]:
-            panel.set_visible(False)
-        for panel, model in zip(panels.flat, models, strict=False):
+        figure, panels = panel_grid(len(models), 3, (3.2, 2.7), sharex=True, sharey=True)
+        for panel, model in zip(panels, models, strict=True):
             for rule, rows_of_rule in history[history["model"] == model].groupby("rule", sort=False):
                 colour = colours[str(rule)]
                 iteration = rows_of_rule["iteration"]

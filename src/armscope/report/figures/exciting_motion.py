@@ -47,8 +47,7 @@ def motion_figure(found: Excitation, table: pd.DataFrame) -> Figure:
         for panel in panels[1]:
             panel.set_xlabel("time (s)")
         panels[0, 0].set_title(_title(found), loc="left", fontsize="small")
-        handles, labels = panels[0, 0].get_legend_handles_labels()
-        legend_above(figure, handles, labels, columns=7)
+        legend_above(figure, columns=7)
     return figure
 
 

@@ -26,6 +26,5 @@ def draw_shared_curves(curves: Sequence[Shared]) -> Figure:
             axes.set_ylabel(f"{curve.joint}\nturns by (mrad)")
             axes.set_title(f"correlation {curve.correlation:.2f}", loc="right", fontsize="small")
         panels[-1, 0].set_xlabel("angle of the joint (deg), where both runs know the curve")
-        handles, labels = panels[0, 0].get_legend_handles_labels()
-        legend_above(figure, handles, labels, columns=2)
+        legend_above(figure, columns=2)
     return figure

@@ -54,7 +54,7 @@ def estimation_performance(
             panels[-1, column].set_xlabel("target point")
         labelled = [panel.get_legend_handles_labels() for panel in panels.flat]
         entries = {label: handle for handles, labels in labelled for handle, label in zip(handles, labels, strict=True)}
-        legend_above(figure, list(entries.values()), list(entries))
+        legend_above(figure, entries.values())
     return figure
 
 

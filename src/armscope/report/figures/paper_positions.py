@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from armscope.core.types import Array
-from armscope.report.style import AXIS_NAMES, BLACK, BLUE, GREY, VERMILION, legend_above, styled
+from armscope.report.style import AXIS_NAMES, BLACK, BLUE, GREY, VERMILION, legend_above, panel_grid, styled
 
 
 def errors_of_positions(errors: Array, low: Array | None = None, high: Array | None = None) -> Figure:
@@ -50,22 +50,15 @@ def modelling_performance(errors: Array, predictions: Mapping[str, Array]) -> Fi
     Returns:
         The figure.
     """
-    rows = -(-len(predictions) // 2)
     with styled():
-        figure, panels = plt.subplots(
-            rows, min(2, len(predictions)), figsize=(9, 0.6 + 2.2 * rows), sharex=True, sharey=True, squeeze=False
-        )
+        figure, panels = panel_grid(len(predictions), 2, (4.5, 2.2), sharex=True, sharey=True)
         points = np.arange(1, len(errors) + 1)
-        for panel in panels.flat[len(predictions) :]:
-            panel.set_visible(False)
-        for panel, (model, predicted) in zip(panels.flat, predictions.items(), strict=False):
+        for panel, (model, predicted) in zip(panels, predictions.items(), strict=True):
             panel.plot(points, errors[:, 1], color=BLACK, linewidth=0.8, label="measured")
             panel.plot(points, predicted[:, 1], color=VERMILION, linestyle="--", linewidth=1.0, label="predicted")
             rest = np.sqrt(np.mean((errors[:, 1] - predicted[:, 1]) ** 2))
             panel.set_title(f"{model}: {rest:.2f} mm RMS left")
-        for panel in panels[:, 0]:
-            panel.set_ylabel(f"$\\delta_{AXIS_NAMES[1]}$ (mm)")
-        for panel in panels[-1]:
-            panel.set_xlabel("identification position")
+            panel.set(xlabel="identification position", ylabel=f"$\\delta_{AXIS_NAMES[1]}$ (mm)")
+            panel.label_outer()
         legend_above(figure)
     return figure

@@ -44,8 +44,7 @@ def choice_figure(table: pd.DataFrame, title: str) -> Figure:
         _by_set(parameters, table, "parameter_rms_mm", "error of the parameters\n(mm at the tool, RMS)")
         _by_set(held_out, table, "held_out_rms_mm", "error at poses that took no part\n(mm, 3D RMS)")
         indices.set_title(title, loc="left", fontsize="small")
-        handles, labels = indices.get_legend_handles_labels()
-        legend_above(figure, handles, labels, columns=3)
+        legend_above(figure, columns=3)
     return figure
 
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import textwrap
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 from matplotlib import pyplot as plt
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -17,7 +17,19 @@ from matplotlib.ticker import LogFormatter
 
 from armscope.proof.matching import UNKNOWN
 from armscope.proof.scoring import NOTHING
-from armscope.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, SKY, VERMILION, YELLOW, legend_above, styled
+from armscope.report.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    SKY,
+    VERMILION,
+    YELLOW,
+    in_margin,
+    legend_above,
+    styled,
+)
 
 HALVES = {"fixed": (GREY, "s"), "fresh": (BLUE, "o")}
 """Colour and marker of worlds with fixed and with fresh seeds."""
@@ -52,10 +64,6 @@ def _read(path: Path) -> pd.DataFrame:
         return pd.DataFrame()
 
 
-def _legend(figure: Figure, handles: Sequence[Artist], columns: int) -> None:
-    legend_above(figure, handles, [handle.get_label() for handle in handles], columns)
-
-
 def aims(tables: dict[str, pd.DataFrame]) -> Figure:
     """Each aim's estimate with its 95 % interval, fixed and fresh seeds, over the range that the aim asks for."""
     table = tables["aims"]
@@ -69,7 +77,7 @@ def aims(tables: dict[str, pd.DataFrame]) -> Figure:
         xlabel="multiples of the\noracle's threshold", xlim=(0, max(2.0, np.nanmax([2.0, *limit["high"]]) * 1.05))
     )
     handles = [Line2D([], [], color=c, marker=m, ls="-", label=f"{half} seeds") for half, (c, m) in HALVES.items()]
-    _legend(figure, [*handles, Patch(color=GREEN, alpha=0.25, label="the aim")], columns=3)
+    legend_above(figure, [*handles, Patch(color=GREEN, alpha=0.25, label="the aim")], columns=3)
     return figure
 
 
@@ -83,41 +91,16 @@ def _aim_rows(axes: Axes, table: pd.DataFrame, percent: float = 100.0, name: str
                 # an aim of exactly 100 % is still to be seen
                 axes.barh(row, max(most - least, 0.8), left=least, height=0.8, color=GREEN, alpha=0.12, zorder=0)
                 if not np.isfinite(case["estimate"]):
-                    axes.text(
-                        0.02,
-                        y,
-                        f"{int(case['cases'])} cases: too few",
-                        transform=axes.get_yaxis_transform(),
-                        va="center",
-                        color=colour,
-                        fontsize=7,
-                    )
+                    in_margin(axes, y, f"{int(case['cases'])} cases: too few", colour, x=0.02)
                     continue
                 axes.plot([case["low"] * percent, case["high"] * percent], [y, y], color=colour, lw=1.6)
                 axes.plot(case["estimate"] * percent, y, marker=marker, color=colour, ms=5)
                 if percent != 1:
-                    axes.text(
-                        1.01,
-                        y,
-                        f"n = {int(case['cases'])}",
-                        transform=axes.get_yaxis_transform(),
-                        va="center",
-                        color=colour,
-                        fontsize=7,
-                    )
-    labels = [name] if name else [_wrapped(text) for text in texts]
+                    in_margin(axes, y, f"n = {int(case['cases'])}", colour)
+    labels = [name] if name else [textwrap.fill(text, 45) for text in texts]
     axes.set_yticks(range(len(texts)), labels if texts else [])
     axes.set_ylim(len(texts) - 0.4, -0.6)
     axes.grid(axis="y", visible=False)
-
-
-def _wrapped(text: str, width: int = 44) -> str:
-    words, lines = text.split(), [""]
-    for word in words:
-        if len(lines[-1]) + len(word) > width:
-            lines.append("")
-        lines[-1] = f"{lines[-1]} {word}".strip()
-    return "\n".join(lines)
 
 
 def power(tables: dict[str, pd.DataFrame]) -> Figure:
@@ -134,7 +117,7 @@ def power(tables: dict[str, pd.DataFrame]) -> Figure:
         axes.xaxis.set_minor_formatter(LogFormatter())  # 3, 4, 5 within one decade, not 3 x 10^0
     handles = [Line2D([], [], color=c, marker=m, label=label) for c, m, label in FOUND.values()]
     handles.append(Line2D([], [], color=BLACK, ls="--", label="oracle that knows what to test (1 % false alarms)"))
-    _legend(figure, handles, columns=3)
+    legend_above(figure, handles, columns=3)
     return figure
 
 
@@ -190,15 +173,7 @@ def per_effect(tables: dict[str, pd.DataFrame]) -> Figure:
         axes.hlines(y, rows["low"] * 100, rows["high"] * 100, color=BLUE, lw=1.4)
         axes.plot(rows["estimate"] * 100, y, "o", color=BLUE, ms=4)
         for at, cases in zip(y, rows["cases"], strict=True):
-            axes.text(
-                1.02,
-                at,
-                f"{cases:.0f}" if cases > 0 else "–",
-                transform=axes.get_yaxis_transform(),
-                va="center",
-                fontsize=7,
-                color=GREY,
-            )
+            in_margin(axes, float(at), f"{cases:.0f}" if cases > 0 else "–")
         axes.set(title=score, xlim=(-4, 104), xlabel="%")
     panels[-1].axvspan(93, 97, color=GREEN, alpha=0.2, lw=0)
     panels[0].set_yticks(range(len(names)), [name.replace("_", " ") for name in names])
@@ -233,15 +208,13 @@ def _stacked(table: pd.DataFrame, group: str, part: str, count: str, colours: di
                 axes.barh(range(len(groups)), width, left=start, color=colour, edgecolor="white", lw=0.5)
                 start += width
         for at, number in enumerate(total):
-            axes.text(
-                1.01, at, f"{number:.0f}", transform=axes.get_yaxis_transform(), va="center", fontsize=7, color=GREY
-            )
+            in_margin(axes, at, f"{number:.0f}")
         axes.set(title=f"{half} seeds", xlabel=label, xlim=(0, 100))
         axes.grid(axis="y", visible=False)
     panels[0].set_yticks(range(len(groups)), [name.replace("_", " ") for name in groups])
     panels[0].set_ylim(max(len(groups), 1) - 0.5, -0.5)
     used = [name for name in colours if name in set(table[part])]
-    _legend(figure, [Patch(color=colours[name], label=name) for name in used], columns=max(len(used), 1))
+    legend_above(figure, [Patch(color=colours[name], label=name) for name in used], columns=max(len(used), 1))
     return figure
 
 
@@ -274,5 +247,5 @@ def held_out(tables: dict[str, pd.DataFrame]) -> Figure:
     axes.grid(axis="x", visible=False)
     dots = [Line2D([], [], color=c, marker=m, ls="", label=f"{half} seeds") for half, (c, m) in HALVES.items()]
     rest = [Line2D([], [], color=BLACK, label="median"), Patch(color=GREEN, alpha=0.25, label="within 5 %")]
-    _legend(figure, [*dots, *rest], columns=4)
+    legend_above(figure, [*dots, *rest], columns=4)
     return figure

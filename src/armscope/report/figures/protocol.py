@@ -46,7 +46,7 @@ def draw_protocol(tables: Sequence[tuple[str, pd.DataFrame]]) -> Figure:
         axes.set_xlabel("RMS of the 3D distance on configurations that took no part, mm")
         handles = [Line2D([], [], ls="", color=c, marker=m, label=label) for c, m, label in MODELS.values()]
         handles.append(Line2D([], [], ls="", color=VERMILION, marker="|", ms=13, mew=2, label=BEST))
-        legend_above(figure, handles, [str(handle.get_label()) for handle in handles], columns=3)
+        legend_above(figure, handles, columns=3)
     return figure
 
 

@@ -39,7 +39,7 @@ def found(cases: pd.DataFrame) -> Figure:
     for axes, key in zip(panels, ("effect", "arm"), strict=True):
         _outcomes(axes, cases, key)
     handles = [Patch(color=colour, label=name) for name, colour in OUTCOME_COLOURS.items()]
-    legend_above(figure, handles, list(OUTCOME_COLOURS), columns=5)
+    legend_above(figure, handles, columns=5)
     return figure
 
 
@@ -113,4 +113,4 @@ def _size_legend(figure: Figure, cases: pd.DataFrame) -> None:
         Line2D([], [], ls="", marker=marker, color=colour, label=f"{size:g} times what the arm leaves")
         for (marker, colour), size in zip(SIZE_MARKERS, sorted(cases["size"].unique()), strict=False)
     ]
-    legend_above(figure, handles, [handle.get_label() for handle in handles], columns=3)
+    legend_above(figure, handles, columns=3)

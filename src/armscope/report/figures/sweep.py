@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from armscope.report.style import BLUE, GREEN, GREY, ORANGE, VERMILION, legend_above, styled
+from armscope.report.style import BLUE, GREEN, GREY, ORANGE, VERMILION, legend_above, panel_grid, styled
 
 COLOURS = (BLUE, VERMILION, GREEN, ORANGE)
 MARKERS = "osD^"
@@ -22,13 +21,9 @@ def sweeps(table: pd.DataFrame) -> Figure:
         table: rows of `armscope.paper.sweep.run_variant` for all variants.
     """
     names = list(dict.fromkeys(table["sweep"]))
-    columns = min(3, len(names))
-    rows = -(-len(names) // columns)
     with styled():
-        figure, panels = plt.subplots(rows, columns, figsize=(3.4 * columns, 2.7 * rows + 0.6), squeeze=False)
-        for panel in panels.flat[len(names) :]:
-            panel.set_visible(False)
-        for panel, name in zip(panels.flat, names, strict=False):
+        figure, panels = panel_grid(len(names), 3, (3.4, 2.7))
+        for panel, name in zip(panels, names, strict=True):
             _draw(panel, table[table["sweep"] == name])
             model = table.loc[table["sweep"] == name, "model"]
             panel.set(title=model.iloc[0] if model.nunique() == 1 else "", xlabel=name, yscale="log")

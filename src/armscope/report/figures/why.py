@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import textwrap
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
@@ -14,7 +13,7 @@ from matplotlib.ticker import FormatStrFormatter, MaxNLocator, NullFormatter
 from armscope.paper.claims import IMPROVED
 from armscope.paper.claims.catalogue import CLAIMS
 from armscope.paper.why import SPEAKS_FROM, meaning
-from armscope.report.style import BLUE, VERMILION, styled
+from armscope.report.style import BLUE, VERMILION, legend_above, panel_grid, styled
 
 COLUMNS = 3
 
@@ -32,17 +31,13 @@ def why_figure(reasons: pd.DataFrame, per_robot: pd.DataFrame, geometric: pd.Dat
     """
     told = reasons[(reasons["method"] == IMPROVED) & (reasons["share"] >= SPEAKS_FROM) & (reasons["errors"] != "")]
     told = told.dropna(subset=["errors"])
-    rows = max(1, -(-len(told) // COLUMNS))
     with styled():
-        figure, panels = plt.subplots(rows, COLUMNS, figsize=(9.5, 0.4 + 2.7 * rows), squeeze=False)
-        for panel in panels.flat[len(told) :]:
-            panel.set_visible(False)
-        for panel, (_, reason) in zip(panels.flat, told.iterrows(), strict=False):
+        figure, panels = panel_grid(len(told), COLUMNS, (3.2, 2.7))
+        for panel, (_, reason) in zip(panels, told.iterrows(), strict=True):
             mine = per_robot[(per_robot["key"] == reason["key"]) & (per_robot["method"] == IMPROVED)]
             _draw(panel, reason, mine, geometric)
         if len(told):
-            handles, labels = panels.flat[0].get_legend_handles_labels()
-            figure.legend(handles, labels, loc="outside upper center", ncols=2)
+            legend_above(figure, columns=2)
         else:
             figure.text(0.5, 0.5, "No claim is decided by few geometric errors.", ha="center")
     return figure
@@ -62,10 +57,6 @@ def _draw(panel: Axes, reason: pd.Series, outcome: pd.DataFrame, geometric: pd.D
         panel.yaxis.set_major_formatter(FormatStrFormatter("%.3g"))
         panel.yaxis.set_minor_formatter(NullFormatter())
     claim = next(each for each in CLAIMS if each.key == reason["key"])
-    panel.set_title(_wrapped(claim.claim), fontsize=8)
+    panel.set_title(textwrap.fill(claim.claim, 38), fontsize=8)
     panel.set_xlabel(f"{meaning(first)} (tolerances)", fontsize=8)
     panel.set_ylabel(claim.number_is.split(",")[0].split(" of the")[0], fontsize=7)
-
-
-def _wrapped(text: str, width: int = 38) -> str:
-    return "\n".join(textwrap.wrap(text, width))

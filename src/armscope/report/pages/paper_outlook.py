@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 import pandas as pd
 
 from armscope.core.files import read_table
+
+
+def _heads(wide: pd.DataFrame) -> Iterator[tuple[str, str]]:
+    """Both levels of every column's head."""
+    return zip(*(wide.columns.get_level_values(level) for level in (0, 1)), strict=True)
 
 
 @dataclass(frozen=True)
@@ -30,9 +36,7 @@ class ReproducedArm:
         assert self.folder is not None
         table = read_table(self.folder / "table2.csv")
         wide = table.pivot_table(index="model", columns=["trajectory", "axis"], values="rms_median", sort=False)
-        trajectories, axes = (wide.columns.get_level_values(level) for level in (0, 1))
-        short = {"identification": "fitted"}
-        names = [f"{short.get(name, name)} {axis}" for name, axis in zip(trajectories, axes, strict=True)]
+        names = [f"{'fitted' if name == 'identification' else name} {axis}" for name, axis in _heads(wide)]
         return wide.set_axis(names, axis=1).reset_index().rename(columns={"model": "RMS error in mm"})
 
     @property
@@ -57,10 +61,7 @@ class Outlook:
             index="model", columns=["trajectory", "stage"], values="rms_mm", sort=False
         )
         names = {"identification": "", "prediction": "predicted"}
-        levels = (wide.columns.get_level_values(level) for level in (0, 1))
-        columns = [
-            f"{names.get(path, path)} {names.get(stage, stage)}".strip() for path, stage in zip(*levels, strict=True)
-        ]
+        columns = [f"{names.get(path, path)} {names.get(stage, stage)}".strip() for path, stage in _heads(wide)]
         return wide.set_axis(columns, axis=1).reset_index().rename(columns={"model": "3D RMS error in mm"})
 
     @property
@@ -69,7 +70,7 @@ class Outlook:
         table = self._spatial
         held_out = table[(table["arm"] != "virtual") & (table["stage"] == "prediction")]
         wide = held_out.pivot_table(index="model", columns="arm", values="rms_mm", sort=False)
-        wide.columns = [str(name).partition(" (")[0] for name in wide.columns]
+        wide.columns = [str(name).partition(" (")[0] for name in _heads(wide)]
         return wide.reset_index().rename(columns={"model": "held out, 3D RMS in mm"})
 
     @property
@@ -80,9 +81,7 @@ class Outlook:
         wide = kept.pivot_table(index="model", columns="trajectory", values=["mm", "mrad"], sort=False)
         paths = list(dict.fromkeys(kept["trajectory"]))
         wide = wide[[(unit, path) for path in paths for unit in ("mm", "mrad")]]
-        short = {"identification": "fit"}
-        levels = (wide.columns.get_level_values(level) for level in (0, 1))
-        columns = [f"{short.get(path, path)} ({unit})" for unit, path in zip(*levels, strict=True)]
+        columns = [f"{'fit' if path == 'identification' else path} ({unit})" for unit, path in _heads(wide)]
         return wide.set_axis(columns, axis=1).reset_index()
 
     @property
@@ -90,12 +89,10 @@ class Outlook:
         """Sums against products: 3D RMS error in mm."""
         table = read_table(self.folder / "products.csv")
         names = {
-            "kind": "terms are",
-            "terms": "terms chosen",
-            "fit_rms_mm": "fitted",
-            "held_out_rms_mm": "held-out folds",
-        }
-        return table.rename(columns={**names, "stderr_mm": "their standard error"})
+            "kind": "terms are", "terms": "terms chosen", "fit_rms_mm": "fitted", "held_out_rms_mm": "held-out folds",
+            "stderr_mm": "their standard error",
+        }  # fmt: skip
+        return table.rename(columns=names)
 
     @property
     def _spatial(self) -> pd.DataFrame:

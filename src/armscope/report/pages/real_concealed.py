@@ -70,19 +70,27 @@ def _rates(
 
 def _withheld(proof: Path, titles: Mapping[str, str]) -> list[str]:
     path = proof / "withheld.csv"
-    table = pd.read_csv(path) if path.stat().st_size > 1 else pd.DataFrame()
-    if table.empty:
+    if path.stat().st_size <= 1:
         return []
-    head = (
-        "arm", "rows", "learned from", "withheld", "follows the load", "joint compliance by name",
-        "small errors everywhere (mm)", "held out (mm, 3D)",
-    )  # fmt: skip
-    told, rows = [], {"run": "all joints move", "payloads": "three payloads"}
-    for row in table.to_dict("records"):
-        follows = str(row["follows_load"]).replace("_", " ") if row["load_found"] else "nothing"
-        named = "yes" if row["compliance_found"] else "no"
-        learned = "points and orientations" if row["orientations"] else "points"
-        cells = [titles.get(str(row["set"]), row["set"]), rows[row["rows"]], learned, row["withheld"], follows, named]
-        sizes = (significant(float(row[name])) for name in ("background_mm", "held_out_mm"))
-        told.append((*cells, *sizes))
-    return ["", WITHHELD, "", *table_lines(head, told)]
+    table = withheld_table(pd.read_csv(path), titles)
+    return ["", WITHHELD, "", *table_lines([str(name) for name in table], table.itertuples(index=False))]
+
+
+def withheld_table(table: pd.DataFrame, titles: Mapping[str, str]) -> pd.DataFrame:
+    """What is still found without columns, row by row, in words."""
+    if table.empty:
+        return table
+    follows = table["follows_load"].astype(str).str.replace("_", " ").where(table["load_found"].astype(bool), "nothing")
+    everywhere, held_out = (table[name].astype(float).map(significant) for name in ("background_mm", "held_out_mm"))
+    return pd.DataFrame(
+        {
+            "arm": [titles.get(str(name), name) for name in table["set"]],
+            "rows": table["rows"].map({"run": "all joints move", "payloads": "three payloads"}),
+            "learned from": table["orientations"].map({True: "points and orientations", False: "points"}),
+            "withheld": table["withheld"],
+            "follows the load": follows,
+            "joint compliance by name": table["compliance_found"].map({True: "yes", False: "no"}),
+            "small errors everywhere (mm)": everywhere,
+            "held out (mm, 3D)": held_out,
+        }
+    )

@@ -10,7 +10,7 @@ import pandas as pd
 
 from armscope.real import scoring
 from armscope.report.html import definitions, share_text, write_page
-from armscope.report.pages.real_concealed import SCORES
+from armscope.report.pages.real_concealed import SCORES, withheld_table
 
 
 def write_real_proof_page(
@@ -39,7 +39,7 @@ def write_real_proof_page(
         by_effect=_wide(tables["rates"], "effect", titles),
         by_arm=_wide(tables["rates"], "arm", titles),
         held_out=_titled(tables["held_out"], titles),
-        withheld=_withheld(tables["withheld"], titles),
+        withheld=withheld_table(tables["withheld"], titles),
         skipped=_titled(tables["skipped"], titles),
         wrong=_wrong(cases, titles),
         failed=int(cases["failed"].notna().sum()),
@@ -59,26 +59,6 @@ def _wide(rates: pd.DataFrame, by: str, titles: Mapping[str, str]) -> pd.DataFra
     wide = mine.pivot_table(index=["of", "size"], columns="score", values="cell", aggfunc="first").reset_index()
     kept = [name for name in SCORES.values() if name in wide.columns]
     return wide.fillna("–")[["of", "size", *kept]].assign(of=wide["of"].str.replace("_", " "))
-
-
-def _withheld(table: pd.DataFrame, titles: Mapping[str, str]) -> pd.DataFrame:
-    if table.empty:
-        return table
-    yes = {True: "yes", False: "no"}
-    table = _titled(table, titles)
-    table = table.assign(
-        rows=table["rows"].map({"run": "all joints move", "payloads": "three payloads"}),
-        orientations=table["orientations"].map({True: "points and orientations", False: "points"}),
-        load_found=table["load_found"].map(yes),
-        compliance_found=table["compliance_found"].map(yes),
-    )
-    names = {
-        "orientations": "learned from",
-        "load_found": "anything that follows the load", "compliance_found": "joint compliance by name",
-        "follows_load": "what follows the load", "background_mm": "small errors everywhere (mm)",
-        "held_out_mm": "held out (mm, 3D)",
-    }  # fmt: skip
-    return table.rename(columns=names)[["arm", "rows", "withheld", *names.values()]]
 
 
 def _wrong(cases: pd.DataFrame, titles: Mapping[str, str]) -> pd.DataFrame:

@@ -60,9 +60,6 @@ def motion_card(cause: FoundCause, number: int) -> MotionCard:
     curve = any(each.name.startswith(KNOT) for each in cause.parameters)
     known = cause_named(cause.effect)
     labels = known.labels if known else {}
-    doubt = ""
-    if cause.consistent is False:
-        doubt = "Its size differs from path to path: take it as one way to say what happens, not as the cause."
     return MotionCard(
         anchor=f"cause-{number}",
         title=capitalised(cause.title),
@@ -84,7 +81,7 @@ def motion_card(cause: FoundCause, number: int) -> MotionCard:
             for other in cause.alternatives
         ),
         paths=f"{capitalised(cause.carries_over)}." if cause.carries_over else "",
-        doubt=doubt,
+        doubt=cause.doubt,
         figure=f"curve_{number}" if curve else "",
     )
 

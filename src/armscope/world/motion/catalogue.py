@@ -6,7 +6,7 @@ have tuned anything to them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Literal
 
 import numpy as np
@@ -15,6 +15,7 @@ from armscope.core.inputs import Strict
 from armscope.world.motion.kinds import LIBRARY, Kind
 from armscope.world.motion.outside import OUTSIDE
 from armscope.world.motion.session import PathRule
+from armscope.world.spec import Details, Recipe, Wish, seeded
 
 KINDS: dict[str, Kind] = {kind.name: kind for kind in LIBRARY + OUTSIDE}
 ARMS = ("two-axis", "six-axis", "seven-axis")
@@ -25,16 +26,6 @@ STRENGTHS = (3.0, 5.0, 10.0)
 
 Category = Literal["clean", "single", "multiple", "outside", "confounded"]
 Size = Literal["small", "full"]
-Details = dict[str, object]
-Recipe = Callable[[np.random.Generator], Details]
-
-
-class Wish(Strict):
-    """What a world is to conceal: a key of `KINDS`, RMS torque over noise, and where (None: anywhere it can be so)."""
-
-    kind: str
-    strength: float
-    location: str | None = None
 
 
 class MotionSpec(Strict):
@@ -82,17 +73,13 @@ def catalogue(proof_seed: int, size: Size = "small") -> list[MotionSpec]:
 
 
 def _spec(number: int, category: Category, recipe: Recipe, proof_seed: int) -> MotionSpec:
-    fresh = number.bit_count() % 2 == 1
-    sequence = np.random.SeedSequence([proof_seed if fresh else FIXED_SEED, int(fresh), number])
-    rng = np.random.default_rng(sequence)
-    arm = str(rng.choice(ARMS))
-    details: Details = {"arm": arm, **recipe(rng)}
+    seeds, rng = seeded(number, FIXED_SEED, proof_seed)
+    details: Details = {"arm": str(rng.choice(ARMS)), **recipe(rng)}
     return MotionSpec.model_validate(
         {
             "id": f"motion-{number:03d}",
             "category": category,
-            "seed": int(sequence.generate_state(1)[0]),
-            "fresh": fresh,
+            **seeds,
             "rate": int(rng.choice(RATES)),
             "noise": round(float(rng.uniform(0.008, 0.025)), 4),
             "stated": bool(rng.random() < 0.4),

@@ -26,9 +26,10 @@ from armscope.robot.description_file import load_description
 from armscope.world.motion.catalogue import ARMS, KINDS, MotionSpec
 from armscope.world.motion.mechanism import stated_dynamics
 from armscope.world.motion.recording import Recorded, record, table
-from armscope.world.motion.rivals import Alternative, alternatives
+from armscope.world.motion.rivals import alternatives
 from armscope.world.motion.session import make_session
 from armscope.world.motion.virtual_arm import ImpossibleWish, Sized, VirtualArm, ordinary, place
+from armscope.world.rivals import Alternative
 
 FRICTION = ("rotor_inertia_kg_m2", "coulomb_nm", "viscous_nm_s_rad")
 QUIETEST = 0.002

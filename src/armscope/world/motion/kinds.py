@@ -54,8 +54,7 @@ class Stage:
 
 def sign(session: Session, joint: int) -> Array:
     """(T,) of a joint's speed."""
-    found: Array = np.tanh(session.speed[:, joint] / STANDSTILL)
-    return found
+    return np.tanh(session.speed[:, joint] / STANDSTILL)
 
 
 @dataclass(frozen=True)
@@ -208,20 +207,17 @@ def _tilted(dynamics: Dynamics, place: Location, numbers: Numbers) -> Dynamics:
 def _cable(stage: Stage, joint: int, numbers: Numbers) -> Array:
     """A harness that is bent more and more: a cubic of the angle, no torque in the middle."""
     angle = stage.session.angle[:, joint] - numbers["middle"]
-    found: Array = numbers["torque"] * (0.4 * angle + angle**3)
-    return found
+    return numbers["torque"] * (0.4 * angle + angle**3)
 
 
 def _ripple(stage: Stage, joint: int, numbers: Numbers) -> Array:
     turn = numbers["per_turn"] * stage.session.angle[:, joint] - numbers["phase"]
-    found: Array = numbers["amplitude"] * np.cos(turn)
-    return found
+    return numbers["amplitude"] * np.cos(turn)
 
 
 def _stribeck(stage: Stage, joint: int, numbers: Numbers) -> Array:
     slow = np.exp(-((stage.session.speed[:, joint] / numbers["speed"]) ** 2))
-    found: Array = numbers["stribeck"] * slow * sign(stage.session, joint)
-    return found
+    return numbers["stribeck"] * slow * sign(stage.session, joint)
 
 
 def _late(session: Session, torque: Array, joint: int, numbers: Numbers) -> Array:

@@ -22,15 +22,13 @@ def _hysteresis(stage: Stage, joint: int, numbers: Numbers) -> Array:
         side = np.sign(step)
         state = side + (state - side) * np.exp(-abs(step)) if step else state
         shares[row] = state
-    found: Array = numbers["torque"] * shares
-    return found
+    return numbers["torque"] * shares
 
 
 def _eccentric(stage: Stage, joint: int, numbers: Numbers) -> Array:
     """A gear off its centre meshes tight on one side of the turn: dry friction goes up and down once per turn."""
     turned = stage.session.angle[:, joint] - numbers["phase"]
-    found: Array = numbers["torque"] * np.cos(turned) * sign(stage.session, joint)
-    return found
+    return numbers["torque"] * np.cos(turned) * sign(stage.session, joint)
 
 
 def _play(session: Session, torque: Array, joint: int, numbers: Numbers) -> Array:

@@ -8,7 +8,7 @@ same engine as the world: two compiled arms that differ by a little.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,31 +20,12 @@ from armscope.world.motion.mechanism import Dynamics, MovingArm
 from armscope.world.motion.recording import independent_share
 from armscope.world.motion.session import COLD_C, GRID_HZ, Session
 from armscope.world.motion.virtual_arm import Sized, VirtualArm
+from armscope.world.rivals import ALTERNATIVE_NATS, Alternative, Rival
 
-ALTERNATIVE_NATS = 5.0
-"""A rival whose evidence falls short by less than this is an acceptable answer."""
 MOST_SAMPLES = 600
 SMALL = 1e-4
 STRIBECK_SPEEDS = (0.05, 0.15, 0.4)
 CURVE_DEGREE = 5
-
-
-@dataclass(frozen=True, eq=False)
-class Rival:
-    """A cause at a place with its patterns (N n, k), N m per unit of its k numbers."""
-
-    effect: str
-    location: str
-    columns: Array
-
-
-@dataclass(frozen=True)
-class Alternative:
-    """A name that is as good, and how much evidence it falls short by, nats."""
-
-    effect: str
-    location: str
-    gap_nats: float
 
 
 def alternatives(arm: VirtualArm, concealed: list[Sized], rate: int, plain: Array) -> list[list[Alternative]]:
@@ -99,8 +80,7 @@ def _orthonormal(columns: Array) -> Array:
     if not kept.shape[1]:
         return np.zeros((len(columns), 0))
     left, singular, _ = np.linalg.svd(kept, full_matrices=False)
-    found: Array = left[:, singular > 1e-9]
-    return found
+    return left[:, singular > 1e-9]
 
 
 def _background(arm: VirtualArm, rows: NDArray[np.intp]) -> Array:

@@ -1,0 +1,50 @@
+"""Whether free curves foretell rows that took no part: in a short table some joint's curve follows nearly anything.
+
+A curve has a value for every stretch of its joint, and rows of one configuration lie on the same stretch: of 25
+configurations it can take most of what is left, at high evidence, and misses the next configuration by ten times the
+noise. So the best reading without any curve is asked beside it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from armscope.diagnosis.constants import FOLDING
+from armscope.diagnosis.earning import held_out_errors
+from armscope.inference.evidence import Hypothesis
+from armscope.inference.normal_equations import NormalEquations
+from armscope.inference.problem import Problem
+from armscope.inference.search import Search
+
+
+def foretold_without_curves(
+    problem: Problem, blocks: Sequence[NormalEquations], hypothesis: Hypothesis
+) -> Hypothesis | None:
+    """The best hypothesis without free curves, where it foretells held-out rows better than one with some.
+
+    Better is by more than a standard error over the blocks; by anything where the evidence is for it, too.
+
+    Args:
+        problem: the sums of all rows, priors and costs.
+        blocks: sums of blocks of rows.
+        hypothesis: that the search found.
+
+    Returns:
+        The hypothesis; None where there is no curve, or where the curves foretell the rows.
+    """
+    space = problem.space
+    if not any(space.candidates[c].is_curve for c in hypothesis.candidates):
+        return None
+    reading = hypothesis.chosen, hypothesis.background
+    errors = held_out_errors(problem, blocks, [reading], hypothesis.noise)
+    if np.sqrt(errors.sum() / problem.n) < FOLDING.overfitted * hypothesis.noise:
+        return None
+    plain = tuple(replace(each, competes=each.competes and not each.is_curve) for each in space.candidates)
+    rival = Search.on(replace(problem, space=replace(space, candidates=plain))).best()
+    errors = held_out_errors(problem, blocks, [reading, (rival.chosen, rival.background)], hypothesis.noise)
+    gain = errors[:, 0] - errors[:, 1]
+    doubt = 0.0 if rival.log_posterior > hypothesis.log_posterior else float(gain.std(ddof=1) * np.sqrt(len(gain)))
+    return rival if gain.sum() > doubt else None

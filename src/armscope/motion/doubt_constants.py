@@ -1,0 +1,59 @@
+"""Numbers that decide what is told with care, or as torque that lasts without a law; see `armscope.core.constants`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from armscope.core.constants import Constants, constant
+
+
+@dataclass(frozen=True)
+class PlausibleRules(Constants):
+    """What an arm may be."""
+
+    slowest_swing_hz: float = constant(
+        5.0,
+        "at which a link swings on its drive, below which that is told as doubtful",
+        "convention: lowest resonances of industrial arms lie at 5 to 25 Hz (Good, Sweet & Strobel 1985); belts are "
+        "softer, so no name is refused by it",
+        unit="Hz",
+    )
+    poses: int = constant(200, "in which a link's inertia is looked at", "judgement: it changes slowly", unit="rows")
+
+
+@dataclass(frozen=True)
+class LastingRules(Constants):
+    """When torque that lasts and repeats is told although it has no law."""
+
+    rows: int = constant(2000, "of a joint that are looked at", "judgement: what lasts needs few", unit="rows")
+    knots: int = constant(9, "of what is looked for over one driver", "judgement: as many as of a free curve")
+    knots_of_pairs: int = constant(6, "of each of two drivers", "judgement: a bend or two each way")
+    knots_of_time: int = constant(24, "of the time in a run", "judgement: some seconds each")
+    least_rows: int = constant(200, "that must move", "judgement: fewer repeat nothing", unit="rows")
+    repeats: float = constant(
+        0.1,
+        "of the power that the model leaves at a joint, that what is learned from other motion must foretell",
+        "judgement: a third of its RMS; of 180 joints of arms all of whose causes have laws 0.02 at most was foretold",
+    )
+    share: float = constant(
+        0.04,
+        "of the power that friction and rotors leave at the joint, below which nothing is told",
+        "judgement: a fifth of its RMS; causes' own laws are a little wrong, too",
+    )
+    shifts: int = constant(49, "of the residual in time that tell what chance foretells", "judgement: time")
+    by_chance: float = constant(
+        0.1,
+        "of them that may be foretold as well",
+        "judgement: a motion that repeats itself makes some shifts alike; noise that lasts a second or more passes "
+        "this and the share above at one joint in 60 (320 drawn)",
+    )
+    beyond: tuple[float, float] = constant(
+        (0.1, 0.9), "of the rows, by which it is shifted", "judgement: beyond what lasts"
+    )
+    seconds: tuple[float, ...] = constant(
+        (0.5, 2.0, 8.0), "that torque may be remembered", "judgement: from a filter's time to a run's", unit="s"
+    )
+
+
+PLAUSIBLE = PlausibleRules()
+LASTING = LastingRules()
