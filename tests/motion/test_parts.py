@@ -24,9 +24,9 @@ from armscope.motion.library import place_causes
 from armscope.motion.masses import place_masses
 from armscope.motion.pipeline import diagnose_motion
 from armscope.motion.preparation import parts, preparation
+from armscope.motion.recorded_ranges import seen_in
 from armscope.motion.rows import build_rows, stated_model
 from armscope.motion.sampling_constants import FILTER
-from armscope.motion.seen import seen_in
 from armscope.motion.selection import select_causes
 from armscope.motion.space import build_space
 from armscope.motion.timing import Stretch, mended, stretches

@@ -41,9 +41,9 @@ from armscope.motion.layout import TorqueLayout
 from armscope.motion.library import place_causes
 from armscope.motion.model import MotionModel, fitted_model
 from armscope.motion.preparation import Preparation
+from armscope.motion.recorded_ranges import seen_in
 from armscope.motion.rows import MotionRows, build_rows, torque_of
 from armscope.motion.sampling_constants import FILTER
-from armscope.motion.seen import seen_in
 from armscope.motion.selection import SelectedCauses, model_so_far, select_causes
 from armscope.motion.tenable import tenable
 from armscope.motion.timing import Stretch, mended, stretches
