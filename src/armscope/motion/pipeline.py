@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import time
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 
@@ -131,7 +130,7 @@ def diagnose_motion(
     Raises:
         InputError: the samples don't fit the arm or hold nothing to go by.
     """
-    settings, started = settings or MotionSettings(), time.perf_counter()
+    settings = settings or MotionSettings()
     for run in settings.held_out:
         if run not in motions.runs:
             raise InputError("--held-out", "", run, f"{motions.source} has no such run", nearest(run, motions.runs))
@@ -161,7 +160,6 @@ def diagnose_motion(
         notices=(*notices, *verdict.notices),
         samples=len(motions),
         runs=runs,
-        seconds=time.perf_counter() - started,
         settings=asdict(settings),
     )
     progress("done", 1.0)
