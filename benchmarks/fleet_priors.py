@@ -83,10 +83,10 @@ def main() -> None:
                 spec = arm_spec(number, 10**9, SEED).model_copy(
                     update={"rows": rows, "id": f"next-{rows}-{number:03d}"}
                 )
-                smaller = [wish.model_copy(update={"strength": wish.strength / asked.weaker}) for wish in spec.wishes]
-                spec = spec.model_copy(update={"wishes": tuple(smaller)})
+                smaller = [each.model_copy(update={"strength": each.strength / asked.weaker}) for each in spec.effects]
+                spec = spec.model_copy(update={"effects": tuple(smaller)})
                 if number % 2:
-                    spec = spec.model_copy(update={"category": "clean", "wishes": ()})
+                    spec = spec.model_copy(update={"category": "clean", "effects": ()})
                 world = build(spec, home / "next", ROBOTS)
                 seal(world.parent, home / "truth.tar")
                 truth = unseal(home / "truth.tar")[spec.id]

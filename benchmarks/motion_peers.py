@@ -59,6 +59,8 @@ class Problem:
 
 def here(problem: Problem) -> tuple[float, float, MotionRows]:
     """(held-out error, CPU s) of masses, friction, rotors and offsets by least squares, and the held-out rows."""
+    import scipy.signal  # noqa: F401  # loaded before the clock runs, as the peers' packages are
+
     layout = TorqueLayout(problem.arm, (), False)
     started = process_time()
     rows = build_rows(layout, problem.train, problem.how, stated_model(problem.arm))

@@ -20,7 +20,7 @@ from armscope.robot.description import RobotDescription
 from armscope.world.kinds import Concealed
 from armscope.world.session import random_session
 from armscope.world.spec import KINDS
-from armscope.world.strength import make_scene, sized, stand
+from armscope.world.strength import equilibrium, make_scene, sized
 
 ARMS = {
     "UR5": ("ur_description/urdf/ur5_robot.urdf", "tool0", {}),
@@ -60,7 +60,7 @@ def simulated(request):
 
 
 def recorded(arm, scene, base, effects, noise=NOISE_M):
-    points = stand(scene, effects).tool @ base[:3, :3].T + base[:3, 3]
+    points = equilibrium(scene, effects).tool @ base[:3, :3].T + base[:3, 3]
     points = points + np.random.default_rng(5).normal(0, noise, points.shape)
     content = {f"q{j + 1}_rad": scene.session.commanded[:, j] for j in range(arm.n_motors)}
     content |= {f"{axis}_m": points[:, k] for k, axis in enumerate("xyz")} | {"payload_kg": scene.session.payload}

@@ -39,17 +39,17 @@ from armscope.recordings import read_recordings
 from armscope.report.style import BLUE, GREY, ORANGE, VERMILION, save_figure, styled
 from armscope.robot import load_arm
 from armscope.world.folder import build
-from armscope.world.spec import Wish, WorldSpec
+from armscope.world.spec import EffectSpec, WorldSpec
 from tools import bench
 
 ROOT = Path(__file__).parents[1]
 FIGURES = ROOT / "docs" / "figures"
 SEED, ROWS, NOISE_MM = 11, 250, 0.03
 STORY = (
-    Wish(kind="backlash", strength=3.0, location="joint 4"),
-    Wish(kind="link_geometry", strength=20.0, location="link 2"),
-    Wish(kind="joint_compliance", strength=5.0, location="joint 2"),
-    Wish(kind="gear_eccentricity", strength=4.0, location="joint 1"),
+    EffectSpec(kind="backlash", strength=3.0, location="joint 4"),
+    EffectSpec(kind="link_geometry", strength=20.0, location="link 2"),
+    EffectSpec(kind="joint_compliance", strength=5.0, location="joint 2"),
+    EffectSpec(kind="gear_eccentricity", strength=4.0, location="joint 1"),
 )
 EVERYWHERE = {
     "joint_offset": (1.5, 4.0),
@@ -64,17 +64,17 @@ WORDS = {"geometric": "small D-H errors everywhere", "elastic": "a little give e
 def world() -> WorldSpec:
     """The arm of the pictures: what it conceals, the story first."""
     rng = np.random.default_rng(SEED)
-    wishes = list(STORY)
-    taken = {(wish.kind, wish.location) for wish in STORY}
+    effects = list(STORY)
+    taken = {(asked.kind, asked.location) for asked in STORY}
     for kind, (low, high) in EVERYWHERE.items():
         for number in range(1, 7):
             place = f"{'link' if kind.startswith('link') else 'joint'} {number}"
             if (kind, place) not in taken:
                 size = round(float(rng.uniform(low, high)), 3)
-                wishes.append(Wish(kind=kind, strength=size, location=place, minor=True))
+                effects.append(EffectSpec(kind=kind, strength=size, location=place, minor=True))
     return WorldSpec(
         id="arm", category="real", arm="six-axis", seed=SEED, fresh=False, rows=ROWS, sigma_mm=NOISE_MM,
-        wishes=tuple(wishes),
+        effects=tuple(effects),
     )  # fmt: skip
 
 

@@ -9,10 +9,10 @@ import yaml
 from typer.testing import CliRunner
 
 from armscope.calibration import calibrate
+from armscope.calibration.confounding import Confounded, kind_of
 from armscope.calibration.export import export, frames_content
 from armscope.calibration.fit import least_squares
 from armscope.calibration.geometry import constants_of, corrected
-from armscope.calibration.imitation import Imitation, kind_of
 from armscope.calibration.model import set_up
 from armscope.cli import app
 from armscope.core.inputs import InputError
@@ -204,11 +204,11 @@ def test_links_without_mass_are_named_where_loads_follow_from_masses(rng):
 
 
 def test_many_partners_are_told_by_the_frames_they_belong_to():
-    many = Imitation("joint 1 rx", ("base rx", "base y", "base ry", "tool of p1 z"), 0.01)
+    many = Confounded("joint 1 rx", ("base rx", "base y", "base ry", "tool of p1 z"), 0.01)
     assert many.text() == "joint 1 rx: as base with tool of p1"
     assert replace(many, left=0.2).text().endswith("tool of p1 and more")
-    assert Imitation("joint 6 d", ("tool z",), 0.0).text() == "joint 6 d: as tool z"
-    assert Imitation("joint 6 d", (), 1.0).text() == "joint 6 d: hardly moves the tool"
+    assert Confounded("joint 6 d", ("tool z",), 0.0).text() == "joint 6 d: as tool z"
+    assert Confounded("joint 6 d", (), 1.0).text() == "joint 6 d: hardly moves the tool"
 
 
 def test_the_command_writes_what_was_found_and_nothing_that_is_doubtful(rng, tmp_path):

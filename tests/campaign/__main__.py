@@ -1,6 +1,6 @@
 """Break it on purpose, and print what held; docs/trust.md is made from that table.
 
-python -m tests.campaign --times 20 --page docs/trust.md     # make campaign: an hour or two
+python -m tests.campaign --times 20 --page docs/trust.md     # make campaign: two hours of CPU time
 python -m tests.campaign --times 1 --parts kills starved     # a few minutes
 
 The page is written after each part; parts that were not asked for stay as they were.

@@ -167,5 +167,5 @@ def test_a_model_fitted_to_recordings_in_a_far_frame_needs_registration():
     model = fit_error_model(arm, table, FDP_CI, register=True)
     assert np.abs(model.base.rotation - turn).max() < 0.01
     assert np.all(model.rms_mm < 1.5)
-    registered = black_box_candidate(model).stand(angles)[0] @ model.base.rotation.T + model.base.translation
+    registered = black_box_candidate(model).tool_pose(angles)[0] @ model.base.rotation.T + model.base.translation
     assert np.sqrt(np.mean((registered - measured) ** 2)) < 1e-3

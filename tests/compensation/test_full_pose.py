@@ -9,12 +9,12 @@ from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
 from armscope.cli import app
-from armscope.compensation.branch import nominal_branch
 from armscope.compensation.compensate import compensate_black_box
 from armscope.compensation.error_model_file import load_error_model, save_error_model
 from armscope.compensation.fitting import fit_error_model
 from armscope.compensation.forward import BlackBoxArm
 from armscope.compensation.newton import Wanted
+from armscope.compensation.nominal_path import nominal_branch
 from armscope.compensation.path import as_path
 from armscope.compensation.task import Options
 from armscope.core.inputs import InputError
@@ -68,7 +68,7 @@ def test_planted_errors_of_position_and_orientation_are_found():
     model = fit_error_model(sk120(), recorded(angles_of(60, 1)), SDP_AI)
     assert np.abs(model.rms_mm).max() < 1e-9
     assert np.abs(model.turning.rms_mrad).max() < 1e-9
-    points, rotations = model.stand(angles_of(30, 2))
+    points, rotations = model.tool_pose(angles_of(30, 2))
     true_points, true_turns = true_pose(angles_of(30, 2))
     np.testing.assert_allclose(points, true_points, atol=1e-12)
     assert turns_between(Rotation.from_matrix(rotations), true_turns).max() < 1e-9
@@ -87,7 +87,7 @@ def test_planted_errors_of_position_and_orientation_are_found():
 def test_every_family_takes_most_of_both_errors_off_held_out_poses(spec, options):
     model = fit_error_model(sk120(), recorded(angles_of(150, 1)), spec, **options)
     held_out = angles_of(50, 2)
-    (errors, turns), (points, rotations) = planted(held_out), model.stand(held_out)
+    (errors, turns), (points, rotations) = planted(held_out), model.tool_pose(held_out)
     true_points, true_turns = true_pose(held_out)
     share = 0.8 if spec is FDP_CI else 0.2
     assert np.linalg.norm(points - true_points) * 1e3 < share * np.linalg.norm(errors - errors.mean(axis=0))

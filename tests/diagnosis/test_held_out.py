@@ -9,9 +9,11 @@ import pytest
 
 from armscope.diagnosis import Settings, diagnose
 from armscope.diagnosis.held_out import Rows, left_over, split
+from armscope.diagnosis.selection import select
 from armscope.diagnosis.selection_loop import SelectionLoop
-from armscope.fitting.linearisation import point_residuals
+from armscope.fitting.linearisation import LinearisedTable, point_residuals
 from armscope.fitting.registration import fit_frames
+from armscope.inference.normal_equations import total
 from armscope.measurement.noise import Noise
 from armscope.physics.frames import free_frames
 
@@ -62,6 +64,19 @@ def test_readings_are_told_at_the_point_where_their_columns_were_taken() -> None
     left = left_over(rows, values[None])[0]
     np.testing.assert_allclose(left, found.fit.residuals, atol=0.004)
     assert np.abs(point_residuals(off, table) - point_residuals(found.fit.model, table)).max() > 0.2
+
+
+def test_sums_by_block_are_those_of_the_round_in_which_the_selection_rests() -> None:
+    arm, table = planted("six-axis", {("joint_offset", "joint 3"): [3e-4]}, 60, 0.02, seed=8)
+    table.positions[7] += 6e-5  # half a bad shot: what it weighs changes from round to round
+    frames, blocks = free_frames(table, False), np.arange(60) % 6
+    found = select(
+        fit_frames(arm, table), LinearisedTable(table), Noise(0.0, 0.0, ""), frames, blocks, lambda text, share: None
+    )
+    assert len(found.blocks) == 6
+    together = found.problem.with_equations(total(found.blocks)).equations
+    np.testing.assert_allclose(together.G, found.problem.equations.G, atol=1e-9 * together.n)
+    np.testing.assert_allclose(together.b, found.problem.equations.b, atol=1e-9 * together.n)
 
 
 def test_a_run_held_out_whole_gets_a_base_of_its_own() -> None:

@@ -58,5 +58,5 @@ def test_what_repeats_is_counted_by_arm_not_by_diagnosis():
 
 def test_simulated_arms_have_the_weakness_of_their_type_as_a_rule():
     specs = [arm_spec(number, 300, 5) for number in range(299)]
-    share = np.mean([any((w.kind, w.location) == WEAKNESSES[s.arm] for w in s.wishes) for s in specs])
+    share = np.mean([any((w.kind, w.location) == WEAKNESSES[s.arm] for w in s.effects) for s in specs])
     assert 0.6 < share < 0.8

@@ -106,12 +106,12 @@ def test_every_family_of_the_bench_is_told():
 
 
 def test_the_arm_of_the_pictures_has_a_little_everywhere_and_a_story_that_stands_out():
-    wishes = why_a_name.world().wishes
-    assert wishes[: len(why_a_name.STORY)] == why_a_name.STORY
-    places = [(wish.kind, wish.location) for wish in wishes]
+    effects = why_a_name.world().effects
+    assert effects[: len(why_a_name.STORY)] == why_a_name.STORY
+    places = [(asked.kind, asked.location) for asked in effects]
     assert len(set(places)) == len(places)
-    largest = {kind: max(w.strength for w in wishes if w.minor and w.kind == kind) for kind in why_a_name.EVERYWHERE}
-    assert all(wish.strength > largest.get(wish.kind, 0.0) for wish in why_a_name.STORY)
+    largest = {kind: max(w.strength for w in effects if w.minor and w.kind == kind) for kind in why_a_name.EVERYWHERE}
+    assert all(asked.strength > largest.get(asked.kind, 0.0) for asked in why_a_name.STORY)
 
 
 def test_a_picture_shows_what_did_not_pay():

@@ -5,13 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from armscope.core.types import Array
 from armscope.diagnosis.model_space import build_model_space
 from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.fitting.registration import fit_frames
 from armscope.inference import linear_algebra
-from armscope.inference.additions import AskedAdditions, addition_scores, group_candidates
+from armscope.inference.additions import AskedAdditions, addition_scores, background_scores, group_candidates
 from armscope.inference.conditioning import condition_on, low_rank_update
-from armscope.inference.constants import NUMERICS
+from armscope.inference.edits import replaced
 from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.normal_equations import total
@@ -88,6 +89,21 @@ def test_another_background_is_what_is_weighed_with_it(setting: Problem, backgro
     )
 
 
+@pytest.mark.parametrize("number", range(4))
+@pytest.mark.parametrize("background", [(0, 0, 0, 0, 0), (2, 1, 0, 0, 0)])
+def test_a_background_promises_what_is_weighed_with_it(
+    setting: Problem, background: BackgroundSizes, number: int
+) -> None:
+    hypothesis, family = whole(setting, background), setting.space.families[number]
+    if background[number] or not len(family.columns):
+        pytest.skip("it is there already, or has no members on this arm")
+    promised = background_scores(setting, hypothesis, number)
+    for size in range(1, family.sizes):
+        other = evaluate(setting, hypothesis.chosen, replaced(background, number, size), NOISE)
+        gained = other.log_evidence - hypothesis.log_evidence - setting.family_costs[number]
+        assert promised[size - 1] == pytest.approx(gained, abs=1e-5)
+
+
 def test_what_needs_further_columns_must_be_weighed(setting: Problem) -> None:
     hypothesis = whole(setting, (0, 0, 0, 0, 0))
     assert low_rank_update(setting, hypothesis, hypothesis.chosen, (2, 0, 0, 0, 0)) is None
@@ -102,11 +118,25 @@ def test_only_what_is_asked_is_answered(setting: Problem) -> None:
     assert np.all(np.isneginf(some[:, ~asked]))
 
 
-def test_sets_of_many_columns_gain_the_same_by_factors_as_by_eigenvalues(
-    setting: Problem, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_gains_are_the_same_by_factors_as_by_eigenvalues(setting: Problem, monkeypatch: pytest.MonkeyPatch) -> None:
     hypothesis, groups = whole(setting, (2, 0, 0, 0, 0)), group_candidates(setting)
-    assert max(columns.shape[1] for columns in groups.columns) > NUMERICS.many_columns
     by_factors = addition_scores(setting, groups, hypothesis)
-    monkeypatch.setattr(linear_algebra, "NUMERICS", replace(NUMERICS, many_columns=1000))
+
+    def indefinite(*blocks: Array) -> None:
+        raise np.linalg.LinAlgError
+
+    monkeypatch.setattr(linear_algebra, "_factorised", indefinite)
     np.testing.assert_allclose(by_factors, addition_scores(setting, groups, hypothesis), rtol=1e-8, atol=1e-7)
+
+
+@pytest.mark.parametrize("columns", [1, 2, 5])
+def test_quadratic_and_volume_are_those_of_whole_matrices(columns: int) -> None:
+    rng = np.random.default_rng(columns)
+    half, r, widths = (rng.normal(size=shape) for shape in ((4, 9, columns), (4, columns), (3, 4, columns)))
+    D = np.swapaxes(half, 1, 2) @ half
+    quadratic, logdet = linear_algebra.quadratic_and_logdet(D, r, np.abs(widths))
+    for size, block in np.ndindex(3, 4):
+        width = np.diag(np.abs(widths[size, block]))
+        whole_matrix = D[block] + np.linalg.inv(width**2)
+        assert quadratic[size, block] == pytest.approx(r[block] @ np.linalg.solve(whole_matrix, r[block]))
+        assert logdet[size, block] == pytest.approx(np.linalg.slogdet(np.eye(columns) + width @ D[block] @ width)[1])

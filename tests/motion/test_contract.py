@@ -29,6 +29,11 @@ def test_the_published_schema_is_the_one_that_the_types_generate() -> None:
     assert published() == contract.schema(), told
 
 
+def test_what_the_clock_says_is_no_result() -> None:
+    """The same command writes the same bytes; found by the campaign."""
+    assert "seconds" not in published()["properties"]
+
+
 def test_a_verdict_is_written_as_the_schema_says_and_read_back() -> None:
     verdict = read_motion_verdict(KEPT)
     nobody = replace(verdict.effects[0].parameters[0], stderr=math.nan)

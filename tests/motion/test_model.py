@@ -24,7 +24,7 @@ from armscope.motion.model_file import load_motion_model, save_motion_model
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
 from armscope.motion.predicting import torque_of_rows
 from armscope.motion.preparation import preparation
-from armscope.motion.seen import seen_in
+from armscope.motion.recorded_ranges import seen_in
 from armscope.motion.timing import stretches
 from armscope.motion.verdict import relative
 from tests.motion.moving import moved, robot

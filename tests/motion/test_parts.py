@@ -11,6 +11,7 @@ from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.inference.model_space import Candidate
 from armscope.motion import catalogue
+from armscope.motion import preparation as preparation_room
 from armscope.motion.causes import Seen
 from armscope.motion.check import check_motions
 from armscope.motion.consistency import PathAgreement
@@ -24,9 +25,9 @@ from armscope.motion.library import place_causes
 from armscope.motion.masses import place_masses
 from armscope.motion.pipeline import diagnose_motion
 from armscope.motion.preparation import parts, preparation
+from armscope.motion.recorded_ranges import seen_in
 from armscope.motion.rows import build_rows, stated_model
-from armscope.motion.sampling_constants import FILTER
-from armscope.motion.seen import seen_in
+from armscope.motion.sampling_constants import CUTOFF, FILTER
 from armscope.motion.selection import select_causes
 from armscope.motion.space import build_space
 from armscope.motion.timing import Stretch, mended, stretches
@@ -124,6 +125,20 @@ def test_the_cutoff_follows_the_motion_and_not_the_noise() -> None:
     assert "explains as much" in how.words
     assert first.model.background[:, 1] == pytest.approx(COULOMB, rel=0.1)
     assert chosen_cutoff(robot(), list(stretches(moved(robot(), 3, runs=1))), 6.0)[0].cutoff == 6.0
+
+
+def test_rows_that_are_thinned_resolve_what_the_filter_lets_through(monkeypatch: pytest.MonkeyPatch) -> None:
+    arm = robot()
+    train = list(stretches(moved(arm, 3)))
+    whole, _ = chosen_cutoff(arm, train, None)
+    monkeypatch.setattr(preparation_room, "FILTER", dataclasses.replace(FILTER, most_rows=900))
+    thin, _ = chosen_cutoff(arm, train, None)
+    asked, _ = chosen_cutoff(arm, train, whole.cutoff)
+    assert thin.every > whole.every
+    assert thin.cutoff < whole.cutoff
+    assert thin.rate / thin.every >= 1.5 * thin.cutoff > 1.5 * thin.rate / thin.every / 4
+    assert asked.cutoff == whole.cutoff
+    assert thin.cutoff >= thin.position_cutoff / CUTOFF.beyond_motion * 0.95
 
 
 def test_waves_that_the_library_will_try_are_those_in_the_torque() -> None:

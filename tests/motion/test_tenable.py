@@ -7,7 +7,7 @@ from armscope.core.types import Array
 from armscope.motion.cutoff import chosen_cutoff
 from armscope.motion.layout import TorqueLayout
 from armscope.motion.library import place_causes
-from armscope.motion.seen import seen_in
+from armscope.motion.recorded_ranges import seen_in
 from armscope.motion.selection import SelectedCauses, select_causes
 from armscope.motion.tenable import tenable
 from armscope.motion.timing import stretches

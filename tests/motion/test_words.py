@@ -14,8 +14,8 @@ from armscope.motion.clauses import amount
 from armscope.motion.constants import LIBRARY
 from armscope.motion.laws import Law
 from armscope.motion.library import place_causes
+from armscope.motion.recorded_ranges import seen_in
 from armscope.motion.remedies import Fitted, by_factor, gravity_vector
-from armscope.motion.seen import seen_in
 from armscope.motion.timing import stretches
 from armscope.motion.verdict import FoundCause
 from armscope.motion.words import clause, cure

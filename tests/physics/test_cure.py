@@ -27,11 +27,11 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm, chain
 from armscope.robot.gravity import gravity_torques
 from armscope.robot.kinematics import joint_jacobian
-from armscope.world.blemishes import DRIVE
+from armscope.world.imperfections import DRIVE
 from armscope.world.kinds import Concealed
 from armscope.world.spec import KINDS
 from armscope.world.statics import Hidden, Session, balance
-from armscope.world.strength import make_scene, stand
+from armscope.world.strength import equilibrium, make_scene
 
 from ..world.scenes import drawn, scene_of
 from .scenes import arm_named
@@ -81,7 +81,7 @@ class World:
         """Where the tool is measured under other commands."""
         session = self.session if commanded is None else replace(self.session, commanded=commanded)
         scene, _ = make_scene(scene_of(self.name, count=ROWS)[0].description, session)
-        return stand(scene, self.concealed).tool
+        return equilibrium(scene, self.concealed).tool
 
     def table(self) -> Recordings:
         """The wanted poses, and what was measured there."""
@@ -106,7 +106,7 @@ def world_with(kind: str, place: str, *others: Concealed) -> World:
     scene, wanted = scene_of(name, count=ROWS)
     effect = drawn(scene, kind, place)
     for _ in range(2):
-        effect = effect.scaled(ERROR_M / rms(stand(scene, [effect]).tool - wanted))
+        effect = effect.scaled(ERROR_M / rms(equilibrium(scene, [effect]).tool - wanted))
     return World(arm_named(name), scene.session, (effect, *others), wanted, name)
 
 

@@ -8,7 +8,7 @@ from armscope.poses.candidates import candidates, ranges
 from armscope.poses.choose import choose, grid_choice, short_way
 from armscope.poses.compare import compare_sets, predicted_errors, share_won
 from armscope.poses.obstacles import Surroundings, refusals
-from armscope.poses.shown import shown
+from armscope.poses.target_parameters import target_parameters
 from armscope.robot import load_arm
 from armscope.robot.arm import build_arm
 from armscope.robot.description import RobotDescription
@@ -40,7 +40,7 @@ def test_candidates_are_possible_within_limits_and_the_same_for_a_seed(arm):
 @pytest.mark.parametrize("effects", [("geometry",), ("joint_compliance", "backlash"), ("geometry", "link_bending")])
 def test_the_jacobian_is_the_slope_of_the_exact_model(arm, effects):
     pool = candidates(arm, 30, Surroundings(), 0, payload_kg=10)
-    seen = shown(arm, pool.table, effects)
+    seen = target_parameters(arm, pool.table, effects)
     jacobian = seen.jacobian(pool.table)
     for k in range(len(seen.terms)):
         values = np.eye(len(seen.terms))[k] * 1e-3
@@ -51,13 +51,13 @@ def test_the_jacobian_is_the_slope_of_the_exact_model(arm, effects):
 def test_of_a_urdf_the_zeros_of_motors_are_shown_before_turns_of_links_that_imitate_them():
     urdf = str(Path(__file__).parents[1] / "robot" / "torso_arm.urdf")
     arm = build_arm(RobotDescription(name="t", urdf=urdf, tip="flange", hold_joints={"torso_lift": 0.1}))
-    seen = shown(arm, candidates(arm, 200, Surroundings(), 0).table)
+    seen = target_parameters(arm, candidates(arm, 200, Surroundings(), 0).table)
     offsets = {name for name in seen.hidden if name.endswith("offset")}
     assert offsets <= {"joint 1 offset", "joint 6 offset"}  # those of base and tool
 
 
 def test_every_kept_parameter_is_told_apart_and_moves_the_tool_by_a_millimetre(choice):
-    seen = choice.shown
+    seen = choice.targets
     stacked = choice.jacobian.reshape(-1, len(seen.terms))
     assert np.linalg.cond(stacked) < 1e4
     assert np.sqrt(3 * np.mean(stacked**2, axis=0)) == pytest.approx(1e-3)
@@ -82,7 +82,7 @@ def test_linear_theory_predicts_the_simulated_scatter(choice):
     noise = 5e-5
     theory = predicted_errors(choice, noise, {"chosen": choice.table})
     scatter = compare_sets(choice, noise, 60).query("set == 'chosen'")["parameter_rms_mm"]
-    p = choice.shown
+    p = choice.targets
     sizes = np.array([size / term.si for size, (_, term) in zip(p.sizes, p.terms, strict=True)])[~p.is_frame]
     expected = np.sqrt(np.mean((theory["sd_chosen"] / sizes) ** 2))
     assert np.sqrt(np.mean(scatter**2)) == pytest.approx(expected, rel=0.15)
@@ -108,9 +108,9 @@ def test_the_order_shortens_the_way():
 def test_what_poses_cannot_show_is_refused_with_the_reason(arm):
     table = candidates(arm, 20, Surroundings(), 0).table
     with pytest.raises(InputError, match="temperature_c"):
-        shown(arm, table, ("thermal_expansion",))
+        target_parameters(arm, table, ("thermal_expansion",))
     with pytest.raises(InputError, match="Did you mean 'backlash'"):
-        shown(arm, table, ("backlsh",))
+        target_parameters(arm, table, ("backlsh",))
     with pytest.raises(InputError, match=r"0 possible poses of 2000 drawn.*most: hits the floor"):
         candidates(arm, 50, Surroundings(floor=10.0), 0)
     with pytest.raises(InputError, match="9 at least"):

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from armscope.proof.rough import marks
+from armscope.proof.rough import rough_scores
 from armscope.proof.rough_rates import rough_table
 from armscope.proof.scoring import score
 from tests.proof.cases import claim, concealed, world
@@ -71,8 +71,8 @@ def test_a_value_that_no_arm_has_is_counted(said, count):
 
 def test_no_verdict_is_never_right():
     failed = world([], [], "rough", failed="it broke")
-    assert not marks(failed.truth, failed.answer, [], [])["right"]
-    assert marks(failed.truth, replace(failed.answer, failed=""), [], [])["right"]
+    assert not rough_scores(failed.truth, failed.answer, [], [])["right"]
+    assert rough_scores(failed.truth, replace(failed.answer, failed=""), [], [])["right"]
 
 
 def test_an_unknown_may_stand_for_all_that_there_is_at_its_place():

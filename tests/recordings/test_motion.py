@@ -8,7 +8,7 @@ from armscope.check import check
 from armscope.diagnosis import Settings, diagnose
 from armscope.physics.placing import moving_joints
 from armscope.recordings.motion import STANDS_STILL_RAD, moving
-from armscope.report.sections.assumed import assumptions
+from armscope.report.sections.assumptions import assumptions
 
 from ..diagnosis.planted import planted
 

@@ -6,7 +6,7 @@ import subprocess
 import pytest
 
 from armscope.report.pages.diagnosis import write_report
-from armscope.report.sections.assumed import assumptions
+from armscope.report.sections.assumptions import assumptions
 from armscope.report.sections.registry import SECTIONS
 from armscope.verdict.sentences import headline
 from tests.report import verdicts

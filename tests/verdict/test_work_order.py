@@ -11,7 +11,7 @@ from armscope.core.averages import rms
 from armscope.fitting.registration import fit_frames
 from armscope.physics.registry import EFFECTS
 from armscope.report.pages.diagnosis import write_report
-from armscope.report.sections import work
+from armscope.report.sections import work_order as section
 from armscope.robot.arm import build_arm
 from armscope.verdict.contributions import contributions
 from armscope.verdict.corrections import corrected_rows, zero_offsets
@@ -80,7 +80,7 @@ def test_expectations_fall_from_task_to_task_and_stand_on_the_page(verdict, tmp_
 
 
 def test_steps_that_pay_less_unfold_and_go_on_counting(monkeypatch, verdict, tmp_path: Path) -> None:  # noqa: F811
-    monkeypatch.setattr(work, "SHOWN", 1)
+    monkeypatch.setattr(section, "SHOWN", 1)
     done = work_order(verdict, contributions(verdict)).tasks
     assert len(done) > 2
     page = write_report(verdict, tmp_path).read_text()

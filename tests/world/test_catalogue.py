@@ -34,18 +34,18 @@ def test_the_small_proof_has_24_worlds_the_roughest_among_them():
 
 
 def test_every_effect_stands_alone_at_every_strength():
-    alone = {(w.wishes[0].kind, w.wishes[0].strength) for w in catalogue(1, "full") if w.category == "single"}
+    alone = {(w.effects[0].kind, w.effects[0].strength) for w in catalogue(1, "full") if w.category == "single"}
     assert alone == {(kind.name, strength) for kind in LIBRARY for strength in STRENGTHS}
 
 
 def test_every_kind_outside_the_library_is_there_at_several_strengths():
-    outside = Counter(w.wishes[0].kind for w in catalogue(1, "full") if w.category == "outside")
+    outside = Counter(w.effects[0].kind for w in catalogue(1, "full") if w.category == "outside")
     assert set(outside) == {kind.name for kind in OUTSIDE}
     assert min(outside.values()) >= 4
 
 
 def test_two_to_six_effects_come_together():
-    counts = {len(world.wishes) for world in catalogue(1, "full") if world.category == "multiple"}
+    counts = {len(world.effects) for world in catalogue(1, "full") if world.category == "multiple"}
     assert counts == {2, 3, 4, 5, 6}
 
 
@@ -64,7 +64,7 @@ def test_fixed_and_fresh_worlds_hold_the_same_mixture():
         fresh = [world.fresh for world in worlds if world.category == category]
         assert abs(sum(fresh) - len(fresh) / 2) <= 0.07 * len(fresh)
     for strength in STRENGTHS:
-        fresh = [w.fresh for w in worlds if w.category == "single" and w.wishes[0].strength == strength]
+        fresh = [w.fresh for w in worlds if w.category == "single" and w.effects[0].strength == strength]
         assert 0.15 * len(fresh) < sum(fresh) < 0.85 * len(fresh)
 
 
@@ -84,4 +84,4 @@ def test_a_spec_survives_being_written_and_read():
 
 
 def test_every_wish_names_a_known_kind():
-    assert {wish.kind for world in catalogue(1, "full") for wish in world.wishes} <= set(KINDS)
+    assert {asked.kind for world in catalogue(1, "full") for asked in world.effects} <= set(KINDS)

@@ -11,7 +11,7 @@ from armscope.world.effects_of_joints import SOFT_SIDE
 from armscope.world.effects_of_links import close_loop
 from armscope.world.outside import OUTSIDE
 from armscope.world.statics import Hidden
-from armscope.world.strength import stand
+from armscope.world.strength import equilibrium
 from tests.world.by_hand import ARMS, HandArm
 from tests.world.scenes import drawn, scene_of
 
@@ -21,7 +21,7 @@ FIRST_ORDER = 0.01
 
 
 def moved(scene, *effects):
-    return stand(scene, effects).tool - stand(scene, []).tool
+    return equilibrium(scene, effects).tool - equilibrium(scene, []).tool
 
 
 def turned_by_hand(name, scene, motor_errors):
@@ -235,7 +235,7 @@ def test_a_heavier_payload_bends_a_soft_joint_further_and_a_stiff_arm_not_at_all
         extra = arm.torques(q, payload + heavier.values["mass"])[1] - arm.torques(q, payload)[1]
         errors.append(np.eye(6)[1] * soft.values["compliance"] * extra)
     by_hand = turned_by_hand("six-axis", scene, errors)
-    difference = stand(scene, [soft, heavier]).tool - stand(scene, [soft]).tool
+    difference = equilibrium(scene, [soft, heavier]).tool - equilibrium(scene, [soft]).tool
     assert np.abs(difference - by_hand).max() < FIRST_ORDER * np.abs(by_hand).max()
     assert np.abs(moved(scene, heavier)).max() == 0
 
@@ -254,7 +254,7 @@ def test_a_payloads_centre_off_the_tool_point_adds_its_lever():
         extra = np.cross(behind[-1][:3, :3] @ centre, payload * arm.gravity) @ carrying[5][:3, 2]
         errors.append(np.eye(7)[5] * soft.values["compliance"] * extra)
     by_hand = turned_by_hand("seven-axis", scene, errors)
-    difference = stand(scene, [soft, off]).tool - stand(scene, [soft]).tool
+    difference = equilibrium(scene, [soft, off]).tool - equilibrium(scene, [soft]).tool
     assert np.abs(difference - by_hand).max() < FIRST_ORDER * np.abs(by_hand).max()
 
 

@@ -26,7 +26,7 @@ def spec(**changes):
     return WorldSpec.model_validate(
         {
             "id": "000-test", "category": "single", "arm": "six-axis", "seed": 11, "fresh": False, "rows": 60,
-            "sigma_mm": 0.02, "wishes": [OFFSET], **changes,
+            "sigma_mm": 0.02, "effects": [OFFSET], **changes,
         }
     )  # fmt: skip
 
@@ -51,9 +51,9 @@ def test_a_world_has_the_folders_and_files_of_the_contract(tmp_path):
 
 @pytest.mark.parametrize("arm", ["parallelogram-120kg", "six-axis", "seven-axis"])
 def test_the_same_spec_gives_the_same_bytes_and_another_seed_others(arm, tmp_path):
-    wishes = [OFFSET, SOFT]
+    effects = [OFFSET, SOFT]
     homes = [
-        build(spec(arm=arm, wishes=wishes, seed=seed), tmp_path / part, ROBOTS)
+        build(spec(arm=arm, effects=effects, seed=seed), tmp_path / part, ROBOTS)
         for part, seed in (("a", 1), ("b", 1), ("c", 2))
     ]
     for file in ("visible/robot.yaml", "visible/recordings.csv", "sealed/truth.yaml", "sealed/test.csv"):
@@ -81,7 +81,7 @@ def test_the_truth_recomputed_by_hand_leaves_the_stated_noise(tmp_path):
 
 
 def test_each_effect_is_as_strong_as_wished(tmp_path):
-    truth, *_ = read(build(spec(wishes=[OFFSET, SOFT]), tmp_path, ROBOTS))
+    truth, *_ = read(build(spec(effects=[OFFSET, SOFT]), tmp_path, ROBOTS))
     strengths = {effect["effect"]: effect["strength"] for effect in truth["effects"]}
     assert strengths == pytest.approx({"joint_offset": 4.0, "joint_compliance": 3.0}, rel=0.01)
     sizes = [effect["rms_at_tool_mm"] for effect in truth["effects"]]
@@ -89,17 +89,17 @@ def test_each_effect_is_as_strong_as_wished(tmp_path):
 
 
 def test_the_same_displacement_is_not_concealed_twice(tmp_path):
-    """On this arm a tilting base and a tilting first bearing are one; the second wish is left out."""
+    """On this arm a tilting base and a tilting first bearing are one; the second one is left out."""
     tilts = [
         {"kind": "base_compliance", "strength": 5.0},
         {"kind": "bearing_compliance", "strength": 5.0, "location": "joint 1"},
     ]
-    truth, *_ = read(build(spec(category="multiple", wishes=tilts), tmp_path, ROBOTS))
+    truth, *_ = read(build(spec(category="multiple", effects=tilts), tmp_path, ROBOTS))
     assert [effect["effect"] for effect in truth["effects"]] == ["base_compliance"]
 
 
 def test_a_clean_arm_has_nothing_to_find(tmp_path):
-    truth, *_ = read(build(spec(category="clean", wishes=[]), tmp_path, ROBOTS))
+    truth, *_ = read(build(spec(category="clean", effects=[]), tmp_path, ROBOTS))
     assert truth["effects"] == []
     assert truth["scoring"]["mismatch"] is False
     assert truth["rms_on_test_mm"]["frames_only"] == pytest.approx(truth["sigma_mm"], rel=0.15)
@@ -112,9 +112,9 @@ def test_nothing_visible_names_what_is_concealed(tmp_path):
 
 
 def test_a_column_that_would_show_the_effect_can_be_missing(tmp_path):
-    wish = {"kind": "backlash", "strength": 4.0}
+    asked = {"kind": "backlash", "strength": 4.0}
     shown, hidden = (
-        build(spec(id=str(n), wishes=[wish], columns=columns), tmp_path, ROBOTS)
+        build(spec(id=str(n), effects=[asked], columns=columns), tmp_path, ROBOTS)
         for n, columns in enumerate(("some", "missing"))
     )
     assert "approach1" in read(shown)[1]
@@ -126,15 +126,15 @@ def test_a_column_that_would_show_the_effect_can_be_missing(tmp_path):
 
 def test_a_base_that_moves_is_not_given_away_or_hidden_by_runs(tmp_path):
     for seed in range(5):
-        home = build(spec(wishes=[{"kind": "base_drift", "strength": 4.0}], seed=seed), tmp_path, ROBOTS)
+        home = build(spec(effects=[{"kind": "base_drift", "strength": 4.0}], seed=seed), tmp_path, ROBOTS)
         assert "run" not in read(home)[1]
         assert "time_s" in read(home)[1]
 
 
 def test_bad_shots_are_where_the_truth_says(tmp_path):
-    home = build(spec(noise="outliers", wishes=[], category="bad_shots", rows=200), tmp_path, ROBOTS)
+    home = build(spec(noise="outliers", effects=[], category="bad_shots", rows=200), tmp_path, ROBOTS)
     truth, recordings, _ = read(home)
-    arm = conceal(spec(noise="outliers", wishes=[], category="bad_shots", rows=200), ROBOTS)
+    arm = conceal(spec(noise="outliers", effects=[], category="bad_shots", rows=200), ROBOTS)
     true = measure_session(arm).points[arm.recorded] * 1e3
     off = np.linalg.norm(recordings[["x_mm", "y_mm", "z_mm"]].to_numpy() - true, axis=1)
     assert (np.flatnonzero(off > 0.5) + 1).tolist() == truth["scoring"]["bad_rows"]
@@ -142,7 +142,7 @@ def test_bad_shots_are_where_the_truth_says(tmp_path):
 
 
 def test_heavy_tails_are_heavier_than_gauss(tmp_path):
-    arm = conceal(spec(noise="heavy_tails", wishes=[], rows=300), ROBOTS)
+    arm = conceal(spec(noise="heavy_tails", effects=[], rows=300), ROBOTS)
     noise = measure_session(arm).noise / 2e-5
     assert np.median(np.abs(noise)) == pytest.approx(0.765, rel=0.1)  # Student's t, 3 degrees of freedom
     assert np.abs(noise).max() > 5
@@ -150,7 +150,7 @@ def test_heavy_tails_are_heavier_than_gauss(tmp_path):
 
 @pytest.mark.parametrize("masses", ["wrong", "absent"])
 def test_masses_can_be_wrong_or_absent_in_what_is_visible(masses, tmp_path):
-    home = build(spec(wishes=[SOFT], masses=masses), tmp_path, ROBOTS)
+    home = build(spec(effects=[SOFT], masses=masses), tmp_path, ROBOTS)
     visible = yaml.safe_load((home / "visible" / "robot.yaml").read_text())
     right = yaml.safe_load((ROBOTS / "six-axis.yaml").read_text())
     assert visible.get("links") != right["links"]
@@ -159,7 +159,7 @@ def test_masses_can_be_wrong_or_absent_in_what_is_visible(masses, tmp_path):
 
 
 def test_what_can_not_be_told_apart_has_its_alternatives_in_the_truth(tmp_path):
-    world = spec(category="inseparable", arm="parallelogram-120kg", wishes=[SOFT], poses="no_payload", rows=150)
+    world = spec(category="inseparable", arm="parallelogram-120kg", effects=[SOFT], poses="no_payload", rows=150)
     truth, recordings, _ = read(build(world, tmp_path, ROBOTS))
     found = [(a["effect"], a["location"]) for a in truth["effects"][0]["alternatives"]]
     assert ("gear_eccentricity", "joint 2") in found
@@ -167,8 +167,8 @@ def test_what_can_not_be_told_apart_has_its_alternatives_in_the_truth(tmp_path):
 
 
 def test_an_effect_outside_the_library_is_called_unknown_with_its_driver_and_shape(tmp_path):
-    wish = {"kind": "unknown/local_bump", "strength": 5.0}
-    truth, *_ = read(build(spec(category="outside", wishes=[wish]), tmp_path, ROBOTS))
+    asked = {"kind": "unknown/local_bump", "strength": 5.0}
+    truth, *_ = read(build(spec(category="outside", effects=[asked]), tmp_path, ROBOTS))
     effect = truth["effects"][0]
     assert (effect["effect"], effect["driver"], effect["shape"]) == ("unknown", "joint angle", "local_bump")
     assert truth["scoring"]["outside_library"] is True
@@ -187,7 +187,7 @@ def test_a_real_arm_has_a_story_and_a_background(tmp_path):
 
 def test_the_arm_can_be_measured_again_at_poses_asked_for_later():
     """Its own rows, asked for again, have the same true places; new poses with a payload show the compliance."""
-    arm = conceal(spec(wishes=[SOFT]), ROBOTS)
+    arm = conceal(spec(effects=[SOFT]), ROBOTS)
     session = arm.scene.session
     poses = pd.DataFrame({f"q{m + 1}_rad": session.commanded[:, m] for m in range(6)}).assign(
         payload_kg=session.payload

@@ -31,7 +31,7 @@ def test_the_tool_stands_where_products_of_d_h_matrices_put_it(name: str) -> Non
     np.testing.assert_allclose(mechanism.tool(), hand.point(motors), atol=1e-9)
     jacobian, tool = mechanism.tool_jacobian(), mechanism.tool()
     for column in mechanism.angle_columns():
-        mechanism.stand(qpos + STEP * np.eye(len(qpos))[column])
+        mechanism.set_joints(qpos + STEP * np.eye(len(qpos))[column])
         np.testing.assert_allclose(jacobian[:, column], (mechanism.tool() - tool) / STEP, atol=1e-4)
 
 

@@ -16,7 +16,7 @@ from armscope.world.effects import LIBRARY
 from armscope.world.kinds import Concealed
 from armscope.world.rivals import Judge, rivals
 from armscope.world.spec import KINDS
-from armscope.world.strength import free_frames, sized, stand
+from armscope.world.strength import equilibrium, free_frames, sized
 from tests.world.by_hand import ARMS, ROBOTS
 from tests.world.scenes import drawn, scene_of
 
@@ -46,7 +46,7 @@ def test_the_patterns_of_each_effect_make_what_the_engine_simulates(arm):
             continue
         for place in kind.places(scene.description)[2:4] or kind.places(scene.description)[:1]:
             effect = drawn(scene, kind.name, place).scaled(0.1)
-            displacement = (stand(scene, [effect]).tool - stand(scene, []).tool).ravel()
+            displacement = (equilibrium(scene, [effect]).tool - equilibrium(scene, []).tool).ravel()
             own = [r.columns for r in known if (r.effect, r.location) == (kind.effect, place)]
             left = [np.linalg.norm(displacement - c @ np.linalg.lstsq(c, displacement, rcond=None)[0]) for c in own]
             assert min(left) < 0.01 * np.linalg.norm(displacement), (kind.name, place)

@@ -10,14 +10,14 @@ import pytest
 import yaml
 
 from armscope.core.averages import rms
-from armscope.world.blemishes import DRIVE, OF, PAYLOAD_SHARE, PEDESTAL, RUNS, WANDER, lagging, waves
 from armscope.world.constants import ROUGH
 from armscope.world.folder import build
+from armscope.world.imperfections import DRIVE, OF, PAYLOAD_SHARE, PEDESTAL, RUNS, WANDER, lagging, waves
 from armscope.world.kinds import Concealed
 from armscope.world.oracle import oracle_rms
 from armscope.world.rough import BLEMISHES, as_stated, blemishes, draw_broken, rough_noise
 from armscope.world.spec import WorldSpec
-from armscope.world.strength import stand
+from armscope.world.strength import equilibrium
 from armscope.world.virtual_arm import conceal, measure_session
 from tests.world.by_hand import ROBOTS, HandArm
 from tests.world.scenes import scene_of
@@ -46,12 +46,14 @@ def test_a_pedestal_alike_about_both_axes_is_a_base_that_gives_way():
     scene, _ = scene_of("six-axis")
     alike = Concealed(PEDESTAL, "base", {"soft": 1e-7, "stiff": 1e-7, "direction": 0.4})
     base = Concealed(OF["base_compliance"], "base", {"compliance": 1e-7})
-    assert stand(scene, [alike]).tool == pytest.approx(stand(scene, [base]).tool, abs=1e-8)
+    assert equilibrium(scene, [alike]).tool == pytest.approx(equilibrium(scene, [base]).tool, abs=1e-8)
 
 
 def test_a_pedestal_that_is_soft_about_one_axis_moves_the_tool_across_it():
     scene, rigid = scene_of("six-axis")
-    moved = stand(scene, [Concealed(PEDESTAL, "base", {"soft": 1e-7, "stiff": 1e-13, "direction": 0.4})]).tool - rigid
+    moved = (
+        equilibrium(scene, [Concealed(PEDESTAL, "base", {"soft": 1e-7, "stiff": 1e-13, "direction": 0.4})]).tool - rigid
+    )
     along = np.array([np.cos(0.4), np.sin(0.4), 0])
     assert np.abs(moved @ along).max() < 1e-3 * np.abs(moved).max()
 
@@ -66,28 +68,28 @@ def test_a_drive_that_hardens_turns_in_two_sections_with_a_bend_at_its_knee():
     assert (np.abs(load) > knee).any()
     arm, angles = HandArm.named("six-axis"), scene.session.commanded
     by_hand = [arm.point(q + e * np.eye(6)[2]) - arm.point(q) for q, e in zip(angles, turn, strict=True)]
-    assert np.abs(stand(scene, [drive]).tool - rigid - np.array(by_hand)).max() < 0.02 * np.abs(by_hand).max()
+    assert np.abs(equilibrium(scene, [drive]).tool - rigid - np.array(by_hand)).max() < 0.02 * np.abs(by_hand).max()
 
 
 def test_a_payload_off_by_a_share_weighs_that_much_more():
     scene, _ = scene_of("six-axis")
     spring = Concealed(OF["joint_compliance"], "joint 2", {"compliance": 1e-6})
     share = Concealed(PAYLOAD_SHARE, "payload", {"share": 0.2})
-    at = {payload: stand(scene, [spring]).tool[scene.session.payload == payload] for payload in (0.0,)}
-    off = stand(scene, [spring, share]).tool
+    at = {payload: equilibrium(scene, [spring]).tool[scene.session.payload == payload] for payload in (0.0,)}
+    off = equilibrium(scene, [spring, share]).tool
     assert off[scene.session.payload == 0] == pytest.approx(at[0.0], abs=1e-12)
     heavier = scene.session.payload > 0
-    assert np.abs(off - stand(scene, [spring]).tool)[heavier].max() > 1e-5
+    assert np.abs(off - equilibrium(scene, [spring]).tool)[heavier].max() > 1e-5
 
 
 @pytest.mark.parametrize("kind", [WANDER, RUNS])
 def test_a_set_up_moves_about_as_much_as_stated_and_runs_stand_still(kind):
     scene, rigid = scene_of("six-axis", count=120)
-    moved = stand(scene, [Concealed(kind, "base", {"size": 2e-5, "seed": 3.0})]).tool - rigid
+    moved = equilibrium(scene, [Concealed(kind, "base", {"size": 2e-5, "seed": 3.0})]).tool - rigid
     assert 5e-6 < np.sqrt(np.mean(moved**2)) < 1e-4
     if kind is RUNS:
         turned = Concealed(kind, "base", {"size": 2e-5, "seed": 3.0})
-        again = stand(scene.rows(np.arange(60)), [turned]).tool
+        again = equilibrium(scene.rows(np.arange(60)), [turned]).tool
         assert again == pytest.approx((rigid + moved)[:60], abs=1e-12)
 
 
@@ -163,7 +165,7 @@ def built(tmp_path_factory):
     spec = WorldSpec.model_validate(
         {
             "id": "rough", "category": "rough", "arm": "parallelogram-120kg", "seed": 5, "fresh": False, "rows": 40,
-            "sigma_mm": 0.03, "wishes": [{"kind": "joint_compliance", "strength": 4.0}], "noise": "rough",
+            "sigma_mm": 0.03, "effects": [{"kind": "joint_compliance", "strength": 4.0}], "noise": "rough",
             "rough": ["masses", "bars", "springs", "gears", "wander", "runs", "day"],
         }
     )  # fmt: skip

@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 from armscope.robot.description import RobotDescription
 from armscope.world.layout import Geometry
 from armscope.world.statics import Hidden, Session, balance
-from armscope.world.strength import make_scene, stand
+from armscope.world.strength import equilibrium, make_scene
 from tests.world.by_hand import ARMS, HandArm
 from tests.world.scenes import drawn, scene_of
 
@@ -42,7 +42,7 @@ def test_an_arm_that_conceals_nothing_stands_where_the_product_of_dh_matrices_sa
     scene, tool = scene_of(name)
     by_hand = [HandArm.named(name).point(q) for q in scene.session.commanded]
     assert np.abs(tool - by_hand).max() < 1e-12
-    assert np.abs(stand(scene, []).tool - by_hand).max() < 1e-12
+    assert np.abs(equilibrium(scene, []).tool - by_hand).max() < 1e-12
 
 
 rows = st.lists(
@@ -122,7 +122,7 @@ def test_nothing_is_left_over_on_any_spring_in_equilibrium(name):
     effects = [drawn(scene, "joint_compliance", f"joint {j}") for j in (2, 3, 4, 5)]
     effects += [drawn(scene, "bearing_compliance", f"joint {j}") for j in (1, 2, 3)]
     effects += [drawn(scene, "base_compliance", "base"), drawn(scene, "link_bending", "link 3")]
-    assert stand(scene, effects).residual < 1e-7
+    assert equilibrium(scene, effects).residual < 1e-7
 
 
 @pytest.mark.parametrize("name", ARMS)
@@ -130,17 +130,17 @@ def test_two_springs_at_one_place_add_their_compliances(name):
     scene, _ = scene_of(name)
     one = drawn(scene, "joint_compliance", "joint 2")
     tilt = drawn(scene, "bearing_compliance", "joint 3")
-    twice = stand(scene, [one, one, tilt, tilt]).tool
-    double = stand(scene, [one.scaled(2), tilt.scaled(2)]).tool
+    twice = equilibrium(scene, [one, one, tilt, tilt]).tool
+    double = equilibrium(scene, [one.scaled(2), tilt.scaled(2)]).tool
     assert np.abs(twice - double).max() < 1e-12
 
 
 def test_rows_with_different_payloads_do_not_disturb_each_other():
     scene, _ = scene_of("six-axis")
     effect = drawn(scene, "joint_compliance", "joint 2")
-    together = stand(scene, [effect]).tool
+    together = equilibrium(scene, [effect]).tool
     for row in range(4):
-        assert stand(scene.rows(np.array([row])), [effect]).tool[0] == pytest.approx(together[row], abs=1e-13)
+        assert equilibrium(scene.rows(np.array([row])), [effect]).tool[0] == pytest.approx(together[row], abs=1e-13)
 
 
 def test_a_payload_off_the_tool_point_turns_the_wrist():
@@ -162,7 +162,7 @@ def test_a_payload_off_the_tool_point_turns_the_wrist():
 def test_what_moves_and_gives_way_at_one_place_does_both(moving, giving, place):
     scene, nominal = scene_of("six-axis")
     both = [drawn(scene, moving, place), drawn(scene, giving, place)]
-    alone = [stand(scene, [effect]).tool - nominal for effect in both]
-    together = stand(scene, both).tool - nominal
+    alone = [equilibrium(scene, [effect]).tool - nominal for effect in both]
+    together = equilibrium(scene, both).tool - nominal
     size = min(np.abs(part).max() for part in alone)
     assert np.abs(together - sum(alone)).max() < 0.02 * size

@@ -16,7 +16,7 @@ from armscope.robot.description_file import load_description
 from armscope.world.kinds import Concealed
 from armscope.world.spec import KINDS
 from armscope.world.statics import Session
-from armscope.world.strength import Frames, carried, fit_frames, make_scene, rms_after_frames, sized, stand
+from armscope.world.strength import Frames, carried, equilibrium, fit_frames, make_scene, rms_after_frames, sized
 from tests.world.scenes import drawn, scene_of
 
 EXAMPLES = Path(__file__).parents[3] / "shared" / "examples"
@@ -32,7 +32,7 @@ def test_frames_that_were_put_in_are_fitted_back_exactly():
 
 def test_the_rms_after_frames_is_the_least_that_nine_free_parameters_leave():
     scene, tool = scene_of("parallelogram-120kg")
-    bent = stand(scene, [drawn(scene, "joint_compliance", "joint 2")]).tool
+    bent = equilibrium(scene, [drawn(scene, "joint_compliance", "joint 2")]).tool
 
     def left(p):
         placed = (tool + scene.tool_turn @ p[6:]) @ Rotation.from_rotvec(p[3:6]).as_matrix().T + p[:3]
@@ -46,7 +46,7 @@ def test_the_rms_after_frames_is_the_least_that_nine_free_parameters_leave():
 def test_an_effect_comes_out_as_strong_as_asked_for(name):
     scene, tool = scene_of("seven-axis", count=40)
     found = sized(scene, drawn(scene, name, "joint 4"), 1.5e-4)
-    again = stand(scene, [found.effect]).tool
+    again = equilibrium(scene, [found.effect]).tool
     assert found.rms == pytest.approx(1.5e-4, rel=2e-3)
     assert found.rms == rms_after_frames(again, tool, scene.tool_turn)
 
@@ -83,7 +83,7 @@ def test_the_contracts_examples_come_out_as_their_truth_says(name):
     scene, tool = make_scene(description, session)
     effects = [as_concealed(effect, motors) for effect in truth["effects"]]
     for effect, stated in zip(effects, truth["effects"], strict=True):
-        alone = rms_after_frames(stand(scene, [effect]).tool, tool, scene.tool_turn)
+        alone = rms_after_frames(equilibrium(scene, [effect]).tool, tool, scene.tool_turn)
         if stated["effect"] != "gear_eccentricity":  # its phase isn't stated
             assert alone * 1e3 == pytest.approx(stated["rms_at_tool_mm"], rel=3e-3)
     frames = truth["frames"]
@@ -93,7 +93,7 @@ def test_the_contracts_examples_come_out_as_their_truth_says(name):
         np.array(frames["tool_error_mm"]) / 1e3,
     )
     left = (
-        stated_frames.place(stand(scene, effects).tool, scene.tool_turn) * 1e3
+        stated_frames.place(equilibrium(scene, effects).tool, scene.tool_turn) * 1e3
         - table[["x_mm", "y_mm", "z_mm"]].to_numpy()
     )
     assert rms(left) == pytest.approx(truth["sigma_mm"], rel=0.08)

@@ -12,15 +12,15 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.calibration.by_run import misses_by_run
+from armscope.calibration.confounding import Confounded, confounded_parameters
 from armscope.calibration.geometry import nominal_values
-from armscope.calibration.imitation import Imitation, imitations
 from armscope.calibration.model import Level, SetUp, set_up
-from armscope.calibration.sanity import lost, no_gain, odd_loads, require_loads
-from armscope.calibration.sharing import sharing
+from armscope.calibration.plausibility import doubtful_loads, implausible_fit, no_held_out_gain, require_loads
+from armscope.calibration.shared_frames import sharing
 from armscope.calibration.solve import Priors, Redundancy, Solved, scales_of, solve
 from armscope.calibration.splits import foretold, random_split
 from armscope.calibration.state import State
-from armscope.calibration.words import in_words
+from armscope.calibration.summary_text import in_words
 from armscope.core.averages import rms_distance
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
@@ -72,7 +72,7 @@ class Calibration:
     ids: NDArray[np.str_]
     notes: tuple[str, ...] = ()
     doubts: tuple[str, ...] = ()
-    held: tuple[Imitation, ...] = ()
+    held: tuple[Confounded, ...] = ()
     misses: pd.DataFrame | None = None
 
     @functools.cached_property
@@ -205,19 +205,19 @@ def calibrate(
         reason=fitted.reason,
         suspects=distance > SUSPECT_SIGMAS * scale_of(rows.residuals(fitted.state)),
         ids=np.array(ids),
-        notes=tuple(notes + odd_loads(solved, level, covariance) + no_gain(misses)),
-        doubts=tuple(doubts + lost(solved)),
+        notes=tuple(notes + doubtful_loads(solved, level, covariance) + no_held_out_gain(misses)),
+        doubts=tuple(doubts + implausible_fit(solved)),
         held=_held(solved, level),
         misses=misses,
     )
 
 
-def _held(solved: Solved, level: Level) -> tuple[Imitation, ...]:
+def _held(solved: Solved, level: Level) -> tuple[Confounded, ...]:
     rows = solved.rows
     wanted = rows.free(level)
     _, jacobian = rows.linearised(solved.fitted.state, wanted)
     names = tuple(name for name, want in zip(rows.names, wanted, strict=True) if want)
-    return imitations(jacobian, solved.free[wanted], scales_of(rows)[wanted], names)
+    return confounded_parameters(jacobian, solved.free[wanted], scales_of(rows)[wanted], names)
 
 
 def _orientation_helps(rows: SetUp, recordings: Recordings, solved_for: Callable[[SetUp], Solved]) -> tuple[bool, str]:

@@ -8,8 +8,8 @@ import numpy as np
 
 from armscope.calibration.fit import placed
 from armscope.calibration.model import set_up
+from armscope.check.common_mistakes import FITS, MOST_ROWS, MOST_STEPS
 from armscope.check.suspicion import Suspicion
-from armscope.check.trials import FITS, MOST_ROWS, MOST_STEPS
 from armscope.core.averages import rms_distance
 from armscope.core.sampling import spread_evenly
 from armscope.recordings import Recordings

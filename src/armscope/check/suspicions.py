@@ -14,10 +14,10 @@ import numpy as np
 from armscope.calibration.fit import placed, robust_least_squares
 from armscope.calibration.model import SetUp, set_up
 from armscope.calibration.state import State
+from armscope.check.common_mistakes import FITS, MOST_ROWS, MOST_STEPS, trials
 from armscope.check.nominal_arms import better_arm
 from armscope.check.orientations import orientation_mistakes
 from armscope.check.suspicion import Suspicion
-from armscope.check.trials import FITS, MOST_ROWS, MOST_STEPS, trials
 from armscope.core.averages import rms_distance
 from armscope.core.sampling import spread_evenly
 from armscope.fitting.exchanged_tool import exchanged_tool

@@ -60,7 +60,7 @@ def diagnose(
     written, unless --anyway.
     """
     from armscope.cli.cost import DIAGNOSE, announce
-    from armscope.cli.motion import Asked, diagnose_motions
+    from armscope.cli.motion import MotionOptions, diagnose_motions
     from armscope.cli.robots import arm_and_tables, print_json
     from armscope.recordings.first_lines import is_motion_table
 
@@ -72,7 +72,7 @@ def diagnose(
     )
     if moving:
         with _progress("diagnosing") as tell:
-            asked = Asked(cutoff, held_out or [], run or [], json, report, anyway)
+            asked = MotionOptions(cutoff, held_out or [], run or [], json, report, anyway)
             answer = diagnose_motions(recordings, robot, output, asked, tell)
         if exit_code:
             raise typer.Exit(exit_code_of(answer))

@@ -54,7 +54,7 @@ def excite(
     arm = load_arm(robot)
 
     from armscope.poses.exciting.output import pairs_of, trajectory_table, write_excitation
-    from armscope.poses.exciting.search import MotionWish
+    from armscope.poses.exciting.search import MotionRequest
     from armscope.poses.exciting.search import excite as find
     from armscope.poses.obstacles import Surroundings
     from armscope.report.figures.exciting_motion import motion_figure
@@ -64,7 +64,7 @@ def excite(
     radius, floor = (None if each is None else each * 1e-3 for each in (radius_mm, floor_mm))
     around = Surroundings(radius, floor)
     found = find(
-        arm, MotionWish(period_s, harmonics, rounds, seed, pairs), around, _told if sys.stderr.isatty() else None
+        arm, MotionRequest(period_s, harmonics, rounds, seed, pairs), around, _told if sys.stderr.isatty() else None
     )
     write_excitation(output, found, rate_hz)
     if not is_stream(output):

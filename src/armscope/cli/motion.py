@@ -25,7 +25,7 @@ PAGES = ("report.html", "work-order.html")
 
 
 @dataclass(frozen=True)
-class Asked:
+class MotionOptions:
     """What a user asks of a diagnosis of a motion.
 
     Attributes:
@@ -44,7 +44,7 @@ class Asked:
     anyway: bool
 
 
-def diagnose_motions(table: Path, robot: Path, output: Path, asked: Asked, tell: Tell) -> Answer:
+def diagnose_motions(table: Path, robot: Path, output: Path, asked: MotionOptions, tell: Tell) -> Answer:
     """Diagnose motions.csv and write what was found.
 
     Args:
@@ -88,7 +88,7 @@ def diagnose_motions(table: Path, robot: Path, output: Path, asked: Asked, tell:
     return found.verdict.answer
 
 
-def _read_and_checked(table: Path, robot: Path, asked: Asked) -> tuple[MovingArm, Motions, list[Suspicion]]:
+def _read_and_checked(table: Path, robot: Path, asked: MotionOptions) -> tuple[MovingArm, Motions, list[Suspicion]]:
     """Arm, samples and what is wrong with them, before anything is imported that only a good table needs."""
     import numpy as np
 

@@ -144,7 +144,7 @@ def why_(
 ) -> None:
     """Which geometric errors of a robot decide the claims that depend on it."""
     from armscope.core.files import read_table, write_table
-    from armscope.paper.why import reasons
+    from armscope.paper.decisive_errors import reasons
     from armscope.report.figures.why import why_figure
     from armscope.report.style import save_figure
 

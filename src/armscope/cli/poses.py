@@ -113,8 +113,8 @@ def _tell(choice: Choice, source: str, noise: float) -> None:
     refused = ", ".join(f"{count} {reason}" for reason, count in pool.refused.items() if count)
     print(f"chosen from {len(pool)} possible poses" + (f"; of {pool.drawn} drawn {refused}" if refused else ""))
     print(", ".join(f"{name} {value:.4g}" for name, value in choice.indices.items()))
-    if choice.shown.hidden:
-        print(f"not told apart from the others: {', '.join(choice.shown.hidden)}")
+    if choice.targets.hidden:
+        print(f"not told apart from the others: {', '.join(choice.targets.hidden)}")
     notes = [f"the arm's body: {body_in_words(choice)}"]
     notes += ["no --tracker: every pose counts as visible"] if choice.around.tracker is None else []
     notes += ["no --floor-mm: the arm may reach below its base"] if choice.around.floor is None else []

@@ -102,7 +102,7 @@ class ErrorModel:
         """What the terms take: nominal positions (N, 3) in mm or motor angles (N, m) in rad."""
         return nominal * 1e3 if self.space == "cartesian" else angles
 
-    def stand(self, angles: Array) -> tuple[Array, Array]:
+    def tool_pose(self, angles: Array) -> tuple[Array, Array]:
         """Real tool points (N, 3), m, and orientations of the last frame (N, 3, 3), in base axes."""
         frames = chain(self.arm, angles)
         turn = Rotation.from_rotvec(self.turn_and_slope(angles, frames.tool)[0]).as_matrix()
@@ -110,7 +110,7 @@ class ErrorModel:
 
     def as_measured(self, angles: Array) -> tuple[Array, Array]:
         """The same as an instrument reads it: in the measurement frame, the orientation of the measured tool frame."""
-        points, rotations = self.stand(angles)
+        points, rotations = self.tool_pose(angles)
         mounted = rotations if self.turning is None else rotations @ self.turning.tool
         return points @ self.base.rotation.T + self.base.translation, self.base.rotation @ mounted
 

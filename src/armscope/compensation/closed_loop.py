@@ -30,12 +30,12 @@ class Corrector:
     """A model that predicts and compensates.
 
     Attributes:
-        stand: tool points (N, 3), m, and orientations (N, 3, 3) at motor angles (N, m) rad, in the frame of the
+        tool_pose: tool points (N, 3), m, and orientations (N, 3, 3) at motor angles (N, m) rad, in the frame of the
             measurements.
         compensate: commands for a path in that frame.
     """
 
-    stand: Callable[[Array], tuple[Array, Array]]
+    tool_pose: Callable[[Array], tuple[Array, Array]]
     compensate: Callable[[WantedPath], Compensated]
 
 
@@ -56,7 +56,7 @@ class MeasuredPath:
 
 def black_box_candidate(model: ErrorModel, pose: bool = False) -> Corrector:
     """A black-box error model, which corrects full poses if asked; measurements stand in the arm's base frame."""
-    return Corrector(model.stand, lambda path: compensate_black_box(model, path, Options(pose=pose)))
+    return Corrector(model.tool_pose, lambda path: compensate_black_box(model, path, Options(pose=pose)))
 
 
 def physical_candidate(model: FittedModel, identified: Identified, pose: bool = False) -> Corrector:
@@ -72,11 +72,11 @@ def physical_candidate(model: FittedModel, identified: Identified, pose: bool = 
     """
     run, options = list(model.bases)[-1], Options(frame="measurement", pose=pose)
 
-    def stand(angles: Array) -> tuple[Array, Array]:
+    def tool_pose(angles: Array) -> tuple[Array, Array]:
         rows = unmeasured(angles, run)
         return predict(model, rows), predict_orientation(model, rows)
 
-    return Corrector(stand, lambda path: compensate_physical(model, identified, path, options))
+    return Corrector(tool_pose, lambda path: compensate_physical(model, identified, path, options))
 
 
 def remaining_errors(
@@ -140,7 +140,7 @@ def _as_wanted(arm: Arm, path: MeasuredPath, name: str) -> WantedPath:
 
 
 def _left(candidate: Corrector, path: MeasuredPath) -> Array:
-    return path.wanted_mm + path.errors_mm - candidate.stand(path.motor_angles)[0] * 1e3
+    return path.wanted_mm + path.errors_mm - candidate.tool_pose(path.motor_angles)[0] * 1e3
 
 
 def vectors(model: str, trajectory: str, stage: str, error_mm: Array) -> pd.DataFrame:

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from armscope.compensation.black_box import ErrorModel, Turning
-from armscope.compensation.contents import ErrorModelContent, ProductsContent, SumsContent, TurningContent
 from armscope.compensation.domain import Domain
+from armscope.compensation.file_contents import ErrorModelContent, ProductsContent, SumsContent, TurningContent
 from armscope.core.files import read_json, write_json
 from armscope.core.inputs import InputError, format_of, nearest, validate
 from armscope.core.types import Array

@@ -20,7 +20,7 @@ Rows = NDArray[np.intp]
 
 
 @dataclass(frozen=True, eq=False)
-class Stand:
+class ToolPose:
     """The tool at N commands, in base axes.
 
     Attributes:
@@ -41,7 +41,7 @@ class Forward(Protocol):
     def arm(self) -> Arm:
         """The nominal arm."""
 
-    def at(self, angles: Array, rows: Rows) -> Stand:
+    def at(self, angles: Array, rows: Rows) -> ToolPose:
         """The tool at motor angles (N, m) rad for rows (N,) of the path: a row's context (load, ...) counts."""
 
 
@@ -51,10 +51,10 @@ class NominalArm:
 
     arm: Arm
 
-    def at(self, angles: Array, rows: Rows) -> Stand:
+    def at(self, angles: Array, rows: Rows) -> ToolPose:
         """See `Forward`."""
         frames = chain(self.arm, angles)
-        return Stand(frames.tool, frames.tool_rotation, frame_jacobian(self.arm, frames))
+        return ToolPose(frames.tool, frames.tool_rotation, frame_jacobian(self.arm, frames))
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +68,7 @@ class BlackBoxArm:
         """The nominal arm."""
         return self.model.arm
 
-    def at(self, angles: Array, rows: Rows) -> Stand:
+    def at(self, angles: Array, rows: Rows) -> ToolPose:
         """See `Forward`; the Jacobian is exact, but for half the product of the orientation's error and its slope."""
         frames = chain(self.arm, angles)
         error, slope = self.model.error_and_slope(angles, frames.tool)
@@ -78,7 +78,7 @@ class BlackBoxArm:
         added = slopes @ jacobian[:, :3] if self.model.space == "cartesian" else slopes
         turned = Rotation.from_rotvec(turn).as_matrix()
         jacobian[:, 3:] = turned @ jacobian[:, 3:]
-        return Stand(frames.tool + error, turned @ frames.tool_rotation, jacobian + added)
+        return ToolPose(frames.tool + error, turned @ frames.tool_rotation, jacobian + added)
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +100,7 @@ class PhysicalArm:
         """The nominal arm."""
         return self.model.arm
 
-    def at(self, angles: Array, rows: Rows) -> Stand:
+    def at(self, angles: Array, rows: Rows) -> ToolPose:
         """See `Forward`.
 
         The Jacobian is that of the deformed arm; how the deformation itself changes with the angles is left out: it is
@@ -109,9 +109,9 @@ class PhysicalArm:
         posture = self.model.posture(self.model.scene(replace(self.context.rows(rows), motor_angles=angles)))
         jacobian = frame_jacobian(self.arm, posture.frames)
         if not self.as_measured:
-            return Stand(posture.frames.tool, posture.frames.tool_rotation, jacobian)
+            return ToolPose(posture.frames.tool, posture.frames.tool_rotation, jacobian)
         jacobian[:, :3] *= 1 + posture.stretch
-        return Stand(posture.tool, posture.frames.tool_rotation, jacobian)
+        return ToolPose(posture.tool, posture.frames.tool_rotation, jacobian)
 
 
 def frame_jacobian(arm: Arm, frames: Chain) -> Array:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from armscope.compensation.forward import Forward, Rows, Stand
+from armscope.compensation.forward import Forward, Rows, ToolPose
 from armscope.core.parallel import each_piece
 from armscope.core.types import Array
 
@@ -45,24 +45,24 @@ class Wanted:
         """Some of the rows."""
         return Wanted(self.points[which], None if self.rotations is None else self.rotations[which])
 
-    def gap(self, stand: Stand, lever: float) -> Array:
+    def gap(self, pose: ToolPose, lever: float) -> Array:
         """(N, 3 or 6) what is missing: displacement (m) and turn times ``lever`` (m)."""
-        gap = self.points - stand.points
+        gap = self.points - pose.points
         if self.rotations is None:
             return gap
-        return np.concatenate([gap, lever * self.turn(stand)], axis=1)
+        return np.concatenate([gap, lever * self.turn(pose)], axis=1)
 
-    def turn(self, stand: Stand) -> Array:
+    def turn(self, pose: ToolPose) -> Array:
         """(N, 3) the rotation vector that is missing, rad, base axes; NaN where the orientation is free."""
         if self.rotations is None:
             return np.full((len(self.points), 3), np.nan)
-        return Rotation.from_matrix(self.rotations @ np.swapaxes(stand.rotations, 1, 2)).as_rotvec()
+        return Rotation.from_matrix(self.rotations @ np.swapaxes(pose.rotations, 1, 2)).as_rotvec()
 
-    def jacobian(self, stand: Stand, lever: float) -> Array:
+    def jacobian(self, pose: ToolPose, lever: float) -> Array:
         """(N, 3 or 6, m) how the gap closes by unit turns of the motors, m/rad."""
         if self.rotations is None:
-            return stand.jacobian[:, :3]
-        return np.asarray(stand.jacobian * np.repeat([1.0, lever], 3)[None, :, None])
+            return pose.jacobian[:, :3]
+        return np.asarray(pose.jacobian * np.repeat([1.0, lever], 3)[None, :, None])
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,19 +84,19 @@ class Solution:
     iterations: int
 
 
-def weakest(wanted: Wanted, stand: Stand, free: NDArray[np.bool_], arm_lever: float) -> Array:
+def weakest(wanted: Wanted, pose: ToolPose, free: NDArray[np.bool_], arm_lever: float) -> Array:
     """(N,) smallest singular value of the scaled Jacobian: what a unit turn of the motors moves the tool at least.
 
     Args:
         wanted: N rows.
-        stand: the arm where it is.
+        pose: the arm where it is.
         free: (m,) motors that may move.
         arm_lever: m that a radian of the tool's turn counts as.
 
     Returns:
         (N,) m per rad; near 0 the row is singular.
     """
-    jacobian = wanted.jacobian(stand, arm_lever) * free
+    jacobian = wanted.jacobian(pose, arm_lever) * free
     gram = jacobian @ np.swapaxes(jacobian, 1, 2)
     smallest: Array = np.sqrt(np.maximum(np.linalg.eigvalsh(gram)[:, 0], 0)) / arm_lever
     return smallest
@@ -170,9 +170,9 @@ def _iterate(
     at_work, best, steps = np.arange(len(wanted)), np.full(len(wanted), np.inf), 0
     for steps in range(ITERATIONS + 1):
         here = wanted.rows(at_work)
-        stand = forward.at(angles[at_work], rows[at_work])
-        gap = here.gap(stand, arm_lever)
-        jacobian = here.jacobian(stand, arm_lever) * moves[at_work][:, None, :]
+        pose = forward.at(angles[at_work], rows[at_work])
+        gap = here.gap(pose, arm_lever)
+        jacobian = here.jacobian(pose, arm_lever) * moves[at_work][:, None, :]
         size = np.linalg.norm(gap, axis=1)
         gram = jacobian @ np.swapaxes(jacobian, 1, 2)
         done = size < TOLERANCE_M

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.compensation.contents import IdentifiedContent
 from armscope.compensation.domain import Domain
+from armscope.compensation.file_contents import IdentifiedContent
 from armscope.core.files import read_json, write_json
 from armscope.core.inputs import InputError, mapping, validate
 from armscope.core.types import Array

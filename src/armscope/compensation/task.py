@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from armscope.compensation.branch import nominal_branch
 from armscope.compensation.correction import correct
 from armscope.compensation.domain import ALLOWED, Domain
 from armscope.compensation.forward import Forward, NominalArm
 from armscope.compensation.newton import Solution, Wanted, row_pieces, solve_commands
+from armscope.compensation.nominal_path import nominal_branch
 from armscope.compensation.path import Frame, WantedPath, unit_doubt
 from armscope.compensation.result import Compensated
 from armscope.core.inputs import InputError

@@ -140,7 +140,7 @@ def held_out_errors(
     for fold, trained in folds(problem, blocks):
         fitted = [evaluate(trained, chosen, background, noise) for chosen, background in readings]
         values = np.array([each.coefficients(len(problem.scale)) / problem.scale for each in fitted])
-        errors[fold] = [[blocks[int(k)].rss(each) for each in values] for k in fold]
+        errors[fold] = [blocks[int(k)].rss_of_each(values) for k in fold]
     return errors
 
 

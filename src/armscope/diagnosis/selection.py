@@ -51,7 +51,7 @@ def select(
     whole = SelectionLoop(start, table, noise, frames, block_of_row, progress)
     whole.follow(small, _promising(found))
     progress("weighing all rows", 0.45)
-    whole.round((found.best.background,))
+    whole.round((found.best.background,), last=True)
     return whole.earned()
 
 

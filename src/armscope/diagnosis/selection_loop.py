@@ -108,6 +108,8 @@ class SelectionLoop:
         self.loads: list[Placed] = []
         self.last: tuple[Hypothesis, EffectSpace] | None = None
         self.scans = 0
+        self.by_block: list[NormalEquations] | None = None
+        self.fit: Refit
 
     def run(self, of_a_sample: bool = False) -> Selected:
         """Rounds until nothing changes, without free curves if that foretells more.
@@ -170,12 +172,18 @@ class SelectionLoop:
         """The background from which the next search starts."""
         return None if self.last is None else [self.last[0].background]
 
-    def round(self, starts: Sequence[BackgroundSizes] | None = None, scanning: bool = False) -> list[Placed]:
-        """One round; returns new candidates that scanning found.
+    def round(
+        self, starts: Sequence[BackgroundSizes] | None = None, scanning: bool = False, last: bool = False
+    ) -> list[Placed]:
+        """One round.
 
         Args:
             starts: backgrounds from which the search starts; all of the space's where not given.
             scanning: whether scanned numbers are looked for.
+            last: whether it is known to be the last: its sums are then kept block by block.
+
+        Returns:
+            New candidates that scanning found.
         """
         if not self.families:  # on all rows of a long table they are those that its sample left
             arm, set_ups = self.model.arm, set_ups_of(self.frames)
@@ -185,15 +193,25 @@ class SelectionLoop:
             self.families = list(families.values())
         self.point, payload, self.loads = on_loads(self.model, self.recordings)
         self.space = build_model_space(self.frames, self.families, [*self.candidates, *payload], self.loads)
-        weights = self.noise.weights
-        self.blocks = normal_equations_by_block(self.space.layout, self.point, self.table, weights, self.block_of_row)
-        self.problem = build_problem(self.space, total(self.blocks), self.noise.least_mm)
+        self.weights = self.noise.weights
+        sums = self._sums(self.block_of_row if last else 0 * self.block_of_row)
+        self.by_block = sums if last else None
+        self.problem = build_problem(self.space, total(sums), self.noise.least_mm)
         search = Search.on(self.problem)
         self._take(search, search.best(starts, None if self.last is None else search.transferred(*self.last)))
         new = self._scanned(search) if scanning else []
         self.model = self.fit.model
         self.noise.weigh(self.fit.left, self.fit.noise, self.fit.weights.whitening)
         return new
+
+    @property
+    def blocks(self) -> list[NormalEquations]:
+        """Sums over each block of rows in the last round; rounds on the way need their total alone."""
+        self.by_block = self.by_block or self._sums(self.block_of_row)
+        return self.by_block
+
+    def _sums(self, block_of_row: Indices) -> list[NormalEquations]:
+        return normal_equations_by_block(self.space.layout, self.point, self.table, self.weights, block_of_row)
 
     def _take(self, search: Search, found: Hypothesis) -> None:
         """Names and the exact fit of a hypothesis."""

@@ -46,8 +46,8 @@ def with_sizes_of_rows(
     for fold, trained in folds(problem, blocks):
         plain = evaluate(trained, hypothesis.chosen, hypothesis.background, hypothesis.noise)
         fitted = [plain, *(sizes_by_group(trained, plain, groups, freedom)[1] for freedom in SIZES_BY_GROUP.freedoms)]
-        values = [each.coefficients(len(problem.scale)) / problem.scale for each in fitted]
-        errors[fold] = [[blocks[int(k)].rss(each) for each in values] for k in fold]
+        values = np.array([each.coefficients(len(problem.scale)) / problem.scale for each in fitted])
+        errors[fold] = [blocks[int(k)].rss_of_each(values) for k in fold]
     gains = errors[:, :1] - errors[:, 1:]
     best = int(np.argmax(gains.sum(axis=0)))
     # a gain that another draw of blocks could have taken away is none (the one-standard-error rule, Breiman 1984)

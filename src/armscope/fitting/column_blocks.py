@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from armscope.core.types import Array, Indices
-from armscope.fitting.design_matrix import grouped_columns, structured_design
+from armscope.fitting.design_matrix import ColumnOrder, StructuredDesign, grouped_columns, structured_design
 from armscope.fitting.linearisation import Measured, current_parameters, linearised
 from armscope.fitting.parameter_layout import ParameterLayout
 from armscope.inference.linear_algebra import ColumnBlocks
@@ -16,49 +17,73 @@ from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.effect import Term
 from armscope.physics.model import FittedModel
 
+Blocks = Sequence[Sequence[Term]]
+"""m blocks of c terms."""
+
 
 def column_blocks(
-    blocks: Sequence[Sequence[Term]],
+    groups: Sequence[Blocks],
     layout: ParameterLayout,
     inside: Indices,
     model: FittedModel,
     rows: Measured,
     weights: RowWeights,
-) -> ColumnBlocks:
-    """Sums over rows for blocks of equally many terms against some of a layout's columns, mm per SI unit.
+) -> list[ColumnBlocks]:
+    """Sums over rows for blocks of terms against some of a layout's columns, mm per SI unit.
 
     Args:
-        blocks: m blocks of c terms.
+        groups: each of some blocks of equally many terms; blocks are multiplied with those of their own group alone.
         layout: of the model's columns.
         inside: (k,) which of them.
         model: where columns are taken; the response is that before any effect, also of those that are not ``inside``.
         rows: the table and the channels that are used.
         weights: of the rows.
-        recordings: the rows.
 
     Returns:
-        Sums of the blocks with themselves, with the columns, and with the response.
+        Of each group: sums of its blocks with themselves, with the columns, and with the response.
     """
-    m, c = len(blocks), len(blocks[0])
-    beside = grouped_columns([term for block in blocks for term in block])
+    sums = [_Sums.of(blocks, len(inside)) for blocks in groups]
     model_terms = grouped_columns([layout.terms[i] for i in inside])
     values, active, present = active_effects(layout, model)
     column_order = grouped_columns(present)
-    k = len(inside)
-    own, cross, b = np.zeros((m * c, m * c)), np.zeros((k, m * c)), np.zeros(m * c)
     for chunk, posture in linearised(rows).chunks(model):
         whitener = weights.whitener(chunk)
         seen = WhitenedPosture(posture, whitener)
         y = whitener.response(model, posture).T + structured_design(seen, column_order).matvec(
             values[active][column_order.order]
         )
-        E = structured_design(seen, beside)
-        E.add_products(own)
-        cross += structured_design(seen, model_terms).products(E)
-        b += E.rmatvec(y)
-    own = beside.whole(own).reshape(m, c, m, c)[np.arange(m), :, np.arange(m), :]
-    cross = cross[np.ix_(model_terms.back, beside.back)]
-    return ColumnBlocks(own, np.moveaxis(cross.reshape(k, m, c), 1, 0), b[beside.back].reshape(m, c))
+        X = structured_design(seen, model_terms)
+        for each in sums:
+            each.add(structured_design(seen, each.order), X, y)
+    return [each.blocks(model_terms.back) for each in sums]
+
+
+@dataclass(eq=False)
+class _Sums:
+    """Sums over some rows for m blocks of c terms, all in the order in which their columns are multiplied."""
+
+    shape: tuple[int, int]
+    order: ColumnOrder
+    own: Array
+    cross: Array
+    b: Array
+
+    @classmethod
+    def of(cls, blocks: Blocks, k: int) -> _Sums:
+        m, c = len(blocks), len(blocks[0])
+        order = grouped_columns([term for block in blocks for term in block])
+        return cls((m, c), order, np.zeros((m * c, m * c)), np.zeros((k, m * c)), np.zeros(m * c))
+
+    def add(self, E: StructuredDesign, X: StructuredDesign, y: Array) -> None:
+        E.add_products(self.own)
+        self.cross += X.products(E)
+        self.b += E.rmatvec(y)
+
+    def blocks(self, model_back: Indices) -> ColumnBlocks:
+        (m, c), back = self.shape, self.order.back
+        own = self.order.whole(self.own).reshape(m, c, m, c)[np.arange(m), :, np.arange(m), :]
+        cross = self.cross[np.ix_(model_back, back)].reshape(-1, m, c)
+        return ColumnBlocks(own, np.moveaxis(cross, 1, 0), self.b[back].reshape(m, c))
 
 
 def active_effects(layout: ParameterLayout, model: FittedModel) -> tuple[Array, Indices, list[Term]]:

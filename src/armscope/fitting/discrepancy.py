@@ -230,7 +230,7 @@ def _weigh(own: Array, pull: Array, chi2: float, freedom: float, least: float, o
     sizes = np.array(DISCREPANCY.sizes)
     nothing, _ = likelihood(0.0, 0.0)
     nats, squares = [], []
-    for quadratic, logdet in zip(*quadratic_and_logdet(own[None], pull[None], sizes**2), strict=True):
+    for quadratic, logdet in zip(*quadratic_and_logdet(own[None], pull[None], sizes[:, None, None]), strict=True):
         value, left = likelihood(float(quadratic[0]), float(logdet[0]))
         nats.append(value - nothing)
         squares.append(left)

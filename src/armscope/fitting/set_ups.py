@@ -10,6 +10,7 @@ import numpy as np
 
 from armscope.core.types import Array, Indices
 from armscope.fitting.constants import SET_UPS
+from armscope.fitting.linearisation import linearised
 from armscope.measurement import robust
 from armscope.physics.model import FittedModel
 from armscope.physics.set_ups import SetUps, in_order_of_time
@@ -71,7 +72,9 @@ class _Points:
 
     @classmethod
     def of(cls, model: FittedModel, recordings: Recordings) -> _Points:
-        tool = model.posture(model.scene(recordings)).tool
+        tool = np.empty((len(recordings), 3))
+        for rows, posture in linearised(recordings).chunks(model):  # all rows' frames at once would take 4 kB of each
+            tool[rows] = posture.tool
         left = model.to_base(recordings.positions, recordings.run) - tool
         return cls(tool, recordings.positions, robust.huber_weights(left, np.ones(len(left)), 0.0))
 

@@ -10,7 +10,7 @@ import pandas as pd
 
 from armscope.core.files import copy_file, new_folder, write_table
 from armscope.world.folder import build
-from armscope.world.spec import NOISE_MM, Wish, WorldSpec
+from armscope.world.spec import NOISE_MM, EffectSpec, WorldSpec
 
 WEAKNESSES = {
     "six-axis": ("joint_compliance", "joint 2"),
@@ -61,11 +61,11 @@ def arm_spec(number: int, count: int, seed: int) -> WorldSpec:
     rng = np.random.default_rng([seed, number])
     arm = list(WEAKNESSES)[number % len(WEAKNESSES)]
     unlike = 10.0 if number == count - 1 else 1.0
-    wishes = [Wish(kind=str(rng.choice(FEW)), strength=unlike * float(rng.uniform(2, 5)))]
+    effects = [EffectSpec(kind=str(rng.choice(FEW)), strength=unlike * float(rng.uniform(2, 5)))]
     if rng.random() < USUAL:
         kind, place = WEAKNESSES[arm]
-        wishes.append(Wish(kind=kind, location=place, strength=unlike * float(rng.uniform(3, 8))))
+        effects.append(EffectSpec(kind=kind, location=place, strength=unlike * float(rng.uniform(3, 8))))
     return WorldSpec(
         id=f"arm-{number:03d}", category="multiple", arm=arm, seed=int(rng.integers(2**31)), fresh=True, rows=ROWS,
-        sigma_mm=float(np.mean(NOISE_MM[arm])), wishes=tuple(wishes),
+        sigma_mm=float(np.mean(NOISE_MM[arm])), effects=tuple(effects),
     )  # fmt: skip

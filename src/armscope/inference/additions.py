@@ -163,12 +163,12 @@ def addition_scores(
         D, r = rest.of(products[inside], columns) / hypothesis.noise**2, rest.b[columns] / hypothesis.noise**2
         if wanted is not None and columns.shape[1] > 1:
             # a gain grows with the prior's width; what it costs in volume is left out
-            most = _likelier(problem, hypothesis, _widened(D, r, widths[-1:])[0])[0] - paid[members[inside]]
+            most = _likelier(problem, hypothesis, quadratic_and_logdet(D, r, widths[-1:])[0])[0] - paid[members[inside]]
             promising = np.flatnonzero(most > wanted.bar(by_size.max(axis=0)))
             if not len(promising):
                 continue
             inside, D, r, widths = inside[promising], D[promising], r[promising], widths[:, promising]
-        quadratic, logdet = _widened(D, r, widths)
+        quadratic, logdet = quadratic_and_logdet(D, r, widths)
         scores = _likelier(problem, hypothesis, quadratic) - 0.5 * logdet
         if columns.shape[1] == 1:
             scores += _half_line(problem, members[inside], r[:, 0])
@@ -187,13 +187,6 @@ def _likelier(problem: Problem, hypothesis: Hypothesis | LowRankUpdate, quadrati
         return 0.5 * quadratic
     noise = hypothesis.noise
     return profiled_gain(quadratic, hypothesis.rss / noise**2, problem.n, noise, problem.least_noise)
-
-
-def _widened(D: Array, r: Array, widths: Array) -> tuple[Array, Array]:
-    """As `quadratic_and_logdet` with prior standard deviations (sizes, m, c), mm, of each block's coefficients."""
-    inner = (D * widths[..., :, None] * widths[..., None, :]).reshape(-1, *D.shape[1:])
-    (told,), (volume,) = quadratic_and_logdet(inner, (r * widths).reshape(-1, D.shape[1]), np.ones(1))
-    return told.reshape(len(widths), -1), volume.reshape(len(widths), -1)
 
 
 def joint_addition_scores(problem: Problem, rest: Hypothesis, sets: Sequence[tuple[SelectedEffect, ...]]) -> Array:
@@ -227,6 +220,31 @@ def joint_addition_scores(problem: Problem, rest: Hypothesis, sets: Sequence[tup
     return np.array(totals)
 
 
+def background_scores(problem: Problem, hypothesis: Hypothesis, number: int) -> Array:
+    """What a family's background would add to the log posterior of a hypothesis that has none, nats.
+
+    Args:
+        problem: the normal equations and priors.
+        hypothesis: to which it is added; columns that an effect has, too, get a second share.
+        number: of the family.
+
+    Returns:
+        (sizes,) nats of each size but none, its price taken off.
+    """
+    family, some = problem.space.families[number], range(1, problem.space.families[number].sizes)
+    columns, variances = [family.columns], [[family.prior_variance(size, problem.scale) for size in some]]
+    for companion in problem.space.companions:
+        if number in companion.backgrounds and not companion.joins(hypothesis.candidates, hypothesis.background):
+            with_it = companion.family
+            columns.append(with_it.columns)
+            variances.append([with_it.prior_variance(with_it.sizes - 1, problem.scale)] * len(some))
+    rest, own = condition_on(problem, np.concatenate(columns), hypothesis), np.arange(sum(map(len, columns)))[None]
+    D, r = rest.own(problem, own) / hypothesis.noise**2, rest.b[own] / hypothesis.noise**2
+    quadratic, logdet = quadratic_and_logdet(D, r, np.sqrt(np.concatenate(variances, axis=1))[:, None])
+    gain = _likelier(problem, hypothesis, quadratic) - 0.5 * logdet
+    return np.asarray(gain[:, 0] - problem.family_costs[number])
+
+
 def block_scores(problem: Problem, hypothesis: Hypothesis, blocks: ColumnBlocks) -> Array:
     """(m,) nats that blocks outside the problem promise at their best sizes; their price is not taken off.
 
@@ -241,7 +259,7 @@ def block_scores(problem: Problem, hypothesis: Hypothesis, blocks: ColumnBlocks)
     own, b = blocks.conditioned(*unscaled_factor(problem, hypothesis))
     scale = np.sqrt(np.maximum(blocks.diagonal, 1e-300) / problem.n)
     D = own / (scale[:, :, None] * scale[:, None, :]) / hypothesis.noise**2
-    quadratic, logdet = quadratic_and_logdet(D, b / scale / hypothesis.noise**2, problem.sizes**2)
+    quadratic, logdet = quadratic_and_logdet(D, b / scale / hypothesis.noise**2, problem.sizes[:, None, None])
     return np.asarray((0.5 * (quadratic - logdet)).max(axis=0))
 
 

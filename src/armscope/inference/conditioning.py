@@ -65,7 +65,9 @@ def condition_on(problem: Problem, columns: Indices, hypothesis: Hypothesis) -> 
         Products of the columns with what the hypothesis leaves, and what it takes of them.
     """
     G, b, inside = problem.equations.G, problem.equations.b, hypothesis.columns
-    taken = np.asarray(dtrmm(1.0, hypothesis.inverse, G[columns][:, inside].T, lower=1)).T
+    # G is symmetric: few whole rows are read, not parts of many, and what is multiplied stays where it is
+    beside = G.take(inside, axis=0).take(columns, axis=1)
+    taken = np.ascontiguousarray(dtrmm(1.0, hypothesis.inverse, beside.T, side=1, lower=1, trans_a=1, overwrite_b=1))
     return ConditionedColumns(columns, b[columns] - taken @ solve_lower(hypothesis.cholesky, b[inside]), taken)
 
 

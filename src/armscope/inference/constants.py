@@ -154,12 +154,6 @@ class Numerics(Constants):
         "judgement: time; the result is the same",
         unit="columns",
     )
-    many_columns: int = constant(
-        8,
-        "from which a set is factorised size by size instead of by eigenvalues",
-        "judgement: time; the result is the same",
-        unit="columns",
-    )
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from typing import Self, TypeVar
 import numpy as np
 
 from armscope.core.types import Indices
-from armscope.inference.additions import AskedAdditions, CandidateGroups, addition_scores
+from armscope.inference.additions import AskedAdditions, CandidateGroups, addition_scores, background_scores
 from armscope.inference.conditioning import ConditionedColumns, LowRankUpdate, approximate_removal_loss, low_rank_update
 from armscope.inference.constants import BUDGET, PRIORS
 from armscope.inference.evidence import Hypothesis, evaluate, removal_log_bayes_factors, savage_dickey
@@ -162,18 +162,25 @@ class Edits:
         """Each effect's and each background's size set to the best one, in turn."""
         best = hypothesis
         for number, family in enumerate(self.space.families):
-            now = best.background[number]
-            # from none to any, else to the next ones: evidence has one summit over the sizes
-            for size in range(family.sizes) if now == 0 else {0, now - 1, min(now + 1, family.sizes - 1)} - {now}:
-                background = replaced(best.background, number, size)
-                if len(family.columns) and background != best.background:
-                    best = self._better(best, best.chosen, background)
+            for size in self._other_sizes(best, number) if len(family.columns) else ():
+                best = self._better(best, best.chosen, replaced(best.background, number, size))
         for number, chosen in enumerate(best.chosen):
             for size in range(len(self.problem.sizes)):
                 if abs(size - chosen.size) == 1:
                     other = replaced(best.chosen, number, SelectedEffect(chosen.candidate, size))
                     best = self._better(best, other, best.background)
         return best
+
+    def _other_sizes(self, hypothesis: Hypothesis, number: int) -> Iterable[int]:
+        """Sizes of a background that may be better: from none those that promise to be, else the next ones.
+
+        The next ones are enough, since evidence has one summit over the sizes.
+        """
+        now, most = hypothesis.background[number], self.space.families[number].sizes - 1
+        if now:
+            return {0, now - 1, min(now + 1, most)} - {now}
+        promised = background_scores(self.problem, hypothesis, number)
+        return (1 + np.flatnonzero(promised > -BUDGET.slack_nats)).tolist()
 
     def _better(self, best: Hypothesis, chosen: tuple[SelectedEffect, ...], background: BackgroundSizes) -> Hypothesis:
         """The better of a hypothesis and another one; a large one is evaluated only if it promises to be."""

@@ -7,6 +7,7 @@ Everything is linear, so coefficients are integrated out: log p(y) = -n log sigm
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import ClassVar
@@ -17,7 +18,7 @@ from scipy.special import log_ndtr
 
 from armscope.core.types import Array, Indices
 from armscope.inference.constants import NUMERICS, PRIORS
-from armscope.inference.linear_algebra import lower_cholesky, lower_inverse, solve_lower
+from armscope.inference.linear_algebra import among, lower_cholesky, lower_inverse, solve_lower
 from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.problem import Problem, SelectedEffect, prior_variances
 
@@ -103,26 +104,27 @@ def evaluate(
         The hypothesis with its evidence, nats, noise, mm, and posterior.
     """
     prior = prior_variances(problem, chosen, background)
-    columns = np.flatnonzero(prior > 0)
+    columns = np.flatnonzero(prior)
     variance = prior[columns]
-    G, b = problem.equations.G[columns][:, columns], problem.equations.b[columns]
-    factor = first = lower_cholesky(G, noise**2 / variance)
+    precision = 1 / variance
+    G, b = among(problem.equations.G, columns), problem.equations.b[columns]
+    factor = first = lower_cholesky(G, noise**2 * precision)
     # how many values the data determine hardly changes with the noise: one inverse is enough
     inverse = lower_inverse(first)
-    effective_dof = len(columns) - noise**2 * float(np.sum(np.einsum("ij,ij->j", inverse, inverse) / variance))
+    effective_dof = len(columns) - noise**2 * float(np.einsum("ij,ij->j", inverse, inverse) @ precision)
     for step in range(NUMERICS.noise_steps):
         whitened_rhs = solve_lower(factor, b)
-        rss = float(problem.equations.yy - whitened_rhs @ whitened_rhs)
+        rss = problem.equations.yy - float(whitened_rhs @ whitened_rhs)
         mean = np.asarray(dtrtrs(factor, whitened_rhs, lower=1, trans=1)[0])
-        misfit = rss - noise**2 * float(np.sum(mean**2 / variance))
-        updated = np.sqrt(max(misfit, 0.0) / max(problem.n - effective_dof, 1.0))
-        updated = max(float(updated), problem.least_noise, 1e-6)
+        misfit = rss - noise**2 * float(mean**2 @ precision)
+        updated = math.sqrt(max(misfit, 0.0) / max(problem.n - effective_dof, 1.0))
+        updated = max(updated, problem.least_noise, 1e-6)
         if step == NUMERICS.noise_steps - 1 or abs(updated - noise) < NUMERICS.noise_settled * noise:
             break
         noise = updated
-        factor = lower_cholesky(G, noise**2 / variance)
-    logdet = 2 * np.sum(np.log(np.diag(factor))) + np.sum(np.log(variance)) - 2 * len(columns) * np.log(noise)
-    evidence = float(-problem.n * np.log(noise) - 0.5 * logdet - 0.5 * rss / noise**2)
+        factor = lower_cholesky(G, noise**2 * precision)
+    logdet = float(2 * np.log(factor.diagonal()).sum() + np.log(variance).sum()) - 2 * len(columns) * math.log(noise)
+    evidence = -problem.n * math.log(noise) - 0.5 * logdet - 0.5 * rss / noise**2
     at = np.searchsorted(columns, half_line_columns(problem, chosen))
     away = mean[at] / (noise * np.sqrt(np.sum(inverse[:, at] ** 2, axis=0)))
     posterior = evidence - negative_log_prior(problem, chosen, background, away)
@@ -175,16 +177,19 @@ def removal_log_bayes_factors(problem: Problem, hypothesis: Hypothesis) -> Array
 
     Removal replaces a prior precision 1/v by 1/rest; where nothing is left, the columns are pinned to zero.
     """
-    lost = []
-    for effect in hypothesis.chosen:
-        columns = problem.space.candidates[effect.candidate].columns
-        variance = hypothesis.variance[hypothesis.at(columns)]
-        added = problem.prior_scale(effect) ** 2
-        rest = np.maximum(variance - added, 1e-12 * added)
-        extra = 1 / rest - 1 / variance
-        M = np.eye(len(columns)) + hypothesis.covariance(columns) * extra[None, :]
-        mean = hypothesis.means(columns)
-        quadratic = mean @ (extra * np.linalg.solve(M, mean))
-        logdet = np.linalg.slogdet(M)[1] - np.sum(np.log(variance / rest))
+    members = [problem.space.candidates[effect.candidate].columns for effect in hypothesis.chosen]
+    at = hypothesis.at(np.concatenate(members))
+    variance, inverse = hypothesis.variance[at], hypothesis.inverse[:, at]
+    added = np.concatenate([problem.prior_scale(effect) for effect in hypothesis.chosen]) ** 2
+    rest = np.maximum(variance - added, 1e-12 * added)
+    root = np.sqrt(1 / rest - 1 / variance)
+    M = hypothesis.noise**2 * (inverse.T @ inverse) * np.outer(root, root)
+    pull, widened = root * hypothesis.mean[at], np.log(variance / rest)
+    ends, lost = np.cumsum([len(columns) for columns in members]).tolist(), []
+    for effect, start, end in zip(hypothesis.chosen, [0, *ends[:-1]], ends, strict=True):
+        own = slice(start, end)
+        factor = lower_cholesky(M[own, own], np.ones(end - start))
+        quadratic = float(np.sum(solve_lower(factor, pull[own]) ** 2))
+        logdet = float(2 * np.sum(np.log(np.diag(factor))) - np.sum(widened[own]))
         lost.append(0.5 * quadratic + 0.5 * logdet - problem.cost(effect.candidate))
     return np.array(lost)

@@ -12,6 +12,11 @@ from armscope.core.types import Array, Indices
 from armscope.inference.constants import NUMERICS
 
 
+def among(G: Array, columns: Indices) -> Array:
+    """(c, c) the products of some columns with each other, of those of all (p, p)."""
+    return np.asarray(G.take(np.add.outer(columns * len(G), columns)))
+
+
 def lower_cholesky(G: Array, ridge: Array) -> Array:
     """Cholesky factor (lower) of G + diag(ridge); a ridge below rounding is raised to it (few rows, fitted exactly).
 
@@ -113,42 +118,42 @@ def rss_reduction(own: Array, b: Array, before: Array) -> Array:
     )
 
 
-def quadratic_and_logdet(D: Array, r: Array, s2: Array) -> tuple[Array, Array]:
-    """(sizes, m) r' (D + 1 / s^2)^-1 r and log|1 + s^2 D| of m blocks (m, c, c) and (m, c), for each s^2.
+def quadratic_and_logdet(D: Array, r: Array, widths: Array) -> tuple[Array, Array]:
+    """(sizes, m) r' (D + 1 / w^2)^-1 r and log|1 + w D w| of m blocks (m, c, c) and (m, c), for several widths w each.
 
     Args:
         D: (m, c, c) positive semi-definite.
         r: (m, c).
-        s2: (sizes,) prior variances.
+        widths: (sizes, m, c) prior standard deviations, or (sizes, 1, 1) where all have the same.
 
     Returns:
         Two arrays (sizes, m).
     """
-    if D.shape[1] >= NUMERICS.many_columns:
-        try:
-            return _factorised(D, r, s2)
-        except np.linalg.LinAlgError:
-            pass  # of a noise near nothing: rounding makes the smallest eigenvalues negative
-    if D.shape[1] == 1:
-        eigenvalues, u2 = np.maximum(D[:, :, 0], 0.0), r**2
-    else:
-        eigenvalues, vectors = np.linalg.eigh(D)
-        eigenvalues = np.maximum(eigenvalues, 0.0)
-        u2 = np.einsum("mij,mi->mj", vectors, r) ** 2
-    widened = 1 + s2[:, None, None] * eigenvalues
-    return np.sum(u2 * s2[:, None, None] / widened, axis=2), np.sum(np.log(widened), axis=2)
+    pull = r * widths
+    if r.shape[1] == 1:
+        widened = 1 + np.maximum(D[:, :, 0], 0.0) * widths**2
+        return (pull**2 / widened)[..., 0], np.log(widened)[..., 0]
+    scaled = D * widths[..., :, None] * widths[..., None, :]
+    try:
+        return _factorised(scaled, pull)
+    except np.linalg.LinAlgError:  # of a noise near nothing: rounding makes the smallest eigenvalues negative
+        eigenvalues, vectors = np.linalg.eigh(scaled)
+        widened = 1 + np.maximum(eigenvalues, 0.0)
+        u2 = np.einsum("smij,smi->smj", vectors, pull) ** 2
+        return np.sum(u2 / widened, axis=2), np.sum(np.log(widened), axis=2)
 
 
-def _factorised(D: Array, r: Array, s2: Array) -> tuple[Array, Array]:
-    """The same by a factorisation per size: with r as one more row, the factor holds factor^-1 r, too."""
-    m, c = r.shape
-    bordered = np.empty((len(s2), m, c + 1, c + 1))
-    bordered[:, :, :c, :c] = s2[:, None, None, None] * D + np.eye(c)
-    bordered[:, :, c, :c] = bordered[:, :, :c, c] = r
-    bordered[:, :, c, c] = 1 + 2 * np.sum(r**2, axis=1)  # any number that keeps it positive definite
+def _factorised(scaled: Array, pull: Array) -> tuple[Array, Array]:
+    """By a factorisation of each block (sizes, m, c, c); with the pull as one more row it holds factor^-1 pull, too."""
+    c = pull.shape[2]
+    bordered = np.zeros((*pull.shape[:2], c + 1, c + 1))
+    bordered[:, :, :c, :c] = scaled
+    bordered[:, :, range(c), range(c)] += 1
+    bordered[:, :, c, :c] = pull  # of a symmetric matrix the lower half is read
+    bordered[:, :, c, c] = 1 + 2 * np.sum(pull**2, axis=2)  # any number that keeps it positive definite
     factor = np.linalg.cholesky(bordered)
     diagonal = np.diagonal(factor, axis1=2, axis2=3)[:, :, :c]
-    return s2[:, None] * np.sum(factor[:, :, c, :c] ** 2, axis=2), 2 * np.sum(np.log(diagonal), axis=2)
+    return np.sum(factor[:, :, c, :c] ** 2, axis=2), 2 * np.sum(np.log(diagonal), axis=2)
 
 
 def profiled_gain(quadratic: Array, chi2: float, n: float, noise: float, least: float) -> Array:

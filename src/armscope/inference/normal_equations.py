@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg.blas import daxpy
 
 from armscope.core.types import Array, Indices
 from armscope.inference.constants import NUMERICS
@@ -30,7 +31,11 @@ class NormalEquations:
 
     def rss(self, coefficients: Array) -> float:
         """Residual sum of squares with these coefficients of all columns."""
-        return float(self.yy - 2 * self.b @ coefficients + coefficients @ self.G @ coefficients)
+        return float(self.rss_of_each(coefficients[None])[0])
+
+    def rss_of_each(self, coefficients: Array) -> Array:
+        """(K,) residual sums of squares with each of K sets (K, p) of coefficients."""
+        return np.asarray(self.yy + np.sum((coefficients @ self.G - 2 * self.b) * coefficients, axis=1))
 
     def least_rss(self, columns: Indices) -> float:
         """Residual sum of squares of least squares on some columns, which may depend on each other."""
@@ -48,9 +53,9 @@ def total(blocks: Sequence[NormalEquations]) -> NormalEquations:
 def weighted_total(blocks: Sequence[NormalEquations], times: Indices) -> NormalEquations:
     """The sum of blocks, each counted so many times."""
     drawn = [(blocks[int(k)], int(times[k])) for k in np.flatnonzero(times)]
-    G, b = np.zeros_like(blocks[0].G), np.zeros_like(blocks[0].b)
+    G, b = np.zeros(blocks[0].G.shape), np.zeros_like(blocks[0].b)
     for block, often in drawn:
-        G += block.G if often == 1 else often * block.G
+        daxpy(block.G.reshape(-1), G.reshape(-1), a=often)  # adds in place, without a product that is as large
         b += often * block.b
     yy, n = sum(often * block.yy for block, often in drawn), sum(often * block.n for block, often in drawn)
     return NormalEquations(G, b, float(yy), float(n))

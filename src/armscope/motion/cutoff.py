@@ -11,7 +11,7 @@ from armscope.core.types import Array
 from armscope.motion.constants import LIBRARY
 from armscope.motion.first_look import FirstLook, first_look
 from armscope.motion.preparation import Preparation, preparation, thinned
-from armscope.motion.sampling_constants import CUTOFF
+from armscope.motion.sampling_constants import CUTOFF, FILTER
 from armscope.motion.timing import Stretch
 from armscope.robot.dynamics import MovingArm
 
@@ -32,7 +32,26 @@ def chosen_cutoff(arm: MovingArm, stretches: Sequence[Stretch], asked: float | N
         The filters and the decimation; what the fit tells besides.
     """
     how, first = _chosen(arm, stretches, asked)
-    return thinned(how, sum(map(len, stretches))), first
+    return _resolved(how, sum(map(len, stretches)), asked), first
+
+
+def _resolved(how: Preparation, samples: int, asked: float | None) -> Preparation:
+    """With as many rows as may be kept, and a cut-off that they resolve.
+
+    Rows farther apart than the filter asks for leave out what lies between them, and slopes over them mean nothing; a
+    lower cut-off takes it in. What the motion itself reaches stays below the cut-off.
+    """
+    kept = thinned(how, samples)
+    if asked is not None or kept.every == how.every:
+        return kept
+    least = max(CUTOFF.least_hz, how.position_cutoff / CUTOFF.beyond_motion)
+    lower, source = how, "what as many rows as are kept resolve"
+    for every in range(kept.every, 3 * kept.every):  # steps of the model's own stride are skipped
+        cutoff = float(f"{max(how.rate / (FILTER.rows_per_cutoff * every), least):.3g}")
+        lower = preparation(how.rate, min(cutoff, how.cutoff), source, how.position_cutoff)
+        if cutoff <= least or lower.every * FILTER.most_rows >= samples:
+            break
+    return thinned(lower, samples) if lower.cutoff < how.cutoff else kept
 
 
 def _chosen(arm: MovingArm, stretches: Sequence[Stretch], asked: float | None) -> tuple[Preparation, FirstLook]:

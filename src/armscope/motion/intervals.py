@@ -21,9 +21,9 @@ from armscope.inference.evidence import Hypothesis
 from armscope.inference.search import Search
 from armscope.motion import catalogue
 from armscope.motion.constants import INTERVALS, PRIOR, TELLING
-from armscope.motion.late import lag_step
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.selection import SelectedCauses
+from armscope.motion.torque_delay import lag_step
 from armscope.verdict.effects import INTERVAL
 from armscope.verdict.schema import Notice
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import time
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 
@@ -41,9 +40,9 @@ from armscope.motion.layout import TorqueLayout
 from armscope.motion.library import place_causes
 from armscope.motion.model import MotionModel, fitted_model
 from armscope.motion.preparation import Preparation
+from armscope.motion.recorded_ranges import seen_in
 from armscope.motion.rows import MotionRows, build_rows, torque_of
 from armscope.motion.sampling_constants import FILTER
-from armscope.motion.seen import seen_in
 from armscope.motion.selection import SelectedCauses, model_so_far, select_causes
 from armscope.motion.tenable import tenable
 from armscope.motion.timing import Stretch, mended, stretches
@@ -131,7 +130,7 @@ def diagnose_motion(
     Raises:
         InputError: the samples don't fit the arm or hold nothing to go by.
     """
-    settings, started = settings or MotionSettings(), time.perf_counter()
+    settings = settings or MotionSettings()
     for run in settings.held_out:
         if run not in motions.runs:
             raise InputError("--held-out", "", run, f"{motions.source} has no such run", nearest(run, motions.runs))
@@ -161,7 +160,6 @@ def diagnose_motion(
         notices=(*notices, *verdict.notices),
         samples=len(motions),
         runs=runs,
-        seconds=time.perf_counter() - started,
         settings=asdict(settings),
     )
     progress("done", 1.0)

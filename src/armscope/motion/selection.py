@@ -16,7 +16,6 @@ from armscope.inference.problem import Problem, SelectedEffect, build_problem
 from armscope.inference.search import Search
 from armscope.motion import catalogue
 from armscope.motion.constants import LIBRARY, NOISE, PRIOR
-from armscope.motion.late import lag_step
 from armscope.motion.laws import Law
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.preparation import Preparation
@@ -24,6 +23,7 @@ from armscope.motion.rows import MotionRows, SoFar, build_rows, stated_model
 from armscope.motion.space import build_space
 from armscope.motion.sums import Earlier, JointSums, sums_by_joint
 from armscope.motion.timing import Stretch
+from armscope.motion.torque_delay import lag_step
 from armscope.motion.weights import TorqueWeights, estimate_weights, left_apart, weighed
 
 SCANNED = (catalogue.STRIBECK, catalogue.DELAY, catalogue.COMPLIANCE)

@@ -171,7 +171,6 @@ class MotionVerdict:
         rows: of torque and model that were fitted.
         samples: that were recorded.
         runs: which runs they are of.
-        seconds: how long it took.
         settings: what was asked for.
     """
 
@@ -192,7 +191,6 @@ class MotionVerdict:
     rows: int
     samples: int
     runs: tuple[str, ...]
-    seconds: Number = 0.0
     settings: dict[str, Any] = field(default_factory=dict)
 
     def to_json(self) -> dict[str, Any]:

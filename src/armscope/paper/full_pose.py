@@ -76,18 +76,18 @@ def paper_full_pose(
         fitted[DIAGNOSED] = diagnosed_candidate(arm, recordings, pose=True)
     rows = _rows(NO_MODEL, "identification", "fit", *_gap(_of(recordings), _nominal(arm, identification)))
     for name, angles in paths.items():
-        real = _pose(truth.stand(angles, errors / truth.sigmas))
+        real = _pose(truth.frames(angles, errors / truth.sigmas))
         for stage in ("prediction", "closed loop"):
             rows += _rows(NO_MODEL, name, stage, *_gap(real, _nominal(arm, angles)))
     for title, model in fitted.items():
-        rows += _rows(title, "identification", "fit", *_gap(_of(recordings), model.stand(identification)))
+        rows += _rows(title, "identification", "fit", *_gap(_of(recordings), model.tool_pose(identification)))
         for name, angles in paths.items():
-            real = _pose(truth.stand(angles, errors / truth.sigmas))
-            rows += _rows(title, name, "prediction", *_gap(real, model.stand(angles)))
+            real = _pose(truth.frames(angles, errors / truth.sigmas))
+            rows += _rows(title, name, "prediction", *_gap(real, model.tool_pose(angles)))
             result = model.compensate(_wanted(arm, angles, name))
             reached, gap = result.reached, (np.empty((0, 3)), np.empty((0, 3)))
             if reached.any():
-                loop = _pose(truth.stand(result.commands[reached], errors / truth.sigmas))
+                loop = _pose(truth.frames(result.commands[reached], errors / truth.sigmas))
                 gap = _gap(loop, _nominal(arm, angles[reached]))
             rows += _rows(title, name, "closed loop", *gap, int(np.sum(~reached)))
     return pd.DataFrame(rows)
@@ -111,7 +111,7 @@ def _identification(truth: GeometricErrors, angles: Array, count: int, seed: int
 
 
 def _measured(truth: GeometricErrors, errors: Array, angles: Array, rng: np.random.Generator) -> Recordings:
-    points, rotations = _pose(truth.stand(angles, errors / truth.sigmas))
+    points, rotations = _pose(truth.frames(angles, errors / truth.sigmas))
     points = points + rng.normal(0, NOISE_MM * 1e-3, points.shape)
     noise = Rotation.from_rotvec(rng.normal(0, NOISE_MRAD * 1e-3, points.shape))
     table = _table(angles, points, (noise * Rotation.from_matrix(rotations)).as_matrix())

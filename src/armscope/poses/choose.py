@@ -14,7 +14,7 @@ from armscope.design.exchange import optimal
 from armscope.design.indices import SOURCES, all_indices
 from armscope.poses.candidates import Candidates, candidates, grid, subset
 from armscope.poses.obstacles import Surroundings
-from armscope.poses.shown import GEOMETRY, Shown, shown
+from armscope.poses.target_parameters import GEOMETRY, TargetParameters, target_parameters
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -37,7 +37,7 @@ class Choice:
     index: str
     rows: NDArray[np.intp]
     candidates: Candidates
-    shown: Shown
+    targets: TargetParameters
     jacobian: Array
     around: Surroundings
 
@@ -85,16 +85,16 @@ def choose(
     """
     around = around or Surroundings()
     pool = candidates(arm, n_candidates, around, seed, payload_kg)
-    seen = shown(arm, pool.table, effects)
-    if seen.is_frame.all():
+    targets = target_parameters(arm, pool.table, effects)
+    if targets.is_frame.all():
         rule = "poses of this arm show nothing of them beside base and tool"
         raise InputError("--effects", "", ", ".join(effects), rule, "Choose other effects.")
-    jacobian = seen.jacobian(pool.table)
+    jacobian = targets.jacobian(pool.table)
     try:
         rows = optimal(index, jacobian, count, np.random.default_rng(seed), starts)
     except ValueError as error:
         raise InputError("--poses", "", count, str(error)) from error
-    return Choice(tuple(effects), index, short_way(pool.table.motor_angles, rows), pool, seen, jacobian, around)
+    return Choice(tuple(effects), index, short_way(pool.table.motor_angles, rows), pool, targets, jacobian, around)
 
 
 def by_other_criteria(choice: Choice, seed: int = 0, starts: int = 3) -> dict[str, Recordings]:
@@ -137,7 +137,7 @@ def grid_choice(choice: Choice, rng: np.random.Generator, payload_kg: float = 0.
     Raises:
         InputError: as `candidates.grid`.
     """
-    return grid(choice.shown.arm, len(choice.rows), choice.around, rng, payload_kg)
+    return grid(choice.targets.arm, len(choice.rows), choice.around, rng, payload_kg)
 
 
 def short_way(motor_angles: Array, rows: NDArray[np.intp]) -> NDArray[np.intp]:

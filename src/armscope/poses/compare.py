@@ -12,7 +12,7 @@ from armscope.core.types import Array
 from armscope.design.indices import all_indices
 from armscope.poses.candidates import candidates
 from armscope.poses.choose import Choice, grid_choice, random_choice
-from armscope.poses.shown import Shown
+from armscope.poses.target_parameters import TargetParameters
 from armscope.recordings import Recordings
 
 HELD_OUT = 300
@@ -48,8 +48,8 @@ def compare_sets(
         parameter_worst_mm (errors of the effects' parameters, in millimetres that they move the tool by),
         held_out_rms_mm (3D) and held_out_worst_mm (predicted minus true at poses that took no part).
     """
-    seen = choice.shown
-    elsewhere = candidates(seen.arm, HELD_OUT, choice.around, seed + 104729, payload_kg).table
+    targets = choice.targets
+    elsewhere = candidates(targets.arm, HELD_OUT, choice.around, seed + 104729, payload_kg).table
     fixed = {"chosen": choice.table, **(others or {})}
     draw: dict[str, Callable[[np.random.Generator], Recordings]] = {
         **{name: _always(table) for name, table in fixed.items()},
@@ -59,19 +59,19 @@ def compare_sets(
     rows = []
     for number in range(seeds):
         for_arm, for_poses, for_noise = (np.random.default_rng([seed, number, k]) for k in range(3))
-        truth = for_arm.normal(size=len(seen.terms))
-        held_out = seen.tool(elsewhere, truth)
+        truth = for_arm.normal(size=len(targets.terms))
+        held_out = targets.tool(elsewhere, truth)
         for kind, drawn in draw.items():
             poses = drawn(for_poses)
-            measured = seen.tool(poses, truth) + for_noise.normal(0, noise, (len(poses), 3))
-            found = _fitted(seen, poses, measured)
-            wrong = np.abs(found - truth)[~seen.is_frame]
-            missed = np.linalg.norm(seen.tool(elsewhere, found) - held_out, axis=1) * 1e3
+            measured = targets.tool(poses, truth) + for_noise.normal(0, noise, (len(poses), 3))
+            found = _fitted(targets, poses, measured)
+            wrong = np.abs(found - truth)[~targets.is_frame]
+            missed = np.linalg.norm(targets.tool(elsewhere, found) - held_out, axis=1) * 1e3
             rows.append(
                 {
                     "seed": number,
                     "set": kind,
-                    **all_indices(seen.jacobian(poses)),
+                    **all_indices(targets.jacobian(poses)),
                     "parameter_rms_mm": rms(wrong),
                     "parameter_worst_mm": float(wrong.max()),
                     "held_out_rms_mm": rms(missed),
@@ -106,12 +106,12 @@ def share_won(table: pd.DataFrame, column: str, against: str) -> float:
     return float(np.mean(by_seed["chosen"] < by_seed[against]))
 
 
-def _fitted(seen: Shown, poses: Recordings, measured: Array) -> Array:
+def _fitted(targets: TargetParameters, poses: Recordings, measured: Array) -> Array:
     """(p,) parameters in units of their sizes; the slope is taken at the nominal arm."""
-    columns = seen.jacobian(poses).reshape(-1, len(seen.terms))
-    inverse, values = np.linalg.pinv(columns), np.zeros(len(seen.terms))
+    columns = targets.jacobian(poses).reshape(-1, len(targets.terms))
+    inverse, values = np.linalg.pinv(columns), np.zeros(len(targets.terms))
     for _ in range(STEPS):
-        values = values + inverse @ (measured - seen.tool(poses, values)).reshape(-1)
+        values = values + inverse @ (measured - targets.tool(poses, values)).reshape(-1)
     return values
 
 
@@ -126,10 +126,10 @@ def predicted_errors(choice: Choice, noise: float, sets: Mapping[str, Recordings
     Returns:
         A row per parameter with a column ``sd_NAME`` per set; frames are left out.
     """
-    seen = choice.shown
-    table = pd.DataFrame({"parameter": seen.names, "unit": [term.unit for _, term in seen.terms]})
+    targets = choice.targets
+    table = pd.DataFrame({"parameter": targets.names, "unit": [term.unit for _, term in targets.terms]})
     for kind, poses in sets.items():
-        columns = seen.jacobian(poses).reshape(-1, len(seen.terms))
-        spread = np.sqrt(np.diag(np.linalg.inv(columns.T @ columns))) * noise * seen.sizes
-        table[f"sd_{kind}"] = spread / [term.si for _, term in seen.terms]
-    return table[~seen.is_frame].reset_index(drop=True)
+        columns = targets.jacobian(poses).reshape(-1, len(targets.terms))
+        spread = np.sqrt(np.diag(np.linalg.inv(columns.T @ columns))) * noise * targets.sizes
+        table[f"sd_{kind}"] = spread / [term.si for _, term in targets.terms]
+    return table[~targets.is_frame].reset_index(drop=True)

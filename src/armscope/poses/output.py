@@ -48,10 +48,10 @@ def write_choice(path: Path, choice: Choice, compared: pd.DataFrame | None, nois
 
 
 def _content(choice: Choice, compared: pd.DataFrame | None, noise: float, noise_source: str) -> dict[str, Any]:
-    seen, pool, around = choice.shown, choice.candidates, choice.around
-    stated = np.isfinite(seen.arm.limits).all(axis=1)
+    targets, pool, around = choice.targets, choice.candidates, choice.around
+    stated = np.isfinite(targets.arm.limits).all(axis=1)
     content: dict[str, Any] = {
-        "robot": seen.arm.name,
+        "robot": targets.arm.name,
         "poses": len(choice.rows),
         "criterion": choice.index,
         "criterion_is": SOURCES[choice.index],
@@ -61,7 +61,7 @@ def _content(choice: Choice, compared: pd.DataFrame | None, noise: float, noise_
         "parameters": predicted_errors(choice, noise, {"chosen": choice.table}).to_dict("records"),
         "noise_mm": noise * 1e3,
         "noise_is": noise_source,
-        "not_told_apart": list(seen.hidden),
+        "not_told_apart": list(targets.hidden),
         "candidates": {"possible": len(pool), "drawn": pool.drawn, "refused": dict(pool.refused)},
         "assumed": {
             "body": body_in_words(choice),
@@ -85,7 +85,7 @@ def _content(choice: Choice, compared: pd.DataFrame | None, noise: float, noise_
 
 def body_in_words(choice: Choice) -> str:
     """What the arm's body is taken to be."""
-    arm, around = choice.shown.arm, choice.around
+    arm, around = choice.targets.arm, choice.around
     radius = f"{around.radius_of(arm) * 1e3:.0f} mm radius"
     shapes = around.shapes_of(arm)
     if shapes:
@@ -98,4 +98,4 @@ def _follows_approach(choice: Choice) -> bool:
         nested = any(follows(each) for each in driver.arguments if isinstance(each, Driver))
         return driver.kind in FOLLOW_APPROACH or nested
 
-    return any(follows(product.driver) for _, term in choice.shown.terms for product in term.products)
+    return any(follows(product.driver) for _, term in choice.targets.terms for product in term.products)

@@ -20,7 +20,9 @@ CONSTANT = ("joint_offset", "link_geometry")
 OWN_SIZE = ("compliance", "amplitude", "flexibility", "gap")
 
 
-def marks(truth: Truth, answer: Answer, matches: Sequence[Match], wrong: Sequence[NamedEffect]) -> dict[str, object]:
+def rough_scores(
+    truth: Truth, answer: Answer, matches: Sequence[Match], wrong: Sequence[NamedEffect]
+) -> dict[str, object]:
     """How a verdict fares on an arm that has small errors everywhere.
 
     Args:

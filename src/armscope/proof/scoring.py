@@ -13,7 +13,7 @@ from armscope.proof.definitions import AXES_MM, HELD_OUT_TOLERANCE, NEAR_ORACLE,
 from armscope.proof.intervals import compare_numbers
 from armscope.proof.matching import UNKNOWN, Match, distinct, effect_row, match, name_row, outside_outcome
 from armscope.proof.oracle import power, size_in_thresholds
-from armscope.proof.rough import marks
+from armscope.proof.rough import rough_scores
 from armscope.proof.truth import Concealed, Truth
 
 CANNOT_TELL, NOTHING = "cannot tell", "nothing"
@@ -110,7 +110,7 @@ def _world(
     all_right = not answer.failed and all(m.right for m in story)
     ratio = held_out_ratio(truth, answer)
     outside = _outside(answer, matches, unmatched) if truth.outside else ""
-    return marks(truth, answer, matches, wrong) | {
+    return rough_scores(truth, answer, matches, wrong) | {
         "arm": truth.arm,
         "rows": truth.rows,
         "sigma_mm": truth.sigma_mm,

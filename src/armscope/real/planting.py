@@ -20,7 +20,7 @@ from armscope.core.averages import rms
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.real.staging import Stage
-from armscope.world.choice import LARGEST_FACTOR
+from armscope.world.effect_placement import LARGEST_FACTOR
 from armscope.world.kinds import LEAST_TORQUE, LOAD, Concealed, Kind, number, second_number
 from armscope.world.rivals import Judge, Visibility
 from armscope.world.spec import KINDS

@@ -157,11 +157,11 @@ def schema() -> dict[str, Any]:
 def to_json(verdict: Verdict) -> dict[str, Any]:
     """The content of verdict.json."""
     held_out, seen = verdict.held_out, verdict.orientations
-    turned = BeforeAfter(before=held_out.turn_before, after=held_out.turn_after)
+    turns = BeforeAfter(before=held_out.turn_before, after=held_out.turn_after)
     file = VerdictFile(
         **{name: getattr(verdict, name) for name in _SAME},
         held_out_rms_mm=HeldOutFile.model_validate(held_out),
-        orientation=None if seen is None else OrientationFile(**vars(seen), held_out_rms_mrad=turned),
+        orientation=None if seen is None else OrientationFile(**vars(seen), held_out_rms_mrad=turns),
         fitted_rms_mm=BeforeAfter(before=verdict.residual_before_mm, after=verdict.residual_after_mm),
     )
     return file.model_dump(by_alias=True)
@@ -174,11 +174,11 @@ def from_json(content: Any, source: object) -> Verdict:
         raise InputError(source, "format", found, rule, "`armscope diagnose` writes one.")
     file = validate(VerdictFile, content, source)
     seen = file.orientation
-    turned = seen.held_out_rms_mrad if seen else BeforeAfter(before=np.nan, after=np.nan)
+    turns = seen.held_out_rms_mrad if seen else BeforeAfter(before=np.nan, after=np.nan)
     return Verdict(
         **{name: getattr(file, name) for name in _SAME if name != "effects"},
         effects=tuple(in_memory(FoundEffect, effect) for effect in file.effects),
-        held_out=in_memory(HeldOut, file.held_out_rms_mm, turn_before=turned.before, turn_after=turned.after),
+        held_out=in_memory(HeldOut, file.held_out_rms_mm, turn_before=turns.before, turn_after=turns.after),
         residual_before_mm=file.fitted_rms_mm.before,
         residual_after_mm=file.fitted_rms_mm.after,
         orientations=in_memory(Orientations, seen) if seen else None,

@@ -10,6 +10,7 @@ import numpy as np
 
 from armscope.core.averages import rms
 from armscope.core.location import Location
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.physics.backgrounds import DRIFT, ELASTIC, GEOMETRIC, TRANSMISSION
 from armscope.physics.registry import effect_named
@@ -68,6 +69,10 @@ class Task:
     only_after: bool = False
 
 
+MOST_ROWS = 20_000
+"""In which a repair's motion is looked for: all frames of a million rows would take four gigabytes."""
+
+
 @dataclass(frozen=True)
 class WorkOrder:
     """What to do, and what was found besides.
@@ -84,7 +89,8 @@ class WorkOrder:
 
 def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
     """The work order of a verdict: tasks for major effects, and for small errors that make up a cause."""
-    scene = verdict.model.posture(verdict.model.scene(verdict.recordings)).scene
+    rows = spread_evenly(len(verdict.recordings), MOST_ROWS)
+    scene = verdict.model.posture(verdict.model.scene(verdict.recordings.rows(rows))).scene
     repairs = [(task_of(scene, cause, effect), cause.moved) for cause in worth.causes for effect in cause.effects[:1]]
     present = {family.family for family in verdict.background_families if family.present and family.family in SMALL}
     small = [(_everywhere(family), moved) for family, moved in worth.small.items() if family in present]

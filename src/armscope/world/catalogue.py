@@ -117,7 +117,7 @@ def _nothing(rng: np.random.Generator) -> Details:
 
 def _single(kind: str, strength: float) -> Recipe:
     def recipe(rng: np.random.Generator) -> Details:
-        return {"wishes": [{"kind": kind, "strength": strength}], **_arm_for(kind)}
+        return {"effects": [{"kind": kind, "strength": strength}], **_arm_for(kind)}
 
     return recipe
 
@@ -128,7 +128,7 @@ def _faint(kind: str, size: float) -> Recipe:
     def recipe(rng: np.random.Generator) -> Details:
         rows = int(rng.choice([60, 100, 150, 200, 250, 300]))
         strength = float(f"{size / np.sqrt(3 * rows):.4g}")
-        return {"wishes": [{"kind": kind, "strength": strength}], "rows": rows, **_arm_for(kind)}
+        return {"effects": [{"kind": kind, "strength": strength}], "rows": rows, **_arm_for(kind)}
 
     return recipe
 
@@ -148,8 +148,8 @@ def _several(count: int, weak: bool) -> Recipe:
         strengths = rng.choice([3.0, 4.0, 6.0, 9.0, 12.0], count)
         if weak:
             strengths[-1] = 1.5
-        wishes = [{"kind": str(name), "strength": float(size)} for name, size in zip(names, strengths, strict=True)]
-        return {"wishes": wishes, "rows": int(rng.choice([150, 200, 250, 300]))}
+        effects = [{"kind": str(name), "strength": float(size)} for name, size in zip(names, strengths, strict=True)]
+        return {"effects": effects, "rows": int(rng.choice([150, 200, 250, 300]))}
 
     return recipe
 
@@ -158,8 +158,8 @@ def _misled(kind: str | None, **details: object) -> Recipe:
     def recipe(rng: np.random.Generator) -> Details:
         if kind is None:
             return dict(details)
-        wish = {"kind": kind, "strength": float(rng.choice([3.0, 5.0, 10.0]))}
-        return {"wishes": [wish], **_arm_for(kind), **details}
+        asked = {"kind": kind, "strength": float(rng.choice([3.0, 5.0, 10.0]))}
+        return {"effects": [asked], **_arm_for(kind), **details}
 
     return recipe
 
@@ -188,8 +188,8 @@ def _unseparated(
     strengths: tuple[float, ...] = (3.0, 5.0),
 ) -> Recipe:
     def recipe(rng: np.random.Generator) -> Details:
-        wish: Details = {"kind": kind, "strength": float(rng.choice(strengths)), "location": location}
-        details: Details = {"wishes": [wish], "poses": poses}
+        asked: Details = {"kind": kind, "strength": float(rng.choice(strengths)), "location": location}
+        details: Details = {"effects": [asked], "poses": poses}
         return details | {"arm": arm} if arm else details
 
     return recipe
@@ -215,7 +215,7 @@ def _real_arm(rng: np.random.Generator) -> Details:
         "joint_offset": (0.5, 1.5), "link_geometry": (0.3, 1.2), "joint_compliance": (0.3, 1.2),
         "bearing_compliance": (0.2, 0.8), "gear_eccentricity": (0.2, 0.6),
     }  # fmt: skip
-    wishes = [
+    effects = [
         {
             "kind": kind,
             "strength": round(float(rng.uniform(*size)), 3),
@@ -225,12 +225,12 @@ def _real_arm(rng: np.random.Generator) -> Details:
         for kind, size in sizes.items()
         for j in range(joints)
     ]
-    wishes.append({"kind": "base_compliance", "strength": 0.5, "location": "base", "minor": True})
+    effects.append({"kind": "base_compliance", "strength": 0.5, "location": "base", "minor": True})
     dominant = str(
         rng.choice(["joint_compliance", "joint_offset", "gear_eccentricity", "bearing_compliance", "backlash"])
     )
-    wishes.insert(0, {"kind": dominant, "strength": float(rng.choice([10.0, 15.0, 20.0]))})
-    return {"arm": arm, "rows": int(rng.choice([150, 200, 250, 300])), "wishes": wishes, "masses": "wrong"}
+    effects.insert(0, {"kind": dominant, "strength": float(rng.choice([10.0, 15.0, 20.0]))})
+    return {"arm": arm, "rows": int(rng.choice([150, 200, 250, 300])), "effects": effects, "masses": "wrong"}
 
 
 def _rough(causes: int, poses: str = "free", rows: int | None = None) -> Recipe:
@@ -239,10 +239,10 @@ def _rough(causes: int, poses: str = "free", rows: int | None = None) -> Recipe:
     def recipe(rng: np.random.Generator) -> Details:
         broken = draw_broken(rng)
         kinds = list(dict.fromkeys(rng.permutation([*COMMON_KINDS, "payload_error"])))[:causes]
-        wishes = [{"kind": str(kind), "strength": float(np.exp(rng.uniform(*np.log(CAUSES))))} for kind in kinds]
+        effects = [{"kind": str(kind), "strength": float(np.exp(rng.uniform(*np.log(CAUSES))))} for kind in kinds]
         noise = "rough" if "instrument" in broken else "gaussian"
         count = rows or int(rng.choice([200, 250, 300]))
-        return {"rough": broken, "wishes": wishes, "poses": poses, "noise": noise, "rows": count}
+        return {"rough": broken, "effects": effects, "poses": poses, "noise": noise, "rows": count}
 
     return recipe
 
@@ -250,7 +250,7 @@ def _rough(causes: int, poses: str = "free", rows: int | None = None) -> Recipe:
 def _bad_shots(noise: str, count: int) -> Recipe:
     def recipe(rng: np.random.Generator) -> Details:
         return {**_several(max(count, 2), weak=False)(rng), "noise": noise} if count > 1 else {
-            "wishes": [{"kind": str(rng.choice(COMMON_KINDS)), "strength": 5.0}], "noise": noise,
+            "effects": [{"kind": str(rng.choice(COMMON_KINDS)), "strength": 5.0}], "noise": noise,
             "rows": int(rng.choice([100, 200, 300])),
         }  # fmt: skip
 

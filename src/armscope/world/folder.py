@@ -21,7 +21,7 @@ import yaml
 
 from armscope.core.averages import rms
 from armscope.core.files import write_table, write_yaml
-from armscope.world.choice import visibilities
+from armscope.world.effect_placement import visibilities
 from armscope.world.effects import linear_numbers
 from armscope.world.kinds import CONSTANT, LOAD, PAYLOAD
 from armscope.world.oracle import oracle_rms

@@ -53,14 +53,14 @@ class Mechanism:
             self.set_payload(float(mass))
             yield from np.flatnonzero(payload == mass).tolist()
 
-    def stand(self, qpos: Array) -> None:
+    def set_joints(self, qpos: Array) -> None:
         """Frames at ``qpos``."""
         self.data.qpos[:] = qpos
         mujoco.mj_kinematics(self.model, self.data)
 
     def load(self, qpos: Array) -> tuple[Array, Array]:
         """Generalised forces (gravity, springs) at ``qpos``, N m and N, each positive along its freedom."""
-        self.stand(qpos)
+        self.set_joints(qpos)
         mujoco.mj_comPos(self.model, self.data)
         mujoco.mj_tendon(self.model, self.data)
         mujoco.mj_fwdVelocity(self.model, self.data)

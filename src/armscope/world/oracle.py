@@ -8,10 +8,10 @@ import numpy as np
 
 from armscope.core.averages import rms
 from armscope.core.types import Array
-from armscope.world.blemishes import FINE_WAVES, LOW_WAVES
+from armscope.world.imperfections import FINE_WAVES, LOW_WAVES
 from armscope.world.kinds import APPROACH, LOAD, PAYLOAD, SPEED, TEMPERATURE, TIME, Concealed, Scene, number
 from armscope.world.rivals import Patterns
-from armscope.world.strength import free_frames, stand
+from armscope.world.strength import equilibrium, free_frames
 from armscope.world.virtual_arm import Measured, VirtualArm
 
 DRIVERS = {APPROACH: "approach", TEMPERATURE: "temperature_c", SPEED: "speed"}
@@ -61,16 +61,16 @@ def oracle_rms(arm: VirtualArm, measured: Measured, columns: list[str]) -> float
 
 def _displacements(known: list[Concealed], scene: Scene) -> Iterator[Array]:
     """(3 N, k) displacement by each effect, m, per unit of what the oracle takes to be of a size of one."""
-    rigid = stand(scene, []).tool
+    rigid = equilibrium(scene, []).tool
     patterns = Patterns(scene)
     springs = [effect for effect in known if effect.kind.driver == LOAD]
     for effect in known:
         if effect.kind in (LOW_WAVES, FINE_WAVES):
             yield _waves(patterns, effect)
         elif effect.kind.driver == PAYLOAD:
-            yield (stand(scene, [*springs, effect]).tool - stand(scene, springs).tool).reshape(-1, 1)
+            yield (equilibrium(scene, [*springs, effect]).tool - equilibrium(scene, springs).tool).reshape(-1, 1)
         else:
-            yield (stand(scene, [effect]).tool - rigid).reshape(-1, 1)
+            yield (equilibrium(scene, [effect]).tool - rigid).reshape(-1, 1)
 
 
 def _waves(patterns: Patterns, effect: Concealed) -> Array:

@@ -15,7 +15,8 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.robot.description import Parallelogram, RobotDescription
-from armscope.world.blemishes import (
+from armscope.world.constants import ROUGH, Pair
+from armscope.world.imperfections import (
     DRIVE,
     FINE_WAVES,
     GROWTH,
@@ -28,9 +29,8 @@ from armscope.world.blemishes import (
     RUNS,
     WANDER,
 )
-from armscope.world.constants import ROUGH, Pair
 from armscope.world.kinds import LOAD, PAYLOAD, Concealed, Scene, joints, links_longer_than
-from armscope.world.strength import Sized, rms_after_frames, stand
+from armscope.world.strength import Sized, equilibrium, rms_after_frames
 
 Drawn = list[Concealed]
 LINK_VALUES = ("alpha", "a", "d", "beta")
@@ -205,12 +205,12 @@ def blemishes(scene: Scene, broken: tuple[str, ...], rng: np.random.Generator) -
         through the rest.
     """
     drawn = [effect for name in broken for effect in BLEMISHES[name][1](rng, scene)]
-    rigid, springs = stand(scene, []).tool, [effect for effect in drawn if effect.kind.driver == LOAD]
+    rigid, springs = equilibrium(scene, []).tool, [effect for effect in drawn if effect.kind.driver == LOAD]
     found = []
     for effect in drawn:
         beside = springs if effect.kind.driver == PAYLOAD else []
-        without = stand(scene, beside).tool if beside else rigid
-        tool = stand(scene, [*beside, effect]).tool
+        without = equilibrium(scene, beside).tool if beside else rigid
+        tool = equilibrium(scene, [*beside, effect]).tool
         size = rms_after_frames(tool, without, scene.tool_turn)
         # who overlooks a row that is centimetres off, or bars off by all the arm's roughness, has seen nothing
         story = (effect.kind is ROW and effect.values["a"] > 0) or effect.location == "parallelogram"

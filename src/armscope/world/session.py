@@ -120,7 +120,7 @@ def _reachable(mechanism: Mechanism, description: RobotDescription, pose: Array,
         return False
     qpos = np.zeros(mechanism.n_freedoms)
     qpos[mechanism.angle_columns()] = angles + mechanism.rows[:, 3]
-    mechanism.stand(qpos)
+    mechanism.set_joints(qpos)
     x, y, z = mechanism.tool()
     return bool(z > LOWEST_TOOL_M and np.hypot(x, y) > clear)
 

@@ -45,7 +45,7 @@ def seeded(number: int, fixed_seed: int, proof_seed: int) -> tuple[Details, np.r
     return {"seed": int(sequence.generate_state(1)[0]), "fresh": fresh}, np.random.default_rng(sequence)
 
 
-class Wish(Strict):
+class EffectSpec(Strict):
     """An effect that a world is to conceal, of an arm that stands or of one that moves.
 
     Attributes:
@@ -72,7 +72,7 @@ class WorldSpec(Strict):
         fresh: whether the seed comes from the proof's seed.
         rows: recorded poses.
         sigma_mm: 1-sigma noise per axis.
-        wishes: what it conceals.
+        effects: what it conceals.
         poses: rule of `armscope.world.session.POSE_RULES`.
         columns: context in recordings.csv: `some` (all that is needed, others at random), `missing` (what the effects
             need is left out), `irrelevant` (everything, and columns that mean nothing).
@@ -90,7 +90,7 @@ class WorldSpec(Strict):
     fresh: bool
     rows: int
     sigma_mm: float
-    wishes: tuple[Wish, ...] = ()
+    effects: tuple[EffectSpec, ...] = ()
     poses: PoseRule = "free"
     columns: Literal["some", "missing", "irrelevant"] = "some"
     masses: Literal["right", "wrong", "absent"] = "right"

@@ -161,7 +161,7 @@ def balance(geometry: Geometry, session: Session, hidden: Hidden) -> Balance:
             torque[row], left, load = _settle(mechanism, start[row], springs, hidden.curves)
             residual, largest = max(residual, left), max(largest, load)
         else:
-            mechanism.stand(start[row])
+            mechanism.set_joints(start[row])
         tool[row], turn[row] = mechanism.tool(), mechanism.tool_turn()
     return Balance(tool * (1 + hidden.scale), torque, residual / largest if largest > 0 else 0.0, turn)
 

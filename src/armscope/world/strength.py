@@ -114,7 +114,7 @@ def make_scene(description: RobotDescription, session: Session) -> tuple[Scene, 
     return Scene(description, geometry, session, torque, np.abs(torque).max(axis=0), turns), tools
 
 
-def stand(scene: Scene, effects: Iterable[Concealed]) -> Balance:
+def equilibrium(scene: Scene, effects: Iterable[Concealed]) -> Balance:
     """The arm with ``effects``, in equilibrium."""
     hidden = Hidden.nothing(scene.geometry, scene.session)
     for effect in effects:
@@ -154,8 +154,8 @@ def sized(
     Returns:
         The effect at its new size, its RMS and its displacements (N, 3), m.
     """
-    without = stand(scene, []).tool
-    tool = stand(scene, [effect]).tool
+    without = equilibrium(scene, []).tool
+    tool = equilibrium(scene, [effect]).tool
     total = 1.0
     for _ in range(rounds):
         after = rms_after_frames(tool, without, scene.tool_turn)
@@ -168,7 +168,7 @@ def sized(
             return None
         effect = effect.scaled(factor)
         try:
-            tool = stand(scene, [effect]).tool
+            tool = equilibrium(scene, [effect]).tool
         except RuntimeError:  # springs too weak for the arm
             return None
     return Sized(effect, rms_after_frames(tool, without, scene.tool_turn), tool - without)
@@ -195,12 +195,12 @@ def carried(scene: Scene, effect: Concealed, carriers: list[Concealed], wanted: 
         The error and its carriers, each with its RMS and displacements.
     """
     for _ in range(2):
-        without, tool = stand(scene, carriers).tool, stand(scene, [*carriers, effect]).tool
+        without, tool = equilibrium(scene, carriers).tool, equilibrium(scene, [*carriers, effect]).tool
         factor = wanted / rms_after_frames(tool, without, scene.tool_turn)
         carriers = [carrier.scaled(factor) for carrier in carriers]
-    without, tool = stand(scene, carriers).tool, stand(scene, [*carriers, effect]).tool
-    rigid = stand(scene, []).tool
-    alone = [stand(scene, [carrier]).tool for carrier in carriers]
+    without, tool = equilibrium(scene, carriers).tool, equilibrium(scene, [*carriers, effect]).tool
+    rigid = equilibrium(scene, []).tool
+    alone = [equilibrium(scene, [carrier]).tool for carrier in carriers]
     sizes = [
         Sized(carrier, rms_after_frames(t, rigid, scene.tool_turn), t - rigid)
         for carrier, t in zip(carriers, alone, strict=True)

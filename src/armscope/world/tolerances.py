@@ -46,7 +46,7 @@ class GeometricErrors:
         ]
         return np.stack(columns, axis=2) * self.sigmas
 
-    def stand(self, motor_angles: Array, in_sigmas: Array) -> Chain:
+    def frames(self, motor_angles: Array, in_sigmas: Array) -> Chain:
         """All frames of one arm with errors ``in_sigmas`` (K,) at ``motor_angles`` (N, m), exactly."""
         twists: dict[str, Array] = {}
         for size, location, direction in zip(in_sigmas * self.sigmas, self.locations, self.directions, strict=True):

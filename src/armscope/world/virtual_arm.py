@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array
 from armscope.robot.description_file import load_description
-from armscope.world.choice import choose, visibilities, visibilities_in_runs
 from armscope.world.constants import ROUGH
+from armscope.world.effect_placement import choose, visibilities, visibilities_in_runs
 from armscope.world.kinds import Scene
 from armscope.world.rivals import Judge, Visibility
 from armscope.world.rough import blemishes, rough_description, rough_noise
@@ -63,7 +63,7 @@ def conceal(spec: WorldSpec, robots: Path) -> VirtualArm:
     poses, effects, noise, rough = (np.random.default_rng(seed) for seed in np.random.SeedSequence(spec.seed).spawn(4))
     description = rough_description(load_description(robots / f"{spec.arm}.yaml"), spec.rough, rough)
     # thermal growth needs a hall that warms up
-    grows = any(wish.kind == "thermal_expansion" for wish in spec.wishes)
+    grows = any(asked.kind == "thermal_expansion" for asked in spec.effects)
     warming = 8.0 if grows else ROUGH.day_k if "day" in spec.rough else 2.0
     warming *= float(poses.uniform(1, 2))
     payload = LARGEST_PAYLOAD_KG[spec.arm]

@@ -23,7 +23,7 @@ from armscope.poses.exciting.columns import (
 from armscope.poses.exciting.criterion import motion_score, separation, shown_at_all
 from armscope.poses.exciting.limits import limits_of
 from armscope.poses.exciting.output import pairs_of, trajectory_table
-from armscope.poses.exciting.search import MotionWish, excite
+from armscope.poses.exciting.search import MotionRequest, excite
 from armscope.poses.obstacles import Surroundings, refusals
 from armscope.robot import load_arm
 from armscope.robot.arm import build_arm
@@ -40,7 +40,7 @@ def six():
 
 @pytest.fixture(scope="module")
 def found(six):
-    return excite(six, MotionWish(period=10.0, rounds=60, seed=4), NOWHERE)
+    return excite(six, MotionRequest(period=10.0, rounds=60, seed=4), NOWHERE)
 
 
 def motion(arm, seed=0, count=50):
@@ -110,13 +110,13 @@ def test_the_motion_keeps_all_limits_and_is_better_than_random(six, found):
 
 
 def test_the_same_seed_gives_the_same_motion(six, found):
-    again = excite(six, MotionWish(period=10.0, rounds=60, seed=4), NOWHERE)
+    again = excite(six, MotionRequest(period=10.0, rounds=60, seed=4), NOWHERE)
     np.testing.assert_array_equal(again.path.sine, found.path.sine)
 
 
 def test_a_floor_is_kept_clear_of(six):
     around = Surroundings(radius=0.05, floor=0.1)
-    clear = excite(six, MotionWish(period=10.0, rounds=20, seed=1), around)
+    clear = excite(six, MotionRequest(period=10.0, rounds=20, seed=1), around)
     angle, _, _ = clear.path.at(np.linspace(0, 10, 300))
     assert (refusals(six, angle, around) == "").mean() > 0.99
     assert clear.refused > 0
@@ -125,12 +125,12 @@ def test_a_floor_is_kept_clear_of(six):
 def test_a_motion_of_little_torque_is_asked_for_where_motors_are_weak(six):
     drives = [drive.model_copy(update={"torque_nm": drive.torque_nm * 0.7}) for drive in six.description.drives]
     weak = build_arm(six.description.model_copy(update={"drives": tuple(drives)}))
-    torque = excite(weak, MotionWish(period=10.0, rounds=10, seed=2), NOWHERE).torque
+    torque = excite(weak, MotionRequest(period=10.0, rounds=10, seed=2), NOWHERE).torque
     assert (torque <= [drive.torque_nm for drive in drives]).all()
     hopeless = [drive.model_copy(update={"torque_nm": 1.0}) for drive in drives]
     none = build_arm(six.description.model_copy(update={"drives": tuple(hopeless)}))
     with pytest.raises(InputError, match="motions refused"):
-        excite(none, MotionWish(rounds=1), NOWHERE)
+        excite(none, MotionRequest(rounds=1), NOWHERE)
 
 
 def test_friction_and_offset_part_only_when_the_joint_turns_both_ways(six):
@@ -148,7 +148,7 @@ def test_pairs_are_separated_better_and_the_inseparable_are_told(six):
         (("rotor_inertia", "joint 1"), ("link_inertia", "link 1")),
         (("payload_error", "payload"), ("motor_constant", "joint 2")),
     )
-    told = excite(six, MotionWish(period=10.0, rounds=30, seed=5, pairs=pairs), NOWHERE)
+    told = excite(six, MotionRequest(period=10.0, rounds=30, seed=5, pairs=pairs), NOWHERE)
     assert told.inseparable == pairs[:1]
     assert told.pairs == pairs[1:]
     assert told.after.separations[0] > told.before.separations[0]
@@ -218,9 +218,9 @@ def test_a_drive_that_gives_way_has_the_torque_of_a_link_that_lags(six):
 
 def test_a_motion_is_planned_that_tells_a_belt_from_a_mass(six):
     pair = (("joint_compliance", "joint 2"), ("link_mass", "link 3"))
-    planned = excite(six, MotionWish(period=10.0, rounds=40, seed=3, pairs=(pair,)), NOWHERE)
+    planned = excite(six, MotionRequest(period=10.0, rounds=40, seed=3, pairs=(pair,)), NOWHERE)
     assert planned.pairs == (pair,)
     assert planned.lawless == ()
     assert planned.after.separations[0] > planned.before.separations[0]
     behind_no_motor = (("joint_compliance", "joint 9"), pair[1])
-    assert excite(six, MotionWish(rounds=0, pairs=(behind_no_motor,)), NOWHERE).lawless == (behind_no_motor,)
+    assert excite(six, MotionRequest(rounds=0, pairs=(behind_no_motor,)), NOWHERE).lawless == (behind_no_motor,)

@@ -11,13 +11,13 @@ from armscope.proof.motion.answers import read_answer
 from armscope.proof.motion.diagnosing import diagnose_worlds
 from armscope.proof.motion.truth import unseal
 from armscope.world.motion.catalogue import MotionSpec
-from armscope.world.spec import Wish
+from armscope.world.spec import EffectSpec
 from tests.proof.motion.cases import said, verdict_of
 from tests.world.motion.arms import FOLDER
 
 SPEC = MotionSpec(
     id="motion-000", category="single", arm="two-axis", seed=3, fresh=False, rate=100, noise=0.01,
-    durations=(5.0, 5.0), wishes=(Wish(kind="torque_offset", strength=5.0, location="joint 1"),),
+    durations=(5.0, 5.0), effects=(EffectSpec(kind="torque_offset", strength=5.0, location="joint 1"),),
 )  # fmt: skip
 
 

@@ -13,18 +13,18 @@ from armscope.world.motion.catalogue import KINDS, MotionSpec, catalogue
 from armscope.world.motion.folder import build, make
 from armscope.world.motion.recording import independent_share, record
 from armscope.world.motion.session import make_session
-from armscope.world.motion.virtual_arm import ImpossibleWish, VirtualArm, place
+from armscope.world.motion.virtual_arm import ImpossibleEffect, VirtualArm, place
 from armscope.world.rivals import ALTERNATIVE_NATS
-from armscope.world.spec import Wish
+from armscope.world.spec import EffectSpec
 from tests.world.motion.arms import FOLDER, arm
 
 SHORT = {"id": "motion-x", "seed": 11, "fresh": False, "rate": 100, "noise": 0.01, "durations": (6.0, 6.0)}
 
 
-def spec(*wishes, **changes):
-    wished = tuple(Wish(kind=kind, strength=strength, location=where) for kind, strength, where in wishes)
-    category = "single" if wishes else "clean"
-    return MotionSpec(**{**SHORT, "category": category, "arm": "two-axis", "wishes": wished, **changes})
+def spec(*effects, **changes):
+    asked_for = tuple(EffectSpec(kind=kind, strength=strength, location=where) for kind, strength, where in effects)
+    category = "single" if effects else "clean"
+    return MotionSpec(**{**SHORT, "category": category, "arm": "two-axis", "effects": asked_for, **changes})
 
 
 def names(alternatives):
@@ -106,7 +106,7 @@ def test_what_friction_takes_up_has_no_size():
     description, _, dynamics = arm("two-axis")
     session = make_session(description, (6.0, 6.0), "free", None, np.random.default_rng(5))
     virtual = VirtualArm(description, dynamics, session, np.ones(2), stated=False)
-    with pytest.raises(ImpossibleWish, match="viscous_friction"):
+    with pytest.raises(ImpossibleEffect, match="viscous_friction"):
         place(virtual, KINDS["viscous_friction"], 3.0, None, np.random.default_rng(0), virtual.torques([]))
 
 
@@ -117,7 +117,7 @@ def test_another_arm_conceals_what_this_one_cannot():
 
 
 def test_an_arm_without_the_ruled_joint_makes_no_such_world():
-    with pytest.raises(ImpossibleWish, match="joint 4"):
+    with pytest.raises(ImpossibleEffect, match="joint 4"):
         folder._make(spec(rule="one_way", joint=3), FOLDER)
 
 
@@ -157,7 +157,7 @@ def test_half_of_the_seeds_stay_and_all_kinds_are_tried(size):
     assert 0.3 < np.mean([each.fresh for each in one]) < 0.7
     assert {each.category for each in one} == {"clean", "single", "multiple", "outside", "confounded"}
     if size == "full":
-        assert {wish.kind for each in one for wish in each.wishes} >= set(KINDS)
+        assert {asked.kind for each in one for asked in each.effects} >= set(KINDS)
 
 
 def test_what_no_arm_can_hold_is_tried_with_less_noise_before_it_is_given_up(monkeypatch):
@@ -166,15 +166,15 @@ def test_what_no_arm_can_hold_is_tried_with_less_noise_before_it_is_given_up(mon
     def hardly(spec, robots, draw):
         tried.append((draw, spec.arm, spec.noise))
         if draw < 2:
-            raise ImpossibleWish("too loud")
+            raise ImpossibleEffect("too loud")
         return spec
 
     monkeypatch.setattr(folder, "_make", hardly)
-    wished = spec(("torque_delay", 10.0, None))
-    found = make(wished, FOLDER)
-    assert found.noise == pytest.approx(wished.noise * folder.QUIETER**2)
+    asked_for = spec(("torque_delay", 10.0, None))
+    found = make(asked_for, FOLDER)
+    assert found.noise == pytest.approx(asked_for.noise * folder.QUIETER**2)
     assert [draw for draw, _, _ in tried] == [0, 0, 0, 1, 1, 1, 2]
-    assert tried[0] == (0, wished.arm, wished.noise)
+    assert tried[0] == (0, asked_for.arm, asked_for.noise)
     monkeypatch.setattr(folder, "DRAWS", 2)
-    with pytest.raises(ImpossibleWish, match="too loud"):
-        make(wished, FOLDER)
+    with pytest.raises(ImpossibleEffect, match="too loud"):
+        make(asked_for, FOLDER)

@@ -31,11 +31,11 @@ def mesh_lines(context: ScanContext, given: Sequence[Hypothesis], most: int = ME
     rows = np.unique(np.linspace(0, count - 1, min(count, SCANS.scanned_rows)).astype(np.intp))
     columns, weights = columns_of(given), context.weights.take(rows, len(rows) / count)
     table = LinearisedTable(context.recordings.rows(rows), order=np.arange(len(rows)))
-    for j in moving_joints(context.recordings):
-        placed = [mesh(j, count) for count in MESH_COUNTS if count <= most]
-        terms = [p.terms for p in placed]
-        # joint by joint: the waves' products with each other grow with the square of their number
-        sums = column_blocks(terms, context.space.layout, columns, context.model, table, weights)
+    lines = [[mesh(j, n) for n in MESH_COUNTS if n <= most] for j in moving_joints(context.recordings)]
+    # joint by joint: the waves' products with each other grow with the square of their number
+    terms = [[p.terms for p in of_joint] for of_joint in lines]
+    every = column_blocks(terms, context.space.layout, columns, context.model, table, weights)
+    for placed, sums in zip(lines, every, strict=True):
         for hypothesis in given:
             scores = scores_given(context.problem, hypothesis, sums, columns)
             for at in np.argsort(-scores)[: SCANS.lines_kept]:

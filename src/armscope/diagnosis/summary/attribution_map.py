@@ -69,9 +69,10 @@ def atlas(layout: ParameterLayout, model: FittedModel, recordings: Recordings, w
     found = _cells(model, recordings, locations, drivers)
     found += [((locations.index(place), len(AXES), names.index(name)), terms) for place, name, terms in whole]
     everything = np.arange(len(layout.terms))
-    for size in sorted({len(terms) for _, terms in found}):
-        cells = [cell for cell in found if len(cell[1]) == size]
-        sums = column_blocks([terms for _, terms in cells], layout, everything, model, table, w)
+    sizes = sorted({len(terms) for _, terms in found})
+    by_size = [[cell for cell in found if len(cell[1]) == size] for size in sizes]
+    blocks = [[terms for _, terms in cells] for cells in by_size]
+    for cells, sums in zip(by_size, column_blocks(blocks, layout, everything, model, table, w), strict=True):
         for target, inside in ((before, layout.frames), (left, everything)):
             G = fitted.G[np.ix_(inside, inside)]
             factor = lower_cholesky(G, 1e-9 * np.diag(G) + 1e-12)

@@ -67,7 +67,7 @@ class Excitation:
 
 
 @dataclass(frozen=True)
-class MotionWish:
+class MotionRequest:
     """What motion is wanted: seconds of its period, harmonics, rounds of bettering, seed, causes to tell apart."""
 
     period: float = 20.0
@@ -78,7 +78,7 @@ class MotionWish:
 
 
 def excite(
-    arm: Arm, wanted: MotionWish, around: Surroundings, progress: Callable[[int, int], None] | None = None
+    arm: Arm, wanted: MotionRequest, around: Surroundings, progress: Callable[[int, int], None] | None = None
 ) -> Excitation:
     """Find a motion that shows what is wanted.
 
@@ -135,7 +135,7 @@ class _Search:
     """Scores and refuses motions of one arm."""
 
     def __init__(
-        self, arm: Arm, limits: MotionLimits, around: Surroundings, shown: Showable, wanted: MotionWish
+        self, arm: Arm, limits: MotionLimits, around: Surroundings, shown: Showable, wanted: MotionRequest
     ) -> None:
         self.arm, self.limits, self.around, self.shown, self.wanted = arm, limits, around, shown, wanted
         self.numbers = np.concatenate([inertial_parameters(arm.model), stated_friction(arm)])
@@ -173,7 +173,7 @@ class _Search:
         return None
 
 
-def _draw(limits: MotionLimits, wanted: MotionWish, rng: np.random.Generator) -> FourierPath:
+def _draw(limits: MotionLimits, wanted: MotionRequest, rng: np.random.Generator) -> FourierPath:
     return random_path(limits.path, wanted.harmonics, wanted.period, rng)
 
 

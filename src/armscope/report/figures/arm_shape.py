@@ -158,10 +158,11 @@ def _stations(line: Array) -> Array:
 
 def _unfolded(lines: Array) -> Array:
     """(N,) how far apart pieces (N, K, 2) that are no neighbours lie in the picture; 1 for far enough."""
-    gaps = np.linalg.norm(lines[:, :, None] - lines[:, None], axis=-1)
-    near = np.minimum(gaps / gaps.max(axis=(1, 2), keepdims=True), APART) / APART
-    first, second = np.triu_indices(lines.shape[1], lines.shape[1] // 5)
-    scores: Array = near[:, first, second].mean(axis=1)
+    first, second = np.triu_indices(lines.shape[1], 1)
+    between = lines[:, first] - lines[:, second]
+    gaps = np.sqrt(np.einsum("nki,nki->nk", between, between))
+    near = np.minimum(gaps / gaps.max(axis=1, keepdims=True), APART) / APART
+    scores: Array = near[:, second - first >= lines.shape[1] // 5].mean(axis=1)
     return scores
 
 

@@ -12,7 +12,7 @@ from matplotlib.ticker import FormatStrFormatter, MaxNLocator, NullFormatter
 
 from armscope.paper.claims import IMPROVED
 from armscope.paper.claims.catalogue import CLAIMS
-from armscope.paper.why import SPEAKS_FROM, meaning
+from armscope.paper.decisive_errors import SPEAKS_FROM, meaning
 from armscope.report.style import BLUE, VERMILION, legend_above, panel_grid, styled
 
 COLUMNS = 3
@@ -22,7 +22,7 @@ def why_figure(reasons: pd.DataFrame, per_robot: pd.DataFrame, geometric: pd.Dat
     """One small picture per claim that depends on the robot by the improved method.
 
     Args:
-        reasons: see `armscope.paper.why.reasons`.
+        reasons: see `armscope.paper.decisive_errors.reasons`.
         per_robot: outcome per claim, method and robot.
         geometric: one row per drawn robot, columns robot and each geometric error in tolerances.
 

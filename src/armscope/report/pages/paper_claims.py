@@ -48,7 +48,7 @@ def claim_rows(claims: pd.DataFrame, why: pd.DataFrame) -> dict[str, list[ClaimR
 
     Args:
         claims: see `armscope.paper.claims.summarise`.
-        why: see `armscope.paper.why.reasons`.
+        why: see `armscope.paper.decisive_errors.reasons`.
     """
     reasons = {(row.key, row.method): str(row.sentence) for row in why.itertuples()}
     rows: dict[str, list[ClaimRow]] = {group: [] for group in GROUPS}

@@ -220,12 +220,14 @@ def _atlas(subject: MotionSubject) -> dict[str, Any]:
 
 Motion = Section[MotionSubject]
 MOTION_SECTIONS: tuple[Motion, ...] = (
-    Motion("where", "Where", "Where the torque goes", _where, (arm_of_motion,)),
+    Motion("locations", "Where", "Where the torque goes", _where, (arm_of_motion,)),
     Motion("causes", "Causes", "What was found", _cards, (curve_figures,)),
     Motion("torque", "Torque", "Torque on motion that took no part", lambda s: {"n": s.arm.n_motors}, (trace_figures,)),
     Motion("friction", "Friction", "Friction and rotors of every joint", friction_table, (friction_figures,)),
-    Motion("better", "Validation", "How much better the model predicts", _better, (waterfall_of_motion,)),
-    Motion("left", "What is left", "What is left, over angle, speed and time", _left, (left_figures,), folded=True),
+    Motion("validation", "Validation", "How much better the model predicts", _better, (waterfall_of_motion,)),
+    Motion(
+        "unexplained", "What is left", "What is left, over angle, speed and time", _left, (left_figures,), folded=True
+    ),
     Motion("atlas", "Atlas", "The atlas: what each joint's torque follows", _atlas, folded=True),
     Motion("prepared", "Preparation", "How samples became rows", _prepared, folded=True),
 )

@@ -30,4 +30,6 @@ def _next_poses(poses: NextPoses) -> pd.DataFrame:
     return table
 
 
-NEXT = Section("next", "What to measure next", "What to measure next", _context, (next_poses_figure,), folded=True)
+NEXT_POSES = Section(
+    "next", "What to measure next", "What to measure next", _context, (next_poses_figure,), folded=True
+)

@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 from armscope.report.sectioning import Section
-from armscope.report.sections.along import ALONG
-from armscope.report.sections.assumed import ASSUMED
+from armscope.report.sections.along_joints import ALONG_JOINTS
+from armscope.report.sections.assumptions import ASSUMPTIONS
 from armscope.report.sections.atlas import ATLAS
-from armscope.report.sections.better import BETTER
 from armscope.report.sections.cures import CURES
 from armscope.report.sections.effects import EFFECTS
-from armscope.report.sections.left import LEFT
-from armscope.report.sections.next_poses import NEXT
-from armscope.report.sections.rows import ROWS
-from armscope.report.sections.terms import TERMS
-from armscope.report.sections.where import WHERE
-from armscope.report.sections.work import WORK
+from armscope.report.sections.glossary import GLOSSARY
+from armscope.report.sections.locations import LOCATIONS
+from armscope.report.sections.next_poses import NEXT_POSES
+from armscope.report.sections.suspect_rows import SUSPECT_ROWS
+from armscope.report.sections.unexplained import UNEXPLAINED
+from armscope.report.sections.validation import VALIDATION
+from armscope.report.sections.work_order import WORK_ORDER
 from armscope.report.subject import Subject
 
 SECTIONS: tuple[Section[Subject], ...] = (
-    WORK, WHERE, CURES, EFFECTS, NEXT, LEFT, BETTER, ATLAS, ALONG, ROWS, ASSUMED, TERMS,
+    WORK_ORDER, LOCATIONS, CURES, EFFECTS, NEXT_POSES, UNEXPLAINED, VALIDATION, ATLAS, ALONG_JOINTS, SUSPECT_ROWS,
+    ASSUMPTIONS, GLOSSARY,
 )  # fmt: skip
 """What a person acts on comes first; what it rests on is folded below."""

@@ -15,7 +15,7 @@ from armscope.core.inputs import Strict
 from armscope.world.motion.kinds import LIBRARY, Kind
 from armscope.world.motion.outside import OUTSIDE
 from armscope.world.motion.session import PathRule
-from armscope.world.spec import Details, Recipe, Wish, seeded
+from armscope.world.spec import Details, EffectSpec, Recipe, seeded
 
 KINDS: dict[str, Kind] = {kind.name: kind for kind in LIBRARY + OUTSIDE}
 ARMS = ("two-axis", "six-axis", "seven-axis")
@@ -39,7 +39,7 @@ class MotionSpec(Strict):
         fresh: whether the seed comes from the proof's seed.
         rate: Hz of the recorded rows.
         noise: standard deviation of the torque's noise as a share of each joint's RMS torque.
-        wishes: what it conceals.
+        effects: what it conceals.
         stated: whether robot.yaml states friction and rotor inertia.
         current: whether motor currents are recorded instead of torques, with exact gains in robot.yaml.
         rule, joint: how the training runs move: freely, or one joint (0-based) one way only, or hardly at all.
@@ -53,7 +53,7 @@ class MotionSpec(Strict):
     fresh: bool
     rate: int
     noise: float
-    wishes: tuple[Wish, ...] = ()
+    effects: tuple[EffectSpec, ...] = ()
     stated: bool = False
     current: bool = False
     rule: PathRule = "free"
@@ -122,7 +122,7 @@ def _nothing(rng: np.random.Generator) -> Details:
 
 
 def _single(kind: str, strength: float) -> Recipe:
-    return lambda rng: {"wishes": [{"kind": kind, "strength": strength}], **_circumstances([kind], rng)}
+    return lambda rng: {"effects": [{"kind": kind, "strength": strength}], **_circumstances([kind], rng)}
 
 
 def _circumstances(kinds: list[str], rng: np.random.Generator) -> Details:
@@ -138,16 +138,16 @@ def _circumstances(kinds: list[str], rng: np.random.Generator) -> Details:
 def _several(count: int) -> Recipe:
     def recipe(rng: np.random.Generator) -> Details:
         kinds = [str(name) for name in rng.permutation([kind.name for kind in LIBRARY])[:count]]
-        wishes = [{"kind": kind, "strength": float(rng.choice([4.0, 6.0, 9.0]))} for kind in kinds]
-        return {"wishes": wishes, **_circumstances(kinds, rng)}
+        effects = [{"kind": kind, "strength": float(rng.choice([4.0, 6.0, 9.0]))} for kind in kinds]
+        return {"effects": effects, **_circumstances(kinds, rng)}
 
     return recipe
 
 
 def _unseparated(kind: str, rule: PathRule, joint: int, arm: str, strength: float = 5.0) -> Recipe:
     def recipe(rng: np.random.Generator) -> Details:
-        wish = {"kind": kind, "strength": strength, "location": f"joint {joint + 1}"}
-        details = {"wishes": [wish], "arm": arm, "rule": rule, "joint": joint, **_circumstances([kind], rng)}
+        asked = {"kind": kind, "strength": strength, "location": f"joint {joint + 1}"}
+        details = {"effects": [asked], "arm": arm, "rule": rule, "joint": joint, **_circumstances([kind], rng)}
         # where a joint turns one way only, friction that nobody stated would take all of it
         return details | {"stated": True} if rule == "one_way" else details
 

@@ -28,15 +28,15 @@ from armscope.world.motion.mechanism import stated_dynamics
 from armscope.world.motion.recording import Recorded, record, table
 from armscope.world.motion.rivals import alternatives
 from armscope.world.motion.session import make_session
-from armscope.world.motion.virtual_arm import ImpossibleWish, Sized, VirtualArm, ordinary, place
+from armscope.world.motion.virtual_arm import ImpossibleEffect, Sized, VirtualArm, ordinary, place
 from armscope.world.rivals import Alternative
 
 FRICTION = ("rotor_inertia_kg_m2", "coulomb_nm", "viscous_nm_s_rad")
 QUIETEST = 0.002
 """Noise of a joint that hardly needs torque, as a share of its largest."""
 DRAWS, QUIETER = 6, 0.7
-"""Of arms and paths that are tried before a wish is given up, each recorded with so much of the noise before: what is
-so many times the noise is less absurd then."""
+"""Of arms and paths that are tried before an effect is given up, each recorded with so much of the noise before: what
+is so many times the noise is less absurd then."""
 GAINS = (4.0, 14.0)
 """N m/A at the joint's side, of arms of this class."""
 
@@ -57,8 +57,8 @@ class World:
 def make(spec: MotionSpec, robots: Path) -> World:
     """Make a world; the same spec gives the same numbers.
 
-    Where the arm of the spec can't conceal what is wished without being absurd, the next arm of the catalogue does, and
-    where none can, one of another draw of its make and of its paths, recorded with less noise.
+    Where the arm of the spec can't conceal what is asked for without being absurd, the next arm of the catalogue does,
+    and where none can, one of another draw of its make and of its paths, recorded with less noise.
 
     Args:
         spec: what to make.
@@ -68,16 +68,16 @@ def make(spec: MotionSpec, robots: Path) -> World:
         The world.
 
     Raises:
-        ImpossibleWish: what the spec wishes can't be on any arm.
+        ImpossibleEffect: the spec's effects can't be on any arm.
     """
-    wished: ImpossibleWish | None = None
+    first: ImpossibleEffect | None = None
     for draw, arm in itertools.product(range(DRAWS), dict.fromkeys([spec.arm, *ARMS])):
         try:
             noise = spec.noise * QUIETER**draw
             return _make(spec.model_copy(update={"arm": arm, "noise": noise}), robots, draw)
-        except ImpossibleWish as error:
-            wished = wished or error
-    raise ImpossibleWish(str(wished)) from wished
+        except ImpossibleEffect as error:
+            first = first or error
+    raise ImpossibleEffect(str(first)) from first
 
 
 def _make(spec: MotionSpec, robots: Path, draw: int = 0) -> World:
@@ -86,7 +86,7 @@ def _make(spec: MotionSpec, robots: Path, draw: int = 0) -> World:
     description = load_description(robots / f"{spec.arm}.yaml")
     dynamics = ordinary(stated_dynamics(description), arms)
     if spec.joint is not None and spec.joint >= dynamics.n_joints:
-        raise ImpossibleWish(f"{spec.arm} has no joint {spec.joint + 1} that could move by a rule")
+        raise ImpossibleEffect(f"{spec.arm} has no joint {spec.joint + 1} that could move by a rule")
     session = make_session(description, spec.durations, spec.rule, spec.joint, paths)
     arm = VirtualArm(description, dynamics, session, np.ones(dynamics.n_joints), spec.stated)
     plain = arm.torques([])
@@ -94,8 +94,8 @@ def _make(spec: MotionSpec, robots: Path, draw: int = 0) -> World:
     sigma = np.maximum(spec.noise * np.sqrt(np.mean(train**2, axis=0)), QUIETEST * np.abs(train).max(axis=0))
     arm = VirtualArm(description, dynamics, session, sigma, spec.stated)
     concealed: list[Sized] = []
-    for wish in spec.wishes:
-        concealed.append(place(arm, KINDS[wish.kind], wish.strength, wish.location, places, plain))
+    for asked in spec.effects:
+        concealed.append(place(arm, KINDS[asked.kind], asked.strength, asked.location, places, plain))
     torque = arm.torques([each.concealed for each in concealed]) if concealed else plain
     gains = drives.uniform(*GAINS, dynamics.n_joints).round(2) if spec.current else None
     recorded = record(session, torque, sigma, spec.rate, noise)

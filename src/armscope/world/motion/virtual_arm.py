@@ -19,13 +19,13 @@ CLOSE = 0.01
 FIRST = 1e-4
 """Sizes are found from this share of a unit on: small enough for any body."""
 MOST_TRIES = 40
-"""Places and numbers that are drawn before a wish counts as impossible."""
+"""Places and numbers that are drawn before an effect counts as impossible."""
 TOO_SMALL = 1e-9
 """What background friction absorbs has no size."""
 
 
-class ImpossibleWish(ValueError):
-    """Nowhere on this arm can this be as large as wished without being absurd."""
+class ImpossibleEffect(ValueError):
+    """Nowhere on this arm can this be as large as asked for without being absurd."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,7 +129,7 @@ def place(
         It, sized.
 
     Raises:
-        ImpossibleWish: there is no such place.
+        ImpossibleEffect: there is no such place.
     """
     places = [location] if location is not None else kind.places(arm.description)
     for _ in range(MOST_TRIES if places else 0):
@@ -138,7 +138,7 @@ def place(
         sized = _sized(arm, small, strength, plain)
         if sized is not None:
             return sized
-    raise ImpossibleWish(f"{kind.name} at {location or 'any place'} is never {strength:g} times the noise")
+    raise ImpossibleEffect(f"{kind.name} at {location or 'any place'} is never {strength:g} times the noise")
 
 
 def _sized(arm: VirtualArm, concealed: Concealed, strength: float, plain: Array) -> Sized | None:

@@ -1,4 +1,4 @@
-"""From wishes to concealed effects: where each one sits and how large it is."""
+"""From what a world is to conceal to concealed effects: where each one sits and how large it is."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from armscope.core.location import Location
 from armscope.world.kinds import CONSTANT, LOAD, PAYLOAD, Concealed, Kind, Scene, number
 from armscope.world.rivals import Judge, Visibility
-from armscope.world.spec import KINDS, Wish, WorldSpec
+from armscope.world.spec import KINDS, EffectSpec, WorldSpec
 from armscope.world.strength import Sized, carried, sized
 
 LARGEST_FACTOR = 15.0
@@ -29,7 +29,7 @@ TRIES_FOR_AMBIGUITY = 12
 def choose(
     scene: Scene, judge: Judge, spec: WorldSpec, rough: Sequence[Sized], rng: np.random.Generator
 ) -> list[Sized]:
-    """One concealed effect per wish, sized in multiples of the noise; background that can't be seen is left out.
+    """What is asked for, concealed, sized in multiples of the noise; background that can't be seen is left out.
 
     Args:
         scene: the recorded rows.
@@ -39,46 +39,54 @@ def choose(
         rng: draws places and numbers.
 
     Returns:
-        The concealed effects, the story's first wish first.
+        The concealed effects, the story's first first.
 
     Raises:
-        RuntimeError: the first wish of the story can't be had anywhere in this arm.
+        RuntimeError: the first effect of the story can't be had anywhere in this arm.
     """
     chosen: list[Sized] = list(rough)
     sigma = spec.sigma_mm * 1e-3
-    for wish in spec.wishes:
-        if wish.minor:
-            chosen += _background(scene, wish, chosen, sigma, rng)
+    for asked in spec.effects:
+        if asked.minor:
+            chosen += _background(scene, asked, chosen, sigma, rng)
         else:
-            chosen += _of_the_story(scene, judge, wish, chosen, sigma, spec.category == "inseparable", rng)
+            chosen += _of_the_story(scene, judge, asked, chosen, sigma, spec.category == "inseparable", rng)
     story = [size for size in chosen if not size.minor]
     small = [size for size in chosen if size.minor]
     return story + [size for size in small if not _taken(size.effect.kind, size.effect.location, story)]
 
 
-def _background(scene: Scene, wish: Wish, chosen: list[Sized], sigma: float, rng: np.random.Generator) -> list[Sized]:
-    kind = KINDS[wish.kind]
-    assert wish.location is not None, "background has its places"
-    if _taken(kind, wish.location, chosen) or not _loaded(scene, kind, wish.location):
+def _background(
+    scene: Scene, asked: EffectSpec, chosen: list[Sized], sigma: float, rng: np.random.Generator
+) -> list[Sized]:
+    kind = KINDS[asked.kind]
+    assert asked.location is not None, "background has its places"
+    if _taken(kind, asked.location, chosen) or not _loaded(scene, kind, asked.location):
         return []
-    effect = Concealed(kind, wish.location, kind.draw(rng, scene, wish.location))
-    size = sized(scene, effect, wish.strength * sigma, rounds=1, largest_factor=LARGEST_FACTOR)
+    effect = Concealed(kind, asked.location, kind.draw(rng, scene, asked.location))
+    size = sized(scene, effect, asked.strength * sigma, rounds=1, largest_factor=LARGEST_FACTOR)
     return [] if size is None else [replace(size, minor=True)]
 
 
 # so many parameters: what is known of a world while it is drawn
 def _of_the_story(
-    scene: Scene, judge: Judge, wish: Wish, chosen: list[Sized], sigma: float, ambiguous: bool, rng: np.random.Generator
+    scene: Scene,
+    judge: Judge,
+    asked: EffectSpec,
+    chosen: list[Sized],
+    sigma: float,
+    ambiguous: bool,
+    rng: np.random.Generator,
 ) -> list[Sized]:
     """The best of a few places: one where the answer is unique (or, if so wanted, isn't).
 
     None where the effects already there leave nothing of it: a world doesn't conceal the same displacement twice.
     """
-    kind = KINDS[wish.kind]
-    places = [wish.location] if wish.location else kind.places(scene.description)
+    kind = KINDS[asked.kind]
+    places = [asked.location] if asked.location else kind.places(scene.description)
     story = [size for size in chosen if not size.minor]
     places = [place for place in places if not _taken(kind, place, story) and _loaded(scene, kind, place)]
-    wanted = max(wish.strength * sigma, _standing_out(kind, chosen))
+    wanted = max(asked.strength * sigma, _standing_out(kind, chosen))
     if kind.driver == PAYLOAD:
         return _payload_error(scene, kind, wanted, rng)
     tries = TRIES_FOR_AMBIGUITY if ambiguous else TRIES
@@ -103,7 +111,7 @@ def _of_the_story(
     if chosen:
         return []
     raise RuntimeError(
-        f"{kind.name} at {wish.strength} times the noise can't be seen anywhere in {scene.description.name}"
+        f"{kind.name} at {asked.strength} times the noise can't be seen anywhere in {scene.description.name}"
     )
 
 

@@ -58,4 +58,4 @@ def _ranking(verdict: Diagnosis) -> list[Place]:
     return sorted(places, key=lambda place: -place.share)
 
 
-WHERE = Section("where", "Where", "Where the trouble is", _context, (arm_figure,))
+LOCATIONS = Section("locations", "Where", "Where the trouble is", _context, (arm_figure,))

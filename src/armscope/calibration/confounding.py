@@ -17,7 +17,7 @@ ALIKE = 0.05
 
 
 @dataclass(frozen=True)
-class Imitation:
+class Confounded:
     """Which fitted parameters do what a held one does.
 
     Attributes:
@@ -41,9 +41,9 @@ class Imitation:
         return f"{self.name}: as {' with '.join(told)}" + (" and more" if self.left > ALIKE else "")
 
 
-def imitations(
+def confounded_parameters(
     jacobian: Array, free: NDArray[np.bool_], scales: Array, names: tuple[str, ...]
-) -> tuple[Imitation, ...]:
+) -> tuple[Confounded, ...]:
     """One per parameter that is not free.
 
     Greedy (orthogonal matching pursuit, Pati et al. 1993): the fitted column most alike to what is left enters, until
@@ -64,7 +64,7 @@ def imitations(
     fitted = np.flatnonzero(free)
     unit = columns[:, fitted] / np.maximum(np.linalg.norm(columns[:, fitted], axis=0), 1e-300)
     kinds = np.array([kind_of(names[each]) for each in fitted])
-    return tuple(_imitation(names[held], columns[:, held], unit, kinds) for held in np.flatnonzero(~free))
+    return tuple(_confounded(names[held], columns[:, held], unit, kinds) for held in np.flatnonzero(~free))
 
 
 def kind_of(name: str) -> str:
@@ -73,10 +73,10 @@ def kind_of(name: str) -> str:
     return f"{frame} {rest.rpartition(' ')[2]}" if frame in ("base", "tool") and rest else name
 
 
-def _imitation(name: str, column: Array, unit: Array, kinds: NDArray[np.str_]) -> Imitation:
+def _confounded(name: str, column: Array, unit: Array, kinds: NDArray[np.str_]) -> Confounded:
     size = float(np.linalg.norm(column))
     if size < SMALLEST_TRACE:
-        return Imitation(name, (), 1.0)
+        return Confounded(name, (), 1.0)
     left, partners = column, list[str]()
     every, number = np.unique(kinds, return_inverse=True)
     while len(partners) < MOST_PARTNERS and np.linalg.norm(left) > ALIKE * size:
@@ -85,4 +85,4 @@ def _imitation(name: str, column: Array, unit: Array, kinds: NDArray[np.str_]) -
         partners.append(str(every[int(np.argmax(alike))]))
         basis = unit[:, np.isin(kinds, partners)]
         left = column - basis @ np.linalg.lstsq(basis, column, rcond=None)[0]
-    return Imitation(name, tuple(partners), float(np.linalg.norm(left)) / size)
+    return Confounded(name, tuple(partners), float(np.linalg.norm(left)) / size)

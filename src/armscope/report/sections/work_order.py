@@ -27,4 +27,4 @@ def _something_to_do(verdict: Diagnosis) -> bool:
     return bool(verdict.effects or (verdict.mismatch and verdict.background.present))
 
 
-WORK = Section("work", "Work order", "What to do", _context, applies=_something_to_do)
+WORK_ORDER = Section("work_order", "Work order", "What to do", _context, applies=_something_to_do)

@@ -100,8 +100,13 @@ def _columns(selected: SelectedCauses, joint: int, columns: Indices) -> Array:
     """(K, C) some columns of a joint, zero where it has none of them; combinations of masses among them."""
     rows = selected.rows
     made, shares = rows.layout.made_of_masses
-    at = rows.at[joint]
-    whole = np.zeros((rows.layout.width, len(columns)))
-    whole[columns, np.arange(len(columns))] = 1
-    whole[rows.layout.inertial] += shares @ whole[made]
-    return np.asarray(rows.columns[joint].astype(np.float64) @ whole[at])
+    own, at = rows.columns[joint], rows.at[joint]
+    found = np.zeros((len(rows), len(columns)))
+    there = np.flatnonzero(np.isin(columns, at))
+    found[:, there] = own[:, np.searchsorted(at, columns[there])]
+    combined = np.flatnonzero(np.isin(columns, made))
+    if len(combined):
+        of_masses = own[:, np.searchsorted(at, rows.layout.inertial)].astype(np.float64)
+        order = [int(np.flatnonzero(made == column)[0]) for column in columns[combined]]
+        found[:, combined] += of_masses @ shares[:, order]
+    return found

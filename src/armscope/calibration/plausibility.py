@@ -7,7 +7,7 @@ import pandas as pd
 
 from armscope.calibration.model import GRAVITY, Level, SetUp
 from armscope.calibration.solve import Solved
-from armscope.calibration.words import SHOWN
+from armscope.calibration.summary_text import SHOWN
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.fitting.gauss_newton import UNSETTLED
@@ -40,7 +40,7 @@ def require_loads(recordings: Recordings, rows: SetUp, level: Level) -> None:
         )
 
 
-def lost(solved: Solved) -> list[str]:
+def implausible_fit(solved: Solved) -> list[str]:
     """What shows that the fit has lost its way."""
     rows, state = solved.rows, solved.fitted.state
     limits = {"m": IMPLAUSIBLE["m"] * rows.arm.reach, "rad": IMPLAUSIBLE["rad"]}
@@ -53,7 +53,7 @@ def lost(solved: Solved) -> list[str]:
     return told + (["the fit did not settle"] if solved.fitted.reason == UNSETTLED else [])
 
 
-def odd_loads(solved: Solved, level: Level, covariance: Array) -> list[str]:
+def doubtful_loads(solved: Solved, level: Level, covariance: Array) -> list[str]:
     """Joints that turn against their load beyond doubt, which no spring does; links that weigh nothing.
 
     Args:
@@ -81,7 +81,7 @@ def odd_loads(solved: Solved, level: Level, covariance: Array) -> list[str]:
     return notes
 
 
-def no_gain(misses: pd.DataFrame | None) -> list[str]:
+def no_held_out_gain(misses: pd.DataFrame | None) -> list[str]:
     """A note where poses that took no part are foretold no better than by the nominal arm."""
     if misses is None or not misses["held_out_mm"].iloc[0] >= misses["frames_only_mm"].iloc[0]:
         return []

@@ -60,4 +60,4 @@ def _context(subject: Subject) -> dict[str, Any]:
 
 
 TITLE = "How much better the model predicts"
-BETTER = Section("better", "Validation", TITLE, _context, (waterfall_figure,), folded=True)
+VALIDATION = Section("validation", "Validation", TITLE, _context, (waterfall_figure,), folded=True)

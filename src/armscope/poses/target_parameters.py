@@ -32,7 +32,7 @@ SIZE_M = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
-class Shown:
+class TargetParameters:
     """Parameters that poses can tell apart.
 
     Attributes:
@@ -78,7 +78,7 @@ class Shown:
         return Scene(self.arm, table).posture(self.parts(values)).tool
 
 
-def shown(arm: Arm, table: Recordings, effects: Sequence[str] = (GEOMETRY,)) -> Shown:
+def target_parameters(arm: Arm, table: Recordings, effects: Sequence[str] = (GEOMETRY,)) -> TargetParameters:
     """The parameters of some effects, wherever they can stand, that the poses of a table tell apart.
 
     Args:
@@ -107,7 +107,7 @@ def shown(arm: Arm, table: Recordings, effects: Sequence[str] = (GEOMETRY,)) -> 
     kept = _told_apart(columns * sizes, tiers) & moves
     hidden = tuple(_name(placed[number], term) for (number, term), keep in zip(terms, kept, strict=True) if not keep)
     chosen = tuple(each for each, keep in zip(terms, kept, strict=True) if keep)
-    return Shown(arm, placed, chosen, sizes[kept], hidden)
+    return TargetParameters(arm, placed, chosen, sizes[kept], hidden)
 
 
 def _placed(arm: Arm, table: Recordings, effects: Sequence[str]) -> list[Placed]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from armscope.report.sectioning import Section
 from armscope.report.subject import Subject
 
-GLOSSARY = (
+ENTRIES = (
     ("Mismatch, residual", "Measured tool position minus the position that the model predicts from the joint angles."),
     ("Free frames", "Where the robot's base stands in the instrument's frame, and where the measured point sits on the "
      "tool. Both are always fitted first: nobody knows them beforehand to a tenth of a millimetre."),
@@ -31,4 +31,4 @@ GLOSSARY = (
 )  # fmt: skip
 
 
-TERMS: Section[Subject] = Section("terms", "Terms", "Terms", lambda subject: {"glossary": GLOSSARY}, folded=True)
+GLOSSARY: Section[Subject] = Section("glossary", "Terms", "Terms", lambda subject: {"glossary": ENTRIES}, folded=True)

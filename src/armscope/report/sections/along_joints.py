@@ -6,4 +6,4 @@ from armscope.report.figures.along_joints import along_joints_figure
 from armscope.report.sectioning import Section
 
 TITLE = "The error along each joint's motion"
-ALONG = Section("along", "Joint by joint", TITLE, figures=(along_joints_figure,), folded=True)
+ALONG_JOINTS = Section("along_joints", "Joint by joint", TITLE, figures=(along_joints_figure,), folded=True)

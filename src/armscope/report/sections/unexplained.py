@@ -25,4 +25,4 @@ def _left_is_told(verdict: Verdict) -> str:
     return ""
 
 
-LEFT = Section("left", "What is left", "What is left", _context, folded=True)
+UNEXPLAINED = Section("unexplained", "What is left", "What is left", _context, folded=True)

@@ -28,4 +28,4 @@ def _suspects(suspects: Sequence[SuspectRow]) -> pd.DataFrame:
     return table.drop(columns="run") if all(not row.run for row in worst) else table
 
 
-ROWS = Section("rows", "Suspect rows", "Rows that look like bad shots", _context, folded=True)
+SUSPECT_ROWS = Section("suspect_rows", "Suspect rows", "Rows that look like bad shots", _context, folded=True)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from armscope.core.types import Array
-from armscope.motion.late import _between_reversals, lag_step
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
+from armscope.motion.torque_delay import _between_reversals, lag_step
 from tests.motion.moving import COULOMB, ROTOR, VISCOUS, moved, robot
 
 LATE_S, JOINT, RATE = 0.02, 2, 200.0

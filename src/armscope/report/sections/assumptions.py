@@ -83,4 +83,6 @@ def assumptions(verdict: Verdict, arm: Arm, recordings: Recordings) -> list[str]
     return sentences
 
 
-ASSUMED = Section("assumed", "Assumptions", "What was assumed, and what this cannot show", _context, folded=True)
+ASSUMPTIONS = Section(
+    "assumptions", "Assumptions", "What was assumed, and what this cannot show", _context, folded=True
+)
