@@ -92,7 +92,6 @@ STILL_FROM_ELSEWHERE = [
     "report/figures/why.py",
     "report/pages/paper.py",
     "report/pages/paper_claims.py",
-    "report/pages/paper_outlook.py",
     "report/pages/paper_tables.py",
     "report/pages/proof.py",
     "report/pages/real_proof.py",

@@ -70,7 +70,7 @@ class Outlook:
         table = self._spatial
         held_out = table[(table["arm"] != "virtual") & (table["stage"] == "prediction")]
         wide = held_out.pivot_table(index="model", columns="arm", values="rms_mm", sort=False)
-        wide.columns = [str(name).partition(" (")[0] for name in _heads(wide)]
+        wide.columns = [str(name).partition(" (")[0] for name in wide.columns]
         return wide.reset_index().rename(columns={"model": "held out, 3D RMS in mm"})
 
     @property
