@@ -176,7 +176,8 @@ def _unnamed(problem: Problem, hypothesis: Hypothesis) -> Iterator[int]:
         inside = set(family.columns) if size else set()
         for number, candidate in enumerate(space.candidates):
             columns = set(candidate.columns)
-            if columns <= inside and not (taken if family.is_priced else laws) & columns and candidate.key not in taken_keys:
+            has_name = columns & (taken if family.is_priced else laws) or candidate.key in taken_keys
+            if columns <= inside and not has_name:
                 yield number
 
 
