@@ -77,12 +77,12 @@ def _causes(verdict: Diagnosis) -> tuple[Cause, ...]:
 
 def _retold(cause: Cause, effects: Sequence[FoundEffect], small: Background | None) -> Cause:
     members = [effect for effect in effects if f"{effect.effect} at {effect.location}" in cause.members]
-    everywhere = small.share if small and cause.everywhere else 0.0
+    everywhere = small if cause.everywhere else None
     return replace(
         cause,
         members=tuple(f"{effect.effect} at {effect.location}" for effect in members),
-        share=sum(effect.share for effect in members) + everywhere,
-        text=cause_in_words(cause.family, members, cause.everywhere, everywhere),
+        share=sum(effect.share for effect in members) + (everywhere.share if everywhere else 0.0),
+        text=cause_in_words(cause.family, members, everywhere),
         cure=cure_of_family(cause.family, members, cause.everywhere),
     )
 
