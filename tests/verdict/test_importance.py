@@ -62,7 +62,8 @@ def test_what_is_told_as_major_is_worth_its_place(verdict) -> None:  # noqa: F81
     against = replace(offset, title="its opposite")
     told = with_importance(replace(verdict, effects=(*verdict.effects, against), model=model))
     minor = [effect for effect in told.effects if effect.minor]
-    assert len(minor) == 1 and minor[0].share < 0
+    assert len(minor) == 1
+    assert minor[0].share < 0
     assert [e.effect for e in told.effects if not e.minor].count("joint_offset") == 1
 
 
