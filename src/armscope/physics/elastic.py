@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.physics.clause import Told
+from armscope.physics.clause import clear_ones
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import Cure, command
 from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term, motor, term
@@ -237,17 +237,6 @@ def stiffest_of_two(values: Array, covariance: Array) -> tuple[float, float]:
     return float(size[0]), float(np.sqrt(slope @ covariance @ slope))
 
 
-CLEAR = 2.0
-"""Standard errors from which a tilt about one of two axes is told in a sentence."""
-
-
-def _tilts(told: Told) -> str:
-    """The tilts about x and y that stand out of their uncertainty."""
-    both = {axis: told.numbers[f"compliance_{axis}"] for axis in ("x", "y")}
-    clear = [f"by {size} about its {axis}" for axis, size in both.items() if size.value > CLEAR * size.stderr]
-    return " ".join(["the base tilts", " and ".join(clear), "under the arm's moment"]).replace("  ", " ")
-
-
 BASE_COMPLIANCE = Effect(
     "base_compliance",
     "elastic",
@@ -262,7 +251,7 @@ BASE_COMPLIANCE = Effect(
     ),
     clauses=(
         "the base tilts by {compliance} under the arm's moment",
-        _tilts,
+        clear_ones("the base tilts {} under the arm's moment", compliance_x="about its x", compliance_y="about its y"),
         "the base tilts under the arm's moment",
     ),
     labels={"compliance_x": "about x", "compliance_y": "about y", "compliance_xy": "about x under a moment about y"},
