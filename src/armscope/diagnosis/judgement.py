@@ -149,8 +149,8 @@ def judge(
         model=_held(fit.model, state.recordings),
         orientations=_orientations(state),
     )
-    told = with_importance(draft, with_weight)
-    return replace(told, waterfall=_with_weights(waterfall, named, told.effects))
+    verdict = with_importance(draft, with_weight)
+    return replace(verdict, waterfall=_with_weights(waterfall, named, verdict.effects))
 
 
 def _unexplained(

@@ -24,7 +24,11 @@ FINEST = 32_767
 
 def _context(subject: Subject) -> dict[str, Any]:
     worth, verdict = subject.worth, subject.verdict
-    before, told = rms(worth.before), lambda mm: millimetres(subject.expected(mm))
+    before = rms(worth.before)
+
+    def told(mm: float) -> str:
+        return millimetres(subject.expected(mm))
+
     return {
         "field": turnable(subject.arm, _field(subject)),
         "cures": Markup(json.dumps(_data(subject), separators=(",", ":"))),
