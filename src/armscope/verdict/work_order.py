@@ -35,8 +35,9 @@ OWN_FIT = (
 LEAST_GAIN = 0.03
 """Share of the error that a task must take away in its turn."""
 WORTH_TOGETHER = 0.1
-"""Share of the error from which all that is left in the fitted model is commanded away together, and from which a minor
-effect that pays once all else is cured is a task of its own."""
+"""Share of the error from which all that is left in the fitted model is commanded away together."""
+WORTH_OF_MINOR = 0.25
+"""The same from which a minor effect that pays once all else is cured is a task of its own: the list stays short."""
 NO_GAIN = "To cure it does not lower the error in its turn: confirm it before anything is changed."
 RIVALS = 2
 """What else a cause could be, as told in a task: the nearest."""
@@ -82,7 +83,7 @@ class WorkOrder:
 
     Attributes:
         tasks: in the order in which they pay: repairs, then what takes out small errors everywhere, then what pays
-            only after that (minor effects, too, where it is a tenth), and corrected commands for what pays together.
+            only after that (minor effects, too, where it is much), and corrected commands for what pays together.
         besides: in words, causes that leave the error as it is in their turn, and what to do about them.
     """
 
@@ -108,7 +109,7 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
     then, left, _ = _by_gain([job for job in small if alone[id(job[0])] < before], left)
     done_so_far = {id(task) for task, _ in (*first, *then)}
     last, left, unpaid = _by_gain([job for job in (*repairs, *small) if id(job[0]) not in done_so_far], left)
-    smaller, left, _ = _by_gain(minor, left, WORTH_TOGETHER)
+    smaller, left, _ = _by_gain(minor, left, WORTH_OF_MINOR)
     unpaid = [job for job in unpaid if any(job[0] is task for task, _ in repairs)]
     done = [
         replace(task, alone_mm=alone[id(task)], then_mm=then_mm, only_after=alone[id(task)] >= before)

@@ -161,9 +161,9 @@ def _named_joints(table: ForeignTable) -> list[int]:
     if table.header and set(MAKERS_LETTERS) <= set(bare):
         return [bare[letter] for letter in MAKERS_LETTERS]
     others = {each for names in BESIDE.values() for each in names} | set(NOT_ANGLES)
-    known = np.isfinite(table.values).any(axis=0)
     named = [column for column, name in enumerate(table.names) if table.header and "joint" in _words(name)]
-    return [column for column in named if known[column] and not set(_words(table.names[column])) & others]
+    known = [column for column in named if np.isfinite(table.values[:, column]).any()]
+    return [column for column in known if not set(_words(table.names[column])) & others]
 
 
 def _in_a_row(group: dict[int, int]) -> list[int]:
