@@ -23,7 +23,7 @@ def named(values: Sequence[float], taken_up: bool = False) -> set[int]:
 
     Args:
         values: of the first members; those of the others are drawn, of size `USUAL`.
-        taken_up: whether the frames take up the column that the curve shares with the last member, so that no row tells it.
+        taken_up: whether the frames take up the column that the curve shares with the last member: no row tells it.
     """
     rng = np.random.default_rng(8)
     X = rng.normal(size=(ROWS, FRAMES + MEMBERS + 1))
