@@ -80,6 +80,22 @@ def test_a_spring_that_is_far_from_straight_is_no_compliance() -> None:
     assert names(verdict) == {("unknown", "joint 2")}
 
 
+@pytest.mark.parametrize("elsewhere", [0.0, 2e-3], ids=["right elsewhere", "a little wrong everywhere"])
+def test_a_zero_within_a_curve_gets_its_name(elsewhere: float) -> None:
+    """A curve of a joint's angle holds its zero, too: 20 mrad of it are a zero, 3 mrad have no name."""
+    rng = np.random.default_rng(2)
+    wanted = {("joint_offset", f"joint {j}"): [elsewhere * rng.normal()] for j in (2, 3, 5)}
+    arm, table = planted("six-axis", {**wanted, ("joint_offset", "joint 4"): [20e-3]}, 80, 0.05, seed=4)
+    angle = table.motor_angles[:, 3]
+    turn = 3e-3 / 1.7 * (np.sin(3.3 * angle) + np.sin(5.7 * angle + 1) + np.sin(8.9 * angle + 2))
+    moved = joint_jacobian(chain(arm, table.motor_angles))[:, :, 3] * turn[:, None]
+    verdict = diagnose(arm, replace(table, positions=table.positions + moved), QUICK)
+    zero = next(e for e in verdict.effects if (e.effect, e.location) == ("joint_offset", "joint 4"))
+    assert abs(zero.parameters[0].value - 20e-3) < 1e-3
+    curve = next(e for e in verdict.effects if (e.effect, e.location) == ("unknown", "joint 4"))
+    assert curve.rms_at_tool_mm < zero.rms_at_tool_mm / 3
+
+
 @pytest.mark.shared
 @pytest.mark.skipif(not IIWA.is_dir(), reason=f"../shared/recordings/{IIWA.name} is not here")
 @pytest.mark.parametrize("torques", ["recorded", "withheld"])

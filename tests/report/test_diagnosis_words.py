@@ -223,6 +223,27 @@ def test_a_number_that_the_poses_leave_open_gets_no_digits():
     assert told["length d"].value == "undetermined"
 
 
+def test_where_a_wave_is_largest_is_told_where_the_rows_know_it():
+    """Half a radian of uncertainty is 29 degrees of a turn, and no shift of half a metre."""
+    swing, known = Parameter("amplitude", "rad", 2.7e-4, 1e-5), Parameter("phase", "rad", 1.0, 0.5)
+    for phase, told in ((known, "57°"), (Parameter("phase", "rad", 1.0, 1.7), "undetermined")):
+        effect = found("axis_wobble", "joint 2", swing, phase, rms_at_tool_mm=0.1)
+        readings = {reading.label: reading for reading in card(effect, 1).readings}
+        assert readings["largest at"].value == told
+
+
+def test_a_tilt_that_may_as_well_be_none_has_no_number_in_a_sentence():
+    clear, open_ = (
+        Parameter("compliance_y", "rad/(N m)", 1.9e-6, 2e-7),
+        Parameter("compliance_x", "rad/(N m)", 9e-7, 8e-7),
+    )
+    assert exact_phrase(found("base_compliance", "base", open_, clear)) == (
+        "the base tilts by 1.9 µrad per N m about its y under the arm's moment"
+    )
+    neither = replace(clear, name="compliance_y", stderr=1.5e-6)
+    assert exact_phrase(found("base_compliance", "base", open_, neither)) == "the base tilts under the arm's moment"
+
+
 def test_an_effect_that_resampling_rarely_finds_is_said_to_be_one_way_of_putting_it():
     assert "not as the cause" in chosen_how_often(0.2)
     assert chosen_how_often(0.9) == "chosen in 90 % of the resampled data sets"

@@ -48,3 +48,29 @@ def test_small_errors_that_the_evidence_does_not_ask_for_are_told_with_their_sha
     said = headline(replace(verdicts.single().verdict, background_families=held))
     assert "possibly small errors of all drives: 33 %" in said
     assert "possibly" not in headline(verdicts.single().verdict)
+
+
+def test_what_is_told_as_major_is_worth_its_place(verdict) -> None:  # noqa: F811
+    """An effect that hides what another one does is cured after it: alone its cure makes the error larger."""
+    offset = next(e for e in verdict.effects if e.effect == "joint_offset")
+    assert not any(effect.minor for effect in verdict.effects)
+    (whole,) = [part for part in verdict.model.parts if part.placed.key == (offset.effect, offset.location)]
+    hidden = replace(whole, values=-0.2 * whole.values)
+    grown = replace(whole, values=1.2 * whole.values)
+    others = tuple(part for part in verdict.model.parts if part is not whole)
+    model = replace(verdict.model, parts=(grown, hidden, *others))
+    against = replace(offset, title="its opposite")
+    told = with_importance(replace(verdict, effects=(*verdict.effects, against), model=model))
+    minor = [effect for effect in told.effects if effect.minor]
+    assert len(minor) == 1
+    assert minor[0].share < 0
+    assert [e.effect for e in told.effects if not e.minor].count("joint_offset") == 1
+
+
+def test_one_measure_says_what_is_small(verdict) -> None:  # noqa: F811
+    """Major and minor follow the share that the page prints, not another one."""
+    least = sorted(effect.share for effect in verdict.effects)[1]
+    told = with_importance(verdict, lambda found, _: replace(found, minor=found.share < least))
+    assert [effect.minor for effect in told.effects] == [effect.share < least for effect in told.effects]
+    assert sum(effect.minor for effect in told.effects) == 1
+    assert {cause.minor for cause in told.causes if not cause.everywhere} >= {False}

@@ -56,8 +56,9 @@ def with_main_shapes(edits: Edits, hypothesis: Hypothesis) -> Hypothesis:
         candidate = edits.candidate(curve.candidate)
         if not candidate.is_curve or not candidate.variant.startswith("angle"):
             continue
-        # what every arm has anyway gets its name by standing out there
-        asked = [n for n in _within(problem, candidate) - hypothesis.candidates if not problem.is_free(n)]
+        # what every arm has anyway gets its name by standing out there, where it is there
+        held = [n for n in _within(problem, candidate) if problem.is_free(n) and edits.in_background(hypothesis, n)]
+        asked = _within(problem, candidate) - hypothesis.candidates - set(held)
         shapes = _shares_of_shapes(edits, hypothesis, curve, sorted(asked))
         shape = max(shapes, key=lambda n: shapes[n][0], default=None)
         if shape is None or shapes[shape][0] < NAMING.main_share:

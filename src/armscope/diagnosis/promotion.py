@@ -163,16 +163,21 @@ def _beyond_family(problem: Problem, hypothesis: Hypothesis, number: int) -> flo
 
 
 def _unnamed(problem: Problem, hypothesis: Hypothesis) -> Iterator[int]:
-    """Candidates whose columns a background holds, none of which has a name yet nor another form of it."""
+    """Candidates whose columns a background holds, none of which has a name yet nor another form of it.
+
+    What every arm has anyway, a zero, may stand out of a free curve, too, which holds its column.
+    """
     space = problem.space
     named = [space.candidates[c.candidate] for c in hypothesis.chosen]
     taken = {column for candidate in named for column in candidate.columns}
+    laws = {column for candidate in named if not candidate.is_curve for column in candidate.columns}
     taken_keys = {candidate.key for candidate in named}
     for family, size in zip(space.families, hypothesis.background, strict=True):
         inside = set(family.columns) if size else set()
         for number, candidate in enumerate(space.candidates):
             columns = set(candidate.columns)
-            if columns <= inside and not taken & columns and candidate.key not in taken_keys:
+            has_name = columns & (taken if family.is_priced else laws) or candidate.key in taken_keys
+            if columns <= inside and not has_name:
                 yield number
 
 

@@ -87,7 +87,8 @@ def headline(verdict: Diagnosis) -> str:
     if not main and not verdict.causes:
         return f"{_no_cause(verdict, minor)} {capitalised(_remainder(verdict))}."
     told, rest = _told_and_rest(verdict.causes or _one_by_one(verdict))
-    causes = "; ".join(f"{cause.text} – {percent(cause.share)}{_of_what(n)}" for n, cause in enumerate(told))
+    of_what = [" of the squared error", *("" for _ in told)]
+    causes = "; ".join(f"{c.text} – {percent(c.share)}{of}" for c, of in zip(told, of_what, strict=False))
     rest_told = [*_others(rest), *_unsure(verdict), _remainder(verdict)]
     return f"{capitalised(causes)}. {capitalised('; '.join(rest_told))}."
 
@@ -118,12 +119,15 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], everywhere: bool
     more = len(members) - len(told)
     if everywhere and told[0].share < TOLD * share:
         return small
-    if everywhere and share > sum(effect.share for effect in members) and family in _ALL:
-        others = f" and {spelled(more)} more" if more else ""
-        return f"{_ALL[family]}, most of all: {phrase(told[0])}{others}"
     beside = [f"{spelled(more)} more of its kind"] if more else []
+    if everywhere and share > sum(effect.share for effect in members) and family in _ALL:
+        return _with_others(f"{_ALL[family]}, most of all: {phrase(told[0])}", beside)
     beside += [_BESIDE.get(family, _OTHERS)] if everywhere else []
-    clause = phrase(told[0])
+    return _with_others(phrase(told[0]), beside)
+
+
+def _with_others(clause: str, beside: Sequence[str]) -> str:
+    """A clause, and in its brackets what is beside."""
     if not beside:
         return clause
     opened = f"{clause[:-1]}; " if clause.endswith(")") else f"{clause} ("
@@ -255,10 +259,6 @@ def _told(effect: FoundEffect) -> Told:
         farthest = reach(effect.curve)
         numbers[farthest.name] = Number(farthest.value, farthest.unit, farthest.stderr)
     return Told(effect.effect, effect.location, effect.driver, numbers)
-
-
-def _of_what(position: int) -> str:
-    return " of the squared error" if position == 0 else ""
 
 
 def _cannot_tell(verdict: Diagnosis) -> str:
