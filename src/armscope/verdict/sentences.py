@@ -106,9 +106,7 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], small: Backgroun
     Args:
         family: of the cause.
         members: its effects, largest share first; those that are minor are counted, not told.
-        small: small errors of the family in the whole arm, where they belong to it. Where they are the larger part,
-            they are told first, beside what is a twentieth of them, by its share or (where it hides what others do, and
-            its share is next to none) by its own squared size.
+        small: small errors of the family in the whole arm, where they belong to it; the larger part is told first.
 
     Returns:
         The clause.
@@ -117,8 +115,7 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], small: Backgroun
     none_stands_out = _EVERYWHERE.get(family, f"small {family} errors in all joints and links, as in any arm")
     if not told or (small and _is_next_to_nothing(told[0], small)):
         return none_stands_out
-    more = len(members) - len(told)
-    beside = [f"{spelled(more)} more of its kind"] if more else []
+    beside = [f"{spelled(len(members) - 1)} more of its kind"] if len(members) > 1 else []
     if small and small.share > sum(effect.share for effect in members) and family in _ALL:
         return _with_others(f"{_ALL[family]}, most of all: {phrase(told[0])}", beside)
     beside += [_BESIDE.get(family, _OTHERS)] if small else []
@@ -134,7 +131,7 @@ def _with_others(clause: str, beside: Sequence[str]) -> str:
 
 
 def _is_next_to_nothing(effect: FoundEffect, small: Background) -> bool:
-    """Whether a member is less than a twentieth of the small errors of its family, in what it does and in its share."""
+    """Whether a member is less than a twentieth of the small errors of its family, in share and (hidden) in size."""
     return effect.share < TOLD * small.share and effect.rms_at_tool_mm**2 < TOLD * small.rms_at_tool_mm**2
 
 
