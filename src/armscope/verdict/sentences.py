@@ -64,7 +64,6 @@ TOLD = 0.05
 counted, unless a member stands out or it is the largest."""
 UNSURE = 0.01
 """Share from which small errors are told that the evidence does not ask for."""
-
 FAINT = 0.7
 """Something unexplained that is smaller than this share of the residual is hidden in the noise."""
 
