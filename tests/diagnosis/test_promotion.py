@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
+from armscope.physics.recorded_drivers import side_of_approach
 from armscope.physics.scene import Scene
 from armscope.recordings import Recordings, read_recordings
 from armscope.robot import Arm, chain, load_arm
@@ -78,6 +79,38 @@ def test_a_spring_that_is_nearly_straight_is_called_a_compliance_and_its_rest_un
 def test_a_spring_that_is_far_from_straight_is_no_compliance() -> None:
     verdict = diagnose(*bent_spring(4.0), QUICK)
     assert names(verdict) == {("unknown", "joint 2")}
+
+
+@pytest.mark.parametrize("elsewhere", [0.0, 2e-3], ids=["right elsewhere", "a little wrong everywhere"])
+def test_a_zero_within_a_curve_gets_its_name(elsewhere: float) -> None:
+    """A curve of a joint's angle holds its zero, too: 20 mrad of it are a zero, 3 mrad have no name."""
+    rng = np.random.default_rng(2)
+    wanted = {("joint_offset", f"joint {j}"): [elsewhere * rng.normal()] for j in (2, 3, 5)}
+    arm, table = planted("six-axis", {**wanted, ("joint_offset", "joint 4"): [20e-3]}, 80, 0.05, seed=4)
+    angle = table.motor_angles[:, 3]
+    turn = 3e-3 / 1.7 * (np.sin(3.3 * angle) + np.sin(5.7 * angle + 1) + np.sin(8.9 * angle + 2))
+    moved = joint_jacobian(chain(arm, table.motor_angles))[:, :, 3] * turn[:, None]
+    verdict = diagnose(arm, replace(table, positions=table.positions + moved), QUICK)
+    zero = next(e for e in verdict.effects if (e.effect, e.location) == ("joint_offset", "joint 4"))
+    assert abs(zero.parameters[0].value - 20e-3) < 1e-3
+    curve = next(e for e in verdict.effects if (e.effect, e.location) == ("unknown", "joint 4"))
+    assert curve.rms_at_tool_mm < zero.rms_at_tool_mm / 3
+
+
+@pytest.mark.parametrize(("uneven", "told"), [(0.2, True), (1.0, False)])
+def test_play_that_is_nearly_even_is_called_play_and_its_rest_unknown(uneven: float, told: bool) -> None:
+    """A gap of 1 mrad, and a part of it that changes with the angle; where that is all, there is no gap."""
+    arm, table = planted("six-axis", {}, 150, 0.03, seed=6)
+    side, angle = side_of_approach(Scene(arm, table), 2), table.motor_angles[:, 1]
+    turn = -0.5e-3 * side * ((1.0 if told else 0.0) + uneven * np.sin(4 * angle + 0.5))
+    moved = joint_jacobian(chain(arm, table.motor_angles))[:, :, 1] * turn[:, None]
+    found = {e.effect: e for e in diagnose(arm, replace(table, positions=table.positions + moved), QUICK).effects}
+    assert set(found) == ({"backlash", "unknown"} if told else {"unknown"})
+    assert found["unknown"].driver.startswith("side of approach and angle")
+    if told:
+        gap = found["backlash"].parameters[0]
+        assert abs(gap.value - 1e-3) < 0.1e-3
+        assert found["unknown"].rms_at_tool_mm < found["backlash"].rms_at_tool_mm / 3
 
 
 @pytest.mark.shared

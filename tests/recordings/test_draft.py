@@ -13,6 +13,7 @@ from armscope.recordings.importing.tables import import_recordings
 RNG = np.random.default_rng(0)
 ANGLES, POINTS = RNG.uniform(-2, 2, (30, 6)), RNG.uniform(-900, 900, (30, 3)) + np.array([3000, 0, 500])
 TORQUES = RNG.uniform(-50, 50, (30, 6))
+UR_JOINTS = ["shoulder_pan_joint", "shoulder_lift_joint", "elbow_joint", *(f"wrist_{n}_joint" for n in (1, 2, 3))]
 
 
 def written(folder, columns, delimiter=",", decimal=".", head=""):
@@ -33,6 +34,38 @@ def axes(pattern, values):
 CASES = {
     "degrees, millimetres": (names("J{}", np.degrees(ANGLES)) | axes("{}", POINTS), ",", ".", ""),
     "German": (names("Achse_A{}", np.degrees(ANGLES)) | axes("{} [mm]", POINTS), ";", ",", ""),
+    "German units in brackets": (
+        names("A{} [Grad]", np.degrees(ANGLES)) | axes("Mess_{}", POINTS),
+        ";",
+        ",",
+        "",
+    ),
+    "words behind the number": (
+        names("A{}_soll", np.degrees(ANGLES)) | names("A{}_ist", np.degrees(ANGLES) + 1) | axes("{}_ist", POINTS),
+        ",",
+        ".",
+        "",
+    ),
+    "words and a unit behind the number": (
+        names("Joint {} position (deg)", np.degrees(ANGLES)) | axes("TCP {} [mm]", POINTS),
+        ",",
+        ".",
+        "",
+    ),
+    "joints of a URDF, in the table's order": (
+        dict(zip(UR_JOINTS, ANGLES.T, strict=True))
+        | {f"{name}_velocity": ANGLES[:, 0] / 9 for name in UR_JOINTS}
+        | axes("{}", POINTS),
+        ",",
+        ".",
+        "",
+    ),
+    "a maker's letters": (
+        dict(zip("SLURBT", np.degrees(ANGLES).T, strict=True)) | axes("{}", POINTS),
+        ",",
+        ".",
+        "",
+    ),
     "radians, metres, tabs": (names("q_{}", ANGLES) | axes("meas_{}", POINTS / 1e3), "\t", ".", ""),
     "head of three lines": (names("joint_{}_deg", np.degrees(ANGLES)) | axes("p{}", POINTS), ",", ".", "a\nb\nc\n"),
     "commanded beside actual": (

@@ -1,6 +1,8 @@
 """Try before you cure: the page's switches show what the package calculates."""
 
+import re
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +14,7 @@ from armscope.recordings import read_recordings
 from armscope.report.pages.diagnosis import write_report
 from armscope.robot import load_arm
 from armscope.verdict.contributions import contributions
+from armscope.verdict.schema import HeldOut
 from tests.report.test_error_field import browsed
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "five-effects"
@@ -66,3 +69,18 @@ def test_switching_a_cause_off_shows_what_curing_it_leaves(verdict, worth, tmp_p
         assert seen[name]["rms"] == pytest.approx(rms(errors), rel=5e-3)
         distance = float(seen[name]["field"].split("RMS ")[1].split(" mm")[0])
         assert distance == pytest.approx(np.sqrt(3) * rms(errors), rel=5e-3)
+
+
+@pytest.mark.browser
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
+def test_switches_tell_what_cards_and_work_order_tell(verdict, worth, tmp_path):
+    """On poses that took no part: one number for what a cure alone leaves, wherever on the page it stands."""
+    held = HeldOut(1.4 * rms(worth.before), 2 * rms(worth.left))
+    page = write_report(replace(verdict, held_out=held), tmp_path / "out")
+    seen = browsed(page, tmp_path, LISTEN)
+    assert seen["before"]["rms"] == pytest.approx(held.before, rel=5e-3)
+    assert seen["after"]["rms"] == pytest.approx(held.after, rel=5e-3)
+    told = [float(number) for number in re.findall(r"→\s*([0-9.]+)", seen["words"])]
+    assert told == pytest.approx([said["rms"] for said in seen["alone"]], rel=5e-3)
+    cards = page.read_text().split("What was found")[1]
+    assert re.search(rf"cured alone: [^→]*→[^0-9]*{told[0]:g}\b", cards)

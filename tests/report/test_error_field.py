@@ -48,6 +48,15 @@ def field_of(arm, rows=ROWS, seed=3, **changes):
     return ErrorField(**(content | changes))
 
 
+def test_words_are_readable_on_their_ground_in_the_dark_too():
+    """A ground of a fixed colour has words of a fixed colour: those of the page turn light in the dark."""
+    for rule in re.findall(r"([^{}]+)\{([^{}]*)\}", beside("error_field.css")):
+        stated = dict(each.strip().split(":", 1) for each in rule[1].split(";") if ":" in each)
+        ground, words = stated.get("background", ""), stated.get(" color", stated.get("color", ""))
+        if ground and words:
+            assert ("var(" in ground) == ("var(" in words), rule
+
+
 def unpacked(text):
     return np.frombuffer(base64.b64decode(text), dtype="<f4")
 

@@ -1,6 +1,7 @@
 """A cause's share is what its cure is worth, averaged over all orders of curing: no more and no less."""
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 
 from armscope.core.averages import rms
 from armscope.verdict.contributions import contributions
+from armscope.verdict.effects import FoundEffect
 from armscope.verdict.importance import with_importance
 from armscope.verdict.schema import Background
 from armscope.verdict.sentences import headline
@@ -48,3 +50,32 @@ def test_small_errors_that_the_evidence_does_not_ask_for_are_told_with_their_sha
     said = headline(replace(verdicts.single().verdict, background_families=held))
     assert "possibly small errors of all drives: 33 %" in said
     assert "possibly" not in headline(verdicts.single().verdict)
+
+
+@pytest.mark.parametrize(("against", "small"), [(-0.05, True), (-0.5, False)])
+def test_what_hides_what_another_does_is_major_where_it_is_large(verdict, against: float, small: bool) -> None:  # noqa: F811
+    """Its share is below zero either way: alone its cure makes the error larger, but the place is off by as much."""
+    offset = next(e for e in verdict.effects if e.effect == "joint_offset")
+    assert not any(effect.minor for effect in verdict.effects)
+    (whole,) = [part for part in verdict.model.parts if part.placed.key == (offset.effect, offset.location)]
+    hidden, grown = replace(whole, values=against * whole.values), replace(whole, values=(1 - against) * whole.values)
+    others = tuple(part for part in verdict.model.parts if part is not whole)
+    model = replace(verdict.model, parts=(grown, hidden, *others))
+    opposite = replace(offset, title="its opposite")
+
+    def weigh(found: FoundEffect, background: Sequence[Background]) -> FoundEffect:
+        return replace(found, minor=found.share < 0.01)
+
+    told = with_importance(replace(verdict, effects=(*verdict.effects, opposite), model=model), weigh)
+    (hiding,) = [effect for effect in told.effects if effect.share < 0]
+    assert hiding.minor == small
+    assert [e.effect for e in told.effects if not e.minor].count("joint_offset") == 2 - small
+
+
+def test_one_measure_says_what_is_small(verdict) -> None:  # noqa: F811
+    """Major and minor follow the share that the page prints, not another one."""
+    least = sorted(effect.share for effect in verdict.effects)[1]
+    told = with_importance(verdict, lambda found, _: replace(found, minor=found.share < least))
+    assert [effect.minor for effect in told.effects] == [effect.share < least for effect in told.effects]
+    assert sum(effect.minor for effect in told.effects) == 1
+    assert {cause.minor for cause in told.causes if not cause.everywhere} >= {False}

@@ -147,5 +147,44 @@ def test_a_cause_that_is_not_settled_is_settled_first() -> None:
         model, (cause,) = case.verdict.model, contributions(case.verdict).causes
         done[effect.named_as] = task_of(model.scene(case.recordings), cause, effect).instruction
     assert done["effect"].startswith("Put the bending of link 7")
-    assert done["family"].startswith("First find out which it is: link bending at link 7 or payload")
+    assert done["family"].startswith("First find out which it is: link bending at link 7 or payload. If")
     assert done["family"].endswith(done["effect"])
+
+
+def test_what_a_vague_cause_could_be_is_told_by_its_rivals() -> None:
+    """ "Geometric, around joint 5, joint 6" is nothing that one finds out."""
+    vague = verdicts.compliance("joint 2", named_as="region", title="elastic, around joint 2, base")
+    case = verdicts.case(effects=(vague,))
+    model, (cause,) = case.verdict.model, contributions(case.verdict).causes
+    told = task_of(model.scene(case.recordings), cause, vague, asked=True).instruction
+    wanted = "joint compliance, joint 2 or base compliance, base or link bending, link 2 (see what to measure next). If"
+    assert told.startswith(f"First find out which it is: {wanted}")
+
+
+def test_a_task_says_nothing_twice() -> None:
+    """Of the cure's words stands beside an instruction what it does not say itself."""
+    for effect in EFFECTS:
+        said, rule = effect.cure.instruction.lower(), effect.cure.rule.lower()
+        assert not (said and effect.cure.words.split(".")[0].lower() in rule and " or " in effect.cure.words[:90]), rule
+    case = verdicts.case(effects=(verdicts.compliance("joint 2"),))
+    model, (cause,) = case.verdict.model, contributions(case.verdict).causes
+    task = task_of(model.scene(case.recordings), cause, cause.effects[0])
+    assert "elastic model" in task.instruction
+    assert task.cure.startswith("Or command it away: commanded = wanted - compliance x load")
+
+
+def test_a_minor_effect_that_pays_once_all_else_is_cured_is_a_task() -> None:
+    """What hides part of another is minor, and its cure may still be most of what is left in its turn."""
+    size = Parameter("offset", "rad", 1e-3, 1e-5)
+    hidden = verdicts.found("joint_offset", "joint 2", size, minor=True)
+    case = verdicts.case(effects=(verdicts.found("joint_offset", "joint 3", size), hidden))
+    worth = contributions(case.verdict)
+    single = replace(worth.causes[0], effects=(hidden,))
+    large, noise = np.random.default_rng(0).normal(0, 1, (2, *worth.left.shape))
+    moved = {"causes": (replace(worth.causes[0], moved=large),), "small": {}, "left": 0.02 * noise}
+    tasks = {}
+    for size in (-0.3, -1e-3):
+        one = replace(single, moved=size * large)
+        tasks[size] = work_order(case.verdict, replace(worth, smaller=one, single=(one,), **moved)).tasks
+    assert [(task.place, task.only_after) for task in tasks[-0.3]] == [("joint 3", False), ("joint 2", True)]
+    assert [task.place for task in tasks[-1e-3]] == ["joint 3"]

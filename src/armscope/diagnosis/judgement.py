@@ -112,7 +112,6 @@ def judge(
     named = [with_weight(found[c], background) for c in order]
     masses, weights_told = masses_in_error(state, weighed.equations, of_families[-1])
     background = (*background, *masses)
-    waterfall = _with_weights(waterfall, named)
     left = max(1.0 - sum(effect.share for effect in named) - sum(family.share for family in background), 0.0)
     scattered = [s for s in scattered_effects(state, variance, left) if not rest_of_a_curve(s, named)]
     over = subset_consistency(state)
@@ -150,7 +149,8 @@ def judge(
         model=_held(fit.model, state.recordings),
         orientations=_orientations(state),
     )
-    return with_importance(draft)
+    verdict = with_importance(draft, with_weight)
+    return replace(verdict, waterfall=_with_weights(waterfall, named, verdict.effects))
 
 
 def _unexplained(
@@ -165,9 +165,12 @@ def _unexplained(
     return too_faint(averaged_log_odds(search))
 
 
-def _with_weights(waterfall: Sequence[WaterfallStep], named: Sequence[FoundEffect]) -> tuple[WaterfallStep, ...]:
-    """The steps, which start with no effect and add one each, with those of minor effects told."""
-    minor = [False, *(effect.minor for effect in named)]
+def _with_weights(
+    waterfall: Sequence[WaterfallStep], order: Sequence[FoundEffect], told: Sequence[FoundEffect]
+) -> tuple[WaterfallStep, ...]:
+    """The steps, which start with no effect and add one each, in this order, with those of minor effects told."""
+    weight = {(e.effect, e.location, e.driver, e.evidence_nats): e.minor for e in told}
+    minor = [False, *(weight[e.effect, e.location, e.driver, e.evidence_nats] for e in order)]
     return tuple(replace(step, minor=n < len(minor) and minor[n]) for n, step in enumerate(waterfall))
 
 

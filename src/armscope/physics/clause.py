@@ -67,6 +67,28 @@ def swings(what: str) -> Clause:
     return clause
 
 
+CLEAR = 2.0
+"""Standard errors from which one of several numbers is told in a sentence."""
+
+
+def clear_ones(what: str, **places: str) -> Clause:
+    """A clause of those of several sizes that stand out of their uncertainty; with none of them it is not for use.
+
+    Args:
+        what: a template of one field: "the base tilts {} under the arm's moment".
+        places: by number, what stands behind it: "about its x".
+    """
+
+    def clause(told: Told) -> str:
+        sizes = {place: told.numbers[name] for name, place in places.items()}
+        clear = [f"by {size} {place}" for place, size in sizes.items() if abs(size.value) > CLEAR * size.stderr]
+        if not clear:
+            raise KeyError(*places)
+        return what.format(" and ".join(clear))
+
+    return clause
+
+
 def waves_column(told: Told) -> str:
     """The atlas' column of a wave once or twice per turn."""
     count = round(told.numbers["per_turn"].value) if "per_turn" in told.numbers else 0

@@ -52,6 +52,15 @@ class Cure:
     statement: Callable[[Scene, Part], Scene] | None = None
     readings: Callable[[Array, Part], Array] | None = None
 
+    @property
+    def rule(self) -> str:
+        """The words without their first half where that is what an instruction says at length: what else to do."""
+        for sign, begins in ((", or ", "Or "), ("; or ", "Or "), (". No motor ", "No motor ")):
+            _, found, rest = self.words.partition(sign)
+            if found and self.instruction:
+                return f"{begins}{rest}"
+        return self.words
+
 
 def command(words: str, change: str = "", instruction: str = "") -> Cure:
     """A cure by other commands: the motors' angles less what the effect adds to them.

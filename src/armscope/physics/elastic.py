@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.physics.clause import clear_ones
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import Cure, command
 from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term, motor, term
@@ -250,7 +251,7 @@ BASE_COMPLIANCE = Effect(
     ),
     clauses=(
         "the base tilts by {compliance} under the arm's moment",
-        "the base tilts by {compliance_x} about its x and by {compliance_y} about its y under the arm's moment",
+        clear_ones("the base tilts {} under the arm's moment", compliance_x="about its x", compliance_y="about its y"),
         "the base tilts under the arm's moment",
     ),
     labels={"compliance_x": "about x", "compliance_y": "about y", "compliance_xy": "about x under a moment about y"},

@@ -54,6 +54,7 @@ class Contributions:
         causes: the major ones, most important first.
         smaller: minor effects, and major ones beyond `MOST_CAUSES`, together; None where there are none.
         small: by family, (n, 3) of the small errors without a name.
+        single: each of those that are taken together in `smaller`.
     """
 
     rows: Indices
@@ -61,6 +62,7 @@ class Contributions:
     causes: tuple[Repair, ...]
     smaller: Repair | None
     small: dict[str, Array]
+    single: tuple[Repair, ...] = ()
 
     @property
     def switches(self) -> list[tuple[str, Array]]:
@@ -152,19 +154,21 @@ def contributions(verdict: Diagnosis) -> Contributions:
     """What each cause of a verdict moves, on at most `MOST_ROWS` rows that are no bad shots."""
     ground, parts = ground_of(verdict), parts_of(verdict)
     main, minor = main_and_minor(verdict.effects)
-    causes = tuple(
-        Repair(effect.title, (effect,), parts[id(effect)], ground.moved_by(parts[id(effect)]))
-        for effect in main[:MOST_CAUSES]
-    )
+
+    def alone(effect: FoundEffect) -> Repair:
+        return Repair(effect.title, (effect,), parts[id(effect)], ground.moved_by(parts[id(effect)]))
+
+    causes = tuple(alone(effect) for effect in main[:MOST_CAUSES])
     rest = [effect for effect in (*main[MOST_CAUSES:], *minor) if parts[id(effect)]]
     together = tuple(part for effect in rest for part in parts[id(effect)])
     name = f"{len(rest)} smaller effects together" if len(rest) > 1 else "one smaller effect"
     smaller = Repair(name, tuple(rest), together, ground.moved_by(together)) if rest else None
+    single = tuple(alone(effect) for effect in rest)
     left, before = ground.left_and_before()
     explained = sum((cause.moved for cause in (*causes, *([smaller] if smaller else []))), np.zeros_like(left))
     if not verdict.background.present:  # tiny, and without a line of its own
-        return Contributions(ground.rows, before - explained, causes, smaller, {})
-    return Contributions(ground.rows, left, causes, smaller, ground.small(before - left - explained))
+        return Contributions(ground.rows, before - explained, causes, smaller, {}, single)
+    return Contributions(ground.rows, left, causes, smaller, ground.small(before - left - explained), single)
 
 
 def _frames(verdict: Diagnosis, posture: Posture) -> Array:

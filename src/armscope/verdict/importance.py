@@ -5,32 +5,46 @@ in which everything can be cured (Shapley 1953). With each cause's contribution 
 needs no orders: the error before is their sum with what is left, and a cause's share is the product of its contribution
 with the error before and with what is left, over the squared error. The shares add up to what the model explains. One
 below zero hides part of what others do: its cure pays only once theirs are done.
+
+What is told as major is worth its place by that measure or, where it hides what others do, by its own squared size: it
+is off by as much, though its cure waits for theirs. What base and tool take up whenever they are placed anew (a base
+that moved between runs) has no share to lose.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from armscope.core.averages import rms
 from armscope.core.types import Array
-from armscope.verdict.contributions import Contributions, ground_of, parts_of
+from armscope.verdict.contributions import SEEN, Contributions, ground_of, parts_of
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause, FoundEffect
 from armscope.verdict.schema import Background
 from armscope.verdict.sentences import cause_in_words, cure_of_family, headline
 
+Weigh = Callable[[FoundEffect, Sequence[Background]], FoundEffect]
+"""An effect and the small errors everywhere, with their shares: the effect, minor where it is one of them."""
 
-def with_importance(draft: Diagnosis) -> Diagnosis:
+
+def as_it_is(found: FoundEffect, background: Sequence[Background]) -> FoundEffect:
+    """An effect whose share makes it neither major nor minor."""
+    return found
+
+
+def with_importance(draft: Diagnosis, weigh: Weigh = as_it_is) -> Diagnosis:
     """A diagnosis whose effects, small errors and causes have shares, stand in their order, and are told in words.
 
     Args:
         draft: with effects, backgrounds and causes in any order.
+        weigh: which shares are small.
 
     Returns:
-        The same with `share` everywhere, the largest first, and the headline.
+        The same with `share` everywhere, the largest first, `minor` where an effect is not worth its place, and the
+        headline.
     """
     ground, parts = ground_of(draft), parts_of(draft)
     left, before = ground.left_and_before()
@@ -50,9 +64,15 @@ def with_importance(draft: Diagnosis) -> Diagnosis:
         replace(each, share=share(small[each.family]) if each.family in small else 0.0)
         for each in draft.background_families
     )
-    named = [
-        replace(effect, share=share(its)) for effect, its in zip(draft.effects, moved, strict=True) if parts[id(effect)]
-    ]
+
+    def placed(effect: FoundEffect, its: Array) -> FoundEffect:
+        told = replace(effect, share=share(its))
+        if effect.minor or rms(its) < SEEN * rms(before):
+            return told
+        worth = max(told.share, float(np.sum(its**2)) / squared)
+        return replace(told, minor=weigh(replace(told, share=worth), families).minor)
+
+    named = [placed(effect, its) for effect, its in zip(draft.effects, moved, strict=True) if parts[id(effect)]]
     modelled = sum(effect.share for effect in named) + sum(family.share for family in families)
     left_over = max(1 - modelled, 0.0)
     # what scatters is in no model: it has no more than nothing else explains
@@ -77,12 +97,13 @@ def _causes(verdict: Diagnosis) -> tuple[Cause, ...]:
 
 def _retold(cause: Cause, effects: Sequence[FoundEffect], small: Background | None) -> Cause:
     members = [effect for effect in effects if f"{effect.effect} at {effect.location}" in cause.members]
-    everywhere = small.share if small and cause.everywhere else 0.0
+    everywhere = small if cause.everywhere else None
     return replace(
         cause,
         members=tuple(f"{effect.effect} at {effect.location}" for effect in members),
-        share=sum(effect.share for effect in members) + everywhere,
-        text=cause_in_words(cause.family, members, cause.everywhere, everywhere),
+        minor=all(effect.minor for effect in members) and not cause.everywhere,
+        share=sum(effect.share for effect in members) + (everywhere.share if everywhere else 0.0),
+        text=cause_in_words(cause.family, members, everywhere),
         cure=cure_of_family(cause.family, members, cause.everywhere),
     )
 

@@ -20,7 +20,7 @@ from armscope.verdict.contributions import Contributions, Repair
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import FoundEffect
 from armscope.verdict.sentences import cure_of_family, exact_phrase, phrase
-from armscope.verdict.wording import SMALL, capitalised, implausible, read_parameter
+from armscope.verdict.wording import SMALL, capitalised, effect_in_words, implausible, plain, read_parameter
 
 ALL_AT_ONCE = {
     GEOMETRIC: "calibration", ELASTIC: "elastic model", TRANSMISSION: "correction table", DRIFT: "fastening"
@@ -36,7 +36,11 @@ LEAST_GAIN = 0.03
 """Share of the error that a task must take away in its turn."""
 WORTH_TOGETHER = 0.1
 """Share of the error from which all that is left in the fitted model is commanded away together."""
+WORTH_OF_MINOR = 0.25
+"""The same from which a minor effect that pays once all else is cured is a task of its own: the list stays short."""
 NO_GAIN = "To cure it does not lower the error in its turn: confirm it before anything is changed."
+RIVALS = 2
+"""What else a cause could be, as told in a task: the nearest."""
 LEAST_TURN = 5e-5
 """Smaller turns of a jump (rad) are not told: at a metre they are less than what jumps are measured by."""
 STEADY = 0.02
@@ -79,7 +83,7 @@ class WorkOrder:
 
     Attributes:
         tasks: in the order in which they pay: repairs, then what takes out small errors everywhere, then what pays
-            only after that, and corrected commands for what pays only together.
+            only after that (minor effects, too, where it is much), and corrected commands for what pays together.
         besides: in words, causes that leave the error as it is in their turn, and what to do about them.
     """
 
@@ -88,22 +92,28 @@ class WorkOrder:
 
 
 def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
-    """The work order of a verdict: tasks for major effects, and for small errors that make up a cause."""
+    """The work order of a verdict: tasks for effects that pay in their turn, and for small errors of a cause."""
     rows = spread_evenly(len(verdict.recordings), MOST_ROWS)
     scene = verdict.model.posture(verdict.model.scene(verdict.recordings.rows(rows))).scene
-    repairs = [(task_of(scene, cause, effect), cause.moved) for cause in worth.causes for effect in cause.effects[:1]]
+    asked = verdict.next_poses is not None
+
+    def jobs(some: Sequence[Repair]) -> list[Job]:
+        return [(task_of(scene, each, each.effects[0], asked), each.moved) for each in some]
+
+    repairs, minor = jobs(worth.causes), jobs(worth.single)
     present = {family.family for family in verdict.background_families if family.present and family.family in SMALL}
     small = [(_everywhere(family), moved) for family, moved in worth.small.items() if family in present]
     before = rms(worth.before)
-    alone = {id(task): rms(worth.before - moved) for task, moved in (*repairs, *small)}
+    alone = {id(task): rms(worth.before - moved) for task, moved in (*repairs, *minor, *small)}
     first, left, _ = _by_gain([job for job in repairs if alone[id(job[0])] < before], worth.before)
     then, left, _ = _by_gain([job for job in small if alone[id(job[0])] < before], left)
     done_so_far = {id(task) for task, _ in (*first, *then)}
     last, left, unpaid = _by_gain([job for job in (*repairs, *small) if id(job[0]) not in done_so_far], left)
+    smaller, left, _ = _by_gain(minor, left, WORTH_OF_MINOR)
     unpaid = [job for job in unpaid if any(job[0] is task for task, _ in repairs)]
     done = [
         replace(task, alone_mm=alone[id(task)], then_mm=then_mm, only_after=alone[id(task)] >= before)
-        for task, then_mm in (*first, *then, *last)
+        for task, then_mm in (*first, *then, *last, *smaller)
     ]
     moving = [task.what for task, moved in unpaid if rms(moved) > 0]
     if rms(worth.left) < (1 - WORTH_TOGETHER) * rms(left):
@@ -133,12 +143,14 @@ Job = tuple[Task, Array]
 """A task, and what the tool moves by what it cures."""
 
 
-def _by_gain(waiting: Sequence[Job], left: Array) -> tuple[list[tuple[Task, float]], Array, list[Job]]:
+def _by_gain(
+    waiting: Sequence[Job], left: Array, least: float = LEAST_GAIN
+) -> tuple[list[tuple[Task, float]], Array, list[Job]]:
     """Tasks in the order in which they pay, with the error after each; what is left then; and those that don't pay."""
     done, waiting = [], list(waiting)
     while waiting:
         best = min(waiting, key=lambda job: rms(left - job[1]))
-        if rms(left - best[1]) > (1 - LEAST_GAIN) * rms(left):
+        if rms(left - best[1]) > (1 - least) * rms(left):
             break
         left = left - best[1]
         done.append((best[0], rms(left)))
@@ -159,13 +171,14 @@ def _everywhere(family: str) -> Task:
     )
 
 
-def task_of(scene: Scene, cause: Repair, effect: FoundEffect) -> Task:
+def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = False) -> Task:
     """What is done about a cause; what it is worth stands open.
 
     Args:
         scene: the fitted model's, of the recorded rows.
         cause: with its parts of the fitted model.
         effect: the effect that it is cured as.
+        asked: whether the verdict asks for further measurements.
 
     Returns:
         The task.
@@ -190,8 +203,8 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect) -> Task:
         place=effect.location,
         change=known.cure.change if known else "",
         motion=motion(scene, cause.parts),
-        instruction=_settled(effect) + (known.cure.instruction.format(**words) if known else ""),
-        cure=effect.cure.replace("`", ""),
+        instruction=_settled(effect, asked) + (known.cure.instruction.format(**words) if known else ""),
+        cure=(known.cure.rule if known else effect.cure).replace("`", ""),
         confirm=effect.confirm,
     )
 
@@ -208,11 +221,16 @@ def _jump(effect: FoundEffect) -> str:
     return f" (it jumped by {', '.join(told)} in {axes})" if told else ""
 
 
-def _settled(effect: FoundEffect) -> str:
+def _settled(effect: FoundEffect, asked: bool) -> str:
     """What comes before the cure of a cause that these rows don't tell from others."""
     if effect.named_as == "effect":
         return ""
-    return f"First find out which it is: {effect.title} (see what to measure next). If {exact_phrase(effect)}: "
+    which = plain(effect.title)
+    if " or " not in which:  # kind and region: what they stand for is the best reading and the rivals nearest to it
+        near = [effect_in_words(each.effect, each.location) for each in effect.alternatives[:RIVALS]]
+        which = " or ".join([effect_in_words(effect.effect, effect.location), *near])
+    how = " (see what to measure next)" if asked else ""
+    return f"First find out which it is: {which}{how}. If {exact_phrase(effect)}: "
 
 
 def angle(radians: float) -> str:

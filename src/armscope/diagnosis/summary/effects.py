@@ -205,6 +205,7 @@ def with_weight(found: FoundEffect, background: Sequence[Background]) -> FoundEf
     """Minor or not: in an arm with small errors everywhere, a small effect is one of them.
 
     What is not geometry is measured by what the geometry of every arm leaves: it is what a calibration would not mend.
+    An effect is asked twice: by the share that a fit gives it, and by the share that its cure has.
     """
     ordinary = any(family.present for family in background)
     geometry = sum(family.share for family in background if family.family == GEOMETRIC and family.present)

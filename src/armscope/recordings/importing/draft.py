@@ -19,8 +19,20 @@ RADIANS_UP_TO = 2 * np.pi + 0.01
 METRES_UP_TO = 30.0
 """Coordinates whose largest is below this are metres: no arm stays within 30 mm of the origin."""
 
-_UNIT = r"[\s_.\-]*[\[(]?\s*(rad|deg|degrees|°|mm|m|millimeters|meters|rad/s|deg/s|nm|n\s?m|s|ms|kg|c|°c|degc)\s*[\])]?"
-JOINT = re.compile(r"(?P<word>.*?)[\s_.\[(\-]*(?P<number>\d{1,2})[\])]?(?P<unit>" + _UNIT + r")?", re.IGNORECASE)
+JOINT = re.compile(r"(?P<word>.*?)[\s_.\[(\-]*(?P<number>\d{1,2})(?!\d)[\])]?(?P<rest>\D*)")
+"""A column of one motor: words, its number, and what may follow: a unit, words."""
+ANGLE_UNITS = {
+    "rad": "rad",
+    "radians": "rad",
+    "deg": "deg",
+    "degree": "deg",
+    "degrees": "deg",
+    "°": "deg",
+    "grad": "deg",
+}
+"""Grad is German for degrees (a gon is 0.9 of them: the comment says so)."""
+LENGTH_UNITS = {"mm": "mm", "millimeters": "mm", "m": "m", "meters": "m"}
+OTHER_UNITS = ("rad/s", "deg/s", "nm", "n m", "s", "ms", "kg", "c", "°c", "degc")
 ANGLE_WORDS = (
     *("q", "j", "joint", "theta", "th", "axis", "axe", "achse", "gelenk", "a", "angle", "ang", "pos", "position"),
     *("encoder", "motor", "rax", "s"),
@@ -31,6 +43,8 @@ BESIDE = {
     "approach": ("approach", "dir", "direction"),
 }
 NOT_ANGLES = ("current", "i", "temp", "temperature", "volt", "m", "ddq", "qdd", "acc")
+MAKERS_LETTERS = ("s", "l", "u", "r", "b", "t")
+"""How Yaskawa-Motoman names the six motors of an arm, from the base to the tool."""
 COMMANDED = ("target", "cmd", "command", "commanded", "set", "desired", "nominal", "ref", "soll")
 MEASURED = ("measured", "meas", "actual", "act", "ist", "tracker", "laser", "leica", "faro", "mcs")
 
@@ -80,12 +94,15 @@ def _guess_columns(path: Path, table: ForeignTable) -> Iterator[str]:
             raise InputError(path, f"line {table.skip + 1}", ", ".join(table.names[:12]), rule, cure)
     numbers = table.values[:, angles]
     largest = _largest(numbers)
-    stated = _stated_unit(table.names[angles[0]], {"rad": "rad", "deg": "deg", "degrees": "deg", "°": "deg"})
+    stated = _stated_unit(table.names[angles[0]], ANGLE_UNITS)
     unit = stated or ("rad" if largest <= RADIANS_UP_TO else "deg")
     why = "stated by the name" if stated else f"guessed: none is beyond {largest:.4g}"
+    why += "; Grad read as German for degrees" if "grad" in _words(table.names[angles[0]]) else ""
+    unnumbered = table.header and not any(JOINT.fullmatch(table.names[column].strip()) for column in angles[:1])
+    why += "; no numbers in the names: in the table's order" if unnumbered else ""
     yield f"  angles: {{columns: {_listed(table, angles)}, unit: {unit}}}   # {why}; columns by likeness of names"
     largest = _largest(table.values[:, points])
-    stated = _stated_unit(table.names[points[0]], {"mm": "mm", "millimeters": "mm", "m": "m", "meters": "m"})
+    stated = _stated_unit(table.names[points[0]], LENGTH_UNITS)
     unit = stated or ("m" if largest <= METRES_UP_TO else "mm")
     why = "stated by the name" if stated else f"guessed: none is beyond {largest:.4g}"
     yield f"  position: {{columns: {_listed(table, points)}, unit: {unit}}}   # {why}; columns by likeness of names"
@@ -118,8 +135,35 @@ def _numbered(table: ForeignTable) -> dict[str, dict[int, int]]:
     for column, name in enumerate(table.names):
         found = JOINT.fullmatch(name.strip())
         if table.header and found and np.isfinite(table.values[:, column]).any():
-            groups.setdefault(found["word"].lower(), {}).setdefault(int(found["number"]), column)
+            behind = _without_unit(found["rest"].lower())
+            groups.setdefault(f"{found['word'].lower()} {behind}".strip(), {}).setdefault(int(found["number"]), column)
     return groups
+
+
+def _words(name: str) -> list[str]:
+    return [part for part in re.split(r"[^a-z°]+", name.lower()) if part]
+
+
+def _without_unit(words: str) -> str:
+    """What stands behind a number, without the unit at its end: `_rad`, ` [Grad]`, ` angle (deg)`."""
+    bare = words.strip(" _.-")
+    whole = bare.strip("[]() ")
+    units = {*ANGLE_UNITS, *LENGTH_UNITS, *OTHER_UNITS}
+    if whole in units:
+        return ""
+    ends = re.fullmatch(r"(.*?)[\s_.\-\[(]+([^\s_.\-\[(]+?)[\])]?", bare)
+    return ends[1].strip(" _.-[]()") if ends and ends[2] in units else bare
+
+
+def _named_joints(table: ForeignTable) -> list[int]:
+    """Columns of angles named by joint, as in a URDF (`elbow_joint`), or by a maker's letters, in the table's order."""
+    bare = {_words(name)[0]: column for column, name in reversed([*enumerate(table.names)]) if _words(name)}
+    if table.header and set(MAKERS_LETTERS) <= set(bare):
+        return [bare[letter] for letter in MAKERS_LETTERS]
+    others = {each for names in BESIDE.values() for each in names} | set(NOT_ANGLES)
+    named = [column for column, name in enumerate(table.names) if table.header and "joint" in _words(name)]
+    known = [column for column in named if np.isfinite(table.values[:, column]).any()]
+    return [column for column in known if not set(_words(table.names[column])) & others]
 
 
 def _in_a_row(group: dict[int, int]) -> list[int]:
@@ -141,6 +185,9 @@ def _motor_columns(table: ForeignTable) -> list[int]:
             continue
         commanded = bool(set(parts) & set(COMMANDED)) - bool(set(parts) & set(MEASURED))
         ranked.append((commanded, len(columns), -columns[0], columns))
+    named = _named_joints(table)
+    if len(named) >= FEWEST_MOTORS and all(len(named) > count for _, count, *_ in ranked):
+        return named
     return max(ranked)[-1] if ranked else []
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+import math
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,6 @@ from armscope.report.figures.arm import location_shares
 from armscope.report.figures.error_field import ErrorField, turnable
 from armscope.report.sectioning import Section
 from armscope.report.subject import Subject
-from armscope.verdict.contributions import Contributions
 from armscope.verdict.wording import capitalised, millimetres, plain
 
 FINEST = 32_767
@@ -25,11 +25,16 @@ FINEST = 32_767
 def _context(subject: Subject) -> dict[str, Any]:
     worth, verdict = subject.worth, subject.verdict
     before = rms(worth.before)
+
+    def told(mm: float) -> str:
+        return millimetres(subject.expected(mm))
+
     return {
         "field": turnable(subject.arm, _field(subject)),
-        "cures": Markup(json.dumps(_data(worth), separators=(",", ":"))),
+        "cures": Markup(json.dumps(_data(subject), separators=(",", ":"))),
+        "held_out": math.isfinite(verdict.held_out.after),
         "switches": [
-            (capitalised(plain(name)), f"alone: {millimetres(before)} → {millimetres(rms(worth.before - moved))}")
+            (capitalised(plain(name)), f"alone: {told(before)} → {told(rms(worth.before - moved))}")
             for name, moved in worth.switches
         ],
         "shown": len(worth.rows),
@@ -38,9 +43,17 @@ def _context(subject: Subject) -> dict[str, Any]:
     }
 
 
-def _data(worth: Contributions) -> dict[str, Any]:
-    """What cures.js reads: mm as 16-bit whole numbers of a unit of their own."""
-    return {"before": _packed(worth.before), "cures": [_packed(moved) for _, moved in worth.switches]}
+def _data(subject: Subject) -> dict[str, Any]:
+    """What cures.js reads: mm as 16-bit whole numbers of a unit of their own, and what to expect of other poses.
+
+    The square expected is a straight line over the square on the recorded rows: its value at no error, and its slope.
+    """
+    worth = subject.worth
+    ends = [(rms(errors) ** 2, subject.expected(rms(errors)) ** 2) for errors in (worth.before, worth.left)]
+    (most, expected), (least, expected_least) = ends
+    slope = (expected - expected_least) / (most - least) if most > least else 1.0
+    line = [expected_least - slope * least, slope]
+    return {"expected": line, "before": _packed(worth.before), "cures": [_packed(moved) for _, moved in worth.switches]}
 
 
 def _packed(errors: Array) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from armscope.physics.registry import effect_named
-from armscope.verdict.effects import INDISTINGUISHABLE_NATS, Alternative, FoundEffect, Parameter
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS, INTERVAL, Alternative, FoundEffect, Parameter
 from armscope.verdict.wording import (
     Reading,
     capitalised,
@@ -26,6 +26,8 @@ MOST_PARAMETERS = 8
 UNKNOWN_MASSES = "compliance_times_moment"
 LEFT_OPEN = 10.0
 """A parameter whose standard error would move the tool so many times as far as its effect does is left open."""
+HALF_A_PERIOD = {"phase": math.pi, "direction": math.pi / 2}
+"""Where a wave is largest, and about which line an axis tilts, are open when their intervals hold every angle."""
 RELIABLE = 0.5
 """An effect chosen in fewer of the resampled data sets than this is not to be relied on."""
 
@@ -140,6 +142,10 @@ def reading_of(parameter: Parameter, effect: FoundEffect) -> Reading:
         reading = replace(reading, value=f"+{reading.value}", also=also)
     if implausible(parameter, effect):
         return Reading(reading.label, "undetermined", "beyond what arms have: it stands in for others")
+    if parameter.name in HALF_A_PERIOD:
+        if INTERVAL * parameter.stderr < HALF_A_PERIOD[parameter.name]:
+            return reading
+        return Reading(reading.label, "undetermined", "these poses leave it open")
     lever_mm = {"mm": 1.0, "rad": 1e3}.get(parameter.unit)  # an angle acts at about a metre
     open_mm = parameter.stderr * lever_mm if lever_mm is not None and math.isfinite(parameter.stderr) else 0.0
     if len(effect.parameters) < 2 or open_mm < LEFT_OPEN * effect.rms_at_tool_mm or effect.nameless:

@@ -3,14 +3,14 @@
 (() => {
   const panel = document.getElementById("switches");
   if (panel) {
-    const { before, cures } = JSON.parse(panel.querySelector("script").textContent), BINS = 28;
+    const { before, cures, expected } = JSON.parse(panel.querySelector("script").textContent), BINS = 28;
     const unpack = ({ unit, values }) => {
       const raw = atob(values), bytes = new Uint8Array(raw.length);
       for (let i = 0; i < raw.length; i++) bytes[i] = raw.charCodeAt(i);
       return Float32Array.from(new Int16Array(bytes.buffer), whole => unit * whole);
     };
     const start = unpack(before), moved = cures.map(unpack), count = start.length / 3;
-    const boxes = [...panel.querySelectorAll("[data-cure]")], shown = document.getElementById("cured-rms"), chart = document.getElementById("cured-histogram");
+    const boxes = [...panel.querySelectorAll("[data-cure]")], shown = document.getElementById("cured-rms"), chart = document.getElementById("cured-histogram"), here = document.getElementById("recorded-rms");
     const sizes = errors => Array.from({ length: count }, (_, row) => Math.hypot(errors[3 * row], errors[3 * row + 1], errors[3 * row + 2]));
     const end = Math.max([...sizes(start)].sort((a, b) => a - b)[Math.floor(0.99 * (count - 1))], 1e-6);
     const bins = errors => sizes(errors).reduce((sums, size) => { sums[Math.min(BINS - 1, Math.floor(size / end * BINS))]++; return sums; }, new Array(BINS).fill(0));
@@ -20,7 +20,9 @@
     const show = () => {
       const errors = Float32Array.from(start);
       boxes.forEach(box => { if (box.checked) moved[+box.dataset.cure].forEach((value, at) => { errors[at] -= value; }); });
-      shown.textContent = `${Number(rms(errors).toPrecision(3))} mm`;
+      const recorded = rms(errors), told = mm => `${Number(mm.toPrecision(3))} mm`;
+      shown.textContent = told(Math.sqrt(Math.max(expected[0] + expected[1] * recorded * recorded, 0)));
+      if (here) here.textContent = told(recorded);
       const now = bins(errors), top = Math.max(...first, ...now);
       chart.innerHTML = `<path d="${path(now, top)}" fill="var(--after, #0072b2)"/><path d="${path(first, top)}" fill="none" stroke="var(--before, #d55e00)" stroke-width="1.5"/>`
         + `<text x="0" y="115" font-size="11" fill="var(--quiet)">0</text><text x="320" y="115" font-size="11" text-anchor="end" fill="var(--quiet)">3D error, ≥ ${Number(end.toPrecision(2))} mm</text>`;
