@@ -73,4 +73,8 @@ def test_a_centre_of_mass_that_moves_takes_the_inertia_about_the_joint_along() -
         moved = pin.Inertia(body.mass, body.lever + off / body.mass, body.inertia)
         changed = moved.toDynamicParameters() - body.toDynamicParameters()
         np.testing.assert_allclose(slopes @ off, changed, atol=1e-10)
+        far = 1e6 * off
+        moved = pin.Inertia(body.mass, body.lever + far / body.mass, body.inertia)
+        changed = moved.toDynamicParameters() - body.toDynamicParameters()
+        np.testing.assert_allclose(moved_centre(body.toDynamicParameters(), far) @ far, changed, atol=1e-8)
     np.testing.assert_array_equal(moved_centre(np.zeros(10))[4:], 0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from armscope.motion import catalogue
 from armscope.motion.causes import Cause, PlacedCause, Seen
 from armscope.motion.constants import LIBRARY
 from armscope.motion.laws import Law
-from armscope.robot.dynamics import leaning_gravity, moved_centre
+from armscope.robot.dynamics import MovingArm, leaning_gravity, moved_centre
 
 
 def place_masses(seen: Seen) -> Iterator[PlacedCause]:
@@ -36,6 +37,28 @@ def place_masses(seen: Seen) -> Iterator[PlacedCause]:
     if arm.n_links > 1:
         yield from _payloads(seen, identity[:, -10:-6])
         yield from _gravity(seen, tuple(range(arm.n_motors)))
+
+
+def at_its_place(placed: PlacedCause, arm: MovingArm, values: Array) -> PlacedCause:
+    """A link whose centre lies elsewhere, its inertia about its joint exact for the moments fitted.
+
+    The slope leaves out their square, which a light link's motion shows: an inertia was named beside it.
+
+    Args:
+        placed: of `catalogue.LINK_CENTRE`.
+        arm: the arm as stated.
+        values: (c,) its moments, kg m.
+
+    Returns:
+        It, with other columns.
+    """
+    axes = ["xyz".index(name[1]) for name, _ in placed.parameters]
+    link, by = int(placed.location.split()[1]) - 1, np.zeros(3)
+    by[axes] = values
+    own = slice(10 * link, 10 * link + 10)
+    inertial = np.zeros((len(arm.inertial), len(axes)))
+    inertial[own] = moved_centre(arm.inertial[own], by)[:, axes]
+    return replace(placed, inertial=inertial)
 
 
 def _inertial(

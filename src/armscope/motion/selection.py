@@ -15,9 +15,11 @@ from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, SelectedEffect, build_problem
 from armscope.inference.search import Search
 from armscope.motion import catalogue
+from armscope.motion.causes import PlacedCause
 from armscope.motion.constants import LIBRARY, NOISE, PRIOR
 from armscope.motion.laws import Law
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
+from armscope.motion.masses import at_its_place
 from armscope.motion.preparation import Preparation
 from armscope.motion.rows import MotionRows, SoFar, build_rows, stated_model
 from armscope.motion.space import build_space
@@ -135,6 +137,10 @@ def refined(selected: SelectedCauses, between: Between) -> TorqueLayout | None:
     placed = list(layout.placed)
     for number in selected.best.candidates:
         cause, columns = placed[number], layout.columns[number]
+        if cause.cause is catalogue.LINK_CENTRE:
+            exact, rests = _exact(selected, number)
+            placed[number], moved = exact, moved or not rests
+            continue
         if cause.cause not in SCANNED or not isinstance(cause.columns, Law):
             continue
         values = selected.coefficients[columns]
@@ -157,6 +163,18 @@ def refined(selected: SelectedCauses, between: Between) -> TorqueLayout | None:
         placed[number] = replace(cause, columns=replace(cause.columns, numbers=(*others, better)), scanned=scanned)
         moved = moved or not rests
     return replace(layout, placed=tuple(placed)) if moved else None
+
+
+def _exact(selected: SelectedCauses, number: int) -> tuple[PlacedCause, bool]:
+    """A moved centre with the square of its moments, and whether that was in its columns already, within errors."""
+    layout, columns = selected.rows.layout, selected.rows.layout.columns[number]
+    cause, values = layout.placed[number], selected.coefficients[columns]
+    exact = at_its_place(cause, layout.arm, values)
+    assert cause.inertial is not None
+    assert exact.inertial is not None
+    error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
+    unsure = np.sqrt(np.sum((cause.inertial * error) ** 2, axis=1))
+    return exact, bool(np.all(np.abs((exact.inertial - cause.inertial) @ values) <= NOISE.settled * unsure))
 
 
 def _within(progress: Progress, start: float, text: str, done: float) -> None:

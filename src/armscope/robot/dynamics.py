@@ -171,18 +171,19 @@ def inertial_parameters(model: pin.Model) -> Array:
     return np.concatenate([model.inertias[joint].toDynamicParameters() for joint in range(1, model.njoints)])
 
 
-def moved_centre(inertial: Array) -> Array:
+def moved_centre(inertial: Array, by: Array | None = None) -> Array:
     """How a body's inertial parameters change as its centre of mass lies elsewhere, mass and inertia about it kept.
 
-    The inertia about the joint changes with it (Huygens and Steiner), along its slope.
+    The inertia about the joint changes with it (Huygens and Steiner): along its slope, or exactly at given moments.
 
     Args:
         inertial: (10,) `PARAMETERS` of the body; one without mass has no inertia to move.
+        by: (3,) kg m by which the first moments change where columns times them are to be the whole change.
 
     Returns:
         (10, 3) per kg m of the first moments.
     """
-    mass, moment = inertial[0], inertial[1:4]
+    mass, moment = inertial[0], inertial[1:4] + (0.0 if by is None else by / 2)
     found = np.zeros((10, 3))
     found[1:4] = np.eye(3)
     if mass > 0:
