@@ -186,6 +186,13 @@ FOLLOWS_MODEL = frozenset(
     {"load friction", "torque", "delayed torque", "powers of torque", "clinging over torques", "curve over load"}
 )
 """Laws of what the model says so far; the others depend on the motion alone."""
+
+
+def follows_motion(columns: object, joints: tuple[int, ...]) -> bool:
+    """Whether columns are a law of one joint's own motion, which nothing of the model changes."""
+    return isinstance(columns, Law) and columns.kind not in FOLLOWS_MODEL and len(joints) == 1
+
+
 DRIVERS: dict[str, Callable[[Moment, int], Array]] = {
     "joint angle": lambda m, j: m.signals.q[:, j],
     "speed": lambda m, j: m.signals.dq[:, j],

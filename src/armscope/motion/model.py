@@ -13,6 +13,7 @@ from armscope.motion import catalogue
 from armscope.motion.causes import Moment, PlacedCause
 from armscope.motion.constants import PRIOR
 from armscope.motion.dry_friction import DryFriction, own_columns
+from armscope.motion.laws import follows_motion
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.preparation import Preparation, Signals, parts
 from armscope.motion.rows import SoFar
@@ -69,7 +70,13 @@ class MotionModel:
         runs = {run for cause in self.causes for run in cause.placed.runs}
         everywhere = self._added(None)
         of_runs = {run: self._added(run) - everywhere for run in runs}
-        return SoFar(self.inertial + everywhere, self.joints[:, :CAUSES_OF_OWN], delay, of_runs)
+        laws = tuple(
+            (each.placed, each.values)
+            for each in self.causes
+            if follows_motion(each.placed.columns, each.placed.joints)
+        )
+        background = self.joints[:, :CAUSES_OF_OWN]
+        return SoFar(self.inertial + everywhere, background, delay, of_runs, laws=laws)
 
     def _added(self, run: str | None) -> Array:
         """(10 n,) inertial parameters that causes add: those of every run, or those in one run."""
@@ -99,6 +106,8 @@ class MotionModel:
         bodies = Bodies(self.arm, followed.inertial_in(signals.run), signals.payload)
         dry = DryFriction.of(self.arm, followed.background[:, 1], turning, FILTER.sharper_at_rest)
         moment = Moment(signals, rigid, predicted, self._gravity(signals.q), rate, bodies, dry)
+        moment = followed.with_laws(moment)
+        predicted = moment.predicted
         total = regressor @ (self.inertial + self._added(signals.run)) + carried
         total += np.einsum("nmk,mk->nm", own, joints) + self.gains * predicted
         total += self.response * dry.rounded(signals, predicted, followed.delay, rate)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices, Progress, unheard
-from armscope.motion.causes import Moment
+from armscope.motion.causes import Moment, PlacedCause
 from armscope.motion.dry_friction import DryFriction, own_columns
 from armscope.motion.laws import FOLLOWS_MODEL, Law
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
@@ -83,6 +83,7 @@ class SoFar:
         delay: (m,) s by which torques are late: where friction changes sides is then seen later, too.
         of_runs: (10 n,) inertial parameters that are added in some runs: a load that only these carry.
         of_bodies: whether masses were held near the stated ones; else they are whatever the motion tells of them.
+        laws: causes of one joint that follow the motion alone, with their numbers: a gain, a delay is theirs, too.
     """
 
     inertial: Array
@@ -90,10 +91,21 @@ class SoFar:
     delay: Array
     of_runs: Mapping[str, Array] = field(default_factory=dict)
     of_bodies: bool = True
+    laws: tuple[tuple[PlacedCause, Array], ...] = ()
 
     def inertial_in(self, run: str) -> Array:
         """(10 n,) inertial parameters in a run."""
         return self.inertial + self.of_runs.get(run, 0.0)
+
+    def with_laws(self, moment: Moment) -> Moment:
+        """What is predicted, with the torque of the laws."""
+        if not self.laws:
+            return moment
+        predicted = moment.predicted.copy()
+        for placed, values in self.laws:
+            assert placed.columns is not None
+            predicted[:, list(placed.joints)] += placed.columns(moment) @ values
+        return replace(moment, predicted=predicted)
 
 
 def stated_model(arm: MovingArm) -> SoFar:
@@ -200,8 +212,8 @@ class _Piece:
         bodies = Bodies(arm, inertial if model.of_bodies else arm.inertial, signals.payload)
         dry = DryFriction.of(arm, model.background[:, 1])
         rate = how.rate / signals.stride
-        self.rounded = dry.rounded(signals, predicted, model.delay, rate)
-        self.moment = Moment(signals, rigid, predicted, gravity, rate, bodies, dry)
+        self.moment = model.with_laws(Moment(signals, rigid, predicted, gravity, rate, bodies, dry))
+        self.rounded = dry.rounded(signals, self.moment.predicted, model.delay, rate)
 
     def low(self, values: Array) -> Array:
         """The rows of samples."""

@@ -17,7 +17,7 @@ from armscope.inference.search import Search
 from armscope.motion import catalogue
 from armscope.motion.causes import PlacedCause
 from armscope.motion.constants import LIBRARY, NOISE, PRIOR
-from armscope.motion.laws import Law
+from armscope.motion.laws import Law, follows_motion
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.masses import at_its_place
 from armscope.motion.preparation import Preparation
@@ -71,16 +71,20 @@ def model_so_far(layout: TorqueLayout, coefficients: Array) -> SoFar:
     """What load, delay and gain follow: inertial parameters with all that was added to them, and the background."""
     inertial = layout.arm.inertial + layout.inertial_scale * coefficients[layout.inertial]
     delay, of_runs = np.zeros(layout.arm.n_motors), dict[str, Array]()
+    laws: list[tuple[PlacedCause, Array]] = []
     for cause, columns in zip(layout.placed, layout.columns, strict=True):
         if cause.inertial is not None and not cause.runs:
             inertial = inertial + cause.inertial @ coefficients[columns]
         elif cause.inertial is not None and np.any(coefficients[columns]):
             for run in cause.runs:
                 of_runs[run] = of_runs.get(run, 0.0) + cause.inertial @ coefficients[columns]
+        elif follows_motion(cause.columns, cause.joints) and np.any(coefficients[columns]):
+            laws.append((cause, coefficients[columns]))
         if cause.cause is catalogue.DELAY:
             delay[cause.joints[0]] += coefficients[columns[0]]
     own = coefficients[layout.own].reshape(-1, OWN)[:, :CAUSES_OF_OWN]
-    return SoFar(inertial, np.nan_to_num(layout.arm.stated_background) + own, delay, of_runs)
+    background = np.nan_to_num(layout.arm.stated_background) + own
+    return SoFar(inertial, background, delay, of_runs, laws=tuple(laws))
 
 
 def select_causes(
