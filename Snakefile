@@ -31,8 +31,12 @@ include: "workflow/rules/fleet.smk"
 # what takes less time than its own submission to a cluster, or needs the network or the checkout itself
 localrules:
     all,
+    audit,
     bench,
+    claims,
     fetch_raw,
+    fleet_page,
+    paper_report,
     proof_real_seed,
     proof_seed,
     readme,

@@ -1,12 +1,14 @@
 """The workflow as its users use it: overrides, clear errors, and reruns of what a change touches, nothing else."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+import yaml
 
 ROOT = Path(__file__).parents[1]
 TARGETS = ("paper/table2.csv", "paper/figures/fig06.png")
@@ -94,3 +96,30 @@ def test_a_wrong_override_is_one_clear_error(finished, override, expected):
 def test_a_real_arm_that_is_not_there_is_skipped_with_a_reason(finished):
     printed = snakemake(finished, "results/small/paper/table2.csv", "--config", "recordings_dir=nowhere")
     assert "is not there" in printed
+
+
+def after(rules, follows):
+    """All rules that need one of some rules, by whatever way."""
+    found, waiting = set(), [later for rule in rules for later in follows.get(rule, ())]
+    while waiting:
+        if (rule := waiting.pop()) not in found:
+            found.add(rule)
+            waiting += follows.get(rule, ())
+    return found
+
+
+@pytest.mark.parametrize("profile", ["slurm", "slurm-generic"])
+def test_no_job_of_a_cluster_waits_for_itself(finished, profile):
+    """A group is one job: what one of its rules needs from outside must not need another one of them."""
+    drawn = snakemake(finished, "all", "--rulegraph", "dot", "--config", "recordings_dir=nowhere")
+    names = dict(re.findall(r'(\d+)\[label = "(\w+)"', drawn))
+    follows = {}
+    for before, later in re.findall(r"(\d+) -> (\d+)", drawn):
+        follows.setdefault(names[before], set()).add(names[later])
+    asked = yaml.safe_load((finished / "profiles" / profile / "config.yaml").read_text())
+    assert asked["cores"] == 1  # else a group asks for as many cores as it has jobs that do not wait for each other
+    assert {"measure", "table2", "proof_score"} <= set(asked["groups"]) & set(names.values())
+    for group in set(asked["groups"].values()):
+        inside = {rule for rule, name in asked["groups"].items() if name == group}
+        outside = after(inside, follows) - inside
+        assert not after(outside, follows) & inside, group

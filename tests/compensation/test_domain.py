@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from armscope.compensation import domain as module
 from armscope.compensation.domain import Domain
 
 
@@ -21,6 +22,14 @@ def test_every_mixture_of_identification_rows_is_inside(seed):
     assert np.all(distance < 1e-9)
     assert np.all(domain.nearest(data) < 1e-4)
     assert len(what) == 5
+
+
+def test_a_long_table_has_the_extent_of_all_its_pieces(monkeypatch):
+    whole = Domain.of(rows(), ["q1", "q2", "q3"], ["rad"] * 3)
+    monkeypatch.setattr(module, "ROWS_AT_A_TIME", 7)
+    pieces = Domain.of(rows(), ["q1", "q2", "q3"], ["rad"] * 3)
+    for name in ("low", "high", "standardised_rows"):
+        np.testing.assert_allclose(getattr(pieces, name), getattr(whole, name), atol=1e-12)
 
 
 def test_distance_is_counted_in_standard_deviations_of_the_input_that_leaves():

@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from armscope.fitting.placement import FlangePoses, Frames, frame_columns, place_frames, rigid_motion
+from armscope.fitting.constants import STEPS
+from armscope.fitting.placement import FlangePoses, Frames, _Placement, frame_columns, place_frames, rigid_motion
 
 
 def drawn(rng: np.random.Generator, n_rows: int, noise: float = 0.0) -> tuple[FlangePoses, Frames]:
@@ -62,6 +63,19 @@ def test_columns_are_what_a_small_step_does() -> None:
         there = np.einsum("nij,nj->ni", moved.rotations[poses.base], poses.points(moved.tools))
         there = there + moved.translations[poses.base]
         np.testing.assert_allclose((there - points) / 1e-6, columns[:, :, number], atol=1e-5)
+
+
+def test_sums_by_base_and_tool_are_those_of_all_columns() -> None:
+    rng = np.random.default_rng(4)
+    poses, true = drawn(rng, 9 * STEPS.chunk_rows + 7, noise=0.01)  # each pair of base and tool takes several pieces
+    weights = rng.uniform(0.1, 1, len(poses.base))
+    problem = _Placement(poses, lambda _: weights)
+    left = problem.residual(true)
+    columns = frame_columns(poses.points(true.tools), poses.turned, poses.base, poses.tool, (2, 2))
+    X, w = columns.reshape(left.size, -1), np.repeat(weights, 3)
+    found = problem.quadratic(true, left)
+    np.testing.assert_allclose(found.matrix, X.T @ (w[:, None] * X), rtol=1e-10, atol=1e-8)
+    np.testing.assert_allclose(found.right, X.T @ (w * left.reshape(-1)), rtol=1e-10, atol=1e-8)
 
 
 @pytest.mark.parametrize("far", [False, True])

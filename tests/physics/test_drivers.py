@@ -58,6 +58,37 @@ def test_a_load_grows_per_kilogram_as_it_does_when_the_table_says_one_kilogram_m
     np.testing.assert_allclose(scene.driver(Driver("heavier", (torque,))), more - scene.driver(torque), atol=1e-9)
 
 
+def test_a_heavier_link_loads_as_one_of_that_mass_does() -> None:
+    arm = arm_named("six-axis")
+    table = full_table(arm, 20, seed=10)
+    stated = LoadedArm(arm, table)
+    for link in (1, 3, 6):
+        heavier = LoadedArm(arm, table, Misstated(masses=0.2 * np.eye(6)[link - 1]))
+        for found, expected in zip(stated.with_heavier_link(link, 0.2).wrenches, heavier.wrenches, strict=True):
+            np.testing.assert_allclose(found, expected, atol=1e-9)
+
+
+def test_a_heavier_payload_loads_as_one_of_that_weight_does_where_it_is_off_its_place_too() -> None:
+    arm = arm_named("six-axis")
+    table = full_table(arm, 20, seed=11)
+    for offset in (None, np.array([0.1, -0.2, 0.05])):
+        stated = LoadedArm(arm, table, Misstated(payload_offset=offset))
+        heavier = LoadedArm(arm, table, Misstated(payload_kg=3.0, payload_share=0.2, payload_offset=offset))
+        for found, expected in zip(stated.with_heavier_payload(3.0, 0.2).wrenches, heavier.wrenches, strict=True):
+            np.testing.assert_allclose(found, expected, atol=1e-9)
+
+
+def test_a_motor_without_load_is_on_no_side_of_its_gap() -> None:
+    arm = arm_named("seven-axis")
+    table = full_table(arm, 40, seed=5)
+    scene = Scene(arm, table)
+    unloaded = np.abs(scene.torques[:, 6]) < 1e-12  # nothing is off the last axis but a payload
+    assert 0 < unloaded.sum() < len(table)
+    side = scene.driver(Driver("load side", (7,)))
+    assert not side[unloaded].any()
+    np.testing.assert_array_equal(side[~unloaded], np.sign(scene.torques[~unloaded, 6]))
+
+
 @pytest.mark.parametrize("bar", ["rod", "rocker"])
 def test_a_bars_driver_is_the_slope_of_the_closed_linkage(bar: str) -> None:
     arm = arm_named("parallelogram-120kg")

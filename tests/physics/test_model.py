@@ -65,3 +65,14 @@ def test_a_file_that_is_no_model_is_refused(tmp_path: Path) -> None:
     (tmp_path / "model.yaml").write_text("name: x\n", encoding="utf-8")
     with pytest.raises(InputError, match="armscope model 1"):
         load_model(tmp_path / "model.yaml")
+
+
+def test_models_move_alike_where_only_zeros_differ() -> None:
+    model = model_with_everything("six-axis", 5)
+    first, *others = model.parts
+    nothing = Part(first.placed, np.zeros(len(first.values)))
+    without = replace(model, parts=tuple(others))
+    assert without.moves_like(replace(model, parts=(*others, nothing)))
+    assert not without.moves_like(model)
+    assert not model.moves_like(replace(model, parts=(Part(first.placed, 1.01 * first.values), *others)))
+    assert not model.moves_like(replace(model, bases=dict(model.bases)))

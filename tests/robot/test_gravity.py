@@ -5,7 +5,13 @@ import pinocchio as pin
 import pytest
 
 from armscope.robot import chain, forward_kinematics
-from armscope.robot.gravity import gravity_torques, gravity_wrenches, mass_moment_regressor
+from armscope.robot.gravity import (
+    gravity_torques,
+    gravity_wrenches,
+    mass_moment_regressor,
+    weight_at_tool,
+    weight_of_link,
+)
 from tests.robot.arms import STANDARD, TOOL_MM, as_modified, dh_arm, random_masses
 from tests.robot.test_three_forms import urdf_arm
 
@@ -70,6 +76,27 @@ def test_force_is_the_weight_of_all_that_hangs_beyond(arm, q):
     force, _ = gravity_wrenches(arm, chain(arm, q))
     for joint in range(6):
         assert np.allclose(force[:, joint], arm.masses[joint:].sum() * arm.gravity, atol=1e-9)
+
+
+def test_loads_are_the_sum_of_every_link_and_the_payload_alone(arm, q):
+    frames, payload = chain(arm, q), np.linspace(0, 20, len(q))
+    alone = [weight_of_link(arm, frames, link) for link in range(1, 7)] + [weight_at_tool(arm, frames, payload)]
+    for kind, whole in enumerate(gravity_wrenches(arm, frames, payload)):
+        np.testing.assert_allclose(sum(each[kind] for each in alone), whole, rtol=1e-12, atol=1e-9)
+
+
+def test_one_link_is_the_difference_that_its_mass_makes(arm, q):
+    frames = chain(arm, q)
+    for link in range(1, 7):
+        without = arm.masses * (np.arange(1, 7) != link)
+        pairs = zip(
+            gravity_wrenches(arm, frames),
+            gravity_wrenches(arm, frames, masses=without),
+            weight_of_link(arm, frames, link),
+            strict=True,
+        )
+        for whole, less, alone in pairs:
+            np.testing.assert_allclose(np.broadcast_to(alone, whole.shape), whole - less, atol=1e-9)
 
 
 def test_moment_about_a_joint_is_that_of_pinocchios_joint_force(arm, q):

@@ -72,12 +72,13 @@ class Domain:
         # a still input's unit makes its tolerance the allowed distance
         scale = np.where(moving, table.std(axis=0), tolerances / ALLOWED)
         mean = table.mean(axis=0)
-        z = (table - mean) / scale
-        extent = z @ _directions(moving, units).T
-        thin = z[:: -(-len(z) // MOST_NEIGHBOURS)]
-        return Domain(
-            tuple(names), tuple(units), len(table), mean, scale, moving, extent.min(axis=0), extent.max(axis=0), thin
-        )
+        directions = _directions(moving, units)
+        low, high = np.full(len(directions), np.inf), np.full(len(directions), -np.inf)
+        for start in range(0, len(table), ROWS_AT_A_TIME):
+            extent = (table[start : start + ROWS_AT_A_TIME] - mean) / scale @ directions.T
+            low, high = np.minimum(low, extent.min(axis=0)), np.maximum(high, extent.max(axis=0))
+        thin = (table[:: -(-len(table) // MOST_NEIGHBOURS)] - mean) / scale
+        return Domain(tuple(names), tuple(units), len(table), mean, scale, moving, low, high, thin)
 
     def outside(self, inputs: ArrayLike) -> tuple[Array, NDArray[np.str_]]:
         """How far (N,) rows (N, k) lie outside, in standard deviations (0 inside), and what does most ("" inside)."""

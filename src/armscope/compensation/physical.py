@@ -13,6 +13,7 @@ from armscope.compensation.domain import Domain
 from armscope.compensation.file_contents import IdentifiedContent
 from armscope.core.files import read_json, write_json
 from armscope.core.inputs import InputError, mapping, validate
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.physics.drivers import KINDS, kinds_in
 from armscope.physics.frames import TOOL_FRAME, tool_key
@@ -22,6 +23,8 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain
 from armscope.robot.gravity import gravity_torques, mass_moment_regressor
 
+MOST_TORQUES = 20_000
+"""Rows on which mass moments are fitted, spread evenly: a hundred for each."""
 FORMAT = "armscope domain 1"
 FILE = "domain.json"
 WHAT = "domain.json of `armscope diagnose`"
@@ -211,8 +214,9 @@ def _torque_weights(arm: Arm, recordings: Recordings) -> Array | None:
     torque = recordings.torque
     if torque is None or np.isnan(torque).any():
         return None
-    columns = _torque_columns(arm, recordings.motor_angles, _payload(recordings))
-    fitted = [np.linalg.lstsq(columns[:, j], torque[:, j], rcond=1e-8)[0] for j in range(arm.n_motors)]
+    rows = spread_evenly(len(recordings), MOST_TORQUES)
+    columns = _torque_columns(arm, recordings.motor_angles[rows], _payload(recordings)[rows])
+    fitted = [np.linalg.lstsq(columns[:, j], torque[rows, j], rcond=1e-8)[0] for j in range(arm.n_motors)]
     return np.array(fitted)
 
 

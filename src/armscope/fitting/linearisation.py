@@ -52,6 +52,7 @@ class LinearisedTable:
     _scenes: list[tuple[Indices, Scene]] = field(default_factory=list, repr=False)
     _model: FittedModel | None = field(default=None, repr=False)
     _postures: list[Posture] = field(default_factory=list, repr=False)
+    _left: tuple[FittedModel, ChannelResiduals] | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         self.channels = self.channels or supported(self.recordings)
@@ -125,8 +126,13 @@ def linearised(rows: Measured) -> LinearisedTable:
 
 
 def residuals(model: FittedModel, rows: Measured) -> ChannelResiduals:
-    """What a model leaves of every row in every channel: measured minus modelled."""
+    """What a model leaves of every row in every channel: measured minus modelled.
+
+    A table remembers what the last model left: a search ends where a fit begins.
+    """
     table = linearised(rows)
+    if table._left is not None and table._left[0].moves_like(model):
+        return table._left[1]
 
     def of_part(chunks: Chunks) -> list[tuple[Indices, list[Array]]]:
         return [(at, [channel.residual(model, posture) for channel in table.channels]) for at, posture in chunks]
@@ -136,7 +142,8 @@ def residuals(model: FittedModel, rows: Measured) -> ChannelResiduals:
         for at, of_channels in part:
             for values, residual in zip(left.values(), of_channels, strict=True):
                 values[at] = residual
-    return ChannelResiduals(left)
+    table._left = model, ChannelResiduals(left)
+    return table._left[1]
 
 
 def point_residuals(model: FittedModel, recordings: Recordings) -> Array:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -165,11 +166,31 @@ class _Placement(NonlinearProblem[Frames, Array]):
 
     def quadratic(self, state: Frames, residual: Array) -> Quadratic:
         self.weights = self.weigh(residual)
-        poses, counts = self.poses, (len(state.rotations), len(state.tools))
-        columns = frame_columns(poses.points(state.tools), poses.turned, poses.base, poses.tool, counts)
-        X = columns.reshape(residual.size, -1)
-        weighted = X * np.repeat(self.weights, 3)[:, None]
-        return Quadratic(weighted.T @ X, weighted.T @ residual.reshape(-1), np.zeros(X.shape[1]))
+        poses, points = self.poses, self.poses.points(state.tools)
+        n_bases, n_tools = len(state.rotations), len(state.tools)
+        right = np.zeros(6 * n_bases + 3 * n_tools)
+        matrix = np.zeros((len(right), len(right)))
+        for base, tool, rows in self.together:
+            at = np.concatenate([6 * base + np.arange(6), 6 * n_bases + 3 * tool + np.arange(3)])
+            one = np.zeros(len(rows), dtype=np.intp)
+            X = frame_columns(points[rows], poses.turned[rows], one, one, (1, 1)).reshape(3 * len(rows), -1)
+            weighted = X * np.repeat(self.weights[rows], 3)[:, None]
+            matrix[np.ix_(at, at)] += weighted.T @ X
+            right[at] += weighted.T @ residual[rows].reshape(-1)
+        return Quadratic(matrix, right, np.zeros(len(right)))
+
+    @functools.cached_property
+    def together(self) -> list[tuple[int, int, Indices]]:
+        """(base, tool, rows) of rows whose columns are their base's and their tool's alone, some at a time."""
+        base, tool = self.poses.base, self.poses.tool
+        pair = base * (int(tool.max(initial=0)) + 1) + tool
+        order = np.argsort(pair, kind="stable")
+        kinds = np.split(order, np.flatnonzero(np.diff(pair[order])) + 1) if len(order) else []
+        return [
+            (int(base[rows[0]]), int(tool[rows[0]]), rows[start : start + STEPS.chunk_rows])
+            for rows in kinds
+            for start in range(0, len(rows), STEPS.chunk_rows)
+        ]
 
     def misfit(self, state: Frames, residual: Array) -> float:
         return float(self.weights @ np.sum(residual**2, axis=1))

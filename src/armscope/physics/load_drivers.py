@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 SMALL_SHARE = 1e-3
 """Of a link's mass, by which slopes are taken: what bends with the load hardly does so here."""
 
+ROUNDING_NM = 1e-9
+"""Torque below which a motor bears no load, on neither side of its gap: what rounding leaves of none."""
+
 
 def _payload(scene: Scene) -> Array:
     return scene.payload
@@ -55,8 +58,7 @@ def _unit_mass_torques(scene: Scene) -> Array:
 
 def _heavier(scene: Scene, load: Driver) -> Array:
     """Change of a load driver per kilogram more at the tool point."""
-    more = replace(scene.misstated, payload_kg=scene.misstated.payload_kg + 1.0)
-    heavier = scene.remember("heavier", lambda: scene.loaded_as(more))
+    heavier = scene.remember("heavier", lambda: scene.with_heavier_payload(1.0, 0.0))
     change: Array = heavier.driver(load) - scene.driver(load)
     return change
 
@@ -71,8 +73,7 @@ def _off_centre(scene: Scene, load: Driver, axis: int) -> Array:
 
 def _heavier_by_share(scene: Scene, load: Driver) -> Array:
     """Change of a load driver per share of the stated payload that it is heavier."""
-    more = replace(scene.misstated, payload_share=scene.misstated.payload_share + 1.0)
-    heavier = scene.remember("heavier by share", lambda: scene.loaded_as(more))
+    heavier = scene.remember("heavier by share", lambda: scene.with_heavier_payload(0.0, 1.0))
     change: Array = heavier.driver(load) - scene.driver(load)
     return change
 
@@ -91,7 +92,8 @@ def _regressor(scene: Scene, j: int, *weights: float) -> Array:
 
 
 def _load_side(scene: Scene, j: int) -> Array:
-    return np.sign(_torque(scene, j))
+    torque = _torque(scene, j)
+    return np.where(np.abs(torque) > ROUNDING_NM, np.sign(torque), 0.0)
 
 
 def _soft_start(scene: Scene, j: int, knee: float) -> Array:

@@ -13,7 +13,7 @@ from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain
-from armscope.robot.gravity import gravity_wrenches
+from armscope.robot.gravity import gravity_wrenches, weight_at_tool, weight_of_link
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,14 +71,31 @@ class LoadedArm:
         other.misstated, other._memory = misstated, {}
         return other
 
+    def _loaded_by(self, misstated: Misstated, force: Array, moment: Array) -> Self:
+        """As `loaded_as`, where that adds a force and a moment to what gravity does: loads are linear in masses."""
+        other, stated = self.loaded_as(misstated), self.wrenches
+        other._memory["wrenches"] = stated[0] + force, stated[1] + moment
+        return other
+
+    def with_heavier_payload(self, kilograms: float, share: float) -> Self:
+        """The same rows with a payload that is heavier, by so much and by a share of the stated one."""
+        wrong = self.misstated
+        more = replace(wrong, payload_kg=wrong.payload_kg + kilograms, payload_share=wrong.payload_share + share)
+        if wrong.payload_offset is not None:
+            return self.loaded_as(more)
+        return self._loaded_by(
+            more, *weight_at_tool(self.arm, self.loaded, self.loaded_as(more).payload - self.payload)
+        )
+
     def with_heavier_link(self, link: int, share: float) -> Self:
         """The same rows with the mass of link ``link`` (from 1) larger by a share of it."""
-        stated = np.zeros(self.arm.n_joints) if self.misstated.masses is None else self.misstated.masses
-        masses = stated + share * np.eye(self.arm.n_joints)[link - 1]
         # loads ask link by link: only the last one's are kept
         known: tuple[int, float, Self] | None = self._memory.get("heavier link")
         if known is None or known[:2] != (link, share):
-            known = (link, share, self.loaded_as(replace(self.misstated, masses=masses)))
+            stated = np.zeros(self.arm.n_joints) if self.misstated.masses is None else self.misstated.masses
+            heavier = replace(self.misstated, masses=stated + share * np.eye(self.arm.n_joints)[link - 1])
+            force, moment = weight_of_link(self.arm, self.loaded, link)
+            known = (link, share, self._loaded_by(heavier, share * force, share * moment))
             self._memory["heavier link"] = known
         return known[2]
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from armscope.core.inputs import InputError
 from armscope.core.parallel import each_piece
 from armscope.core.types import Array
+from armscope.physics.effect import Placed
 from armscope.physics.frames import ToolKey
 from armscope.physics.posture import Posture
 from armscope.physics.scene import Part, Scene
@@ -49,6 +50,15 @@ class FittedModel:
     parts: tuple[Part, ...] = ()
     background: tuple[Part, ...] = ()
     tool_turns: Mapping[ToolKey, Array] = field(default_factory=dict)
+
+    def moves_like(self, other: FittedModel) -> bool:
+        """Whether another model surely predicts the same: its frames are these, and its effects but for zeros."""
+        same = self.arm is other.arm and self.bases is other.bases and self.tool_turns is other.tool_turns
+        return same and self._moving() == other._moving()
+
+    def _moving(self) -> list[tuple[Placed, bytes]]:
+        """All that moves anything, and by how much."""
+        return [(part.placed, part.values.tobytes()) for part in self.everything if part.values.any()]
 
     def scene(self, recordings: Recordings) -> Scene:
         """The arm at the rows of a table."""

@@ -27,17 +27,48 @@ def gravity_wrenches(
     Returns:
         Force, N, and moment, N m, both (N, n, 3), in base axes at each joint's origin.
     """
-    n_poses, n_joints = frames.joint_origin.shape[:2]
     masses = arm.masses if masses is None else masses
-    weights = np.broadcast_to(masses[:, None] * arm.gravity, (n_poses, n_joints, 3))
-    moments_about_base = np.cross(_centres_of_mass(arm, frames), weights)
-    if payload is not None:
-        load = np.nan_to_num(payload)[:, None] * arm.gravity
-        weights = weights.copy()
-        weights[:, -1] += load
-        moments_about_base[:, -1] += np.cross(frames.tool, load)
-    force, moment = _beyond(weights), _beyond(moments_about_base)
-    return force, moment - np.cross(frames.joint_origin, force)
+    beyond = _beyond(masses, 0)[:, None]
+    lever = _beyond(masses[:, None] * _centres_of_mass(arm, frames), 1) - beyond * frames.joint_origin
+    force, moment = np.broadcast_to(beyond * arm.gravity, lever.shape), lever @ _across(arm.gravity)
+    if payload is None:
+        return force, moment
+    of_payload = weight_at_tool(arm, frames, np.nan_to_num(payload))
+    return force + of_payload[0], moment + of_payload[1]
+
+
+def weight_of_link(arm: Arm, frames: Chain, link: int) -> tuple[Array, Array]:
+    """What the weight of one link alone adds to `gravity_wrenches`.
+
+    Args:
+        arm: the arm.
+        frames: its frames at N poses.
+        link: from 1.
+
+    Returns:
+        Force (n, 3), N, the same in all poses, and moment (N, n, 3), N m, in base axes at each joint's origin.
+    """
+    weight = arm.masses[link - 1] * arm.gravity
+    force, moment = np.zeros((arm.n_joints, 3)), np.zeros(frames.joint_origin.shape)
+    force[:link] = weight
+    at = slice(link - 1, link)
+    moment[:, :link] = (_centres_of_mass(arm, frames, at) - frames.joint_origin[:, :link]) @ _across(weight)
+    return force, moment
+
+
+def weight_at_tool(arm: Arm, frames: Chain, payload: Array) -> tuple[Array, Array]:
+    """What a point mass at the tool point alone adds to `gravity_wrenches`.
+
+    Args:
+        arm: the arm.
+        frames: its frames at N poses.
+        payload: (N,) kg.
+
+    Returns:
+        Force (N, 1, 3), N, the same on all joints, and moment (N, n, 3), N m, in base axes at each joint's origin.
+    """
+    load = payload[:, None, None]
+    return load * arm.gravity, load * ((frames.tool[:, None] - frames.joint_origin) @ _across(arm.gravity))
 
 
 def gravity_torques(arm: Arm, frames: Chain, payload: Array | None = None) -> Array:
@@ -74,13 +105,21 @@ def mass_moment_regressor(arm: Arm, frames: Chain) -> Array:
     return np.asarray(np.einsum("njkp,jm->nmkp", torque, arm.actuation).reshape(n_poses, arm.n_motors, 4 * n_joints))
 
 
-def _centres_of_mass(arm: Arm, frames: Chain) -> Array:
-    """(N, n, 3) in base axes, m."""
-    behind_inverse = np.swapaxes(arm.behind[:, :3, :3], 1, 2)
-    in_link = np.einsum("jab,jb->ja", behind_inverse, arm.centres - arm.behind[:, :3, 3])
-    return np.asarray(frames.link_origin + np.einsum("njab,jb->nja", frames.link_rotation, in_link))
+def _across(vector: Array) -> Array:
+    """(3, 3) by which a row is multiplied to be crossed with a vector (3,): much faster than as many cross products."""
+    return np.cross(np.eye(3), vector)
 
 
-def _beyond(per_link: Array) -> Array:
-    """Sum over the links from each joint to the tip."""
-    return np.cumsum(per_link[:, ::-1], axis=1)[:, ::-1]
+def _centres_of_mass(arm: Arm, frames: Chain, links: slice = slice(None)) -> Array:
+    """(N, n, 3) of some links in base axes, m."""
+    behind = arm.behind[links]
+    in_link = np.einsum("jba,jb->ja", behind[:, :3, :3], arm.centres[links] - behind[:, :3, 3])
+    rotation = frames.link_rotation[:, links]
+    # axis by axis: several times faster than as many small products
+    along = (rotation[..., axis] * in_link[:, axis, None] for axis in range(3))
+    return np.asarray(frames.link_origin[:, links] + sum(along))
+
+
+def _beyond(per_link: Array, axis: int) -> Array:
+    """Sum over the links, which stand along an axis, from each joint to the tip."""
+    return np.flip(np.cumsum(np.flip(per_link, axis), axis=axis), axis)

@@ -159,10 +159,16 @@ def position_jacobian(arm: Arm, frames: Chain) -> Array:
     return joint_jacobian(frames) @ arm.actuation
 
 
+_STAYS = np.eye(4)
+
+
 def _moved(rotation: Array, origin: Array, fixed: Array) -> tuple[Array, Array]:
-    """Frames (N) times one fixed homogeneous transform; the flat product is several times faster than N small ones."""
-    moved = (rotation.reshape(-1, 3) @ fixed[:3, :3]).reshape(rotation.shape)
-    return moved, origin + rotation @ fixed[:3, 3]
+    """Frames (N) times one fixed homogeneous transform; flat products are several times faster than N small ones."""
+    if np.array_equal(fixed, _STAYS):
+        return rotation, origin
+    flat = rotation.reshape(-1, 3)
+    moved = (flat @ fixed[:3, :3]).reshape(rotation.shape)
+    return moved, origin + (flat @ fixed[:3, 3]).reshape(-1, 3)
 
 
 def _turned(rotation: Array, cosine: Array, sine: Array) -> Array:
