@@ -113,8 +113,8 @@ def cross_validate(
         taken = (rows.point, rows.recordings, rows.weights)
         each_fold = [np.flatnonzero(fold_of == fold) for fold in folds]
         nominal = own[0, :, POINTS].copy()
-        for told_errors, held in ((errors, each_fold), (own, [np.arange(len(fold_of))])):
-            told_errors[0, :, POINTS] = placed_by_points(taken, frames, nominal, held, rows.trusted)
+        for told_errors, parts in ((errors, each_fold), (own, [np.arange(len(fold_of))])):
+            told_errors[0, :, POINTS] = placed_by_points(taken, frames, nominal, parts, rows.trusted)
     per_fold = np.array(
         [_rms(errors[:, told & (fold_of == fold)]) for fold in folds if (told & (fold_of == fold)).any()]
     )
