@@ -34,6 +34,13 @@ def test_an_output_that_cannot_be_is_told_before_anything_is_read(command: str, 
     assert "an input of this command" in str(done.exception)
 
 
+def test_check_tells_once_how_columns_were_read(tmp_path: Path) -> None:
+    head, rows = (POINTS / "recordings.csv").read_text().split("\n", 1)
+    (tmp_path / "loud.csv").write_text(f"{head.replace('q1_rad', 'Q1_RAD')}\n{rows}")
+    said = CliRunner().invoke(app, ["check", str(tmp_path / "loud.csv")]).output
+    assert said.count("columns read as") == 1, said
+
+
 @pytest.mark.parametrize("kind", ["points", "motions"])
 def test_points_and_motions_that_cannot_tell_end_alike(kind: str, tmp_path: Path) -> None:
     file, arm = tmp_path / "table.csv", tmp_path / "robot.yaml"

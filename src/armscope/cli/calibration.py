@@ -35,7 +35,9 @@ def check(
         if check_motions_table(recordings, robot, json):
             raise typer.Exit(1)
         return
-    table = table_of(recordings)
+    from armscope.recordings import read_recordings
+
+    table = table_of(recordings) if json else read_recordings(recordings)  # the text has the reader's notes
     arm = None if robot is None else robot_of(robot)
 
     from armscope.check import check as check_table
