@@ -9,6 +9,7 @@ import pytest
 
 from armscope.diagnosis import Settings, diagnose
 from armscope.diagnosis.held_out import Rows, left_over, split
+from armscope.diagnosis.placed_by_points import placed_by_points
 from armscope.diagnosis.selection import select
 from armscope.diagnosis.selection_loop import SelectionLoop
 from armscope.fitting.linearisation import LinearisedTable, point_residuals
@@ -58,6 +59,24 @@ def test_the_nominal_arm_is_placed_by_its_points_where_orientations_were_measure
     assert verdict.held_out.before_all_rows == pytest.approx(alone, rel=0.02)
     assert verdict.waterfall[0].held_out_mm == pytest.approx(alone, rel=0.02)
     assert verdict.waterfall[0].fitted_mm == pytest.approx(verdict.residual_before_mm, rel=0.02)
+
+
+def test_frames_that_only_held_out_rows_have_are_placed_by_themselves() -> None:
+    """What moves base and tool is taken out of every row, whatever frames the errors were told in."""
+    arm = arm_named("six-axis")
+    table = recorded(arm, replace(one_run(arm, 60, 5), run=np.repeat(["1", "2"], 30)), {}, 0.02, 6)
+    near = fit_frames(arm, table)
+    moved = replace(table, positions=table.positions + np.where(table.run == "1", 1e-3, 2e-3)[:, None])
+    loop = SelectionLoop(
+        near, moved, Noise(0.0, 0.0, ""), free_frames(moved, False), np.arange(60) % 5, lambda *_: None
+    )
+    frames = [term for placed in free_frames(moved, False) for term in placed.terms]
+    errors = point_residuals(near, moved)
+    held = [np.flatnonzero(table.run == "1"), np.flatnonzero(table.run == "2")]
+    taken = (near, moved, loop.noise.weights)
+    left = placed_by_points(taken, frames, errors, held, np.ones(60, dtype=bool))
+    assert np.sqrt(np.mean(errors**2)) > 1
+    assert 0.01 < np.sqrt(np.mean(left**2)) < 0.03
 
 
 def test_bad_shots_stand_in_the_error_of_all_rows_only() -> None:
