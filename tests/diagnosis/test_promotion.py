@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
+from armscope.physics.recorded_drivers import side_of_approach
 from armscope.physics.scene import Scene
 from armscope.recordings import Recordings, read_recordings
 from armscope.robot import Arm, chain, load_arm
@@ -94,6 +95,22 @@ def test_a_zero_within_a_curve_gets_its_name(elsewhere: float) -> None:
     assert abs(zero.parameters[0].value - 20e-3) < 1e-3
     curve = next(e for e in verdict.effects if (e.effect, e.location) == ("unknown", "joint 4"))
     assert curve.rms_at_tool_mm < zero.rms_at_tool_mm / 3
+
+
+@pytest.mark.parametrize(("uneven", "told"), [(0.2, True), (1.0, False)])
+def test_play_that_is_nearly_even_is_called_play_and_its_rest_unknown(uneven: float, told: bool) -> None:
+    """A gap of 1 mrad, and a part of it that changes with the angle; where that is all, there is no gap."""
+    arm, table = planted("six-axis", {}, 150, 0.03, seed=6)
+    side, angle = side_of_approach(Scene(arm, table), 2), table.motor_angles[:, 1]
+    turn = -0.5e-3 * side * ((1.0 if told else 0.0) + uneven * np.sin(4 * angle + 0.5))
+    moved = joint_jacobian(chain(arm, table.motor_angles))[:, :, 1] * turn[:, None]
+    found = {e.effect: e for e in diagnose(arm, replace(table, positions=table.positions + moved), QUICK).effects}
+    assert set(found) == ({"backlash", "unknown"} if told else {"unknown"})
+    assert found["unknown"].driver.startswith("side of approach and angle")
+    if told:
+        gap = found["backlash"].parameters[0]
+        assert abs(gap.value - 1e-3) < 0.1e-3
+        assert found["unknown"].rms_at_tool_mm < found["backlash"].rms_at_tool_mm / 3
 
 
 @pytest.mark.shared

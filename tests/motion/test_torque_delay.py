@@ -7,7 +7,7 @@ import pytest
 
 from armscope.core.types import Array
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
-from armscope.motion.torque_delay import _between_reversals, lag_step
+from armscope.motion.torque_delay import Between, _between_reversals, lag_step
 from tests.motion.moving import COULOMB, ROTOR, VISCOUS, moved, robot
 
 LATE_S, JOINT, RATE = 0.02, 2, 200.0
@@ -67,3 +67,26 @@ def test_rows_at_which_friction_changes_sides_tell_nothing_of_the_slope(found: M
     assert not between[turns + 1].any()
     away = np.array([np.abs(rows.time[i] - rows.time[turns]).min() > 0.3 for i in range(len(rows))])
     assert between[away].all()
+
+
+def test_steps_that_overshoot_both_ways_come_to_rest() -> None:
+    """Each leads as far beyond the root as it began before it: steps alone would go to and fro for ever."""
+    root, names, now = 0.02, frozenset({1}), 0.012
+    between = Between()
+    for _ in range(4):
+        now = between.next(names, 1, now, 2 * root - now)
+    assert now == pytest.approx(root, abs=1e-4)
+
+
+def test_steps_that_stay_between_are_taken_as_they_are() -> None:
+    between, names = Between(), frozenset({1})
+    assert between.next(names, 1, 0.01, 0.03) == 0.03
+    assert between.next(names, 1, 0.03, 0.021) == 0.021
+    assert between.next(names, 1, 0.021, 0.0205) == 0.0205
+
+
+def test_other_names_ask_for_other_steps() -> None:
+    between = Between()
+    between.next(frozenset({1}), 1, 0.01, 0.03)
+    between.next(frozenset({1}), 1, 0.03, 0.01)
+    assert between.next(frozenset({1, 2}), 1, 0.02, 0.05) == 0.05

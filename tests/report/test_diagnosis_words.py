@@ -10,7 +10,7 @@ from armscope.report.html import unbroken
 from armscope.report.sections.effect_cards import card, chosen_how_often, title_of, told_parameters
 from armscope.robot import forward_kinematics
 from armscope.verdict.effects import Alternative, Curve, Parameter
-from armscope.verdict.schema import Notice, Unexplained
+from armscope.verdict.schema import Background, Notice, Unexplained
 from armscope.verdict.sentences import ANOTHER_MODEL, cause_in_words, exact_phrase, headline
 from armscope.verdict.wording import main_and_minor, reach
 from tests.report import verdicts
@@ -142,19 +142,26 @@ def test_a_vague_name_stays_vague_and_says_its_best_reading():
     assert said.startswith("Either joint compliance at joint 2 or an unexplained curve at joint 3 –")
 
 
-@pytest.mark.parametrize(("share", "leads"), [(0.2, True), (0.01, False)])
-def test_small_errors_everywhere_are_led_by_what_is_worth_a_twentieth_of_them(share, leads):
-    said = cause_in_words("elastic", [compliance(share=share)], everywhere=True, share=0.5)
+def everywhere(share=0.0, mm=0.0):
+    return Background("elastic", present=True, size=mm, rms_at_tool_mm=mm, share=share)
+
+
+@pytest.mark.parametrize(
+    ("share", "size", "leads"), [(0.2, 0.1, True), (0.01, 0.1, False), (-0.05, 0.1, False), (-0.05, 0.6, True)]
+)
+def test_small_errors_everywhere_are_led_by_what_is_a_twentieth_of_them(share, size, leads):
+    """By its share, or by what it does: one that hides what others do has no share."""
+    said = cause_in_words("elastic", [compliance(share=share, rms_at_tool_mm=size)], everywhere(share=0.5, mm=1.0))
     assert ("most of all: joint 2 gives way" in said) == leads
     assert said.endswith("and none stands out") != leads
 
 
 def test_a_cause_has_one_pair_of_brackets():
     vague = compliance(named_as="region", title="elastic, around joint 1, joint 2")
-    said = cause_in_words("elastic", [vague, compliance()], everywhere=True)
+    said = cause_in_words("elastic", [vague, compliance()], everywhere())
     assert said.endswith("under gravity; one more of its kind, all others a little)")
     assert said.count("(") == 1
-    assert cause_in_words("elastic", [compliance()], everywhere=True).endswith("under gravity (all others a little)")
+    assert cause_in_words("elastic", [compliance()], everywhere()).endswith("under gravity (all others a little)")
 
 
 def test_nothing_missing_and_cannot_tell_are_whole_answers():

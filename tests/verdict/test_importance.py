@@ -1,6 +1,7 @@
 """A cause's share is what its cure is worth, averaged over all orders of curing: no more and no less."""
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 
 from armscope.core.averages import rms
 from armscope.verdict.contributions import contributions
+from armscope.verdict.effects import FoundEffect
 from armscope.verdict.importance import with_importance
 from armscope.verdict.schema import Background
 from armscope.verdict.sentences import headline
@@ -50,21 +52,24 @@ def test_small_errors_that_the_evidence_does_not_ask_for_are_told_with_their_sha
     assert "possibly" not in headline(verdicts.single().verdict)
 
 
-def test_what_is_told_as_major_is_worth_its_place(verdict) -> None:  # noqa: F811
-    """An effect that hides what another one does is cured after it: alone its cure makes the error larger."""
+@pytest.mark.parametrize(("against", "small"), [(-0.05, True), (-0.5, False)])
+def test_what_hides_what_another_does_is_major_where_it_is_large(verdict, against: float, small: bool) -> None:  # noqa: F811
+    """Its share is below zero either way: alone its cure makes the error larger, but the place is off by as much."""
     offset = next(e for e in verdict.effects if e.effect == "joint_offset")
     assert not any(effect.minor for effect in verdict.effects)
     (whole,) = [part for part in verdict.model.parts if part.placed.key == (offset.effect, offset.location)]
-    hidden = replace(whole, values=-0.2 * whole.values)
-    grown = replace(whole, values=1.2 * whole.values)
+    hidden, grown = replace(whole, values=against * whole.values), replace(whole, values=(1 - against) * whole.values)
     others = tuple(part for part in verdict.model.parts if part is not whole)
     model = replace(verdict.model, parts=(grown, hidden, *others))
-    against = replace(offset, title="its opposite")
-    told = with_importance(replace(verdict, effects=(*verdict.effects, against), model=model))
-    minor = [effect for effect in told.effects if effect.minor]
-    assert len(minor) == 1
-    assert minor[0].share < 0
-    assert [e.effect for e in told.effects if not e.minor].count("joint_offset") == 1
+    opposite = replace(offset, title="its opposite")
+
+    def weigh(found: FoundEffect, background: Sequence[Background]) -> FoundEffect:
+        return replace(found, minor=found.share < 0.01)
+
+    told = with_importance(replace(verdict, effects=(*verdict.effects, opposite), model=model), weigh)
+    (hiding,) = [effect for effect in told.effects if effect.share < 0]
+    assert hiding.minor == small
+    assert [e.effect for e in told.effects if not e.minor].count("joint_offset") == 2 - small
 
 
 def test_one_measure_says_what_is_small(verdict) -> None:  # noqa: F811

@@ -20,6 +20,8 @@ from armscope.physics.elastic import JOINT_COMPLIANCE
 from armscope.physics.freeform import REST_OF_LOAD
 
 DRIVE = JOINT_COMPLIANCE.name
+OF_LOAD = ("load", REST_OF_LOAD)
+"""Variants of curves whose line is a compliance, known by its direction."""
 
 
 def straightened(problem: Problem, space: EffectSpace, hypothesis: Hypothesis) -> Hypothesis:
@@ -50,11 +52,11 @@ def straightened(problem: Problem, space: EffectSpace, hypothesis: Hypothesis) -
 
 
 def with_main_shapes(edits: Edits, hypothesis: Hypothesis) -> Hypothesis:
-    """With curves of a joint's own angle that are one line or wave for the most part told as that and a rest."""
+    """With curves, but for those of load, that are one line, wave or play for the most part told as that and a rest."""
     problem = edits.problem
     for curve in hypothesis.chosen:
         candidate = edits.candidate(curve.candidate)
-        if not candidate.is_curve or not candidate.variant.startswith("angle"):
+        if not candidate.is_curve or candidate.variant in OF_LOAD:
             continue
         # what every arm has anyway gets its name by standing out there, where it is there
         held = [n for n in _within(problem, candidate) if problem.is_free(n) and edits.in_background(hypothesis, n)]
@@ -143,9 +145,7 @@ def rest_of(problem: Problem, hypothesis: Hypothesis, line: int) -> list[int]:
     others = [(c, candidates[c]) for c in hypothesis.candidates if candidates[c].location == named.location]
     if named.kind == DRIVE:
         return [n for n, c in others if c.variant == REST_OF_LOAD]
-    return [
-        n for n, c in others if nested and c.is_curve and c.variant.startswith("angle") and line in _within(problem, c)
-    ]
+    return [n for n, c in others if nested and c.is_curve and c.variant not in OF_LOAD and line in _within(problem, c)]
 
 
 def _within(problem: Problem, curve: Candidate) -> frozenset[int]:

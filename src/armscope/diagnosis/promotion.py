@@ -6,7 +6,7 @@ curve contains its line. So names given here pay no price of the library.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -57,12 +57,8 @@ def _promoted(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
     unnamed = [n for n in _unnamed(problem, hypothesis) if problem.space.candidates[n].variant != SOFT_START]
     left, beside = _left_by_free_backgrounds(problem, hypothesis), _left_by_names(problem, hypothesis)
     drives = [number for number in unnamed if problem.space.candidates[number].kind == DRIVE]
-    added = [
-        number
-        for number in unnamed
-        if number not in drives
-        and _stands_out(problem, hypothesis, number, beside if problem.is_free(number) else left)
-    ]
+    worth = {n: beside if problem.is_free(n) else left for n in unnamed if n not in drives}
+    added = _standing_out(problem, hypothesis, worth)
     if drives:
         free = _with_names(problem, hypothesis, drives, [problem.mismatch] * len(drives))
         added += [d for d in drives if _size(problem, free, d) > GIVES * left and _lost(problem, free, d) > GIVES_NATS]
@@ -80,17 +76,30 @@ def _promoted(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
 def _with_soft_starts(problem: Problem, hypothesis: Hypothesis, left: float) -> Hypothesis:
     """With the drives named that give way most of all under small loads, where they have no name yet."""
     unnamed = (n for n in _unnamed(problem, hypothesis) if problem.space.candidates[n].variant == SOFT_START)
-    soft = [number for number in unnamed if _stands_out(problem, hypothesis, number, left)]
+    soft = _standing_out(problem, hypothesis, dict.fromkeys(unnamed, left))
     return _with_names(problem, hypothesis, soft, [_size(problem, hypothesis, n) for n in soft]) if soft else hypothesis
 
 
-def _stands_out(problem: Problem, hypothesis: Hypothesis, number: int, left: float) -> bool:
-    """Whether a member of a background is worth a name, where the RMS without it is ``left``, mm."""
-    return (
-        _size(problem, hypothesis, number) > NAMING.stands_out * left
+def _standing_out(problem: Problem, hypothesis: Hypothesis, left: Mapping[int, float]) -> list[int]:
+    """Members of backgrounds that are worth a name, where the RMS without each is ``left``, mm.
+
+    Each is measured by those that have no name: beside one that is off by far, a second would look usual.
+    """
+    asked = [
+        number
+        for number, rms in left.items()
+        if _size(problem, hypothesis, number) > NAMING.stands_out * rms
         and _lost(problem, hypothesis, number) > NAMING.stands_out_nats
-        and _beyond_family(problem, hypothesis, number) > NAMING.beyond_family
-    )
+    ]
+    named = {column for c in hypothesis.chosen for column in problem.space.candidates[c.candidate].columns}
+    found: list[int] = []
+    while True:
+        times = {n: _beyond_family(problem, hypothesis, n, named) for n in asked if n not in found}
+        farthest = max(times, key=lambda n: times[n], default=None)
+        if farthest is None or times[farthest] <= NAMING.beyond_family:
+            return sorted(found)
+        found.append(farthest)
+        named |= set(problem.space.candidates[farthest].columns)
 
 
 def _better_placed(edits: Edits, hypothesis: Hypothesis) -> Hypothesis:
@@ -142,8 +151,8 @@ def _left_by_names(problem: Problem, hypothesis: Hypothesis) -> float:
     return evaluate(problem, hypothesis.chosen, problem.space.no_background, problem.mismatch).noise
 
 
-def _beyond_family(problem: Problem, hypothesis: Hypothesis, number: int) -> float:
-    """How many times larger a candidate's largest value is than the usual one of the rest of its family.
+def _beyond_family(problem: Problem, hypothesis: Hypothesis, number: int, named: Collection[int]) -> float:
+    """How many times larger a candidate's largest value is than the usual one of its family's columns without a name.
 
     Values are measured in their tolerances, and those that pay for being there also by what they do at the tool: how
     a gear's waves fall with their number is a guess. What is uncertain of the others counts as theirs.
@@ -151,7 +160,7 @@ def _beyond_family(problem: Problem, hypothesis: Hypothesis, number: int) -> flo
     own = problem.space.candidates[number].columns
     times = [0.0]
     for family, size in zip(problem.space.families, hypothesis.background, strict=True):
-        others = np.setdiff1d(family.columns, own)
+        others = np.setdiff1d(family.columns, [*own, *named])
         if not size or not len(others) or not set(own) <= set(family.columns):
             continue
         variance = np.zeros(len(problem.scale))

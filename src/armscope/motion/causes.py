@@ -23,6 +23,7 @@ from armscope.verdict.effects import UNKNOWN
 
 if TYPE_CHECKING:
     from armscope.motion.clauses import Clause
+    from armscope.motion.dry_friction import DryFriction
     from armscope.motion.remedies import Remedy
 
 
@@ -68,6 +69,7 @@ class Moment:
         gravity: (N, m, 3) torque per m/s^2 of gravity along each base axis; None unless it was asked for.
         rate: samples per second.
         bodies: what asks for torque on other motions than the samples'; None where no law has any.
+        dry: the dry friction that is in ``predicted``; None where that holds none.
     """
 
     signals: Signals
@@ -76,6 +78,7 @@ class Moment:
     gravity: Array | None
     rate: float
     bodies: Bodies | None = None
+    dry: DryFriction | None = None
 
     @functools.cached_property
     def slopes(self) -> tuple[Array, Array, Array]:

@@ -13,7 +13,7 @@ from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array
 from armscope.motion.causes import Moment, side
-from armscope.motion.preparation import without_lag
+from armscope.motion.preparation import seen_later, without_lag
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,9 @@ def _delayed(m: Moment, joints: tuple[int, ...], delay: float = 0.0) -> Array:
     torque = m.predicted[:, joints[0]]
     if delay == 0:
         return np.asarray(-np.gradient(torque, 1 / m.rate))
-    return (np.interp(m.signals.time - delay, m.signals.time, torque) - torque) / delay
+    if m.dry is None:
+        return (seen_later(m.signals.time, torque, delay) - torque) / delay
+    return (m.dry.delayed(m.signals, torque, joints[0], delay) - torque) / delay
 
 
 def _spring(m: Moment, joints: tuple[int, ...], middle: float) -> Array:

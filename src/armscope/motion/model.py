@@ -12,9 +12,10 @@ from armscope.core.types import Array
 from armscope.motion import catalogue
 from armscope.motion.causes import Moment, PlacedCause
 from armscope.motion.constants import PRIOR
+from armscope.motion.dry_friction import DryFriction, own_columns
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.preparation import Preparation, Signals, parts
-from armscope.motion.rows import SoFar, bend, own_columns
+from armscope.motion.rows import SoFar
 from armscope.motion.sampling_constants import FILTER
 from armscope.motion.timing import Stretch
 from armscope.robot.bodies import Bodies
@@ -96,10 +97,11 @@ class MotionModel:
         rigid = regressor @ followed.inertial_in(signals.run) + carried
         predicted = rigid + np.einsum("nmk,mk->nm", own[:, :, :CAUSES_OF_OWN], followed.background)
         bodies = Bodies(self.arm, followed.inertial_in(signals.run), signals.payload)
-        moment = Moment(signals, rigid, predicted, self._gravity(signals.q), rate, bodies)
+        dry = DryFriction.of(self.arm, followed.background[:, 1], turning, FILTER.sharper_at_rest)
+        moment = Moment(signals, rigid, predicted, self._gravity(signals.q), rate, bodies, dry)
         total = regressor @ (self.inertial + self._added(signals.run)) + carried
         total += np.einsum("nmk,mk->nm", own, joints) + self.gains * predicted
-        total += self.response * bend(predicted, rate)
+        total += self.response * dry.rounded(signals, predicted, followed.delay, rate)
         for cause in self.causes:
             if cause.placed.columns is not None:
                 total[:, list(cause.placed.joints)] += cause.placed.columns(moment) @ cause.values

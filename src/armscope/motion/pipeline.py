@@ -36,6 +36,7 @@ from armscope.motion.judgement import (
     unexplained,
 )
 from armscope.motion.lasting import lasting_torques
+from armscope.motion.late_friction import told_late
 from armscope.motion.layout import TorqueLayout
 from armscope.motion.library import place_causes
 from armscope.motion.model import MotionModel, fitted_model
@@ -152,7 +153,7 @@ def diagnose_motion(
     if test:
         apart = build_rows(layout, test, how, model_so_far(layout, selected.coefficients))
     sure = sureness(selected, _carried(motions))
-    notices += level_told(layout)
+    notices += [*level_told(layout), *told_late(selected, sure)]
     verdict, held, entered = _judged(selected, sure, apart, settings)
     verdict = replace(
         verdict,

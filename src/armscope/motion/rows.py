@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices, Progress, unheard
-from armscope.motion.causes import Moment, coulomb_width, sharp_width, side
+from armscope.motion.causes import Moment
+from armscope.motion.dry_friction import DryFriction, own_columns
 from armscope.motion.laws import FOLLOWS_MODEL, Law
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.preparation import Preparation, Signals, parts
@@ -197,7 +198,10 @@ class _Piece:
         if first and any(cause.cause.name == "gravity_direction" for cause in layout.placed):
             gravity = np.stack([arm.gravity_torques(signals.q, axis) for axis in np.eye(3)], axis=2)
         bodies = Bodies(arm, inertial if model.of_bodies else arm.inertial, signals.payload)
-        self.moment = Moment(signals, rigid, predicted, gravity, how.rate / signals.stride, bodies)
+        dry = DryFriction.of(arm, model.background[:, 1])
+        rate = how.rate / signals.stride
+        self.rounded = dry.rounded(signals, predicted, model.delay, rate)
+        self.moment = Moment(signals, rigid, predicted, gravity, rate, bodies, dry)
 
     def low(self, values: Array) -> Array:
         """The rows of samples."""
@@ -206,13 +210,13 @@ class _Piece:
     def rows(self, causes: Iterable[int]) -> MotionRows:
         """Rows with the columns of some causes; with the inertial ones where these were formed."""
         layout, signals, kept, m = self.layout, self.signals, self.signals.kept, self.layout.arm.n_motors
-        own, rounded = self._own_columns(causes), bend(self.moment.predicted, self.moment.rate)
+        own = self._own_columns(causes)
         columns, at = [], []
         regressor = None if self.regressor is None else self.low(self.regressor)
         for j in range(m):
             of_joint, where = own[j]
             gain = [self.moment.predicted[:, j]] if layout.with_gains else []
-            made = [self.low(np.column_stack([self.background[:, j], *of_joint, *gain, rounded[:, j]]))]
+            made = [self.low(np.column_stack([self.background[:, j], *of_joint, *gain, self.rounded[:, j]]))]
             index = [OWN * j + np.arange(OWN), *where, layout.gains[j : j + 1] if gain else layout.gains]
             index.append(layout.response)
             if regressor is not None:
@@ -253,37 +257,6 @@ class _Piece:
                     own[joint][0].append(values[:, n])
                     own[joint][1].append(index)
         return own
-
-
-def bend(torque: Array, rate: float) -> Array:
-    """(N, m) second derivative of torques, N m/s^2: what drives' filters and rounding take part of."""
-    return np.asarray(np.gradient(np.gradient(torque, 1 / rate, axis=0), 1 / rate, axis=0))
-
-
-def own_columns(
-    arm: MovingArm, signals: Signals, delay: Array, turning: Array | float = 0.0, sharper: float = 1.0
-) -> Array:
-    """What every joint has, per unit of each.
-
-    Args:
-        arm: the arm.
-        signals: N samples.
-        delay: (m,) s by which torques are late: how friction changes sides is seen later by as much.
-        turning: (m,) s by which friction changes sides later than the speed.
-        sharper: times, than fits take it to change sides.
-
-    Returns:
-        (N, m, 6) of `layout.OWN_NAMES`.
-    """
-    width = sharp_width(arm) / sharper
-    at = replace(signals, dq=signals.dq - signals.ddq * turning)
-    turned = side(at, width)
-    blunter = side(at, coulomb_width(arm)) - turned
-    later = -np.gradient(turned, signals.period, axis=0)
-    for j in np.flatnonzero(delay):
-        for shape in (blunter, later):
-            shape[:, j] = np.interp(signals.time - delay[j], signals.time, shape[:, j])
-    return np.stack([np.ones_like(signals.q), turned, signals.dq, signals.ddq, blunter, later], axis=2)
 
 
 def _still(arm: MovingArm, signals: Signals, rate: float) -> NDArray[np.bool_]:

@@ -23,7 +23,7 @@ from armscope.motion.rows import MotionRows, SoFar, build_rows, stated_model
 from armscope.motion.space import build_space
 from armscope.motion.sums import Earlier, JointSums, sums_by_joint
 from armscope.motion.timing import Stretch
-from armscope.motion.torque_delay import lag_step
+from armscope.motion.torque_delay import Between, lag_step
 from armscope.motion.weights import TorqueWeights, estimate_weights, left_apart, weighed
 
 SCANNED = (catalogue.STRIBECK, catalogue.DELAY, catalogue.COMPLIANCE)
@@ -104,7 +104,7 @@ def select_causes(
     """
     model = model or stated_model(layout.arm)
     selected: SelectedCauses | None = None
-    most = NOISE.rounds + NOISE.refinings
+    most, between = NOISE.rounds + NOISE.refinings, Between()
     for number in range(most):
         share = number / most
         before = None if selected is None else selected.rows
@@ -120,7 +120,7 @@ def select_causes(
             found, last = selected.best.candidates, (selected.best, selected.best.chosen)
             weights = estimate_weights(rows, selected.residuals)
         selected = chosen(rows, weights, block, space, last, selected)
-        finer = refined(selected)
+        finer = refined(selected, between)
         if finer is None and (selected.best.candidates == found or number + 1 >= NOISE.rounds):
             break
         model = model_so_far(layout, selected.coefficients)
@@ -129,7 +129,7 @@ def select_causes(
     return selected
 
 
-def refined(selected: SelectedCauses) -> TorqueLayout | None:
+def refined(selected: SelectedCauses, between: Between) -> TorqueLayout | None:
     """The layout with scanned speeds and delays where the fit puts them; None where they rest."""
     layout, moved = selected.rows.layout, False
     placed = list(layout.placed)
@@ -143,7 +143,9 @@ def refined(selected: SelectedCauses) -> TorqueLayout | None:
         if cause.cause is catalogue.DELAY:
             more, unsure = lag_step(selected, number)
             better = float(values[0]) + more
-            rests = abs(better - now) < NOISE.settled * max(float(error[0]), unsure)
+            settled = NOISE.settled * max(float(error[0]), unsure)
+            rests = max(abs(better - now), abs(float(values[0]) - now)) < settled
+            better = between.next(frozenset(selected.best.candidates), number, now, better)
         elif cause.cause is catalogue.COMPLIANCE:
             better = float(values[0])
             rests = better <= 0 or abs(better - now) < NOISE.settled * float(error[0])

@@ -6,10 +6,10 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.motion.causes import Moment
+from armscope.motion.dry_friction import own_columns
 from armscope.motion.laws import Law
 from armscope.motion.model import FittedCause, MotionModel
 from armscope.motion.preparation import Signals
-from armscope.motion.rows import own_columns
 
 OF_SPEED = ("absolute speed", "stribeck", "powers of speed", "curve over speed")
 """Laws that follow nothing but a joint's own speed."""

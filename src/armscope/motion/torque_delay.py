@@ -53,6 +53,40 @@ def lag_step(selected: SelectedCauses, number: int) -> tuple[float, float]:
     return float(np.clip(step, -apart, apart)), float(both**-0.5)
 
 
+class Between:
+    """Delays between which one at rest lies, by where its steps so far led: steps that overshoot don't go on for ever.
+
+    Gauss-Newton's step is taken as long as it stays between the nearest delay that asked for more and the nearest that
+    asked for less; else where a straight line between these two asks for none.
+    """
+
+    def __init__(self) -> None:
+        self.names: frozenset[int] = frozenset()
+        self.asked: dict[int, list[tuple[float, float]]] = {}
+
+    def next(self, names: frozenset[int], number: int, now: float, better: float) -> float:
+        """The next delay.
+
+        Args:
+            names: numbers of all chosen causes; others ask for other steps.
+            number: of the delay among them.
+            now: s, its delay.
+            better: s, where its step leads.
+
+        Returns:
+            Seconds.
+        """
+        if names != self.names:
+            self.names, self.asked = names, {}
+        asked = self.asked.setdefault(number, [])
+        asked.append((now, better - now))
+        more = max((each for each in asked if each[1] > 0), default=None)
+        less = min((each for each in asked if each[1] < 0), default=None)
+        if more is None or less is None or more[0] >= less[0] or more[0] < better < less[0]:
+            return better
+        return more[0] + (less[0] - more[0]) * more[1] / (more[1] - less[1])
+
+
 def _turning(selected: SelectedCauses, joint: int) -> tuple[float, float]:
     """By how much later than the delay dry friction changes sides, s, and how far its prior lets it."""
     layout, best = selected.rows.layout, selected.best

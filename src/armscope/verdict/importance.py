@@ -6,8 +6,9 @@ needs no orders: the error before is their sum with what is left, and a cause's 
 with the error before and with what is left, over the squared error. The shares add up to what the model explains. One
 below zero hides part of what others do: its cure pays only once theirs are done.
 
-What is told as major is worth its place by that measure: its share is not small, and its cure alone makes the error
-smaller. What base and tool take up whenever they are placed anew (a base that moved between runs) has no share to lose.
+What is told as major is worth its place by that measure or, where it hides what others do, by its own squared size: it
+is off by as much, though its cure waits for theirs. What base and tool take up whenever they are placed anew (a base
+that moved between runs) has no share to lose.
 """
 
 from __future__ import annotations
@@ -68,8 +69,8 @@ def with_importance(draft: Diagnosis, weigh: Weigh = as_it_is) -> Diagnosis:
         told = replace(effect, share=share(its))
         if effect.minor or rms(its) < SEEN * rms(before):
             return told
-        pays = rms(before - its) < rms(before)
-        return weigh(told, families) if pays and told.share > 0 else replace(told, minor=True)
+        worth = max(told.share, float(np.sum(its**2)) / squared)
+        return replace(told, minor=weigh(replace(told, share=worth), families).minor)
 
     named = [placed(effect, its) for effect, its in zip(draft.effects, moved, strict=True) if parts[id(effect)]]
     modelled = sum(effect.share for effect in named) + sum(family.share for family in families)
@@ -96,13 +97,13 @@ def _causes(verdict: Diagnosis) -> tuple[Cause, ...]:
 
 def _retold(cause: Cause, effects: Sequence[FoundEffect], small: Background | None) -> Cause:
     members = [effect for effect in effects if f"{effect.effect} at {effect.location}" in cause.members]
-    everywhere = small.share if small and cause.everywhere else 0.0
+    everywhere = small if cause.everywhere else None
     return replace(
         cause,
         members=tuple(f"{effect.effect} at {effect.location}" for effect in members),
         minor=all(effect.minor for effect in members) and not cause.everywhere,
-        share=sum(effect.share for effect in members) + everywhere,
-        text=cause_in_words(cause.family, members, cause.everywhere, everywhere),
+        share=sum(effect.share for effect in members) + (everywhere.share if everywhere else 0.0),
+        text=cause_in_words(cause.family, members, everywhere),
         cure=cure_of_family(cause.family, members, cause.everywhere),
     )
 

@@ -9,7 +9,7 @@ from armscope.physics.clause import Number, Told, say
 from armscope.physics.registry import effect_named
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause, FoundEffect
-from armscope.verdict.schema import Verdict
+from armscope.verdict.schema import Background, Verdict
 from armscope.verdict.wording import (
     SMALL,
     capitalised,
@@ -64,7 +64,6 @@ TOLD = 0.05
 counted, unless a member stands out or it is the largest."""
 UNSURE = 0.01
 """Share from which small errors are told that the evidence does not ask for."""
-
 FAINT = 0.7
 """Something unexplained that is smaller than this share of the residual is hidden in the noise."""
 
@@ -100,29 +99,25 @@ def _told_and_rest(causes: Sequence[Cause]) -> tuple[list[Cause], list[Cause]]:
     return first, [cause for cause in causes if cause not in first]
 
 
-def cause_in_words(family: str, members: Sequence[FoundEffect], everywhere: bool, share: float = 0.0) -> str:
+def cause_in_words(family: str, members: Sequence[FoundEffect], small: Background | None = None) -> str:
     """What is wrong, in a clause: the largest member, how many more, and whether it is so everywhere.
 
     Args:
         family: of the cause.
         members: its effects, largest share first; those that are minor are counted, not told.
-        everywhere: whether small errors of the family in the whole arm belong to it.
-        share: of these small errors; where it is the larger part, they are told first, beside what is a 20th of them.
+        small: small errors of the family in the whole arm, where they belong to it; the larger part is told first.
 
     Returns:
         The clause.
     """
-    told = [effect for effect in members if not effect.minor][:1] or ([] if everywhere else list(members[:1]))
-    small = _EVERYWHERE.get(family, f"small {family} errors in all joints and links, as in any arm")
-    if not told:
-        return small
-    more = len(members) - len(told)
-    if everywhere and told[0].share < TOLD * share:
-        return small
-    beside = [f"{spelled(more)} more of its kind"] if more else []
-    if everywhere and share > sum(effect.share for effect in members) and family in _ALL:
+    told = [effect for effect in members if not effect.minor][:1] or ([] if small else list(members[:1]))
+    none_stands_out = _EVERYWHERE.get(family, f"small {family} errors in all joints and links, as in any arm")
+    if not told or (small and _is_next_to_nothing(told[0], small)):
+        return none_stands_out
+    beside = [f"{spelled(len(members) - 1)} more of its kind"] if len(members) > 1 else []
+    if small and small.share > sum(effect.share for effect in members) and family in _ALL:
         return _with_others(f"{_ALL[family]}, most of all: {phrase(told[0])}", beside)
-    beside += [_BESIDE.get(family, _OTHERS)] if everywhere else []
+    beside += [_BESIDE.get(family, _OTHERS)] if small else []
     return _with_others(phrase(told[0]), beside)
 
 
@@ -132,6 +127,11 @@ def _with_others(clause: str, beside: Sequence[str]) -> str:
         return clause
     opened = f"{clause[:-1]}; " if clause.endswith(")") else f"{clause} ("
     return f"{opened}{', '.join(beside)})"
+
+
+def _is_next_to_nothing(effect: FoundEffect, small: Background) -> bool:
+    """Whether a member is less than a twentieth of the small errors of its family, in share and (hidden) in size."""
+    return effect.share < TOLD * small.share and effect.rms_at_tool_mm**2 < TOLD * small.rms_at_tool_mm**2
 
 
 def cure_of_family(family: str, members: Sequence[FoundEffect], everywhere: bool) -> str:
@@ -194,7 +194,7 @@ def _one_by_one(verdict: Diagnosis) -> list[Cause]:
         for e in sorted(verdict.effects, key=lambda effect: -effect.share)
     ]
     small = [
-        Cause(b.family, "family", "arm", (), True, False, b.share, math.nan, cause_in_words(b.family, (), True), "")
+        Cause(b.family, "family", "arm", (), True, False, b.share, math.nan, cause_in_words(b.family, (), b), "")
         for b in verdict.background_families or (verdict.background,)
         if b.present
     ]

@@ -17,6 +17,8 @@ WRITTEN = Path(__file__).parents[2] / "fuzz" / "corpus" / "motion-verdict" / "mo
 LEFT = np.array([0.5, 0.1])
 ROWS = 400
 TORQUE = np.random.default_rng(0).normal(size=(ROWS, 2)) * [20, 5]
+MOVES = (np.arange(ROWS) >= ROWS // 10).astype(int)
+"""Whether joint 1 moves; joint 2 always does."""
 NOISE = np.random.default_rng(1).normal(size=(ROWS, 2)) * LEFT
 
 
@@ -53,7 +55,7 @@ def world(effects=(), answers=(), category="single", unknown_at=None, off=0.0, *
         rows=1000, stated=changes.get("stated", False), outside=any(each["effect"] == "unknown" for each in effects),
         effects=tuple(_effect(each) for each in effects),
         background={f"joint {j}": {"coulomb": 5.0, "viscous": 4.0, "inertia": 1.0} for j in (1, 2)},
-        left_nm=LEFT, test=table(TORQUE + NOISE),
+        left_nm=LEFT, left_moving_nm=LEFT, test=table(TORQUE + NOISE).assign(moves1=MOVES, moves2=1),
     )  # fmt: skip
     if changes.get("failed"):
         return MotionWorld(truth, MotionAnswer(truth.world, failed="InputError: no"))

@@ -9,7 +9,7 @@ from armscope.proof.motion.rates import in_words, per_effect, summary
 from armscope.proof.motion.reading import ALLOWED
 from armscope.proof.motion.scoring import COLUMNS, held_out_ratio, score
 from armscope.proof.reading import check_seal
-from tests.proof.motion.cases import ROWS, effect, said, world
+from tests.proof.motion.cases import LEFT, ROWS, effect, said, world
 
 HYSTERESIS = effect("unknown", "joint 2", shape="hysteresis")
 
@@ -75,6 +75,16 @@ def test_held_out_error_counts_in_units_of_what_the_truth_leaves():
     assert held_out_ratio(right.truth, right.answer) == pytest.approx(1, abs=0.05)
     off = world(off=3.0)
     assert held_out_ratio(off.truth, off.answer) == pytest.approx(np.sqrt(1 + 9), rel=0.05)
+
+
+def test_friction_of_a_standing_joint_counts_in_one_of_two_ratios():
+    stuck = world()
+    stuck.answer.predicted.loc[: ROWS // 20, "tau1_nm"] += 20 * LEFT[0]
+    row = only(score([stuck]))
+    assert row["held_out_ratio"] > 2
+    assert row["held_out_moving"] == pytest.approx(1, abs=0.05)
+    stuck.answer.predicted.loc[: ROWS // 20, "tau2_nm"] += 20 * LEFT[1]
+    assert only(score([stuck]))["held_out_moving"] > 2
 
 
 def test_a_path_without_prediction_is_infinitely_wrong_but_its_ends_may_be_lost():

@@ -138,6 +138,11 @@ def test_a_world_is_two_folders_and_the_same_every_time(tmp_path):
     truth = yaml.safe_load((one / "sealed" / "truth.yaml").read_text())
     assert [(e["effect"], e["location"]) for e in truth["effects"]] == [("asymmetric_friction", "joint 2")]
     assert truth["left_on_test_nm"][0] >= truth["noise_nm"][0] * 0.8
+    there = pd.read_csv(one / "sealed" / "test.csv")
+    speed = np.gradient(asked["q1_rad"], asked["time_s"])
+    assert not there["moves1"].iloc[[0, -1]].any()  # a path begins and ends at rest
+    assert there["moves1"][np.abs(speed) > 0.02].all()
+    assert truth["noise_nm"][0] * 0.8 <= truth["left_moving_nm"][0] <= truth["left_on_test_nm"][0]
 
 
 def test_what_is_recorded_is_the_torque_of_that_moment():

@@ -90,7 +90,7 @@ def _cause(
         minor=all(effect.minor for effect in ordered) and small is None,
         share=sum(effect.share for effect in ordered) + (small.share if small else 0.0),
         held_out_gain_mm=float(np.sqrt(max(left**2 + squared, 0.0)) - left),
-        text=cause_in_words(family, ordered, small is not None),
+        text=cause_in_words(family, ordered, small),
         cure=cure_of_family(family, ordered, small is not None),
     )
 

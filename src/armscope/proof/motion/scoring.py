@@ -4,7 +4,9 @@ Names are right, acceptable or wrong, and worlds exact, as `armscope.proof.defin
 that: a clean world is silent if nothing is named and nothing called unknown; ordinary friction and rotors, which every
 arm has, are no names, but their intervals count where nothing is concealed at their joint; the held-out ratio is
 the RMS of measured minus predicted torque on a path nobody has seen, each joint in units of what the truth itself
-leaves there (noise, and what the drives' filter rounds off).
+leaves there (noise, and what the drives' filter rounds off). Where a joint stands its friction is whatever holds it,
+within a band, and no motion foretells it: `held_out_moving` is the same ratio without those readings, as verdicts
+count their own errors.
 """
 
 from __future__ import annotations
@@ -27,7 +29,8 @@ Row = dict[str, object]
 COMMON = ("world", "category", "arm", "fresh", "weakest")
 COLUMNS = {
     "worlds": (*COMMON, "stated", "rows", "concealed", "said", "answer", "mismatch", "silent", "exact", "missed",
-               "wrong_names", "outside", "outside_right", "held_out_ratio", "failed", "not_predicted"),
+               "wrong_names", "outside", "outside_right", "held_out_ratio", "held_out_moving",
+               "failed", "not_predicted"),
     "effects": (*COMMON, "effect", "location", "shape", "strength", "outcome", "right", "ambiguous", "among_all",
                 "said_effect", "said_location"),
     "names": (*COMMON, "effect", "location", "minor", "evidence_nats", "right", "effect_right"),
@@ -82,21 +85,36 @@ def _world(world: MotionWorld, matches: list[Match], left: list[NamedEffect]) ->
         "outside": outside,
         "outside_right": outside in ("located", "acceptable") if truth.outside else None,
         "held_out_ratio": held_out_ratio(truth, answer),
+        "held_out_moving": held_out_ratio(truth, answer, while_moving=True),
         "failed": answer.failed,
         "not_predicted": answer.not_predicted,
     }
 
 
-def held_out_ratio(truth: MotionTruth, answer: MotionAnswer) -> float:
-    """See the module; infinite if it failed or too little of the path was predicted."""
+def held_out_ratio(truth: MotionTruth, answer: MotionAnswer, while_moving: bool = False) -> float:
+    """See the module.
+
+    Args:
+        truth: what the truth itself leaves, N m.
+        answer: the predicted torques.
+        while_moving: leave readings out at which a joint stands.
+
+    Returns:
+        The ratio; infinite if it failed or too little of the path was predicted.
+    """
     if answer.predicted is None:
         return float("inf")
     names = [f"tau{j + 1}_nm" for j in range(len(truth.left_nm))]
     if not set(names) <= set(answer.predicted) or len(answer.predicted) != len(truth.test):
         return float("inf")
-    off = (answer.predicted[names].to_numpy() - truth.test[names].to_numpy()) / truth.left_nm
+    left = truth.left_moving_nm if while_moving else truth.left_nm
+    off = (answer.predicted[names].to_numpy() - truth.test[names].to_numpy()) / left
     there = np.isfinite(off).all(axis=1)
-    return float(np.sqrt(np.mean(off[there] ** 2))) if there.mean() >= ENOUGH_PREDICTED else float("inf")
+    counted = np.ones(off.shape, dtype=np.bool_)
+    if while_moving:
+        counted = truth.test[[f"moves{j + 1}" for j in range(len(left))]].to_numpy() > 0
+    enough = there.mean() >= ENOUGH_PREDICTED
+    return float(np.sqrt(np.mean(off[there][counted[there]] ** 2))) if enough else float("inf")
 
 
 def _numbers(matches: list[Match]) -> Iterator[Row]:

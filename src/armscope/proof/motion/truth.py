@@ -35,8 +35,8 @@ class MotionTruth:
         outside: whether no library has it.
         effects: what is concealed.
         background: by joint, the friction and rotors of this arm.
-        left_nm: (n,) RMS that the truth itself leaves on the test path.
-        test: the test path with its torques.
+        left_nm: (n,) RMS that the truth itself leaves on the test path; left_moving_nm: where the joint moves.
+        test: the test path with its torques, and where each joint moves.
     """
 
     world: str
@@ -49,6 +49,7 @@ class MotionTruth:
     effects: tuple[Concealed, ...]
     background: dict[str, dict[str, float]]
     left_nm: Array
+    left_moving_nm: Array
     test: pd.DataFrame
 
 
@@ -75,6 +76,7 @@ def _truth(world: str, content: dict[str, Any], test: pd.DataFrame) -> MotionTru
         background={each["location"]: {name: each[key] for name, key in BACKGROUND.items()} 
                     for each in content["background"]},
         left_nm=np.array(content["left_on_test_nm"]),
+        left_moving_nm=np.array(content["left_moving_nm"]),
         test=test,
     )  # fmt: skip
 

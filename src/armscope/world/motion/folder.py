@@ -1,12 +1,14 @@
 """A moving world as two folders: what the diagnosis may see, and the sealed truth.
 
     visible/  robot.yaml (what the user believes), motions.csv, test_motions.csv (another path, without torques)
-    sealed/   truth.yaml, test.csv (that path with torques, N m, also where the diagnosis gets currents)
+    sealed/   truth.yaml, test.csv (that path with torques, N m, also where the diagnosis gets currents; `moves1 ...`: 0
+              where a joint stands, and its friction may be anything within its band)
 
 truth.yaml: `effects` (effect, location, parameters, `strength` = RMS torque over noise at the joint where it is
 largest, `rms_nm` there, `alternatives` that are as good on these paths, by evidence), `background` (the arm's own
 friction and rotors, which robot.yaml may or may not state), `noise_nm` per joint, `left_on_test_nm` per joint: what the
-truth itself leaves on the held-out path (noise, and what the drives' filter rounds off); `scoring`:
+truth itself leaves on the held-out path (noise, and what the drives' filter rounds off), and `left_moving_nm`, the
+same where the joint moves; `scoring`:
 category, seed, circumstances.
 """
 
@@ -18,7 +20,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import yaml
+from numpy.typing import NDArray
 
 from armscope.core.files import write_table, write_yaml
 from armscope.core.types import Array
@@ -37,6 +41,8 @@ QUIETEST = 0.002
 DRAWS, QUIETER = 6, 0.7
 """Of arms and paths that are tried before an effect is given up, each recorded with so much of the noise before: what
 is so many times the noise is less absurd then."""
+STANDS = 0.01
+"""rad/s below which a joint stands: ten times the speed from which MuJoCo's dry friction is fully there."""
 GAINS = (4.0, 14.0)
 """N m/A at the joint's side, of arms of this class."""
 
@@ -125,10 +131,17 @@ def build(spec: MotionSpec, folder: Path, robots: Path) -> Path:
     write_table(home / "visible" / "motions.csv", motions[~test])
     write_table(home / "visible" / "test_motions.csv", motions[test].drop(columns=torques))
     torques_read = table(world.arm.session, world.recorded, columns, None)
-    write_table(home / "sealed" / "test.csv", torques_read[test])
+    moves = pd.DataFrame(_moves(world)[test].astype(int), index=torques_read.index[test])
+    moves.columns = pd.Index([f"moves{j + 1}" for j in range(moves.shape[1])])
+    write_table(home / "sealed" / "test.csv", torques_read[test].join(moves))
     write_yaml(home / "visible" / "robot.yaml", _visible_robot(robots / f"{world.spec.arm}.yaml", world))
     write_yaml(home / "sealed" / "truth.yaml", _truth(world))
     return home
+
+
+def _moves(world: World) -> NDArray[np.bool_]:
+    """(N, n) whether each joint moves in the recorded rows."""
+    return np.asarray(np.abs(world.arm.session.speed[world.recorded.rows]) >= STANDS)
 
 
 def _visible_robot(source: Path, world: World) -> dict[str, Any]:
@@ -150,6 +163,8 @@ def _truth(world: World) -> dict[str, Any]:
     spec, dynamics, test = world.spec, world.arm.dynamics, world.arm.session.test[world.recorded.rows]
     both = sorted(zip(world.concealed, world.alternatives, strict=True), key=lambda pair: -pair[0].strength)
     noise, left = world.recorded.noise, world.recorded.left
+    moves = _moves(world)[test]
+    while_moving = np.sum(moves * left[test] ** 2, axis=0) / np.maximum(moves.sum(axis=0), 1)
     return {
         "mismatch": bool(world.concealed),
         "effects": [_effect(sized, others) for sized, others in both],
@@ -164,6 +179,7 @@ def _truth(world: World) -> dict[str, Any]:
         ],
         "noise_nm": np.sqrt(np.mean(noise[~test] ** 2, axis=0)).round(6),
         "left_on_test_nm": np.sqrt(np.mean(left[test] ** 2, axis=0)).round(6),
+        "left_moving_nm": np.sqrt(while_moving).round(6),
         "scoring": {
             "category": spec.category,
             "arm": spec.arm,

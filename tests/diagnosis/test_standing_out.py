@@ -1,0 +1,51 @@
+"""What stands out of the small errors of an arm gets its name, on columns that are no robot's."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import pytest
+
+from armscope.diagnosis.promotion import _promoted
+from armscope.inference.evidence import evaluate
+from armscope.inference.model_space import Candidate, ModelSpace, ToleranceFamily
+from armscope.inference.normal_equations import NormalEquations
+from armscope.inference.problem import SelectedEffect, build_problem
+
+FRAMES, MEMBERS, ROWS, NOISE = 2, 12, 400, 0.05
+USUAL = 0.1
+CURVE = MEMBERS
+
+
+def named(values: Sequence[float], taken_up: bool = False) -> set[int]:
+    """Which of the family's members get a name, a curve being found beside them.
+
+    Args:
+        values: of the first members; those of the others are drawn, of size `USUAL`.
+        taken_up: whether the frames take up the column that the curve shares with the last member: no row tells it.
+    """
+    rng = np.random.default_rng(8)
+    X = rng.normal(size=(ROWS, FRAMES + MEMBERS + 1))
+    family = FRAMES + np.arange(MEMBERS)
+    if taken_up:
+        X[:, family[-1]] = 1e-3 * X[:, 0]
+    size = np.array([*values, *USUAL * rng.normal(size=MEMBERS - len(values)), 0.5])
+    y = X[:, FRAMES:] @ size + rng.normal(0, NOISE, ROWS)
+    geometry = ToleranceFamily("geometric", family, np.ones(MEMBERS), (0.0, 0.1, 0.3, 1.0))
+    members = [Candidate(f"member {n}", f"here {n}", family[[n]], np.ones(1)) for n in range(MEMBERS)]
+    curve = Candidate("curve", "there", np.array([family[-1], FRAMES + MEMBERS]), np.ones(2), is_curve=True)
+    equations = NormalEquations(X.T @ X, X.T @ y, float(y @ y), float(ROWS))
+    problem = build_problem(ModelSpace(np.arange(FRAMES), (geometry,), (*members, curve)), equations, NOISE)
+    found = evaluate(problem, (SelectedEffect(CURVE, len(problem.sizes) - 1),), (2,), NOISE)
+    return set(_promoted(problem, found).candidates) - {CURVE}
+
+
+@pytest.mark.parametrize(("values", "told"), [([], set()), ([1.0], {0}), ([1.0, 0.6], {0, 1})])
+def test_one_that_is_off_by_far_hides_no_second(values: list[float], told: set[int]) -> None:
+    assert named(values) == told
+
+
+def test_what_a_curve_leaves_open_hides_nothing() -> None:
+    """A zero that the base takes up is free within the joint's curve, however right all others are."""
+    assert named([1.0], taken_up=True) == {0}
