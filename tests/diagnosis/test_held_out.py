@@ -42,24 +42,6 @@ def test_held_out_errors_are_those_of_models_fitted_without_the_rows() -> None:
     assert 0 < last.spread_mm < 0.006
 
 
-def test_the_nominal_arm_is_placed_by_its_points_where_orientations_were_measured_too() -> None:
-    """A zero that turns the tool by 20 mrad drags a base that orientations place, too, millimetres away."""
-    arm = arm_named("six-axis")
-    table = recorded(arm, one_run(arm, 90, 3), {("joint_offset", "joint 5"): [2e-2]}, 0.02, 4, turn_noise_mrad=0.1)
-    verdict = diagnose(arm, table, VALIDATED)
-    points = replace(table, orientation=None)
-    layout = split(table, np.random.default_rng(VALIDATED.seed))
-    fold = layout.fold[layout.of_row]
-    errors = [
-        point_residuals(fit_frames(arm, points.rows(fold != k)), points.rows(np.flatnonzero(fold == k)))
-        for k in range(5)
-    ]
-    alone = np.sqrt(np.mean(np.concatenate(errors) ** 2))
-    assert verdict.held_out.before_all_rows == pytest.approx(alone, rel=0.02)
-    assert verdict.waterfall[0].held_out_mm == pytest.approx(alone, rel=0.02)
-    assert verdict.waterfall[0].fitted_mm == pytest.approx(verdict.residual_before_mm, rel=0.02)
-
-
 def test_bad_shots_stand_in_the_error_of_all_rows_only() -> None:
     arm, table = planted("six-axis", {("joint_offset", "joint 3"): [3e-4]}, 100, 0.02, seed=8)
     table.positions[[4, 50, 77]] += np.array([3e-3, -4e-3, 2e-3])
