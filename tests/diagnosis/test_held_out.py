@@ -9,7 +9,6 @@ import pytest
 
 from armscope.diagnosis import Settings, diagnose
 from armscope.diagnosis.held_out import Rows, left_over, split
-from armscope.diagnosis.placed_by_points import placed_by_points
 from armscope.diagnosis.selection import select
 from armscope.diagnosis.selection_loop import SelectionLoop
 from armscope.fitting.linearisation import LinearisedTable, point_residuals
@@ -41,42 +40,6 @@ def test_held_out_errors_are_those_of_models_fitted_without_the_rows() -> None:
     assert first.spread_mm == pytest.approx(np.std(per_fold, ddof=1), rel=0.1)
     assert last.held_out_mm < 0.0225
     assert 0 < last.spread_mm < 0.006
-
-
-def test_the_nominal_arm_is_placed_by_its_points_where_orientations_were_measured_too() -> None:
-    """A zero that turns the tool by 20 mrad drags a base that orientations place, too, millimetres away."""
-    arm = arm_named("six-axis")
-    table = recorded(arm, one_run(arm, 90, 3), {("joint_offset", "joint 5"): [2e-2]}, 0.02, 4, turn_noise_mrad=0.1)
-    verdict = diagnose(arm, table, VALIDATED)
-    points = replace(table, orientation=None)
-    layout = split(table, np.random.default_rng(VALIDATED.seed))
-    fold = layout.fold[layout.of_row]
-    errors = [
-        point_residuals(fit_frames(arm, points.rows(fold != k)), points.rows(np.flatnonzero(fold == k)))
-        for k in range(5)
-    ]
-    alone = np.sqrt(np.mean(np.concatenate(errors) ** 2))
-    assert verdict.held_out.before_all_rows == pytest.approx(alone, rel=0.02)
-    assert verdict.waterfall[0].held_out_mm == pytest.approx(alone, rel=0.02)
-    assert verdict.waterfall[0].fitted_mm == pytest.approx(verdict.residual_before_mm, rel=0.02)
-
-
-def test_frames_that_only_held_out_rows_have_are_placed_by_themselves() -> None:
-    """What moves base and tool is taken out of every row, whatever frames the errors were told in."""
-    arm = arm_named("six-axis")
-    table = recorded(arm, replace(one_run(arm, 60, 5), run=np.repeat(["1", "2"], 30)), {}, 0.02, 6)
-    near = fit_frames(arm, table)
-    moved = replace(table, positions=table.positions + np.where(table.run == "1", 1e-3, 2e-3)[:, None])
-    loop = SelectionLoop(
-        near, moved, Noise(0.0, 0.0, ""), free_frames(moved, False), np.arange(60) % 5, lambda *_: None
-    )
-    frames = [term for placed in free_frames(moved, False) for term in placed.terms]
-    errors = point_residuals(near, moved)
-    held = [np.flatnonzero(table.run == "1"), np.flatnonzero(table.run == "2")]
-    taken = (near, moved, loop.noise.weights)
-    left = placed_by_points(taken, frames, errors, held, np.ones(60, dtype=bool))
-    assert np.sqrt(np.mean(errors**2)) > 1
-    assert 0.01 < np.sqrt(np.mean(left**2)) < 0.03
 
 
 def test_bad_shots_stand_in_the_error_of_all_rows_only() -> None:
