@@ -5,6 +5,7 @@ python -m benchmarks.failing
 
 from __future__ import annotations
 
+import re
 import resource
 import statistics
 import subprocess
@@ -33,6 +34,8 @@ LINES = (
     "diagnose CELL.csv -r ROBOT -o OUT",
     "check CELL.csv -r ROBOT",
     "diagnose BAD.csv -r URDF -o OUT",
+    "diagnose HOME/predicted.csv -r HOME/robot.yaml -o HOME",
+    "calibrate HOME/predicted.csv -r HOME/robot.yaml -o HOME",
     "compare BAD.csv BAD.csv -r ROBOT",
     "init nowhere.urdf",
 )
@@ -47,8 +50,8 @@ def seconds(words: list[str]) -> tuple[float, float]:
 
 
 def _placed(word: str, places: dict[str, Path]) -> str:
-    name, dot, ending = word.partition(".")
-    return f"{places[name]}{dot}{ending}" if name in places else word
+    name = re.split(r"[./]", word)[0]
+    return f"{places[name]}{word.removeprefix(name)}" if name in places else word
 
 
 def main() -> None:
@@ -61,6 +64,10 @@ def main() -> None:
         rows[40] = rows[40].replace(".", ",", 1).replace(",", ";", 1)
         places["CELL"] = Path(folder) / "cell"
         Path(f"{places['CELL']}.csv").write_text("\n".join(rows) + "\n")
+        places["HOME"] = Path(folder) / "home"
+        places["HOME"].mkdir()
+        (places["HOME"] / "predicted.csv").write_bytes((EXAMPLE / "recordings.csv").read_bytes())
+        (places["HOME"] / "robot.yaml").write_bytes((EXAMPLE / "robot.yaml").read_bytes())
         places |= {"MODEL": MODEL, "URDF": URDF}
         places |= {"ROBOT": EXAMPLE / "robot.yaml", "RECORDINGS": EXAMPLE / "recordings.csv"}
         print(f"{'armscope ...':45s} wall s  CPU s  (aim: {AIM_S} s)")

@@ -23,6 +23,24 @@ def test_the_answer_alone_decides(answer: Answer, code: int) -> None:
     assert exit_code_of(answer) == code
 
 
+@pytest.mark.parametrize("command", ["diagnose", "calibrate"])
+def test_an_output_that_cannot_be_is_told_before_anything_is_read(command: str, tmp_path: Path, monkeypatch) -> None:
+    """Within half a second: whoever names the folder of his robot.yaml need not wait for tables and kinematics."""
+    (tmp_path / "robot.yaml").write_text((POINTS / "robot.yaml").read_text())
+    (tmp_path / "predicted.csv").write_text((POINTS / "recordings.csv").read_text())
+    monkeypatch.setattr("armscope.cli.robots.arm_and_tables", lambda *_: pytest.fail("was read"))
+    line = f"{command} {tmp_path / 'predicted.csv'} -r {tmp_path / 'robot.yaml'} -o {tmp_path} --force"
+    done = CliRunner().invoke(app, line.split())
+    assert "an input of this command" in str(done.exception)
+
+
+def test_check_tells_once_how_columns_were_read(tmp_path: Path) -> None:
+    head, rows = (POINTS / "recordings.csv").read_text().split("\n", 1)
+    (tmp_path / "loud.csv").write_text(f"{head.replace('q1_rad', 'Q1_RAD')}\n{rows}")
+    said = CliRunner().invoke(app, ["check", str(tmp_path / "loud.csv")]).output
+    assert said.count("columns read as") == 1, said
+
+
 @pytest.mark.parametrize("kind", ["points", "motions"])
 def test_points_and_motions_that_cannot_tell_end_alike(kind: str, tmp_path: Path) -> None:
     file, arm = tmp_path / "table.csv", tmp_path / "robot.yaml"

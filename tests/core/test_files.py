@@ -49,3 +49,13 @@ def test_what_a_killed_process_leaves_is_no_table_to_anybody(tmp_path):
     left = list(tmp_path.iterdir())
     assert [path.suffix for path in left] == [".part"]
     assert list(tmp_path.glob("*.csv")) == []
+
+
+def test_a_table_has_the_bytes_that_pandas_writes_number_by_number(tmp_path):
+    numbers = [1.5, float("nan"), float("inf"), -0.0, 1e-300, 123456789.123456]
+    words = ['x,"y"', "", None, "z", "w\n", "nan"]
+    table = pd.DataFrame({"a": numbers, "b": words, "c": range(6), "d": np.float32(numbers), "e": [True, False] * 3})
+    for some in (table, table[["a"]], table.head(0)):
+        write_table(tmp_path / "a.csv", some, digits=7)
+        expected = some.to_csv(index=False, float_format="%.7g", lineterminator="\n")
+        assert (tmp_path / "a.csv").read_bytes().decode() == expected

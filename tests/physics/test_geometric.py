@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from armscope.physics.geometric import LEAST_OPENING, PARALLELOGRAM_GEOMETRY, is_parallelogram
+from armscope.physics.geometric import PARALLELOGRAM_GEOMETRY, finer_bars, is_parallelogram
+from armscope.physics.linkage_drivers import FLAT
 from armscope.physics.scene import Part, Scene
 from armscope.robot import Arm
 from armscope.robot.arm import build_arm
@@ -34,7 +35,9 @@ def test_shares_of_the_rocker_turn_the_forearm_as_the_closed_loop_does(rod: floa
         part = Part(placed, np.array([rod, rocker]) / true.rocker)
         (_, turn), *_ = PARALLELOGRAM_GEOMETRY.exact(scene, part)  # type: ignore[misc]
         # the columns are its slope: what is left is of second order, most where the linkage is nearly flat
-        np.testing.assert_allclose(turn, expected, atol=0.01 * np.abs(expected).max() / LEAST_OPENING)
+        flattest = np.abs(np.sin(scene.elbow_angle + angle)).min()
+        assert flattest > FLAT
+        np.testing.assert_allclose(turn, expected, atol=0.01 * np.abs(expected).max() / flattest)
 
 
 def test_directions_of_the_rocker_are_tried_so_densely_that_little_is_left_between_them() -> None:
@@ -51,6 +54,18 @@ def test_directions_of_the_rocker_are_tried_so_densely_that_little_is_left_betwe
         columns = np.column_stack([np.ones(len(turn)), shares])
         left.append(np.std(turn - columns @ np.linalg.lstsq(columns, turn)[0]))
     assert min(left) < 0.02 * np.std(turn)
+
+
+def test_finer_directions_lie_about_those_of_bars_that_nobody_stated() -> None:
+    scene = Scene(unstated(), full_table(unstated(), 60, 3))
+    coarse = {p.scanned[0][2]: p for p in PARALLELOGRAM_GEOMETRY.place(scene.arm, scene.recordings)}
+    finer = [p.scanned[0][2] for p in finer_bars(scene, coarse[90.0])]
+    assert len(finer) == 11
+    assert min(finer) == 87.5
+    assert max(finer) == 92.5
+    stated = arm_named("parallelogram-120kg")
+    (bars,) = PARALLELOGRAM_GEOMETRY.place(stated, full_table(stated, 60, 3))
+    assert not finer_bars(Scene(stated, full_table(stated, 60, 3)), bars)
 
 
 def test_a_serial_arm_has_no_linkage() -> None:

@@ -215,6 +215,15 @@ def test_departures_carry_their_sign_and_scanned_numbers_do_not() -> None:
     assert signed(Parameter("per_turn", "", 4.0, float("nan")), {}).value[0] == "4"
 
 
+def test_numbers_of_a_curve_without_a_law_are_no_readings(found: MotionDiagnosis) -> None:
+    """ "Over way 3: +0.0024 N m" is nothing that anybody can act on."""
+    ways = tuple(Parameter(f"over way {n}", "N m", 0.01 * n, 1e-3) for n in (1, 2, 3))
+    unknown = replace(found.verdict.effects[0], effect="unknown", family="unknown", parameters=ways)
+    assert motion_card(unknown, 1).readings == ()
+    offset = replace(unknown, effect="torque_offset", family="drive", parameters=(replace(ways[0], name="offset"),))
+    assert motion_card(offset, 1).readings
+
+
 def test_a_curves_card_holds_its_picture(found: MotionDiagnosis, tmp_path: Path) -> None:
     effects = found.verdict.effects
     number, cable = next((n, c) for n, c in enumerate(effects, start=1) if c.effect == "cable_torque")

@@ -20,7 +20,7 @@ from armscope.diagnosis import Diagnosis, Settings, diagnose, write_verdict
 from armscope.physics import model_file
 from armscope.recordings import read_recordings
 from armscope.robot import load_arm
-from armscope.verdict import contract
+from armscope.verdict import contract, filenames
 from armscope.verdict.effects import Parameter
 from armscope.verdict.files import read_verdict
 from armscope.verdict.schema import Background, Notice, Orientations, Unexplained, Verdict, WaterfallStep
@@ -53,6 +53,13 @@ def test_the_published_schema_is_the_one_that_the_types_generate(name: str) -> N
     generated = {"verdict": contract.schema, "model": model_file.schema}[name]()
     path = {"verdict": "src/armscope/verdict/verdict", "model": "src/armscope/physics/model"}[name]
     assert published(name) == generated, f"regenerate it: armscope schema {name} > {path}.schema.json"
+
+
+def test_a_diagnosis_writes_no_file_that_was_not_announced(written: tuple[Diagnosis, Path]) -> None:
+    """What an output can't be is told before the tables are read, by these names."""
+    made = {path.name for path in written[1].iterdir() if not path.name.startswith(".")}
+    assert filenames.VERDICT in made
+    assert made <= set(filenames.FILES)
 
 
 def test_what_a_diagnosis_writes_is_what_the_schemas_say(written: tuple[Diagnosis, Path]) -> None:

@@ -16,6 +16,8 @@ from armscope.robot.arm import build_arm
 from armscope.verdict.contributions import contributions
 from armscope.verdict.corrections import corrected_rows, zero_offsets
 from armscope.verdict.effects import Parameter
+from armscope.verdict.filenames import FILES
+from armscope.verdict.files import write_verdict
 from armscope.verdict.importance import expected
 from armscope.verdict.schema import HeldOut
 from armscope.verdict.work_order import angle, task_of, work_order
@@ -77,6 +79,11 @@ def test_expectations_fall_from_task_to_task_and_stand_on_the_page(verdict, tmp_
     page = write_report(verdict, tmp_path).with_name("work-order.html").read_text()
     assert all(task.confirm in page for task in done)
     assert all(f"{task.alone_mm:.3g}" in page for task in done)
+
+
+def test_files_of_a_verdict_are_those_that_are_asked_for_before(verdict, tmp_path: Path) -> None:  # noqa: F811
+    write_verdict(verdict, tmp_path)
+    assert {path.name for path in tmp_path.iterdir()} <= set(FILES)
 
 
 def test_steps_that_pay_less_unfold_and_go_on_counting(monkeypatch, verdict, tmp_path: Path) -> None:  # noqa: F811

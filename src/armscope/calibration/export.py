@@ -25,8 +25,6 @@ from armscope.robot.urdf_writing import (
 )
 
 TIP = "calibrated_flange"
-FILES = ("robot.yaml", "robot.urdf", "robot_urdf.yaml", "frames.yaml")
-"""All that `export` may write."""
 
 
 def export(calibration: Calibration, folder: Path | str, target: str | None = None) -> tuple[Path, ...]:

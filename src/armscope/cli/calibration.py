@@ -13,6 +13,7 @@ from armscope.core.inputs import InputError
 
 app = Commands()
 
+FILES = ("robot.yaml", "robot.urdf", "robot_urdf.yaml", "frames.yaml")
 TABLES = ("calibration.csv", "held.csv", "covariance.csv", "misses.csv")
 
 
@@ -34,7 +35,9 @@ def check(
         if check_motions_table(recordings, robot, json):
             raise typer.Exit(1)
         return
-    table = table_of(recordings)
+    from armscope.recordings import read_recordings
+
+    table = table_of(recordings) if json else read_recordings(recordings)  # the text has the reader's notes
     arm = None if robot is None else robot_of(robot)
 
     from armscope.check import check as check_table
@@ -80,15 +83,15 @@ def calibrate(
     from dataclasses import replace
 
     from armscope.cli.robots import arm_and_tables
-
-    arm, (table,) = arm_and_tables(robot, [recordings])
-
-    from armscope.calibration import calibrate as calibrated
-    from armscope.calibration.export import FILES, export
-    from armscope.check import check as check_table
     from armscope.core.files import writable, write_table
 
     writable(output, *FILES, *TABLES)
+    arm, (table,) = arm_and_tables(robot, [recordings])
+
+    from armscope.calibration import calibrate as calibrated
+    from armscope.calibration.export import export
+    from armscope.check import check as check_table
+
     looked_through = check_table(table, arm)
     consistency = looked_through.consistency
     assert consistency is not None

@@ -36,8 +36,8 @@ class Cost:
         return self.start_mb + 1e-3 * self.row_kb * rows
 
 
-DIAGNOSE = Cost(start_s=20.0, row_us=160.0, start_mb=500.0, row_kb=1.6)
-PREDICT = Cost(start_s=3.0, row_us=20.0, start_mb=250.0, row_kb=0.7)
+DIAGNOSE = Cost(start_s=20.0, row_us=200.0, start_mb=500.0, row_kb=0.9)
+PREDICT = Cost(start_s=3.0, row_us=15.0, start_mb=250.0, row_kb=0.5)
 COMPENSATE = Cost(start_s=3.0, row_us=100.0, start_mb=300.0, row_kb=0.9)
 
 

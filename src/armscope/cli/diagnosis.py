@@ -62,7 +62,9 @@ def diagnose(
     from armscope.cli.cost import DIAGNOSE, announce
     from armscope.cli.motion import MotionOptions, diagnose_motions
     from armscope.cli.robots import arm_and_tables, print_json
+    from armscope.core.files import writable
     from armscope.recordings.first_lines import is_motion_table
+    from armscope.verdict.filenames import FILES
 
     moving = is_motion_table(recordings)
     of_points = {"--priors": priors, "--first-id": first_id, "--tool-per-run": tool_per_run or None}
@@ -78,17 +80,16 @@ def diagnose(
             raise typer.Exit(exit_code_of(answer))
         return
     announce(recordings, DIAGNOSE, threads)
+    writable(output, *FILES, *(PAGES if report else ()))
     arm, (table,) = arm_and_tables(robot, [recordings], priors, arm_type)
 
     from armscope.check.preconditions import refuse_unusable
     from armscope.compensation.physical import FILE as DOMAIN
     from armscope.compensation.physical import identified_on, save_identified
-    from armscope.core.files import writable
     from armscope.diagnosis import Settings, write_verdict
     from armscope.diagnosis import diagnose as diagnose_arm
-    from armscope.verdict.files import FILES
 
-    writable(output, *FILES, DOMAIN, *(PAGES if report else ()))
+    writable(output, DOMAIN)
     if run or first_id is not None:
         table = table.of_runs(run or (), first_id)
     if not anyway:

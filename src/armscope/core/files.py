@@ -233,11 +233,22 @@ def write_table(path: Path | str, table: pd.DataFrame, digits: int = 10) -> None
     packer = zlib.compressobj(9, zlib.DEFLATED, 31) if str(path).endswith(".gz") else None
     with replacing(path) as beside, beside.open("wb") as stream:
         for start in range(0, max(len(table), 1), ROWS_AT_A_TIME):
-            some = table.iloc[start : start + ROWS_AT_A_TIME]
+            some = _spelt(table.iloc[start : start + ROWS_AT_A_TIME], digits)
             text = some.to_csv(index=False, header=start == 0, float_format=f"%.{digits}g", lineterminator="\n")
             stream.write(text.encode() if packer is None else packer.compress(text.encode()))
         if packer is not None:
             stream.write(packer.flush())
+
+
+def _spelt(table: pd.DataFrame, digits: int) -> pd.DataFrame:
+    """The table with numbers as text: all of a column at once takes half the time that they take one by one."""
+    spelt = table.copy()
+    for number in range(table.shape[1]):
+        values = table.iloc[:, number].to_numpy()
+        if values.dtype.kind == "f":
+            text = (f"%.{digits}g\n" * len(values) % tuple(values.tolist())).split("\n")[:-1]
+            spelt.isetitem(number, ["" if word == "nan" else word for word in text])
+    return spelt
 
 
 def write_json(path: Path | str, content: Any) -> None:

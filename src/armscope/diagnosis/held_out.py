@@ -13,6 +13,7 @@ from armscope.core.grouping import same_configuration
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
 from armscope.diagnosis.constants import FOLDING
+from armscope.diagnosis.placed_by_points import placed_by_points
 from armscope.fitting.design_matrix import columns, structured_design
 from armscope.fitting.linearisation import current_parameters, linearised
 from armscope.fitting.parameter_layout import ParameterLayout
@@ -106,11 +107,18 @@ def cross_validate(
     own = left_over(rows, np.array([h.coefficients(len(problem.scale)) / problem.scale for h in fitted]))
     fold_of = split.fold[split.of_row]
     told = np.isin(fold_of, folds) & rows.trusted
+    turns = _rms(errors[:, told], rows.slices.get("orientation", slice(0)))
+    if "orientation" in rows.slices:
+        frames = [rows.layout.terms[k] for k in problem.space.frames]
+        taken = (rows.point, rows.recordings, rows.weights)
+        each_fold = [np.flatnonzero(fold_of == fold) for fold in folds]
+        nominal = own[0, :, POINTS].copy()
+        for told_errors, parts in ((errors, each_fold), (own, [np.arange(len(fold_of))])):
+            told_errors[0, :, POINTS] = placed_by_points(taken, frames, nominal, parts, rows.trusted)
     per_fold = np.array(
         [_rms(errors[:, told & (fold_of == fold)]) for fold in folds if (told & (fold_of == fold)).any()]
     )
     held, held_all = _rms(errors[:, told]), _rms(errors[:, np.isin(fold_of, folds)])
-    turns = _rms(errors[:, told], rows.slices.get("orientation", slice(0)))
     spread = per_fold.std(axis=0, ddof=1) if len(per_fold) > 1 else np.full(len(held), np.nan)
     labels = ["free frames", *[problem.space.candidates[c].label for c in order], "tolerances everywhere"]
     waterfall = tuple(

@@ -17,7 +17,7 @@ from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.row_noise import NoiseOfRows
 from armscope.diagnosis.scans.constants import SCANS
-from armscope.diagnosis.scans.context import ScanContext
+from armscope.diagnosis.scans.context import ScanContext, few_rows
 from armscope.diagnosis.scans.new_candidates import scanned_candidates
 from armscope.diagnosis.sizes_of_waves import with_sizes_of_rows
 from armscope.fitting.joint_scatter import Scattered
@@ -107,7 +107,7 @@ class SelectionLoop:
         self.noise = NoiseOfRows(start, self.table, noise, residuals(start, self.table))
         self.loads: list[Placed] = []
         self.last: tuple[Hypothesis, EffectSpace] | None = None
-        self.scans = 0
+        self.scans, self.scanned = 0, few_rows(recordings)
         self.by_block: list[NormalEquations] | None = None
         self.fit: Refit
 
@@ -294,5 +294,5 @@ class SelectionLoop:
         """New candidates whose scanned numbers promise something."""
         self.scans += 1
         most = MESH_COUNTS[-1] if self.scans == SCANS.scan_of_fine_lines else SCANS.ordinary_lines
-        context = ScanContext(self.problem, self.space, self.point, self.recordings, self.noise.weights)
+        context = ScanContext(self.problem, self.space, self.point, self.recordings, self.noise.weights, self.scanned)
         return scanned_candidates(context, search, self.best, most)

@@ -22,6 +22,11 @@ class FittingSteps(Constants):
     converged_share: float = constant(
         0.05, "the same as a share of what the noise leaves uncertain", "judgement: nobody sees it"
     )
+    steady: float = constant(
+        0.3,
+        "share of the step before that a step on a long table must stay below for the next one to be foretold by it",
+        "judgement: a fit that shrinks its steps so has left what damping is for",
+    )
     free: float = constant(
         10.0,
         "width of the prior of a named effect's values",

@@ -40,6 +40,11 @@ class ParameterLayout:
         """Columns of an effect whose terms are all in the layout."""
         return np.array([self.index[term] for term in placed.terms])
 
+    def only(self, columns: Indices) -> ParameterLayout:
+        """Some of the columns, in this order, for sums of them alone; which effects they are of is not known there."""
+        none = np.empty(0, dtype=np.intp)
+        return ParameterLayout(tuple(self.terms[n] for n in columns), none, (), (), ())
+
     @functools.cached_property
     def index(self) -> dict[Term, int]:
         """Where each term stands among the columns."""

@@ -90,6 +90,7 @@ class ModelFit(NonlinearProblem[FittedModel, ChannelResiduals]):
         self.parts, self.table = parts, linearised(rows)
         self.weigh, self.prior = weigh, precision
         self.noise, self.negligible = least_noise, negligible
+        self.steps_mm: list[float] = []
         self.weights: RowWeights
         self.gram: NormalEquations
         self.precision: Array
@@ -102,6 +103,7 @@ class ModelFit(NonlinearProblem[FittedModel, ChannelResiduals]):
 
     def quadratic(self, state: FittedModel, residual: ChannelResiduals) -> Quadratic:
         """Sums over weighted rows; with the noise that they leave once all is fitted."""
+        self.steps_mm.append(np.inf)
         self.weights = self.weigh(residual)
         blocks = np.zeros(len(self.table), dtype=np.intp)
         self.gram = normal_equations_by_block(self.parts, state, self.table, self.weights, blocks)[0]
@@ -131,9 +133,15 @@ class ModelFit(NonlinearProblem[FittedModel, ChannelResiduals]):
         return replace(moved, background=background, parts=parts)
 
     def settled(self, before: ChannelResiduals, after: ChannelResiduals) -> bool:
-        """Whether points move by next to nothing beside what noise leaves uncertain."""
+        """Whether points move by next to nothing beside what noise leaves uncertain.
+
+        Of a long table it is enough that they will: each step is as much less than the last as that one was.
+        """
         uncertain = self.noise * np.sqrt(self.spent / max(self.gram.n, 1.0))
-        moved = np.sqrt(np.mean((after.points_mm - before.points_mm) ** 2))
+        moved = self.steps_mm[-1] = float(np.sqrt(np.mean((after.points_mm - before.points_mm) ** 2)))
+        if len(self.table) > STEPS.kept_rows and len(self.steps_mm) > 1:
+            shrunk = moved / self.steps_mm[-2]
+            moved *= shrunk / (1 - shrunk) if shrunk < STEPS.steady else 1.0
         return bool(moved < max(STEPS.converged_mm, self.negligible * uncertain))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -73,8 +74,10 @@ class _Points:
     @classmethod
     def of(cls, model: FittedModel, recordings: Recordings) -> _Points:
         tool = np.empty((len(recordings), 3))
-        for rows, posture in linearised(recordings).chunks(model):  # all rows' frames at once would take 4 kB of each
-            tool[rows] = posture.tool
+        # all rows' frames at once would take 4 kB of each
+        parts = linearised(recordings).each_part(model, lambda chunks: [(rows, made.tool) for rows, made in chunks])
+        for rows, points in itertools.chain.from_iterable(parts):
+            tool[rows] = points
         left = model.to_base(recordings.positions, recordings.run) - tool
         return cls(tool, recordings.positions, robust.huber_weights(left, np.ones(len(left)), 0.0))
 

@@ -11,7 +11,8 @@ import pandas as pd
 
 from armscope.fleet.diagnosing import FAILURE
 from armscope.fleet.members import Member
-from armscope.verdict.files import VERDICT, read_verdict
+from armscope.verdict.filenames import VERDICT
+from armscope.verdict.files import read_verdict
 from armscope.verdict.schema import Verdict
 
 OUTLIER = 4.0

@@ -29,6 +29,12 @@ class NormalEquations:
         product = np.outer(scale, scale)
         return NormalEquations(np.divide(self.G, product, out=product), self.b / scale, self.yy, self.n)
 
+    def among(self, columns: Indices, count: int) -> NormalEquations:
+        """The same as sums of ``count`` columns, of which these are all that is known; the others' sums are zero."""
+        G, b = np.zeros((count, count)), np.zeros(count)
+        G[np.ix_(columns, columns)], b[columns] = self.G, self.b
+        return NormalEquations(G, b, self.yy, self.n)
+
     def rss(self, coefficients: Array) -> float:
         """Residual sum of squares with these coefficients of all columns."""
         return float(self.rss_of_each(coefficients[None])[0])

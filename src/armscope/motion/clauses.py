@@ -132,7 +132,7 @@ def payload_clause(cause: FoundCause, numbers: Numbers) -> str:
     mass = numbers.get("mass")
     if mass is not None and not _open(mass):
         return f"the arm carries {amount(mass)} {'more' if mass.value > 0 else 'less'} than stated"
-    off = rms_of(cause) if mass is None else f"its mass {amount(mass, sign=True)}"
+    off = rms_of(cause) if mass is None else f"its mass as stated {amount(mass).partition(' ')[2]}"
     return f"the load sits elsewhere than stated ({off})"
 
 

@@ -13,6 +13,7 @@ from armscope.physics.clause import Told, swings, waves_column
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import Cure, command
 from armscope.physics.effect import AXES, ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
+from armscope.physics.linkage_drivers import FLAT
 from armscope.physics.placing import moving_joints, nowhere
 from armscope.physics.scene import LINKAGE_JOINT, Part, Scene
 from armscope.recordings import Recordings
@@ -185,13 +186,11 @@ AXIS_WOBBLE = Effect(
 
 
 FOREARM = Direction(f"joint {LINKAGE_JOINT}", "rz")
-PHASES = 60
-"""Directions of the rocker on the forearm that are tried where robot.yaml does not state them: every 3 degrees.
+STEP_DEG, FINE_STEP_DEG = 3.0, 0.5
+"""Directions of the rocker on the forearm that are tried where robot.yaml does not state them, and then about the best.
 
-At half a step's distance 3 % of the bars' effect are left, which is a slope and would pass for a gear's ratio.
+At half a coarse step's distance 3 % of the bars' effect are left, which is a slope and would pass for a gear's ratio.
 """
-LEAST_OPENING = 0.2
-"""Sine of the least angle between crank and upper arm at which a linkage still drives its forearm."""
 
 
 def _place_linkage(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
@@ -209,26 +208,51 @@ def is_parallelogram(arm: Arm) -> bool:
     return bool(len(turned) == 2) and np.prod(arm.actuation[LINKAGE_JOINT - 1][turned]) < 0
 
 
-def _unstated_bars(scene: Scene) -> Iterator[Placed]:
+def _unstated_bars(scene: Scene) -> list[Placed]:
     """Bars of unknown lengths: errors as shares of the rocker's, at each direction that it may have on the forearm."""
-    moved = np.ptp(scene.elbow_angle) > 0
-    angles = np.arange(PHASES) * np.pi / PHASES
-    open_at = [a for a in angles if moved and np.abs(np.sin(scene.elbow_angle + a)).min() > LEAST_OPENING]
-    for angle in open_at:
-        terms = tuple(
-            term(bar, "m/m", Product(FOREARM, Driver(f"{bar} share", (float(angle),))), plausible=PLAUSIBLE.bar_share)
-            for bar in ("rod", "rocker")
-        )
-        yield Placed(
+    return _bars_at(scene, np.arange(0.0, 180.0, STEP_DEG)) if np.ptp(scene.elbow_angle) > 0 else []
+
+
+def finer_bars(scene: Scene, placed: Placed) -> list[Placed]:
+    """Bars of unknown lengths at directions of the rocker less than a coarse step from those of others.
+
+    Args:
+        scene: the arm in its poses.
+        placed: bars in place.
+
+    Returns:
+        The bars at each finer direction; none where the bars are stated, or are no bars.
+    """
+    if placed.effect is not PARALLELOGRAM_GEOMETRY or not placed.scanned:
+        return []
+    return _bars_at(scene, placed.scanned[0][2] + np.arange(-STEP_DEG, STEP_DEG, FINE_STEP_DEG)[1:])
+
+
+def _bars_at(scene: Scene, angles_deg: Array) -> list[Placed]:
+    """Bars with the rocker at each of some angles on the forearm at which no pose holds the linkage flat."""
+    angles = np.radians(angles_deg)
+    kept = [n for n, a in enumerate(angles) if np.abs(np.sin(scene.elbow_angle + a)).min() > FLAT]
+    return [
+        Placed(
             PARALLELOGRAM_GEOMETRY,
             "parallelogram",
-            terms,
+            tuple(
+                term(
+                    bar,
+                    "m/m",
+                    Product(FOREARM, Driver(f"{bar} share", (float(angles[n]),))),
+                    plausible=PLAUSIBLE.bar_share,
+                )
+                for bar in ("rod", "rocker")
+            ),
             (1.0, 1.0),
             f"angle of joint {LINKAGE_JOINT}",
-            scanned=(("crank_angle", "deg", float(np.degrees(angle))),),
-            multiplicity=len(open_at),
-            variant=f"{np.degrees(angle):.0f} degrees",
+            scanned=(("crank_angle", "deg", float(angles_deg[n])),),
+            multiplicity=len(kept),
+            variant=f"{angles_deg[n]:g} degrees",
         )
+        for n in kept
+    ]
 
 
 def _closed_loop(scene: Scene, part: Part) -> Iterator[tuple[Direction, Array]]:

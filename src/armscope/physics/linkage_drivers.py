@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     from armscope.physics.scene import Scene
 
 
+FLAT = 0.1
+"""Sine of the angle between crank and upper arm below which a parallelogram counts as flat."""
+
+
 def _rod(scene: Scene) -> Array:
     """Forearm angle per metre that rod minus upper arm differs from the parallelogram: -1 / (k sin gamma)."""
     gamma = _crank_to_upper_arm(scene)
@@ -42,7 +46,7 @@ def _crank_to_upper_arm(scene: Scene) -> Array:
 
 def _away_from_zero(values: Array) -> Array:
     """A flat parallelogram has no defined forearm; its neighbourhood must not swamp everything else."""
-    return np.where(np.abs(values) < 0.1, np.where(values < 0, -0.1, 0.1), values)
+    return np.where(np.abs(values) < FLAT, np.where(values < 0, -FLAT, FLAT), values)
 
 
 BARS: dict[str, DriverKind] = {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator
 
 import numpy as np
@@ -102,11 +103,13 @@ GEAR_ECCENTRICITY = Effect(
 )
 
 
+@functools.cache
 def cyclic(j: int, per_turn: int) -> Placed:
     """A wave of motor j, by the effect that makes so many per turn."""
     return _cyclic(GEAR_ECCENTRICITY if per_turn <= ECCENTRIC_WAVES else GEAR_MESH, j, per_turn, multiplicity=1)
 
 
+@functools.cache
 def mesh(j: int, per_turn: int) -> Placed:
     """A gear mesh error of motor j with ``per_turn`` periods per joint turn."""
     return _cyclic(GEAR_MESH, j, per_turn, multiplicity=len(MESH_COUNTS))

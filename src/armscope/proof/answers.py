@@ -13,7 +13,8 @@ from armscope.core.files import read_table
 from armscope.motion.verdict import FoundCause
 from armscope.proof.definitions import Name
 from armscope.verdict.effects import FoundEffect, Parameter
-from armscope.verdict.files import VERDICT, read_verdict
+from armscope.verdict.filenames import VERDICT
+from armscope.verdict.files import read_verdict
 
 PREDICTED, FAILURE = "test_predicted.csv", "failed.txt"
 Numbers = dict[str, tuple[float, float, str]]

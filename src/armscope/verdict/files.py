@@ -11,14 +11,8 @@ from armscope.core.files import read_json, write_json, write_table
 from armscope.physics.model_file import save_model
 from armscope.recordings.columns import angle_columns
 from armscope.verdict.diagnosis import Atlas, Diagnosis
+from armscope.verdict.filenames import VERDICT
 from armscope.verdict.schema import Verdict
-
-VERDICT = "verdict.json"
-
-FILES = (
-    "verdict.json", "model.yaml", "predicted.csv", "suspects.csv", "next_poses.csv", "curves.csv", "atlas.csv",
-)  # fmt: skip
-"""All that `write_verdict` may write."""
 
 
 def read_verdict(path: Path | str) -> Verdict:

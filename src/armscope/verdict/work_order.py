@@ -37,7 +37,7 @@ LEAST_GAIN = 0.03
 WORTH_TOGETHER = 0.1
 """Share of the error from which all that is left in the fitted model is commanded away together."""
 WORTH_OF_MINOR = 0.25
-"""The same from which a minor effect that pays once all else is cured is a task of its own: the list stays short."""
+"""The same from which a minor effect is a task of its own in its turn: judgement, with two real arms in view."""
 NO_GAIN = "To cure it does not lower the error in its turn: confirm it before anything is changed."
 RIVALS = 2
 """What else a cause could be, as told in a task: the nearest."""
@@ -202,7 +202,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         what=capitalised(phrase(effect)),
         place=effect.location,
         change=known.cure.change if known else "",
-        motion=motion(scene, cause.parts),
+        motion="" if "offset" in told else motion(scene, cause.parts),  # the instruction has it
         instruction=_settled(effect, asked) + (known.cure.instruction.format(**words) if known else ""),
         cure=(known.cure.rule if known else effect.cure).replace("`", ""),
         confirm=effect.confirm,

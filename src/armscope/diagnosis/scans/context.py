@@ -9,6 +9,8 @@ import numpy as np
 
 from armscope.core.types import Array, Indices
 from armscope.diagnosis.model_space import EffectSpace
+from armscope.diagnosis.scans.constants import SCANS
+from armscope.fitting.linearisation import LinearisedTable
 from armscope.inference.additions import block_scores
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.linear_algebra import ColumnBlocks
@@ -18,6 +20,17 @@ from armscope.physics.frames import runs_of
 from armscope.physics.model import FittedModel
 from armscope.physics.set_ups import runs_around
 from armscope.recordings import Recordings
+
+
+def scanned_rows(count: int) -> Indices:
+    """Numbers of the rows, of so many, on which many waves are tried."""
+    return np.unique(np.linspace(0, count - 1, min(count, SCANS.scanned_rows)).astype(np.intp))
+
+
+def few_rows(recordings: Recordings) -> LinearisedTable:
+    """The same as a table that keeps what is computed on them."""
+    rows = scanned_rows(len(recordings))
+    return LinearisedTable(recordings.rows(rows), order=np.arange(len(rows)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,6 +43,7 @@ class ScanContext:
         model: where they were taken.
         recordings: the rows.
         weights: of the rows.
+        few: rows spread evenly, on which many waves are tried; what the waves are there is kept from scan to scan.
     """
 
     problem: Problem
@@ -37,6 +51,7 @@ class ScanContext:
     model: FittedModel
     recordings: Recordings
     weights: RowWeights
+    few: LinearisedTable | None = None
 
     def runs_around(self, location: str, run: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """The runs before and after one that share its base, or its tool, so that what moved in one stays so."""

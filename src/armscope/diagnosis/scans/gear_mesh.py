@@ -7,9 +7,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from armscope.diagnosis.scans.constants import SCANS
-from armscope.diagnosis.scans.context import ScanContext, columns_of, scores_given
+from armscope.diagnosis.scans.context import ScanContext, columns_of, few_rows, scanned_rows, scores_given
 from armscope.fitting.column_blocks import column_blocks
-from armscope.fitting.linearisation import LinearisedTable
 from armscope.inference.evidence import Hypothesis
 from armscope.physics.effect import Placed
 from armscope.physics.placing import moving_joints
@@ -28,9 +27,9 @@ def mesh_lines(context: ScanContext, given: Sequence[Hypothesis], most: int = ME
         Lines that promise enough to go on to compete.
     """
     count = len(context.recordings)
-    rows = np.unique(np.linspace(0, count - 1, min(count, SCANS.scanned_rows)).astype(np.intp))
+    rows = scanned_rows(count)
     columns, weights = columns_of(given), context.weights.take(rows, len(rows) / count)
-    table = LinearisedTable(context.recordings.rows(rows), order=np.arange(len(rows)))
+    table = context.few or few_rows(context.recordings)
     lines = [[mesh(j, n) for n in MESH_COUNTS if n <= most] for j in moving_joints(context.recordings)]
     # joint by joint: the waves' products with each other grow with the square of their number
     terms = [[p.terms for p in of_joint] for of_joint in lines]

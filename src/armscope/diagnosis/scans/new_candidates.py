@@ -1,4 +1,4 @@
-"""What scanning finds that does not compete yet: lines of gears' meshes, jumps, one pause more of a drift."""
+"""What does not compete yet, and promises something: gears' meshes, jumps, a drift's next pause, finer directions."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ from armscope.inference.search import Search
 from armscope.physics.backgrounds import DRIFT, FAMILIES
 from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import Placed
+from armscope.physics.geometric import finer_bars
+from armscope.physics.scene import Scene
 
 
 def scanned_candidates(context: ScanContext, search: Search, best: Hypothesis, most: int) -> list[Placed]:
@@ -32,7 +34,9 @@ def scanned_candidates(context: ScanContext, search: Search, best: Hypothesis, m
     given = (best, search.empty()) if best.chosen else (best,)
     # a jump is most of what a wander would be: it is looked for where none is allowed for
     steady = [search.with_background(each, FAMILIES.index(DRIFT), 0) for each in given]
-    for found in (mesh_lines(context, given, most), jumps(context, steady), _paused(context, search, best)):
+    scene = Scene(context.model.arm, context.recordings)
+    finer = [bars for c in sorted(best.candidates) for bars in finer_bars(scene, context.space.placed[c])]
+    for found in (mesh_lines(context, given, most), jumps(context, steady), _paused(context, search, best), finer):
         for placed in found:
             if (placed.key, placed.variant) not in known:
                 new[(placed.key, placed.variant)] = placed

@@ -13,7 +13,7 @@ from armscope.core.types import Indices
 from armscope.diagnosis.constants import FOLDING
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.constants import TELLING
-from armscope.fitting.linearisation import normal_equations_by_block
+from armscope.fitting.linearisation import current_parameters, normal_equations_by_block
 from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem
@@ -58,22 +58,27 @@ def subset_consistency(state: DiagnosisState) -> dict[int, SameSize]:
 
 def _divisions(state: DiagnosisState) -> Iterator[tuple[list[NormalEquations], str]]:
     """Sums over the rows of each run; of each payload; of the near and of the far half of the workspace."""
-    split, recordings, point = state.layout, state.recordings, state.point
+    split, recordings, point, layout = state.layout, state.recordings, state.point, state.space.layout
     if split.grouped_by == "run":
         runs = [np.flatnonzero(split.fold == run) for run in np.unique(split.fold)]
         yield [total([state.blocks[int(k)] for k in inside]) for inside in runs], "runs"
-    rows = spread_evenly(len(recordings), TELLING.homogeneity_rows)
+    rows, asked = spread_evenly(len(recordings), TELLING.homogeneity_rows), _columns_asked(state)
+    few = layout.only(asked)
     table, some = recordings.rows(rows), state.fit.weights.take(rows)
     for of_row, kind in ((_payloads(table), "payloads"), (_halves(table, point), "halves of the workspace")):
         counts = np.bincount(of_row[of_row >= 0])
         if len(counts) > 1 and counts.min() >= FOLDING.fewest_rows_per_run:
             known = np.flatnonzero(of_row >= 0)
-            yield (
-                normal_equations_by_block(
-                    state.space.layout, point, table.rows(known), some.take(known), of_row[known]
-                ),
-                kind,
-            )
+            sums = normal_equations_by_block(few, point, table.rows(known), some.take(known), of_row[known])
+            yield [each.among(asked, len(layout.terms)) for each in sums], kind
+
+
+def _columns_asked(state: DiagnosisState) -> Indices:
+    """Columns of the hypothesis, of what joins it, and of what the model at which columns were taken holds."""
+    best, companions = state.best, state.problem.space.companions
+    joined = [c.family.columns for c in companions if c.joins(best.candidates, best.background)]
+    held = np.flatnonzero(current_parameters(state.space.layout, state.point))
+    return np.unique(np.concatenate([best.columns, held, *joined])).astype(np.intp)
 
 
 def _payloads(recordings: Recordings) -> Indices:

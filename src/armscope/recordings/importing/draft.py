@@ -97,7 +97,7 @@ def _guess_columns(path: Path, table: ForeignTable) -> Iterator[str]:
     stated = _stated_unit(table.names[angles[0]], ANGLE_UNITS)
     unit = stated or ("rad" if largest <= RADIANS_UP_TO else "deg")
     why = "stated by the name" if stated else f"guessed: none is beyond {largest:.4g}"
-    why += "; Grad read as German for degrees" if "grad" in _words(table.names[angles[0]]) else ""
+    why = "guessed: Grad is German for degrees" if "grad" in _words(table.names[angles[0]]) else why
     unnumbered = table.header and not any(JOINT.fullmatch(table.names[column].strip()) for column in angles[:1])
     why += "; no numbers in the names: in the table's order" if unnumbered else ""
     yield f"  angles: {{columns: {_listed(table, angles)}, unit: {unit}}}   # {why}; columns by likeness of names"

@@ -19,7 +19,8 @@ from armscope.real.reference import Reference, ReferenceRun, load_reference
 from armscope.real.transfer import GEOMETRY_HERE, SPLITS, WITH_CURVES
 from armscope.report.html import significant
 from armscope.report.text.compliances import compliance_lines
-from armscope.verdict.files import VERDICT, read_verdict
+from armscope.verdict.filenames import VERDICT
+from armscope.verdict.files import read_verdict
 from armscope.verdict.schema import Verdict
 
 LEVELS = ("nominal", "offsets", "geometric", "compliance")

@@ -67,7 +67,7 @@ def motion_card(cause: FoundCause, number: int) -> MotionCard:
         share=percent(cause.share),
         share_width=min(100.0, max(0.0, 100 * cause.share)),
         size=f"{cause.rms:.2g} {cause.unit} RMS at {cause.joint}",
-        readings=tuple(signed(each, labels) for each in cause.parameters if not each.name.startswith(KNOT)),
+        readings=tuple(signed(each, labels) for each in cause.parameters if not _of_a_curve(cause, each)),
         physics=cause.physics,
         confirm=cause.confirm,
         cure=cause.cure.replace("`", ""),
@@ -84,6 +84,11 @@ def motion_card(cause: FoundCause, number: int) -> MotionCard:
         doubt=cause.doubt,
         figure=f"curve_{number}" if curve else "",
     )
+
+
+def _of_a_curve(cause: FoundCause, parameter: Parameter) -> bool:
+    """Whether a number is one of a curve without a law, and says nothing by itself: they stand in model.yaml."""
+    return cause.nameless or parameter.name.startswith(KNOT)
 
 
 def signed(parameter: Parameter, labels: Mapping[str, str]) -> Reading:
