@@ -231,6 +231,9 @@ def test_sizes_that_differ_from_path_to_path_are_no_physics() -> None:
 
 def test_nothing_found_is_an_answer() -> None:
     assert answer_of([], UnexplainedTorque(False), HeldOutErrors(0.1, 0.1, 0.1)) == ("nothing missing", False)
+    foreign = HeldOutErrors(1.06, 1.06, 1.06)
+    assert answer_of([], UnexplainedTorque(False), foreign) == ("cannot tell", True)
+    assert headline([], foreign).startswith("Cannot tell what is missing: the model foretells these torques no better")
 
 
 def test_causes_that_make_held_out_motion_worse_are_no_answer() -> None:

@@ -206,6 +206,11 @@ class HeldOutErrors:
         return self.anew >= self.without
 
     @property
+    def foretells_nothing(self) -> bool:
+        """Whether the model foretells the torque no better than a torque of zero would."""
+        return self.anew >= 1
+
+    @property
     def no_answer(self) -> bool:
         """Whether the named ones don't clearly help either."""
         return self.worse and self.named > TELLING.clearly_better * self.without
@@ -231,7 +236,7 @@ def answer_of(found: Sequence[FoundCause], left: UnexplainedTorque, errors: Held
         Both.
     """
     if not found:
-        return ("cannot tell", True) if left.present else ("nothing missing", False)
+        return ("cannot tell", True) if left.present or errors.foretells_nothing else ("nothing missing", False)
     if errors.no_answer:
         return "cannot tell", True
     named = [cause for cause in found if not cause.nameless and not cause.minor]
@@ -257,6 +262,11 @@ def headline(found: Sequence[FoundCause], errors: HeldOutErrors, lasting: Sequen
         return f"{beyond}No cause of the library explains it. {errors.words()}"
     if not found:
         met = f"{ON_HELD_OUT} the torque is met to {rounded(100 * errors.anew)} %."
+        if errors.foretells_nothing:
+            return (
+                "Cannot tell what is missing: the model foretells these torques no better than none at all, and no "
+                f"cause mends it. Are they of this motion, and of this arm? {met}"
+            )
         return f"Nothing is missing beyond friction and rotors of the joints. {met}"
     told, rest = (main or found)[: TELLING.in_headline], main[TELLING.in_headline :]
     of_what = (" of what friction and rotors leave", *[""] * len(told))
