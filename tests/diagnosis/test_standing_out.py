@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import cast
 
 import numpy as np
 import pytest
 
-from armscope.diagnosis.promotion import _promoted
+from armscope.diagnosis.model_space import EffectSpace
+from armscope.diagnosis.promotion import _promoted, named
 from armscope.inference.evidence import evaluate
 from armscope.inference.model_space import Candidate, ModelSpace, ToleranceFamily
 from armscope.inference.normal_equations import NormalEquations
 from armscope.inference.problem import SelectedEffect, build_problem
+from armscope.inference.search import Search
 
 FRAMES, MEMBERS, ROWS, NOISE = 2, 12, 400, 0.05
 USUAL = 0.1
 CURVE = MEMBERS
 
 
-def named(values: Sequence[float], taken_up: bool = False) -> set[int]:
+def told(values: Sequence[float], taken_up: bool = False) -> set[int]:
     """Which of the family's members get a name, a curve being found beside them.
 
     Args:
@@ -41,11 +44,30 @@ def named(values: Sequence[float], taken_up: bool = False) -> set[int]:
     return set(_promoted(problem, found).candidates) - {CURVE}
 
 
-@pytest.mark.parametrize(("values", "told"), [([], set()), ([1.0], {0}), ([1.0, 0.6], {0, 1})])
-def test_one_that_is_off_by_far_hides_no_second(values: list[float], told: set[int]) -> None:
-    assert named(values) == told
+@pytest.mark.parametrize(("values", "expected"), [([], set()), ([1.0], {0}), ([1.0, 0.6], {0, 1})])
+def test_one_that_is_off_by_far_hides_no_second(values: list[float], expected: set[int]) -> None:
+    assert told(values) == expected
 
 
 def test_what_a_curve_leaves_open_hides_nothing() -> None:
     """A zero that the base takes up is free within the joint's curve, however right all others are."""
-    assert named([1.0], taken_up=True) == {0}
+    assert told([1.0], taken_up=True) == {0}
+
+
+@pytest.mark.parametrize("background", [2, 0], ids=["a little wrong everywhere", "right elsewhere"])
+def test_a_curve_that_is_not_worth_its_name_leaves_the_law_that_it_was(background: int) -> None:
+    """A zero a hundred times as large as others is in no background: without the curve it would be lost."""
+    rng = np.random.default_rng(8)
+    X = rng.normal(size=(ROWS, FRAMES + MEMBERS + 1))
+    family = FRAMES + np.arange(MEMBERS)
+    y = X[:, family] @ np.array([10.0, *[USUAL * (background > 0)] * (MEMBERS - 1)]) + rng.normal(0, NOISE, ROWS)
+    members = [Candidate(f"member {n}", f"here {n}", family[[n]], np.ones(1)) for n in range(MEMBERS)]
+    geometry = ToleranceFamily("geometric", family, np.ones(MEMBERS), (0.0, 0.1, 0.3, 1.0))
+    columns, zero = np.array([family[0], FRAMES + MEMBERS]), frozenset({0})
+    curve = Candidate("curve", "here 0", columns, np.ones(2), variant="angle", is_curve=True, special_cases=zero)
+    equations = NormalEquations(X.T @ X, X.T @ y, float(y @ y), float(ROWS))
+    problem = build_problem(ModelSpace(np.arange(FRAMES), (geometry,), (*members, curve)), equations, NOISE)
+    found = evaluate(problem, (SelectedEffect(CURVE, len(problem.sizes) - 1),), (background,), NOISE)
+    found = named(Search.on(problem), cast("EffectSpace", problem.space), found)
+    assert found.candidates == {0}
+    assert found.noise < 2 * NOISE

@@ -7,6 +7,7 @@ curve contains its line. So names given here pay no price of the library.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -44,7 +45,23 @@ def named(edits: Edits, space: EffectSpace, hypothesis: Hypothesis) -> Hypothesi
         weakest = edits.weakest(promoted)
         if weakest is None:
             return promoted
-        hypothesis = edits.without(hypothesis, [weakest.candidate])
+        hypothesis = _without(edits, hypothesis, promoted, weakest)
+
+
+def _without(edits: Edits, hypothesis: Hypothesis, promoted: Hypothesis, weakest: SelectedEffect) -> Hypothesis:
+    """The hypothesis without an effect; what it was for the most part, and was named as, takes a curve's place.
+
+    A background need not hold it: it may be a hundred times what the others are.
+    """
+    others = [c for c in hypothesis.chosen if c.candidate != weakest.candidate]
+    laws = [
+        replace(c, nested=False)
+        for c in promoted.chosen
+        if c.nested and weakest.candidate in rest_of(edits.problem, promoted, c.candidate)
+    ]
+    if not laws:
+        return edits.without(hypothesis, [weakest.candidate])
+    return edits.evaluated((*others, *laws), hypothesis)
 
 
 def _promoted(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
