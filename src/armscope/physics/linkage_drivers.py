@@ -14,7 +14,11 @@ if TYPE_CHECKING:
 
 
 FLAT = 0.1
-"""Sine of the angle between crank and upper arm below which a parallelogram counts as flat."""
+"""Sine of the angle between crank and upper arm below which a parallelogram counts as flat.
+
+The columns are exact above it. Least openings of linkages of data sheets are larger (0.2 and more), so that a recorded
+arm should not come near it; it was 0.2 until a simulated arm whose unstated linkage opened less was told wrongly.
+"""
 
 
 def _rod(scene: Scene) -> Array:
