@@ -49,6 +49,9 @@ class LoopBudget(Constants):
         2, "that search from all starts; later ones start where the last one ended", "judgement: time", unit="rounds"
     )
     scanning_rounds: int = constant(4, "that scan", "judgement: the last only settle", unit="rounds")
+    late_scans: int = constant(
+        3, "for lines of gears once all else is known", "judgement: most tables end after one; time", unit="scans"
+    )
     flickering: float = constant(
         0.002,
         "share of the rows that may still come and go when the rounds end",

@@ -124,7 +124,10 @@ class SelectionLoop:
             self.candidates = [placed for placed in self.candidates if placed.parametrisation != "curve"]
             self._settle()
         self._refine(of_a_sample)
-        return self.selected() if of_a_sample else self.earned()
+        if of_a_sample:
+            return self.selected()
+        self._look_for_lines_again()
+        return self.earned()
 
     def _settle(self) -> None:
         """Rounds until nothing changes."""
@@ -160,6 +163,17 @@ class SelectionLoop:
         # what looked like scatter may have been what the coarse curves could not follow
         self.noise.look_for_scatter()
         if not of_a_sample:
+            self.round(self._where_it_ended())
+
+    def _look_for_lines_again(self) -> None:
+        """Gears' lines that stand out only now that all else is known, the largest first."""
+        for _ in range(LOOP.late_scans):
+            new = self._scanned(Search.on(self.problem), MESH_COUNTS[-1])
+            if not new:
+                break
+            self.candidates = [*self.candidates, *new]
+            self.round(self._where_it_ended())
+            self.noise.look_for_scatter()  # what looked like it may have been the line
             self.round(self._where_it_ended())
 
     def follow(self, other: SelectionLoop, candidates: Sequence[Placed]) -> None:
@@ -199,7 +213,9 @@ class SelectionLoop:
         self.problem = build_problem(self.space, total(sums), self.noise.least_mm)
         search = Search.on(self.problem)
         self._take(search, search.best(starts, None if self.last is None else search.transferred(*self.last)))
-        new = self._scanned(search) if scanning else []
+        self.scans += scanning
+        most = MESH_COUNTS[-1] if self.scans == SCANS.scan_of_fine_lines else SCANS.ordinary_lines
+        new = self._scanned(search, most) if scanning else []
         self.model = self.fit.model
         self.noise.weigh(self.fit.left, self.fit.noise, self.fit.weights.whitening)
         return new
@@ -290,9 +306,7 @@ class SelectionLoop:
         """Whether some effect requires others, whose values then must settle, too."""
         return any(c in self.space.requires for c in self.best.candidates)
 
-    def _scanned(self, search: Search) -> list[Placed]:
-        """New candidates whose scanned numbers promise something."""
-        self.scans += 1
-        most = MESH_COUNTS[-1] if self.scans == SCANS.scan_of_fine_lines else SCANS.ordinary_lines
+    def _scanned(self, search: Search, most: int) -> list[Placed]:
+        """New candidates whose scanned numbers promise something; gears' lines up to so many per turn."""
         context = ScanContext(self.problem, self.space, self.point, self.recordings, self.noise.weights, self.scanned)
         return scanned_candidates(context, search, self.best, most)

@@ -259,11 +259,21 @@ def clash(one: Placed, other: Placed) -> bool:
 
 
 def _contains(curve: Placed, special: Placed) -> bool:
-    """Whether a free curve holds an effect as a special case; a variant named as a driver is in that one's curve."""
+    """Whether a free curve holds an effect as a special case; a variant named as a driver is in that one's curve.
+
+    A wave that is finer than any of the curve's is not in it: a gear's line of 106 per turn stands beside it.
+    """
     within = special.effect.contained_in
     if curve.parametrisation != "curve" or curve.variant not in within:
         return False
-    return special.variant not in within or special.variant == curve.variant
+    named_as_driver = special.variant in within and special.variant != curve.variant
+    return not named_as_driver and _finest_wave(special) <= _finest_wave(curve)
+
+
+def _finest_wave(placed: Placed) -> float:
+    """Waves per turn of the finest wave among an effect's terms; 0 without any."""
+    drivers = (product.driver for t in placed.terms for product in t.products)
+    return max((float(d.arguments[1]) for d in drivers if d.kind == "cosine"), default=0.0)
 
 
 def region(placed: Placed) -> str:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from armscope.diagnosis import Settings, diagnose
 from armscope.diagnosis.scans.constants import SCANS
 from armscope.diagnosis.scans.context import ScanContext
 from armscope.diagnosis.scans.new_candidates import scanned_candidates
@@ -22,6 +25,7 @@ from armscope.physics.transmission import GEAR_MESH, mesh
 from ..planted import planted
 
 LINE = 12
+FINE_LINE = 152
 STILL = Base(np.eye(3), np.zeros(3))
 
 
@@ -61,3 +65,15 @@ def test_the_planted_line_and_the_planted_jump_are_found_once_and_not_again_when
     chosen = {loop.space.placed[candidate].key for candidate in loop.best.candidates}
     assert {(GEAR_MESH.name, "joint 3"), (BASE_SHIFT.name, "base")} <= chosen
     assert not {(placed.key, placed.variant) for placed in scanned(loop)} & set(names)
+
+
+def test_a_fine_line_that_no_round_scanned_for_is_found_once_all_else_is_known(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("armscope.diagnosis.selection_loop.SCANS", replace(SCANS, scan_of_fine_lines=-1))
+    arm, table = planted("six-axis", {}, 160, 0.02, seed=7)
+    line = Part(mesh(2, FINE_LINE), np.array([8e-5, 0.0]))
+    still = FittedModel(arm, {"1": STILL}, (), ())
+    table.positions[:] += predict(FittedModel(arm, {"1": STILL}, (), (line,)), table) - predict(still, table)
+    found = diagnose(arm, table, Settings(resamples=0, cross_validation=False)).effects
+    assert [(e.effect, e.location, e.parameters[-1].value) for e in found] == [(GEAR_MESH.name, "joint 2", FINE_LINE)]
