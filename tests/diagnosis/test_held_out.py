@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
-from armscope.diagnosis.held_out import Rows, left_over, split
+from armscope.diagnosis.held_out import Rows, left_over, split_rows
 from armscope.diagnosis.selection import select
 from armscope.diagnosis.selection_loop import SelectionLoop
 from armscope.fitting.linearisation import LinearisedTable, point_residuals
@@ -27,7 +27,7 @@ def test_held_out_errors_are_those_of_models_fitted_without_the_rows() -> None:
     """Without effects the folds' models are base and tool alone: fitted fold by fold, they predict as well."""
     arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [4e-7]}, 100, 0.02, seed=3)
     verdict = diagnose(arm, table, VALIDATED)
-    layout = split(table, np.random.default_rng(VALIDATED.seed))
+    layout = split_rows(table, np.random.default_rng(VALIDATED.seed))
     fold = layout.fold[layout.of_row]
     errors = [
         point_residuals(fit_frames(arm, table.rows(fold != k)), table.rows(np.flatnonzero(fold == k))) for k in range(5)

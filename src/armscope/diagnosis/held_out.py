@@ -33,7 +33,7 @@ from armscope.verdict.schema import HeldOut, WaterfallStep
 
 
 @dataclass(frozen=True, eq=False)
-class Blocks:
+class RowSplit:
     """Which block each row is in, which fold each block is in, and what holds rows together."""
 
     of_row: Indices
@@ -41,8 +41,8 @@ class Blocks:
     grouped_by: str
 
 
-def split(recordings: Recordings, rng: np.random.Generator) -> Blocks:
-    """Blocks of whole configurations (targets and repeats of one pose stay together), folds of whole runs if several.
+def split_rows(recordings: Recordings, rng: np.random.Generator) -> RowSplit:
+    """RowSplit of whole configurations (targets and repeats of one pose stay together), folds of whole runs if several.
 
     Runs are held out whole where there are at least three with at least thirty rows each.
     """
@@ -57,16 +57,16 @@ def split(recordings: Recordings, rng: np.random.Generator) -> Blocks:
     order = rng.permutation(count)
     if not by_run:
         blocks = min(FOLDING.blocks, count)
-        return Blocks((order % blocks)[pose], np.arange(blocks) % FOLDING.folds, "configuration")
+        return RowSplit((order % blocks)[pose], np.arange(blocks) % FOLDING.folds, "configuration")
     pieces = max(1, FOLDING.blocks // len(runs))
     of_row = which_run * pieces + (order % pieces)[pose]
-    return Blocks(of_row, np.repeat(np.arange(len(runs)), pieces), "run")
+    return RowSplit(of_row, np.repeat(np.arange(len(runs)), pieces), "run")
 
 
 def cross_validate(
     problem: Problem,
     blocks: Sequence[NormalEquations],
-    split: Blocks,
+    split: RowSplit,
     best: Hypothesis,
     order: Sequence[int],
     rows: Rows,
@@ -227,7 +227,7 @@ def left_over(rows: Rows, values: Array, number: Indices | None = None) -> Array
 
 
 def _held_out_errors(
-    problem: Problem, blocks: Sequence[NormalEquations], split: Blocks, rows: Rows, values: Mapping[int, Array]
+    problem: Problem, blocks: Sequence[NormalEquations], split: RowSplit, rows: Rows, values: Mapping[int, Array]
 ) -> Array:
     """(K, N, c) errors, mm and mrad, of every row under the readings of the fold that it took no part in.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from armscope.diagnosis.held_out import Blocks
+from armscope.diagnosis.held_out import RowSplit
 from armscope.diagnosis.selection_loop import Selected
 from armscope.measurement.channel import ChannelResiduals
 from armscope.measurement.noise import Noise
@@ -22,4 +22,4 @@ class DiagnosisState(Selected):
     first: ChannelResiduals
     noise: Noise
     notices: tuple[Notice, ...]
-    layout: Blocks
+    split: RowSplit

@@ -105,7 +105,7 @@ def _turn(here: Array, there: Array, weight: Array) -> Array:
     return np.asarray((left * [1.0, 1.0, np.sign(np.linalg.det(left @ right)) or 1.0]) @ right)
 
 
-def told(compared: ComparedBases) -> str:
+def set_up_anew(compared: ComparedBases) -> str:
     """What was set up anew, in words; empty where all runs stand on one base."""
     if np.isnan(compared.apart_mm).any():
         return ""
