@@ -18,7 +18,7 @@ from armscope.fitting.design_matrix import columns, structured_design
 from armscope.fitting.linearisation import current_parameters, linearised
 from armscope.fitting.parameter_layout import ParameterLayout
 from armscope.inference.constants import BUDGET
-from armscope.inference.evidence import Hypothesis, evaluate
+from armscope.inference.evidence import Hypothesis, evaluate, fitted_values
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, SelectedEffect
 from armscope.inference.search import Search
@@ -34,7 +34,13 @@ from armscope.verdict.schema import HeldOut, WaterfallStep
 
 @dataclass(frozen=True, eq=False)
 class RowSplit:
-    """Which block each row is in, which fold each block is in, and what holds rows together."""
+    """How rows are held out.
+
+    Attributes:
+        of_row: (N,) number of each row's block, from 0.
+        fold: (blocks,) number of each block's fold; blocks of one fold are held out together.
+        grouped_by: what is never parted: "configuration" or "run".
+    """
 
     of_row: Indices
     fold: Indices
@@ -42,7 +48,7 @@ class RowSplit:
 
 
 def split_rows(recordings: Recordings, rng: np.random.Generator) -> RowSplit:
-    """RowSplit of whole configurations (targets and repeats of one pose stay together), folds of whole runs if several.
+    """Blocks of whole configurations (targets and repeats of one pose stay together), folds of whole runs if several.
 
     Runs are held out whole where there are at least three with at least thirty rows each.
     """
@@ -100,11 +106,11 @@ def cross_validate(
         trained = problem.with_equations(whole - total([blocks[int(k)] for k in np.flatnonzero(split.fold == fold)]))
         chosen = _chosen_again(trained, best)
         readings = [*_readings(trained, sets, best, noise), chosen]
-        values[fold] = np.array([h.coefficients(len(problem.scale)) / problem.scale for h in readings])
+        values[fold] = fitted_values(problem, readings)
     some = spread_evenly(len(split.of_row), FOLDING.judged_rows)
     split, rows = replace(split, of_row=split.of_row[some]), rows.some(some)
     errors = _held_out_errors(problem, blocks, split, rows, values)
-    own = left_over(rows, np.array([h.coefficients(len(problem.scale)) / problem.scale for h in fitted]))
+    own = left_over(rows, fitted_values(problem, fitted))
     fold_of = split.fold[split.of_row]
     told = np.isin(fold_of, folds) & rows.trusted
     turns = _rms(errors[:, told], rows.slices.get("orientation", slice(0)))

@@ -11,7 +11,7 @@ from armscope.core.sampling import spread_evenly
 from armscope.core.types import Progress
 from armscope.diagnosis.held_out import Rows, cross_validate
 from armscope.diagnosis.state import DiagnosisState
-from armscope.diagnosis.summary import alternatives as certainty
+from armscope.diagnosis.summary.alternatives import alternatives, inclusion_frequency, judged_elsewhere
 from armscope.diagnosis.summary.attribution_map import atlas
 from armscope.diagnosis.summary.causes import causes
 from armscope.diagnosis.summary.constants import TELLING
@@ -83,12 +83,12 @@ def judge(
     basis = SummaryBasis(
         state,
         search,
-        certainty.judged_elsewhere(
+        judged_elsewhere(
             state,
-            certainty.alternatives(search, best),
+            alternatives(search, best),
             rng.spawn(1)[0],
         ),
-        certainty.inclusion_frequency(state, resamples, rng),
+        inclusion_frequency(state, resamples, rng),
         fit.model.scene(state.recordings.rows(spread_evenly(len(state.recordings), TELLING.curve_rows))),
         _plain_equations(state),
         model_error(fit, state.recordings, state.noise.least_mm),

@@ -15,7 +15,16 @@ from armscope.verdict.schema import Notice
 
 @dataclass(frozen=True, eq=False)
 class DiagnosisState(Selected):
-    """Where the rounds of selection ended, and what they started from; ``first``: what the free frames leave."""
+    """Where the rounds of selection ended, and what they started from.
+
+    Attributes:
+        start: the arm with its frames fitted, without effects.
+        recordings: the rows.
+        first: what the free frames leave of them.
+        noise: what was known of it beforehand.
+        notices: said already, before anything was selected.
+        split: which block and fold each row is in.
+    """
 
     start: FittedModel
     recordings: Recordings

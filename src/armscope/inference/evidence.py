@@ -161,7 +161,24 @@ def negative_log_prior(
     paid += PRIORS.excess_special_case_nats * max(
         problem.space.excess_special_cases(frozenset(c.candidate for c in own)), 0
     )
-    return float(paid - np.sum(np.log(2) + log_ndtr(z_scores)))
+    return float(paid - half_line_gain(z_scores))
+
+
+def half_line_gain(z_scores: Array) -> float:
+    """What values gain that can't be negative, nats: priors twice as dense, posteriors' share above zero.
+
+    Args:
+        z_scores: standard errors from zero at which each value would stand if it could be negative.
+
+    Returns:
+        Nats; below zero where they would be negative.
+    """
+    return float(np.sum(np.log(2) + log_ndtr(z_scores)))
+
+
+def fitted_values(problem: Problem, hypotheses: Sequence[Hypothesis]) -> Array:
+    """(K, p) the posterior means of K hypotheses, SI units; zero where a column takes no part."""
+    return np.array([each.coefficients(len(problem.scale)) / problem.scale for each in hypotheses])
 
 
 def savage_dickey(hypothesis: Hypothesis, columns: Indices) -> float:

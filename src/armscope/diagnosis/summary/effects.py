@@ -13,7 +13,7 @@ from armscope.diagnosis.promotion import nested_log_odds
 from armscope.diagnosis.scans.change_points import when_stderr
 from armscope.diagnosis.scans.context import ScanContext
 from armscope.diagnosis.state import DiagnosisState
-from armscope.diagnosis.summary import alternatives as certainty
+from armscope.diagnosis.summary.alternatives import Rival, discriminability, listed, specific_name, too_close
 from armscope.diagnosis.summary.constants import TELLING
 from armscope.diagnosis.summary.effect_curve import curve_of
 from armscope.diagnosis.summary.homogeneity import SameSize
@@ -53,7 +53,7 @@ class SummaryBasis:
 
     state: DiagnosisState
     search: Search
-    rivals: Mapping[int, Sequence[certainty.Rival]]
+    rivals: Mapping[int, Sequence[Rival]]
     inclusion: Mapping[int, float]
     scene: Scene
     equations: NormalEquations
@@ -83,8 +83,8 @@ def summarise_effect(basis: SummaryBasis, chosen: SelectedEffect, part: Part, sh
     rms = projected_rms(basis.equations, fit.layout.frames, coefficients)
     if candidate.is_curve:
         rms = min(rms, _own_size(fit, part))
-    apart = [certainty.discriminability(state.best, r.hypothesis, candidate, r.candidate) for r in rivals]
-    named_as, title = certainty.name(candidate, certainty.too_close(candidate, rivals, apart))
+    apart = [discriminability(state.best, r.hypothesis, candidate, r.candidate) for r in rivals]
+    named_as, title = specific_name(candidate, too_close(candidate, rivals, apart))
     left_open = undetermined(placed, covariance)
     told = tuple(p for p in parameters(placed, values, covariance) if p.name not in left_open)
     return FoundEffect(
@@ -100,7 +100,7 @@ def summarise_effect(basis: SummaryBasis, chosen: SelectedEffect, part: Part, sh
         rms_at_tool_mm=rms,
         share=share,
         evidence_nats=float(_worth(state, search, chosen)),
-        alternatives=certainty.listed(rivals, apart),
+        alternatives=listed(rivals, apart),
         inclusion=basis.inclusion.get(chosen.candidate),
         curve=curve_of(placed, part.values, covariance, basis.scene),
         physics=placed.effect.physics,
@@ -196,7 +196,7 @@ def as_far_as_it_carries(found: FoundEffect, candidate: Candidate, over: SameSiz
     if over is None:
         return found
     if not over.agrees and found.named_as == "effect":
-        named_as, title = certainty.name(candidate, [candidate])
+        named_as, title = specific_name(candidate, [candidate])
         found = replace(found, named_as=named_as, title=title)
     return replace(found, carries_over=over.text)
 
