@@ -139,8 +139,9 @@ JOINT_COMPLIANCE = Effect(
     "The joint's drive gives way about its axis in proportion to the load that gravity puts on the motor.",
     "Hang a known weight on the tool in the same pose and measure how far this joint turns.",
     command(
-        "Let the controller's elastic model hold against it, or command it away: "
-        "commanded = wanted - compliance x load (load: gravity's torque on this motor, positive along its pull).",
+        "Let the controller's elastic model hold against it,",
+        otherwise="or command it away: commanded = wanted - compliance x load (load: gravity's torque on this motor, "
+        "positive along its pull).",
         change="elastic model",
         instruction="Add to the command what gravity takes, so that {opposite}{size}; or let the controller's elastic "
         "model do so.",
@@ -186,8 +187,9 @@ BEARING_COMPLIANCE = Effect(
     "The joint's bearing tilts across its axis under the moment that everything beyond puts on it.",
     "Hang a known weight on the outstretched arm and measure the tilt on both sides of the bearing.",
     Cure(
-        "Preload or replace the bearing. No motor turns across its axis: otherwise command what the inverse kinematics "
-        "of the corrected model asks for (axis tilted by + compliance x moment; `armscope compensate`).",
+        "Preload or replace the bearing.",
+        otherwise="No motor turns across its axis: otherwise command what the inverse kinematics of the corrected "
+        "model asks for (axis tilted by + compliance x moment; `armscope compensate`).",
         change="bearing",
         instruction="Preload or replace the bearing of {location}.",
     ),
@@ -244,8 +246,9 @@ BASE_COMPLIANCE = Effect(
     "The base (pedestal, floor, bolts) tilts under the arm's moment.",
     "Put a reflector or an inclinometer on the base and swing the outstretched arm around.",
     Cure(
-        "Stiffen the mounting. No motor turns the base: otherwise command what the inverse kinematics of the corrected "
-        "model asks for (base tilted by + compliance x moment; `armscope compensate`).",
+        "Stiffen the mounting.",
+        otherwise="No motor turns the base: otherwise command what the inverse kinematics of the corrected model asks "
+        "for (base tilted by + compliance x moment; `armscope compensate`).",
         change="mounting",
         instruction="Tighten and stiffen the mounting of the base.",
     ),
@@ -285,8 +288,9 @@ LINK_BENDING = Effect(
     "The link bends like a beam under the load at its end.",
     "Put reflectors on both ends of the link and load the arm.",
     Cure(
-        "Stiffen the link. No motor bends it back: otherwise command what the inverse kinematics of the corrected "
-        "model asks for (link's end moved by + flexibility x the beam's shape; `armscope compensate`).",
+        "Stiffen the link.",
+        otherwise="No motor bends it back: otherwise command what the inverse kinematics of the corrected model asks "
+        "for (link's end moved by + flexibility x the beam's shape; `armscope compensate`).",
         change="elastic model",
         instruction="Put the bending of {location} into the model, or stiffen it.",
     ),
