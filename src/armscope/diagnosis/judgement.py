@@ -9,7 +9,8 @@ import numpy as np
 
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Progress
-from armscope.diagnosis.held_out import Rows, cross_validate
+from armscope.diagnosis.held_out import cross_validate
+from armscope.diagnosis.linearised_rows import LinearisedRows
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.alternatives import alternatives, inclusion_frequency, judged_elsewhere
 from armscope.diagnosis.summary.attribution_map import atlas
@@ -63,7 +64,7 @@ from armscope.verdict.schema import (
 
 
 def judge(
-    state: DiagnosisState, resamples: int, cross_validation: bool, rng: np.random.Generator, tell: Progress
+    state: DiagnosisState, resamples: int, cross_validation: bool, rng: np.random.Generator, progress: Progress
 ) -> Diagnosis:
     """Certainty, validation, atlas and words.
 
@@ -72,14 +73,14 @@ def judge(
         resamples: how often rows are drawn anew; 0 never.
         cross_validation: whether the procedure is validated on held-out rows.
         rng: draws the resamples.
-        tell: hears what is being done.
+        progress: hears what is being done.
 
     Returns:
         The verdict.
     """
     fit, best, problem = state.fit, state.best, state.problem
     search = Search.on(problem)
-    tell("weighing alternatives", 0.55)
+    progress("weighing alternatives", 0.55)
     basis = SummaryBasis(
         state,
         search,
@@ -104,10 +105,10 @@ def judge(
     held_out = HeldOut(float("nan"), float("nan"))
     waterfall: tuple[WaterfallStep, ...] = ()
     if cross_validation:
-        tell("validating on held-out rows", 0.75)
-        rows = Rows(state.point, state.recordings, fit.weights, state.space.layout)
+        progress("validating on held-out rows", 0.75)
+        rows = LinearisedRows(state.point, state.recordings, fit.weights, state.space.layout)
         held_out, waterfall = cross_validate(problem, state.blocks, state.split, best, order, rows)
-    tell("drawing the atlas", 0.9)
+    progress("drawing the atlas", 0.9)
     background = background_summaries(state, search, basis.equations, of_families)
     named = [with_weight(found[c], background) for c in order]
     masses, weights_told = masses_in_error(state, basis.equations, of_families[-1])

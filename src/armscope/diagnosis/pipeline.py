@@ -77,11 +77,11 @@ def diagnose(
     Raises:
         InputError: the recordings don't fit the arm or hold no usable rows.
     """
-    settings, tell = settings or Settings(), progress or unheard
+    settings, progress = settings or Settings(), progress or unheard
     started = time.perf_counter()
     checked = check_table(arm, recordings)
     table = checked.recordings if settings.orientation else replace(checked.recordings, orientation=None)
-    tell("fitting base and tool", 0.02)
+    progress("fitting base and tool", 0.02)
     start, tool_per_run, set_ups, told = _frames(arm, table, settings.tool_per_run)
     first = residuals(start, LinearisedTable(table, supported(table, channels)))
     channels, table, doubts = trusted_channels(tuple(first.by_channel), table, first)
@@ -97,7 +97,7 @@ def diagnose(
         start, notices = replace(start, arm=arm), (*notices, *told)
     rng = np.random.default_rng(settings.seed)
     split = split_rows(table, rng)
-    found = select(start, LinearisedTable(table, channels), noise, frames, split.of_row, tell)
+    found = select(start, LinearisedTable(table, channels), noise, frames, split.of_row, progress)
     verdict = judge(
         DiagnosisState(
             **vars(found), start=start, recordings=table, first=first, noise=noise, notices=notices, split=split
@@ -105,9 +105,9 @@ def diagnose(
         settings.resamples,
         settings.cross_validation,
         rng,
-        tell,
+        progress,
     )
-    tell("done", 1.0)
+    progress("done", 1.0)
     return verdict.after(time.perf_counter() - started, vars(settings))
 
 
