@@ -272,7 +272,7 @@ class ModelSpace:
 
     @functools.cached_property
     def _excess(self) -> dict[frozenset[int], int]:
-        """What was asked already: a search looks at the same effects with many sizes, folds and draws on the same space."""
+        """What was asked already: a search looks at the same effects with many sizes, folds and draws."""
         return {}
 
     def excess_special_cases(self, candidates: frozenset[int]) -> int:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class BesideTemplates(BytecodeCache):
-    """In ``__pycache__`` beside the templates, or where PYTHONPYCACHEPREFIX says; not at all where that can't be written.
+    """In ``__pycache__`` beside the templates, or where PYTHONPYCACHEPREFIX says; nowhere where that can't be written.
 
     Jinja compares a digest of the template, and its own and Python's version, before it takes what is kept.
 
