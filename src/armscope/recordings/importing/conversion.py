@@ -26,7 +26,19 @@ class Clock:
         self.start: dict[str, pd.Timestamp] = {}
 
     def time(self, piece: Piece, group: Time, runs: Sequence[str]) -> Array:
-        """(N,) s of a piece's rows, each of a run."""
+        """Seconds of a piece's rows.
+
+        Args:
+            piece: the rows.
+            group: where their times stand, and in what unit or format.
+            runs: (N,) of which run each row is; time stamps count from the run's first one.
+
+        Returns:
+            (N,) s.
+
+        Raises:
+            InputError: what stands there is no time of that format.
+        """
         if group.unit is not None:
             return piece.numbers(group.column) * TIME_UNITS[group.unit]
         words = pd.Series(piece.words(group.column), dtype=object)
