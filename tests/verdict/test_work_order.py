@@ -10,6 +10,7 @@ import pytest
 from armscope.core.averages import rms
 from armscope.fitting.registration import fit_frames
 from armscope.physics.registry import EFFECTS
+from armscope.physics.soft_start import HARDENING
 from armscope.report.pages.diagnosis import write_report
 from armscope.report.sections import work_order as section
 from armscope.robot.arm import build_arm
@@ -178,6 +179,18 @@ def test_a_task_says_nothing_twice() -> None:
     task = task_of(model.scene(case.recordings), cause, cause.effects[0])
     assert "elastic model" in task.instruction
     assert task.cure.startswith("Or command it away: commanded = wanted - compliance x load")
+
+
+def test_the_card_and_the_work_order_say_the_same_of_every_effect() -> None:
+    """Beside its instruction a work order has the end of the card's sentence, never words of its own."""
+    for effect in (*EFFECTS, HARDENING):
+        cure = effect.cure
+        assert cure.words.lower().endswith(cure.rule.lower())
+        assert cure.words == f"{cure.mend} {cure.otherwise}".strip()
+        assert bool(cure.otherwise) == (cure.rule != cure.words), "what else can be done stands alone, all else whole"
+        if cure.otherwise:  # one sentence with "or", or two
+            assert cure.otherwise.startswith("or ") == (cure.mend[-1] in ",;")
+            assert cure.otherwise.startswith("or ") or cure.mend.endswith(".")
 
 
 def test_a_minor_effect_that_pays_once_all_else_is_cured_is_a_task() -> None:

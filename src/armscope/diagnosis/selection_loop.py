@@ -201,7 +201,7 @@ class SelectionLoop:
         self._take(search, search.best(starts, None if self.last is None else search.transferred(*self.last)))
         new = self._scanned(search) if scanning else []
         self.model = self.fit.model
-        self.noise.weigh(self.fit.left, self.fit.noise, self.fit.weights.whitening)
+        self.noise.weigh(self.fit.channel_residuals, self.fit.noise, self.fit.weights.whitening)
         return new
 
     @property

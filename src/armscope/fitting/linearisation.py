@@ -1,4 +1,4 @@
-"""The linear problem: every column of the library at the current model, boiled down to a Gram matrix.
+"""The linear problem: every column of the library at the current model, reduced to normal equations.
 
 Columns live only chunk by chunk; what stays is X'WX, X'Wy and y'Wy per block of rows. Selection, resampling and
 cross-validation work on sums of blocks, so their cost does not depend on the number of rows.
@@ -152,15 +152,15 @@ def point_residuals(model: FittedModel, recordings: Recordings) -> Array:
 
 
 def normal_equations_by_block(
-    pool: ParameterLayout, model: FittedModel, rows: Measured, weights: RowWeights, blocks: Indices
+    layout: ParameterLayout, model: FittedModel, rows: Measured, weights: RowWeights, blocks: Indices
 ) -> list[NormalEquations]:
-    """Gram matrices per block of rows.
+    """Normal equations of each block of rows.
 
     The response is the residual of the model plus what its own effects contribute linearly, so that every hypothesis
     starts from no effects while the linearisation stands where the model stands.
 
     Args:
-        pool: of the model's columns.
+        layout: of the model's columns.
         model: the point of linearisation.
         rows: a table, or recordings.
         weights: of the rows; only the channels that they are of count.
@@ -169,9 +169,9 @@ def normal_equations_by_block(
     Returns:
         One per block, mm per SI unit.
     """
-    column_order = pool.column_order
-    current = current_parameters(pool, model)[column_order.order]
-    count, p = int(blocks.max()) + 1, len(pool.terms)
+    column_order = layout.column_order
+    current = current_parameters(layout, model)[column_order.order]
+    count, p = int(blocks.max()) + 1, len(layout.terms)
     table = linearised(rows)
 
     def of_part(chunks: Chunks) -> dict[int, _Sums]:
@@ -233,10 +233,10 @@ def _where(inside: NDArray[np.bool_]) -> slice | Indices:
     return slice(int(at[0]), int(at[-1]) + 1) if at[-1] - at[0] + 1 == len(at) else at
 
 
-def current_parameters(pool: ParameterLayout, model: FittedModel) -> Array:
-    """(p,) the model's values of the pool's terms (frames count as zero: they are part of the linearisation point)."""
-    values = np.zeros(len(pool.terms))
+def current_parameters(layout: ParameterLayout, model: FittedModel) -> Array:
+    """(p,) the model's values of a layout's terms (frames count as zero: they are part of the linearisation point)."""
+    values = np.zeros(len(layout.terms))
     for part in (*model.background, *model.parts):
         for term, value in zip(part.placed.terms, part.values, strict=True):
-            values[pool.index[term]] += value
+            values[layout.index[term]] += value
     return values

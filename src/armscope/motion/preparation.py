@@ -204,6 +204,9 @@ class Signals:
         payload: (N,) kg; temperature: (N, m) deg C; each or None.
         kept: (K,) which samples become rows.
         stride: of the samples, to the recorded ones.
+        shift: (N, m) by how much the links stand beside their motors, less the middle of it in the stretch, with two
+            derivatives; 0 of joints without an encoder at the link. None where no link has one.
+        twist: (K, m) link less motor of the rows, low-passed, NaN of joints without such an encoder; or None.
     """
 
     run: str
@@ -217,6 +220,17 @@ class Signals:
     temperature: Array | None
     kept: Indices
     stride: int = 1
+    shift: tuple[Array, Array, Array] | None = None
+    twist: Array | None = None
+
+    @property
+    def of_links(self) -> tuple[Array, Array, Array]:
+        """(N, m) positions of the links and their derivatives: the motors' where no link is recorded."""
+        motors = self.q, self.dq, self.ddq
+        if self.shift is None:
+            return motors
+        q, dq, ddq = (motor + more for motor, more in zip(motors, self.shift, strict=True))
+        return q, dq, ddq
 
     @property
     def period(self) -> float:
@@ -252,6 +266,7 @@ def _part(stretch: Stretch, number: int, rows: Indices, how: Preparation, every_
     q = how.smoothed(stretch.q[inside])
     path = make_interp_spline(np.arange(len(q)) / stretch.rate, q, k=5)
     times = path.t[0] + np.arange(len(q))[::stride] / stretch.rate
+    shift, twist = _beside(stretch, inside, how, times)
     return Signals(
         stretch.run,
         number,
@@ -264,4 +279,20 @@ def _part(stretch: Stretch, number: int, rows: Indices, how: Preparation, every_
         None if stretch.temperature is None else stretch.temperature[inside][::stride],
         (rows - low) // stride,
         stride,
+        shift,
+        None if twist is None or every_sample else how.low_passed(twist, rows - low),
     )
+
+
+def _beside(
+    stretch: Stretch, inside: slice, how: Preparation, times: Array
+) -> tuple[tuple[Array, Array, Array] | None, Array | None]:
+    """What `Signals.shift` is at some times, s from the first sample inside, and link less motor of all samples."""
+    if stretch.link is None:
+        return None, None
+    beside = stretch.link - stretch.q
+    recorded = np.isfinite(beside).all(axis=0)
+    about = np.where(recorded, beside - np.median(np.where(recorded, beside, 0.0), axis=0), 0.0)
+    smooth = how.smoothed(about[inside])
+    path = make_interp_spline(np.arange(len(smooth)) / stretch.rate, smooth, k=5)
+    return (path(times), path.derivative(1)(times), path.derivative(2)(times)), beside[inside]

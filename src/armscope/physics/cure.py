@@ -34,7 +34,9 @@ class Cure:
     """What to do about an effect.
 
     Attributes:
-        words: for the card; names the formula with its sign.
+        mend: what to do, with the sign ("," or ";" or ".") after which `otherwise` goes on; what names a formula names
+            it with its sign.
+        otherwise: what else can be done, as the same sentence or the next one goes on: "or command it away: ...".
         change: what is changed, in two words, for a work order.
         instruction: how, as a work order says it: a template over {location} and what is known of the effect
             (`armscope.verdict.work_order`).
@@ -45,7 +47,8 @@ class Cure:
     Where none of the three is given, the cure is the corrected model: command what its inverse kinematics asks for.
     """
 
-    words: str
+    mend: str
+    otherwise: str = field(default="", kw_only=True)
     change: str = field(default="", kw_only=True)
     instruction: str = field(default="", kw_only=True)
     commanded: Callable[[Scene, Part], Array] | None = None
@@ -53,24 +56,27 @@ class Cure:
     readings: Callable[[Array, Part], Array] | None = None
 
     @property
+    def words(self) -> str:
+        """The whole of it, for the card."""
+        return f"{self.mend} {self.otherwise}".rstrip()
+
+    @property
     def rule(self) -> str:
-        """The words without their first half where that is what an instruction says at length: what else to do."""
-        for sign, begins in ((", or ", "Or "), ("; or ", "Or "), (". No motor ", "No motor ")):
-            _, found, rest = self.words.partition(sign)
-            if found and self.instruction:
-                return f"{begins}{rest}"
-        return self.words
+        """What a work order says beside its instruction, which is the first half at length: what else can be done."""
+        said = self.otherwise if self.instruction else ""
+        return said[:1].upper() + said[1:] or self.words
 
 
-def command(words: str, change: str = "", instruction: str = "") -> Cure:
+def command(mend: str, change: str = "", instruction: str = "", otherwise: str = "") -> Cure:
     """A cure by other commands: the motors' angles less what the effect adds to them.
 
     Args:
-        words: as in `Cure`.
+        mend: as in `Cure`.
         change: as in `Cure`.
         instruction: as in `Cure`.
+        otherwise: as in `Cure`.
 
     Returns:
         The cure.
     """
-    return Cure(words, commanded=from_commands, change=change, instruction=instruction)
+    return Cure(mend, otherwise=otherwise, commanded=from_commands, change=change, instruction=instruction)

@@ -231,9 +231,9 @@ BASE_SHIFT = Effect(
     "The base or the instrument jumped during the recording.",
     "Look into the log for what happened at that time; measure reference points on the base.",
     Cure(
-        "Fasten the base and the instrument and register again; or move the base frame by the jump for all that "
-        "comes after it (base = stated base + jump) and command what the corrected model's inverse kinematics asks "
-        "for.",
+        "Fasten the base and the instrument and register again;",
+        otherwise="or move the base frame by the jump for all that comes after it (base = stated base + jump) and "
+        "command what the corrected model's inverse kinematics asks for.",
         change="set-up",
         instruction="Fasten base and instrument, and register the base anew from the jump on{jump}.",
     ),
@@ -249,8 +249,9 @@ TOOL_SHIFT = Effect(
     "The tool or its reflector moved on the flange during the recording or between runs.",
     "Look into the log for what happened at that time; measure the tool point again.",
     Cure(
-        "Fasten the tool and calibrate the tool point again; or move the tool point by the jump for all that comes "
-        "after it (tool = stated tool + jump) and command what the corrected model's inverse kinematics asks for.",
+        "Fasten the tool and calibrate the tool point again;",
+        otherwise="or move the tool point by the jump for all that comes after it (tool = stated tool + jump) and "
+        "command what the corrected model's inverse kinematics asks for.",
         change="fastening",
         instruction="Fasten the tool, and measure its tool point anew from the jump on{jump}.",
     ),

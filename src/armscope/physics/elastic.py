@@ -11,11 +11,11 @@ from armscope.physics.clause import clear_ones
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import Cure, command
 from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term, motor, term
+from armscope.physics.load_drivers import static_regressor
 from armscope.physics.placing import varies
 from armscope.physics.scene import Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-from armscope.robot.gravity import mass_moment_regressor
 
 UNKNOWN_MASSES = "unknown masses"
 """The variant of a joint's compliance that trusts no stated mass."""
@@ -29,11 +29,6 @@ MASS_DIRECTIONS_SHARE = 1e-3
 """Directions of the unknown mass moments that make up less of the torque's variation are left out."""
 
 
-def has_load(arm: Arm) -> bool:
-    """Whether gravity's load is known; a payload alone is not the load, the arm weighs something, too."""
-    return arm.has_masses
-
-
 def loaded_joints(scene: Scene) -> list[int]:
     """Motors (1-based) whose load varies by more than a trace: under less, a drive would have to be a soft spring."""
     torques = scene.torques
@@ -43,7 +38,7 @@ def loaded_joints(scene: Scene) -> list[int]:
 
 
 def _place_joints(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    if not has_load(arm) and recordings.torque is None:
+    if not arm.has_masses and recordings.torque is None:
         yield from _unknown_masses(arm, recordings)
         return
     scene = Scene(arm, recordings)
@@ -115,7 +110,7 @@ def _mass_moment_terms(scene: Scene, j: int) -> Iterator[tuple[Term, float]]:
     All are equally likely in kg m: the strongest, which comes first, does most to the motor. Beside stated masses,
     which hold that one, none is likelier than another.
     """
-    regressor = scene.remember("regressor", lambda: _regressor(scene))[:, j - 1]
+    regressor = static_regressor(scene)[:, j - 1]
     spread = regressor - regressor.mean(axis=0)
     _, size, directions = np.linalg.svd(spread, full_matrices=False)
     if size[0] < 1e-6:
@@ -125,11 +120,7 @@ def _mass_moment_terms(scene: Scene, j: int) -> Iterator[tuple[Term, float]]:
         load = Driver("regressor", (j, *(float(w) for w in direction)))
         give = plausible_give(PLAUSIBLE.drive_rad, scene.driver(load))
         name = f"compliance_times_moment_{number}"
-        yield term(name, "rad/(m/s^2)", (motor(j), load), plausible=give), 1.0 if has_load(scene.arm) else float(share)
-
-
-def _regressor(scene: Scene) -> Array:
-    return mass_moment_regressor(scene.arm, scene.loaded)
+        yield term(name, "rad/(m/s^2)", (motor(j), load), plausible=give), 1.0 if scene.arm.has_masses else float(share)
 
 
 JOINT_COMPLIANCE = Effect(
@@ -139,8 +130,9 @@ JOINT_COMPLIANCE = Effect(
     "The joint's drive gives way about its axis in proportion to the load that gravity puts on the motor.",
     "Hang a known weight on the tool in the same pose and measure how far this joint turns.",
     command(
-        "Let the controller's elastic model hold against it, or command it away: "
-        "commanded = wanted - compliance x load (load: gravity's torque on this motor, positive along its pull).",
+        "Let the controller's elastic model hold against it,",
+        otherwise="or command it away: commanded = wanted - compliance x load (load: gravity's torque on this motor, "
+        "positive along its pull).",
         change="elastic model",
         instruction="Add to the command what gravity takes, so that {opposite}{size}; or let the controller's elastic "
         "model do so.",
@@ -158,7 +150,7 @@ JOINT_COMPLIANCE = Effect(
 
 
 def _place_bearings(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    if not has_load(arm):
+    if not arm.has_masses:
         return
     scene = Scene(arm, recordings)
     for j in range(1, arm.n_joints + 1):
@@ -186,8 +178,9 @@ BEARING_COMPLIANCE = Effect(
     "The joint's bearing tilts across its axis under the moment that everything beyond puts on it.",
     "Hang a known weight on the outstretched arm and measure the tilt on both sides of the bearing.",
     Cure(
-        "Preload or replace the bearing. No motor turns across its axis: otherwise command what the inverse kinematics "
-        "of the corrected model asks for (axis tilted by + compliance x moment; `armscope compensate`).",
+        "Preload or replace the bearing.",
+        otherwise="No motor turns across its axis: otherwise command what the inverse kinematics of the corrected "
+        "model asks for (axis tilted by + compliance x moment; `armscope compensate`).",
         change="bearing",
         instruction="Preload or replace the bearing of {location}.",
     ),
@@ -201,7 +194,7 @@ BEARING_COMPLIANCE = Effect(
 
 
 def _place_base(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    if has_load(arm):
+    if arm.has_masses:
         scene = Scene(arm, recordings)
         yield Placed(BASE_COMPLIANCE, "base", (_tilt(scene, "base"),), (1.0,), "moment on the base")
         terms = _two_axes(scene, "base")
@@ -244,8 +237,9 @@ BASE_COMPLIANCE = Effect(
     "The base (pedestal, floor, bolts) tilts under the arm's moment.",
     "Put a reflector or an inclinometer on the base and swing the outstretched arm around.",
     Cure(
-        "Stiffen the mounting. No motor turns the base: otherwise command what the inverse kinematics of the corrected "
-        "model asks for (base tilted by + compliance x moment; `armscope compensate`).",
+        "Stiffen the mounting.",
+        otherwise="No motor turns the base: otherwise command what the inverse kinematics of the corrected model asks "
+        "for (base tilted by + compliance x moment; `armscope compensate`).",
         change="mounting",
         instruction="Tighten and stiffen the mounting of the base.",
     ),
@@ -261,18 +255,17 @@ BASE_COMPLIANCE = Effect(
 
 
 def _place_beams(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    if not has_load(arm):
+    if not arm.has_masses:
         return
     scene = Scene(arm, recordings)
     for j in range(1, arm.n_joints + 1):
         step = arm.before[j - 1] if arm.is_modified_dh else arm.behind[j - 1]
         if np.linalg.norm(step[:3, 3]) < SHORTEST_BEAM_M:
             continue
-        site = f"joint {j}" if arm.is_modified_dh else f"link {j}"
         flexibility = term(
             "flexibility",
             "1/(N m^2)",
-            *(Product(Direction(site, axis), Driver("bend", (j, n))) for n, axis in enumerate(AXES)),
+            *(Product(Direction(scene.beam_site(j), axis), Driver("bend", (j, n))) for n, axis in enumerate(AXES)),
             plausible=plausible_give(PLAUSIBLE.beam_rad, np.linalg.norm(scene.bending(j)[:, 3:], axis=1)),
         )
         yield Placed(LINK_BENDING, f"link {j}", (flexibility,), (1.0,), f"load at the end of link {j}")
@@ -285,8 +278,9 @@ LINK_BENDING = Effect(
     "The link bends like a beam under the load at its end.",
     "Put reflectors on both ends of the link and load the arm.",
     Cure(
-        "Stiffen the link. No motor bends it back: otherwise command what the inverse kinematics of the corrected "
-        "model asks for (link's end moved by + flexibility x the beam's shape; `armscope compensate`).",
+        "Stiffen the link.",
+        otherwise="No motor bends it back: otherwise command what the inverse kinematics of the corrected model asks "
+        "for (link's end moved by + flexibility x the beam's shape; `armscope compensate`).",
         change="elastic model",
         instruction="Put the bending of {location} into the model, or stiffen it.",
     ),

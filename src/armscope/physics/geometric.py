@@ -62,7 +62,8 @@ JOINT_OFFSET = Effect(
     "The encoder's zero is off, so the joint always stands at an angle other than the commanded one.",
     "Bring the joint to its calibration mark or level its link with an inclinometer at zero and read the angle.",
     command(
-        "Correct the encoder's zero (mastering) by the angle found, or command it away: commanded = wanted - offset. "
+        "Correct the encoder's zero (mastering) by the angle found,",
+        otherwise="or command it away: commanded = wanted - offset. "
         "In the controller's model: theta = stated theta + offset.",
         change="mastering",
         instruction="Set the zero of {location} anew: {zero}.",
@@ -175,8 +176,9 @@ AXIS_WOBBLE = Effect(
     "The joint's axis does not keep its direction while the joint turns (bearing run-out).",
     "Turn the joint alone through a full turn with a dial gauge against a ground surface near its bearing.",
     Cure(
-        "Replace or re-seat the bearing. No motor turns across its axis: until then command what the inverse "
-        "kinematics of the corrected model asks for (nominal axis + fitted tilt; `armscope compensate`).",
+        "Replace or re-seat the bearing.",
+        otherwise="No motor turns across its axis: until then command what the inverse kinematics of the corrected "
+        "model asks for (nominal axis + fitted tilt; `armscope compensate`).",
         change="bearing",
         instruction="Re-seat or replace the bearing of {location}.",
     ),
@@ -275,9 +277,10 @@ PARALLELOGRAM_GEOMETRY = Effect(
     "The linkage's opposite bars differ in length, so the forearm does not keep parallel to its crank.",
     "Turn motor 2 alone and watch the forearm's inclination: in a true parallelogram it does not change.",
     Cure(
-        "Adjust the rod by minus its error, or put the true lengths into the controller's model (rod = stated rod + "
-        "rod, rocker = stated rocker + rocker; errors without a unit are shares of the rocker's length), whose inverse "
-        "kinematics then reaches the wanted point.",
+        "Adjust the rod by minus its error,",
+        otherwise="or put the true lengths into the controller's model (rod = stated rod + rod, rocker = stated rocker "
+        "+ rocker; errors without a unit are shares of the rocker's length), whose inverse kinematics then reaches the "
+        "wanted point.",
         change="linkage",
         instruction="Adjust the rod of the parallelogram by minus its error.",
     ),

@@ -40,7 +40,7 @@ class FittedModel:
         bases: where the base stands, by run, the last one last.
         tools: tool offsets as parts.
         parts: the effects, SI units.
-        background: geometric errors of tolerance size, as parts.
+        background: the small errors of each family that are allowed for everywhere without a name, as parts.
         tool_turns: (3, 3) the arm's last frame from the measured tool frame, by tool, where orientations were measured.
     """
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.effect import Driver, Placed, motor, term
-from armscope.physics.elastic import JOINT_COMPLIANCE, has_load, loaded_joints
+from armscope.physics.elastic import JOINT_COMPLIANCE, loaded_joints
 from armscope.physics.scene import Scene
 from armscope.physics.transmission import is_pulled_both_ways
 from armscope.recordings import Recordings
@@ -29,9 +29,8 @@ HARDENING = replace(
     JOINT_COMPLIANCE,
     cure=replace(
         JOINT_COMPLIANCE.cure,
-        words="Let the controller's elastic model hold against it, or command it away: commanded = wanted - "
-        f"soft_turn x {TURNED} (load: gravity's torque on this motor, positive along its pull; where it hardens is "
-        "assumed).",
+        otherwise=f"or command it away: commanded = wanted - soft_turn x {TURNED} (load: gravity's torque on this "
+        "motor, positive along its pull; where it hardens is assumed).",
     ),
 )
 """The same effect, with a rule of its own by which it is commanded away."""
@@ -47,7 +46,7 @@ def soft_starts(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     Yields:
         One per motor, rad.
     """
-    if not has_load(arm) and recordings.torque is None:
+    if not arm.has_masses and recordings.torque is None:
         return
     scene = Scene(arm, recordings)
     size = PLAUSIBLE.soft_share * PLAUSIBLE.drive_rad

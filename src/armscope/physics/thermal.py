@@ -48,7 +48,8 @@ THERMAL_EXPANSION = Effect(
     "The link grows with temperature (steel 11-12, aluminium 23-24 millionths per K).",
     "Measure one pose cold and warm, with a thermometer on the link.",
     Cure(
-        "Warm up before measuring, or correct the link's length in the controller's model: length = stated length x "
+        "Warm up before measuring,",
+        otherwise="or correct the link's length in the controller's model: length = stated length x "
         "(1 + coefficient x (temperature - 20 C)); its inverse kinematics then reaches the wanted point.",
         change="temperature",
         instruction="Warm the arm up before work, or scale {location} with its temperature.",

@@ -52,8 +52,8 @@ GEAR_RATIO = Effect(
     "The joint turns by a little more or less than commanded, in proportion to the angle.",
     "Turn the joint alone by a large angle and back and measure the angle turned with the tracker.",
     command(
-        "Correct the gear ratio (or the belt's or encoder's scale) in the controller, or command it away: "
-        "commanded = wanted - ratio x wanted.",
+        "Correct the gear ratio (or the belt's or encoder's scale) in the controller,",
+        otherwise="or command it away: commanded = wanted - ratio x wanted.",
         change="gear ratio",
         instruction="Multiply the stated ratio (motor turns per joint turn) of {location} by {ratio}.",
     ),
@@ -92,7 +92,8 @@ GEAR_ECCENTRICITY = Effect(
     "A gear or the encoder's disc sits off its centre, so the angle error repeats once or twice per joint turn.",
     "Turn the joint alone in steps of 10 degrees over a full turn and look for one or two waves.",
     command(
-        "Re-centre the encoder disc or gear, or store the wave as a correction table: "
+        "Re-centre the encoder disc or gear,",
+        otherwise="or store the wave as a correction table: "
         "commanded = wanted - amplitude x cos(per_turn x wanted - phase).",
         change="encoder or gear",
         instruction="Re-centre the encoder disc or gear of {location}, or command the wave away: {opposite}.",
@@ -122,8 +123,8 @@ GEAR_MESH = Effect(
     "The teeth of a gear stage engage unevenly, so the angle error repeats many times per joint turn.",
     "Turn the joint alone in steps much finer than the period found and look for the wave.",
     command(
-        "Compare the period with the gear stages' tooth counts; replace the stage, or store the wave as a correction: "
-        "commanded = wanted - amplitude x cos(per_turn x wanted - phase).",
+        "Compare the period with the gear stages' tooth counts; replace the stage,",
+        otherwise="or store the wave as a correction: commanded = wanted - amplitude x cos(per_turn x wanted - phase).",
         change="gear stage",
         instruction="Find the gear stage of {location} that has so many waves per turn, and replace it.",
     ),
@@ -161,9 +162,10 @@ BACKLASH = Effect(
     "The gear has play: the joint rests on one flank or the other, by the side it came from or gravity pushes it to.",
     "Approach one pose from both sides of this joint and compare.",
     command(
-        "Adjust or preload the gear; until then approach from one side, or command the play away: where the motion "
-        "decides, commanded = wanted + approach x gap / 2 (approach: +1 after a positive motion); where gravity does, "
-        "commanded = wanted - side x gap / 2 (side: sign of the load along gravity's pull).",
+        "Adjust or preload the gear; until then approach from one side,",
+        otherwise="or command the play away: where the motion decides, commanded = wanted + approach x gap / 2 "
+        "(approach: +1 after a positive motion); where gravity does, commanded = wanted - side x gap / 2 (side: sign "
+        "of the load along gravity's pull).",
         change="gear play",
         instruction="Adjust or preload the gear of {location}.",
     ),
@@ -187,8 +189,8 @@ SERVO_LAG = Effect(
     "The joint runs behind its command in proportion to its speed.",
     "Measure one point at several speeds, or at standstill: the error must vanish there.",
     command(
-        "Add velocity feed-forward, or give the instrument the right time stamp. By command: "
-        "commanded = wanted + delay x speed.",
+        "Add velocity feed-forward,",
+        otherwise="or give the instrument the right time stamp. By command: commanded = wanted + delay x speed.",
         change="controller",
         instruction="Add velocity feed-forward at {location}, or mend the instrument's time stamps.",
     ),

@@ -58,7 +58,7 @@ def subset_consistency(state: DiagnosisState) -> dict[int, SameSize]:
 
 def _divisions(state: DiagnosisState) -> Iterator[tuple[list[NormalEquations], str]]:
     """Sums over the rows of each run; of each payload; of the near and of the far half of the workspace."""
-    split, recordings, point, layout = state.layout, state.recordings, state.point, state.space.layout
+    split, recordings, point, layout = state.split, state.recordings, state.point, state.space.layout
     if split.grouped_by == "run":
         runs = [np.flatnonzero(split.fold == run) for run in np.unique(split.fold)]
         yield [total([state.blocks[int(k)] for k in inside]) for inside in runs], "runs"
