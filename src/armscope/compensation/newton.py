@@ -21,8 +21,8 @@ from armscope.robot.newton_steps import PATIENCE, damping, least_turns, shortene
 TOLERANCE_M = 1e-9
 ITERATIONS = 30
 LARGEST_NEWTON_STEP_RAD = 0.3
-ROWS_AT_A_TIME = 20_000
-"""Frames, Jacobians and steps of so many rows take some hundred megabytes."""
+ROWS_AT_A_TIME = 5_000
+"""Frames, Jacobians and steps of so many rows take some fifty megabytes."""
 POLE = 0.01
 """An arm with a smaller singular value of the scaled Jacobian is at a pole (a wrist: 0.8 degrees from straight)."""
 

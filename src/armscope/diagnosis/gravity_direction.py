@@ -16,7 +16,8 @@ from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.diagnosis.constants import GRAVITY
 from armscope.diagnosis.model_space import build_model_space
-from armscope.fitting.linearisation import normal_equations_by_block, point_residuals
+from armscope.fitting.block_sums import normal_equations_by_block
+from armscope.fitting.linearisation import point_residuals
 from armscope.inference.constants import PRIORS
 from armscope.inference.evidence import Hypothesis, evaluate, half_line_gain
 from armscope.inference.normal_equations import total

@@ -36,8 +36,8 @@ from armscope.diagnosis.summary.unexplained import (
     too_faint,
     unexplained_part,
 )
+from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.discrepancy import model_error
-from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.fitting.refit import Refit
 from armscope.inference.detection import averaged_log_odds
 from armscope.inference.normal_equations import NormalEquations

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import columns, structured_design
-from armscope.fitting.linearisation import current_parameters, linearised
-from armscope.fitting.parameter_layout import ParameterLayout
+from armscope.fitting.linearisation import linearised
+from armscope.fitting.parameter_layout import ParameterLayout, current_parameters
 from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.row_weights import RowWeights
 from armscope.measurement.whitening import WhitenedPosture, Whitener

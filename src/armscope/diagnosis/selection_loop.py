@@ -20,8 +20,9 @@ from armscope.diagnosis.scans.constants import SCANS
 from armscope.diagnosis.scans.context import ScanContext, few_rows
 from armscope.diagnosis.scans.new_candidates import scanned_candidates
 from armscope.diagnosis.sizes_of_waves import with_sizes_of_rows
+from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.joint_scatter import Scattered
-from armscope.fitting.linearisation import LinearisedTable, Measured, linearised, normal_equations_by_block, residuals
+from armscope.fitting.linearisation import LinearisedTable, Measured, linearised, residuals
 from armscope.fitting.refit import Refit, refit
 from armscope.inference.edits import replaced
 from armscope.inference.evidence import Hypothesis

@@ -8,16 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.constants import STEPS
 from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic, gauss_newton
-from armscope.fitting.linearisation import (
-    Measured,
-    current_parameters,
-    linearised,
-    normal_equations_by_block,
-    residuals,
-)
-from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
+from armscope.fitting.linearisation import Measured, linearised, residuals
+from armscope.fitting.parameter_layout import ParameterLayout, current_parameters, parameter_layout
 from armscope.inference.constants import PRIORS
 from armscope.inference.normal_equations import NormalEquations, column_scales
 from armscope.measurement import robust

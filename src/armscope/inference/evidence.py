@@ -204,9 +204,13 @@ def removal_log_bayes_factors(problem: Problem, hypothesis: Hypothesis) -> Array
     pull, widened = root * hypothesis.mean[at], np.log(variance / rest)
     ends, lost = np.cumsum([len(columns) for columns in members]).tolist(), []
     for effect, start, end in zip(hypothesis.chosen, [0, *ends[:-1]], ends, strict=True):
-        own = slice(start, end)
-        factor = lower_cholesky(M[own, own], np.ones(end - start))
-        quadratic = float(np.sum(solve_lower(factor, pull[own]) ** 2))
-        logdet = float(2 * np.sum(np.log(np.diag(factor))) - np.sum(widened[own]))
+        if end - start == 1:  # most of them: a number needs no LAPACK
+            inner = max(1.0, NUMERICS.rounding * M[start, start]) + M[start, start]
+            quadratic, logdet = pull[start] ** 2 / inner, math.log(inner) - widened[start]
+        else:
+            own = slice(start, end)
+            factor = lower_cholesky(M[own, own], np.ones(end - start))
+            quadratic = float((solve_lower(factor, pull[own]) ** 2).sum())
+            logdet = float(2 * np.log(factor.diagonal()).sum() - widened[own].sum())
         lost.append(0.5 * quadratic + 0.5 * logdet - problem.cost(effect.candidate))
     return np.array(lost)

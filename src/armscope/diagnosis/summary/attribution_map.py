@@ -9,8 +9,9 @@ import numpy as np
 from armscope.core.location import Location
 from armscope.core.sampling import spread_evenly
 from armscope.diagnosis.summary.constants import TELLING
+from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.column_blocks import column_blocks
-from armscope.fitting.linearisation import LinearisedTable, normal_equations_by_block
+from armscope.fitting.linearisation import LinearisedTable
 from armscope.fitting.parameter_layout import ParameterLayout
 from armscope.inference.linear_algebra import lower_cholesky, rss_reduction, solve_lower
 from armscope.measurement.row_weights import RowWeights

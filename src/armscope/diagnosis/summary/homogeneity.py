@@ -13,7 +13,8 @@ from armscope.core.types import Indices
 from armscope.diagnosis.constants import FOLDING
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.constants import TELLING
-from armscope.fitting.linearisation import current_parameters, normal_equations_by_block
+from armscope.fitting.block_sums import normal_equations_by_block
+from armscope.fitting.parameter_layout import current_parameters
 from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem
