@@ -13,7 +13,8 @@ from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array
 from armscope.motion.causes import Moment, side
-from armscope.motion.preparation import seen_later, without_lag
+from armscope.motion.dry_friction import seen_later
+from armscope.motion.preparation import without_lag
 
 
 @dataclass(frozen=True)

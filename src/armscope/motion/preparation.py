@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.interpolate import make_interp_spline
+from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array, Indices
 from armscope.motion.sampling_constants import CUTOFF, FILTER
@@ -113,23 +113,6 @@ def without_lag(values: Array, cutoff: float, rate: float, padded: int) -> Array
     return np.asarray(sosfiltfilt(_sections(cutoff, rate), values, axis=0, padlen=min(padded, len(values) - 1)))
 
 
-def seen_later(time: Array, values: Array, delay: float) -> Array:
-    """Samples as they were some time ago, by a cubic spline.
-
-    A straight line between samples blurs what is between them: of a wave of five samples it loses a fifth half way,
-    and friction that changes sides more softly than it does asks for another law near rest.
-
-    Args:
-        time: (N,) s, even.
-        values: (N,) at these times.
-        delay: s.
-
-    Returns:
-        (N,) of ``delay`` earlier; before the first sample, and after the last one, as it is.
-    """
-    return np.asarray(make_interp_spline(time, values, k=3)(np.clip(time - delay, time[0], time[-1])))
-
-
 @functools.lru_cache(maxsize=8)
 def _sections(cutoff: float, rate: float) -> Array:
     from scipy.signal import butter
@@ -222,6 +205,19 @@ class Signals:
     stride: int = 1
     shift: tuple[Array, Array, Array] | None = None
     twist: Array | None = None
+
+    @functools.cached_property
+    def _paths(self) -> dict[int, BSpline]:
+        """By joint; these samples' own, which no copy with other numbers takes over."""
+        return {}
+
+    def some_time_ago(self, joint: int, delay: float) -> tuple[Array, Array]:
+        """(N,) velocity and acceleration of a joint's motor some time ago, s; their spline is made once."""
+        if joint not in self._paths:
+            both = np.column_stack([self.dq[:, joint], self.ddq[:, joint]])
+            self._paths[joint] = make_interp_spline(self.time, both, k=3)
+        before = self._paths[joint](np.clip(self.time - delay, self.time[0], self.time[-1]))
+        return before[:, 0], before[:, 1]
 
     @property
     def of_links(self) -> tuple[Array, Array, Array]:
