@@ -6,8 +6,9 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: help reproduce test checked small-run test-long benchmark proof fuzz campaign docs clean
+.PHONY: help install reproduce test checked small-run test-long benchmark proof fuzz campaign docs clean
 help:
+	@echo "make install     sets up .venv alone, with the command armscope in .venv/bin"
 	@echo "make reproduce   the paper, end to end: Table 2, Figs 1-11, claims, report"
 	@echo "make test        lint, types, unit tests, a small run of the whole workflow"
 	@echo "make test-long   what takes longer than ten seconds a test, real arms among it"
@@ -17,6 +18,8 @@ help:
 	@echo "make campaign    what happens when it is broken on purpose (TIMES=1: a few minutes)"
 	@echo "make docs        the documentation as a site in site/, with a gallery of reports"
 	@echo "make clean       remove .venv and results"
+
+install: .venv/installed
 
 reproduce: .venv/installed
 	$(BIN)/snakemake -j2

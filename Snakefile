@@ -33,6 +33,7 @@ localrules:
     all,
     audit,
     bench,
+    choose_poses,
     claims,
     fetch_raw,
     fleet_page,

@@ -129,15 +129,20 @@ def beside_peers(folder: Path, pythons: Pythons) -> None:
         beside_aurt("one path, two axes", Problem(two, urdf, [fitted], [apart]), pythons.aurt)
 
 
+def arm_of_set(source: Path, folder: Path) -> MovingArm:
+    """The arm of a real set imported to a folder of the set's name; robot.yaml and robot.urdf are put into another."""
+    for file in ("robot.yaml", "robot.urdf"):
+        kept = SETS / source.name / file
+        (folder / file).write_bytes((kept if kept.exists() else source / file).read_bytes())
+    return load_moving_arm(folder / "robot.yaml")
+
+
 def beside_real(folder: Path, pythons: Pythons) -> None:
     """Real sets (imported to folder/NAME/motions.csv.gz, with the arm's URDF): one run fitted, another held out."""
     for name, (fitted, held_out) in REAL.items():
         source = folder / name
         with tempfile.TemporaryDirectory() as made:
-            for file in ("robot.yaml", "robot.urdf"):
-                kept = SETS / name / file
-                (Path(made) / file).write_bytes((kept if kept.exists() else source / file).read_bytes())
-            arm = load_moving_arm(Path(made) / "robot.yaml")
+            arm = arm_of_set(source, Path(made))
             whole, _ = mended(read_motions(source / "motions.csv.gz", arm.n_motors))
             laid = [replace(s, effort=torque_of(arm, s.effort, whole.kind)) for s in stretches(whole)]
             train, test = ([each for each in laid if each.run == run] for run in (fitted, held_out))

@@ -18,12 +18,12 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from benchmarks.motion import SETS
+from benchmarks.motion import arm_of_set
 
 from armscope.motion.pipeline import MotionDiagnosis, diagnose_motion
 from armscope.motion.timing import mended
 from armscope.recordings.motions import Motions, read_motions
-from armscope.robot.dynamics import MovingArm, load_moving_arm
+from armscope.robot.dynamics import MovingArm
 
 STRENGTHS = (3.0, 8.0)
 Added = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], np.ndarray]
@@ -111,10 +111,7 @@ def main() -> None:
     for name in asked.sets:
         source = asked.folder / name
         with tempfile.TemporaryDirectory() as made:
-            for file in ("robot.yaml", "robot.urdf"):
-                kept = SETS / name / file
-                (Path(made) / file).write_bytes((kept if kept.exists() else source / file).read_bytes())
-            arm = load_moving_arm(Path(made) / "robot.yaml")
+            arm = arm_of_set(source, Path(made))
         motions, _ = mended(read_motions(source / "motions.csv.gz", arm.n_motors))
         if asked.runs:
             motions = motions.rows(np.isin(motions.run, asked.runs))

@@ -7,8 +7,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pandas as pd
 import pytest
 import yaml
+from tools import jobs as jobs_measured
 
 ROOT = Path(__file__).parents[1]
 TARGETS = ("paper/table2.csv", "paper/figures/fig06.png")
@@ -123,3 +125,20 @@ def test_no_job_of_a_cluster_waits_for_itself(finished, profile):
         inside = {rule for rule, name in asked["groups"].items() if name == group}
         outside = after(inside, follows) - inside
         assert not after(outside, follows) & inside, group
+
+
+@pytest.mark.parametrize("profile", ["slurm", "slurm-generic"])
+def test_no_job_of_a_cluster_is_shorter_than_its_start(profile):
+    """By the jobs that were measured: alone, together with what its group holds, or where Snakemake runs."""
+    asked = yaml.safe_load((ROOT / "profiles" / profile / "config.yaml").read_text())
+    local = re.search(r"localrules:\n((?:    \w+,\n)+)", (ROOT / "Snakefile").read_text())
+    took = (
+        pd.read_csv(jobs_measured.TABLE)
+        .set_index("rule")["longest_s"]
+        .drop(re.findall(r"\w+", local[1]), errors="ignore")
+    )
+    together = took.groupby(took.index.map(lambda rule: asked["groups"].get(rule, rule))).sum()
+    for group, count in asked["group-components"].items():
+        together[group] *= count
+    grows = {"scored"}  # what scores three dozen worlds here scores thousands there
+    assert set(together.index[together < jobs_measured.START_S]) <= grows

@@ -22,7 +22,7 @@ from matplotlib.figure import Figure
 from armscope.core.types import Array, Indices
 from armscope.diagnosis.constants import NAMING
 from armscope.diagnosis.earning import held_out_gains, without_members
-from armscope.diagnosis.held_out import split
+from armscope.diagnosis.held_out import split_rows
 from armscope.diagnosis.selection import select
 from armscope.diagnosis.selection_loop import Selected
 from armscope.fitting.linearisation import LinearisedTable
@@ -85,7 +85,7 @@ def diagnosed(spec: WorldSpec) -> Selected:
         arm = load_arm(seen / "robot.yaml")
         rows = read_recordings(seen / "recordings.csv", arm.n_motors)
     channels = supported(rows, CHANNELS)
-    layout = split(rows, np.random.default_rng(0))
+    layout = split_rows(rows, np.random.default_rng(0))
     table = LinearisedTable(rows, channels)
     frames = nuisances(channels, rows, False)
     start = fit_frames(arm, rows, False)

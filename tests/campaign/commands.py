@@ -7,7 +7,7 @@ import resource
 import shutil
 import signal
 import subprocess
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -45,7 +45,9 @@ class Reference:
     cpu_s: float
 
 
-def killed(home: Path, times: int, rng: np.random.Generator, sign: signal.Signals) -> Iterator[Outcome]:
+def killed(
+    home: Path, times: int, rng: np.random.Generator, sign: signal.Signals, only: Collection[str] = ()
+) -> Iterator[Outcome]:
     """Every writing command ended at random moments: nothing half-written, and the same command gives the same bytes.
 
     Args:
@@ -53,8 +55,11 @@ def killed(home: Path, times: int, rng: np.random.Generator, sign: signal.Signal
         times: per command.
         rng: draws the moments.
         sign: SIGKILL, or SIGINT, which must end with 130.
+        only: commands of these names; empty: all.
     """
     for name, command in commands(home).items():
+        if only and name not in only:
+            continue
         reference = _reference(home, name, command)
         broken = []
         for number in range(times):

@@ -33,3 +33,17 @@ def test_too_little_memory_is_told_with_a_cure(table, capsys, monkeypatch):
     monkeypatch.setattr(cost, "_free_mb", lambda: 50.0)
     announce(table, Cost(1.0, 1.0, 100.0, 1.0), 1)
     assert "0.1 GB are free here: keep one row in 3, or take a larger machine" in capsys.readouterr().err
+
+
+def test_what_is_said_of_the_longest_tables_is_not_below_what_was_measured():
+    """Measured with `python -m benchmarks.scale` at two lengths, and continued to ten million rows."""
+    for said, (short, long), (rows, more) in (
+        (cost.DIAGNOSE, ((30.1, 579), (437.0, 1369)), (100_000, 1_000_000)),
+        (cost.PREDICT, ((3.8, 264), (8.3, 333)), (100_000, 300_000)),
+        (cost.COMPENSATE, ((14.7, 509), (128.2, 1085)), (100_000, 1_000_000)),
+    ):
+        seconds, megabytes = (
+            at + (far - at) * (10_000_000 - rows) / (more - rows) for at, far in zip(short, long, strict=True)
+        )
+        assert said.seconds(10_000_000) >= seconds
+        assert said.megabytes(10_000_000) >= megabytes

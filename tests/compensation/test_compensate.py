@@ -172,6 +172,8 @@ def test_a_table_of_commands_has_every_row_of_the_path_and_no_command_where_refu
     assert len(table) == 20
     assert table["status"].tolist().count("refused") == (~result.reached).sum() >= 2
     assert "beyond reach" in table["reason"][7]
+    pieces = [result.to_table(rows) for rows in (slice(0, 8), slice(8, 20))]  # so a long path is written
+    pd.testing.assert_frame_equal(pd.concat(pieces, ignore_index=True), table)
     refused = table[table["status"] == "refused"]
     assert refused.filter(regex="^q._rad$").isna().all(axis=None)
     assert table[table["status"] == "ok"].filter(regex="^q._rad$").notna().all(axis=None)

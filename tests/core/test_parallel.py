@@ -7,7 +7,7 @@ import signal
 import numpy as np
 import pytest
 
-from armscope.core.parallel import each_piece, processes
+from armscope.core.parallel import each_piece, piece_by_piece, processes
 
 PIECES = [np.arange(k, k + 5.0) for k in range(7)]
 
@@ -22,6 +22,20 @@ def test_results_come_in_the_order_of_the_pieces(count):
         done = each_piece(PIECES, squares)
     assert all(np.array_equal(found, piece**2) for (_, found), piece in zip(done, PIECES, strict=True))
     assert len({pid for pid, _ in done} - {os.getpid()}) == (0 if count == 1 else min(count, len(PIECES)))
+    assert not multiprocessing.active_children()
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_a_result_need_not_wait_for_those_after_it(count):
+    def only_the_first(piece):
+        if piece[0] > 1:
+            raise ValueError("too far")
+        return squares(piece)
+
+    with processes(count):
+        results = piece_by_piece(PIECES, only_the_first)
+        assert np.array_equal(next(results)[1], PIECES[0] ** 2)
+        results.close()
     assert not multiprocessing.active_children()
 
 

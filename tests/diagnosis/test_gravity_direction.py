@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
-from armscope.diagnosis.gravity_direction import lean, turned
+from armscope.diagnosis.gravity_direction import estimate_gravity_direction, turned
 from armscope.fitting.registration import fit_frames
 from armscope.measurement.noise import known_noise
 from armscope.recordings import read_recordings
@@ -67,7 +67,7 @@ def test_a_real_arm_on_a_wedge_tells_what_its_levelled_tracker_tells() -> None:
     table = table.rows((table.run == "leica_random") & (table.id.astype(int) >= 172))
     upright = build_arm(stated.description.model_copy(update={"gravity_m_s2": (0.0, 0.0, -9.81)}))
     noise = known_noise(stated, table)
-    found = lean(fit_frames(upright, table), table, noise, False)
+    found = estimate_gravity_direction(fit_frames(upright, table), table, noise, False)
     assert found is not None
     apart = np.arccos(found.arm.gravity @ stated.gravity / np.linalg.norm(stated.gravity) / 9.81)
     assert np.degrees(found.angle) > 13

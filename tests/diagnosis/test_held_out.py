@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
-from armscope.diagnosis.held_out import Rows, left_over, split
+from armscope.diagnosis.held_out import split_rows
 from armscope.diagnosis.selection import select
-from armscope.diagnosis.selection_loop import SelectionLoop
 from armscope.fitting.linearisation import LinearisedTable, point_residuals
 from armscope.fitting.registration import fit_frames
 from armscope.inference.normal_equations import total
@@ -27,7 +26,7 @@ def test_held_out_errors_are_those_of_models_fitted_without_the_rows() -> None:
     """Without effects the folds' models are base and tool alone: fitted fold by fold, they predict as well."""
     arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [4e-7]}, 100, 0.02, seed=3)
     verdict = diagnose(arm, table, VALIDATED)
-    layout = split(table, np.random.default_rng(VALIDATED.seed))
+    layout = split_rows(table, np.random.default_rng(VALIDATED.seed))
     fold = layout.fold[layout.of_row]
     errors = [
         point_residuals(fit_frames(arm, table.rows(fold != k)), table.rows(np.flatnonzero(fold == k))) for k in range(5)
@@ -48,22 +47,6 @@ def test_bad_shots_stand_in_the_error_of_all_rows_only() -> None:
     held_out = diagnose(arm, table, VALIDATED).held_out
     assert held_out.after < 0.023
     assert held_out.after_all_rows == pytest.approx(np.sqrt(3 * (9 + 16 + 4) / 300), rel=0.1)
-
-
-def test_readings_are_told_at_the_point_where_their_columns_were_taken() -> None:
-    """A round may move the frames; errors of its hypotheses must not count that move twice."""
-    arm, table = planted("six-axis", {("joint_offset", "joint 3"): [3e-4]}, 100, 0.02, seed=8)
-    near = fit_frames(arm, table)
-    off = replace(near, tools=tuple(replace(part, values=part.values + 5e-4) for part in near.tools))
-    blocks = np.arange(100) % 5
-    round_ = SelectionLoop(off, table, Noise(0.0, 0.0, ""), free_frames(table, False), blocks, lambda text, share: None)
-    round_.round([(0, 0, 0, 0, 0)])
-    found = round_.selected()
-    values = found.best.coefficients(len(found.problem.scale)) / found.problem.scale
-    rows = Rows(found.point, table, found.fit.weights, found.space.layout)
-    left = left_over(rows, values[None])[0]
-    np.testing.assert_allclose(left, found.fit.residuals, atol=0.004)
-    assert np.abs(point_residuals(off, table) - point_residuals(found.fit.model, table)).max() > 0.2
 
 
 def test_sums_by_block_are_those_of_the_round_in_which_the_selection_rests() -> None:

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from armscope.diagnosis import Settings, diagnose, selection
-from armscope.diagnosis.held_out import split
+from armscope.diagnosis.held_out import split_rows
 from armscope.diagnosis.summary.effect_curve import describe
 from armscope.diagnosis.summary.parameters import parameters
 from armscope.fitting.joint_scatter import find_scatter, motor_jacobians, whitening
@@ -143,11 +143,11 @@ def test_noise_comes_from_the_robot_the_table_or_repeats() -> None:
 def test_targets_and_repeats_of_one_pose_are_never_split_between_folds() -> None:
     arm = arm_named("six-axis")
     table = one_run(arm, 60, 2).rows(np.tile(np.arange(30), 2))
-    layout = split(table, np.random.default_rng(0))
+    layout = split_rows(table, np.random.default_rng(0))
     assert layout.grouped_by == "configuration"
     np.testing.assert_array_equal(layout.of_row[:30], layout.of_row[30:])
     runs = replace(full_table(arm, 120, 2), run=np.repeat(["1", "2", "3"], 40))
-    layout = split(runs, np.random.default_rng(0))
+    layout = split_rows(runs, np.random.default_rng(0))
     assert layout.grouped_by == "run"
     for run in "123":
         assert len(set(layout.fold[layout.of_row[runs.run == run]])) == 1

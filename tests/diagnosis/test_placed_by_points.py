@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
-from armscope.diagnosis.held_out import split
+from armscope.diagnosis.held_out import split_rows
 from armscope.fitting.linearisation import point_residuals
 from armscope.fitting.registration import fit_frames
 
@@ -24,7 +24,7 @@ def test_the_nominal_arm_is_placed_by_its_points_where_orientations_were_measure
     table = recorded(arm, one_run(arm, 90, 3), {("joint_offset", "joint 5"): [2e-2]}, 0.02, 4, turn_noise_mrad=0.1)
     verdict = diagnose(arm, table, VALIDATED)
     points = replace(table, orientation=None)
-    layout = split(table, np.random.default_rng(VALIDATED.seed))
+    layout = split_rows(table, np.random.default_rng(VALIDATED.seed))
     fold = layout.fold[layout.of_row]
     errors = [
         point_residuals(fit_frames(arm, points.rows(fold != k)), points.rows(np.flatnonzero(fold == k)))

@@ -6,7 +6,7 @@ import numpy as np
 
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.diagnosis.sizes_of_waves import with_sizes_of_rows
-from armscope.fitting.linearisation import normal_equations_by_block
+from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.registration import fit_frames
 from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.normal_equations import NormalEquations, total

@@ -42,7 +42,7 @@ def fitted(arm: Arm, table: Recordings) -> Refit:
 
 def stderr(fit: Refit, covariance: np.ndarray) -> np.ndarray:
     """Of the values of both effects."""
-    at = np.concatenate([fit.pool.of(part.placed) for part in fit.model.parts])
+    at = np.concatenate([fit.layout.of(part.placed) for part in fit.model.parts])
     return np.asarray(np.sqrt(np.diag(covariance)[at]))
 
 
@@ -71,7 +71,7 @@ def test_where_there_is_only_noise_the_covariance_is_the_fits_own() -> None:
         arm, table = planted(("six-axis", "seven-axis")[seed % 2], WANTED, 200, NOISE_MM, seed=300 + 10 * seed)
         fit = fitted(arm, table)
         found = model_error(fit, table, 0.0)
-        assert found.told() == []
+        assert found.notices() == []
         wider.append(stderr(fit, found.covariance) / stderr(fit, fit.covariance))
     assert np.median(wider) < 1.06
     assert np.max(wider) < 1.5  # a drift is what a small wander, which nobody can rule out, looks like
@@ -124,7 +124,7 @@ def test_an_error_moves_values_as_the_exact_fit_moves() -> None:
     count = sums.of["the base moves in the order of rows"].stop // 3
     column = sums.cross[:, count + 2]
     step = np.linalg.solve(sums.normal + np.diag(fit.noise**2 * fit.precision), column)
-    at = np.concatenate([fit.pool.of(part.placed) for part in fit.model.parts])
+    at = np.concatenate([fit.layout.of(part.placed) for part in fit.model.parts])
     shift = values(moved) - values(fit)
     along = step[at] * (shift @ step[at]) / (step[at] @ step[at])
     assert np.linalg.norm((shift - along) / stderr(fit, fit.covariance)) < 0.05 * np.linalg.norm(

@@ -15,7 +15,7 @@ def ends_after(moves: list[float], rows: int) -> int:
     """The step after which a fit of so many rows ends that moves points by so many mm, 0.02 mm being uncertain."""
     fit = object.__new__(ModelFit)
     fit.table, fit.steps_mm, fit.negligible = range(rows), [], STEPS.converged_share  # type: ignore[assignment]
-    fit.noise, fit.spent, fit.gram = 0.2, 1.0, SimpleNamespace(n=100.0)  # type: ignore[assignment]
+    fit.noise, fit.effective_dof, fit.equations = 0.2, 1.0, SimpleNamespace(n=100.0)  # type: ignore[assignment]
     before, at = SimpleNamespace(points_mm=np.zeros((4, 3))), 0.0
     for number, moved in enumerate(moves, 1):
         fit.steps_mm.append(np.inf)  # as `quadratic` does

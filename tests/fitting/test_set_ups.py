@@ -15,7 +15,7 @@ from armscope.diagnosis import Settings, diagnose
 from armscope.fitting.constants import STEPS
 from armscope.fitting.linearisation import point_residuals
 from armscope.fitting.registration import fit_frames
-from armscope.fitting.set_ups import compare_bases, told
+from armscope.fitting.set_ups import compare_bases, set_up_anew
 from armscope.physics.frames import free_frames, set_ups_of, sharing_bases
 from armscope.physics.model import FittedModel, predict
 from armscope.physics.model_file import load_model, save_model
@@ -61,10 +61,10 @@ def test_what_settled_is_told_from_what_was_set_up_anew(
     arm, table = three_runs({"a": (shift_mm, turn_mrad)})
     found = compare_bases(fit_frames(arm, table), table)
     assert found.set_ups == set_ups
-    assert bool(told(found)) == (len(set_ups) > 1)
+    assert bool(set_up_anew(found)) == (len(set_ups) > 1)
     if len(set_ups) > 1:
         assert all(apart > 3 for apart in found.apart_mm)
-        assert "runs b, c and run a" in told(found)
+        assert "runs b, c and run a" in set_up_anew(found)
 
 
 def test_a_long_table_is_compared_in_pieces(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -7,7 +7,7 @@ import pytest
 
 from armscope.core.types import Array
 from armscope.diagnosis.model_space import build_model_space
-from armscope.fitting.linearisation import normal_equations_by_block
+from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.registration import fit_frames
 from armscope.inference import linear_algebra
 from armscope.inference.additions import AskedAdditions, addition_scores, background_scores, group_candidates

@@ -9,8 +9,8 @@ import pytest
 
 from armscope.diagnosis import diagnose
 from armscope.diagnosis.model_space import build_model_space
+from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.design_matrix import point_columns
-from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.fitting.registration import fit_frames
 from armscope.inference.constants import DETECTION, PRIORS
 from armscope.inference.detection import averaged_log_odds

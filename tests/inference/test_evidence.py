@@ -7,8 +7,9 @@ import pytest
 from scipy.stats import multivariate_normal, norm
 
 from armscope.diagnosis.model_space import build_model_space
+from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.design_matrix import point_columns
-from armscope.fitting.linearisation import normal_equations_by_block, point_residuals
+from armscope.fitting.linearisation import point_residuals
 from armscope.fitting.registration import fit_frames
 from armscope.inference.additions import best_additions, group_candidates
 from armscope.inference.evidence import evaluate, removal_log_bayes_factors, savage_dickey

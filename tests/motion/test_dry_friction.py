@@ -56,6 +56,16 @@ def test_what_is_rounded_off_of_a_late_torque_is_late() -> None:
     assert np.array_equal(rounded[:, 0], rounded[:, 2])
 
 
+def test_a_motion_of_some_time_ago_is_its_own_whatever_was_asked_of_another() -> None:
+    signals, inside = motion(RATE), slice(20, -20)
+    signals.some_time_ago(0, LATE_S)
+    faster = replace(signals, dq=2 * signals.dq)
+    speed, acceleration = faster.some_time_ago(0, LATE_S)
+    before = signals.time - LATE_S
+    np.testing.assert_allclose(speed[inside], 2 * np.sin(2 * before)[inside], atol=1e-5)
+    np.testing.assert_allclose(acceleration[inside], 2 * np.cos(2 * before)[inside], atol=1e-5)
+
+
 def test_only_how_friction_turns_is_seen_later_where_a_joint_is_late() -> None:
     signals = motion(RATE)
     columns = own_columns(ARM, signals, np.array([0.0, 3 / RATE, 0.0]))

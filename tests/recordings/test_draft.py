@@ -60,6 +60,31 @@ CASES = {
         ".",
         "",
     ),
+    "a UR's joints in the order of the alphabet, as ROS logs them": (
+        dict(sorted(zip(UR_JOINTS, ANGLES.T, strict=True))) | axes("{}", POINTS),
+        ",",
+        ".",
+        "",
+    ),
+    "a UR's joints without the word": (
+        dict(zip((name.removesuffix("_joint") for name in UR_JOINTS), ANGLES.T, strict=True)) | axes("p{}", POINTS),
+        ",",
+        ".",
+        "",
+    ),
+    "a UR's joints as the pendant names them": (
+        dict(
+            zip(
+                ("Base", "Shoulder", "Elbow", *(f"Wrist {n} [deg]" for n in (1, 2, 3))),
+                np.degrees(ANGLES).T,
+                strict=True,
+            )
+        )
+        | axes("{} [m]", POINTS / 1e3),
+        ",",
+        ".",
+        "",
+    ),
     "a maker's letters": (
         dict(zip("SLURBT", np.degrees(ANGLES).T, strict=True)) | axes("{}", POINTS),
         ",",
@@ -141,3 +166,26 @@ def test_motors_are_known_by_other_words_too(tmp_path):
     columns = yaml.safe_load(draft_mapping(file))["columns"]
     assert columns["angles"] == {"columns": ["Achse 1", "Achse 2"], "unit": "deg"}
     assert columns["position"] == {"columns": ["X [m]", "Y [m]", "Z [m]"], "unit": "m"}
+
+
+def test_a_column_of_runs_becomes_runs_and_what_is_not_used_is_said(tmp_path):
+    """A base that jumped between two sessions of one file is found only where the sessions are known."""
+    session = {"session": ["morning"] * 12 + ["after lunch"] * 18, "humidity": np.arange(30.0)}
+    file = written(tmp_path, session | names("q{}_rad", ANGLES) | axes("{}_mm", POINTS))
+    draft = draft_mapping(file)
+    assert "# not used: 'humidity'\n" in draft
+    (tmp_path / "mapping.yaml").write_text(draft)
+    report = import_recordings([file], tmp_path / "mapping.yaml", tmp_path / "out.csv")
+    assert "30 rows, 2 run(s)" in report.text()
+    assert read_recordings(tmp_path / "out.csv").run.tolist() == session["session"]
+
+
+def test_a_column_that_counts_rows_is_no_run(tmp_path):
+    file = written(tmp_path, {"Run": np.arange(1, 31)} | names("q{}_rad", ANGLES) | axes("{}_mm", POINTS))
+    assert "run:" not in draft_mapping(file)
+    assert "# not used: 'Run'" in draft_mapping(file)
+
+
+def test_a_name_that_is_not_used_ends_no_comment(tmp_path):
+    file = written(tmp_path, {"a\u2028rows: []": ANGLES[:, 0]} | names("q{}_rad", ANGLES) | axes("{}_mm", POINTS))
+    assert "# not used: 'a?rows: []'" in draft_mapping(file)

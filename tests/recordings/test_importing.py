@@ -252,3 +252,25 @@ def test_a_long_file_is_read_piece_by_piece(tmp_path, monkeypatch):
     assert next(pieces).numbers_of_rows[0] == 11
     with pytest.raises(InputError, match=r"line 27.*cut off"):
         next(pieces)
+
+
+def test_runs_of_one_file_have_their_own_ids_and_their_own_first_time_stamp(tmp_path):
+    text = "day,no,clock,j1,j2,x,y,z\n" + "".join(
+        f"{day},{no},{clock},0,0,{no},2,3\n"
+        for day, no, clock in (
+            ("mon", 1, "10:00:05"),
+            ("mon", 2, "10:00:07"),
+            ("tue", 1, "09:30:00"),
+            ("mon", 3, "10:00:09"),
+        )
+    )
+    mapping = with_columns(run={"column": "day"}, id={"column": "no"}, time={"column": "clock", "format": "%H:%M:%S"})
+    report, table = convert(tmp_path, text, mapping)
+    assert "4 rows, 2 run(s)" in report.text()
+    assert table["run"].tolist() == ["mon", "mon", "tue", "mon"]
+    assert table["time_s"].tolist() == [0, 2, 0, 4]
+    twice = text + "tue,1,09:31:00,0,0,9,2,3\n"
+    with pytest.raises(InputError, match="an id stands once per run and target"):
+        convert(tmp_path, twice, mapping)
+    with pytest.raises(InputError, match="every row is of a run"):
+        convert(tmp_path, text.replace("tue", ""), mapping)

@@ -12,6 +12,7 @@ from armscope.diagnosis import Settings, diagnose
 from armscope.physics.scene import Scene
 from armscope.robot import chain as forward_frames
 from armscope.verdict.contributions import contributions
+from armscope.verdict.work_order import work_order
 from tests.physics.test_cure import World, world_with
 from tests.world.scenes import drawn, scene_of
 
@@ -73,3 +74,20 @@ def test_bad_shots_take_no_part(verdict) -> None:
     weight[[3, 7]] = 0.1
     shot = replace(verdict, residuals=replace(verdict.residuals, weight=weight))
     assert {3, 7}.isdisjoint(contributions(shot).rows.tolist())
+
+
+def test_a_base_that_jumped_between_runs_has_its_share_its_worth_and_its_task(world: World) -> None:
+    """Runs that stand on one base: what jumped is the error, and no frame of a run takes it up."""
+    frames, rng = forward_frames(world.arm, world.session.commanded), np.random.default_rng(2)
+    late = np.arange(len(frames.tool)) >= 30
+    readings = frames.tool + late[:, None] * np.array([0.8e-3, -0.5e-3, 0.3e-3]) + rng.normal(0, 2e-5, (len(late), 3))
+    table = replace(world.table(), positions=readings, run=np.where(late, "after", "before"))
+    verdict = diagnose(world.arm, table, QUICK)
+    assert [(e.effect, e.minor) for e in verdict.effects] == [("base_shift", False)]
+    assert verdict.effects[0].share > 0.95
+    worth = contributions(verdict)
+    assert rms(worth.before) == pytest.approx(verdict.residual_before_mm, rel=1e-2)
+    assert worth.cured([0]) < 0.03
+    (task,) = work_order(verdict, worth).tasks
+    assert task.place == "base"
+    assert task.then_mm < 0.03

@@ -158,7 +158,7 @@ wildcard_constraints:
 
 
 FLEET = f"{RESULTS}/fleet/{Path(CONFIG.fleet).stem}"
-ARMS_PER_JOB = 10  # a job starts once
+ARMS_PER_JOB = 30  # a job starts once, and an arm takes one or two seconds
 
 
 def members():

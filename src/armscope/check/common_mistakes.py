@@ -42,7 +42,7 @@ def trials(arm: Arm) -> Iterator[Trial]:
     yield Trial(
         "left-handed frame",
         "the measurement frame is left-handed: the points are a mirror image of the arm's",
-        "Flip the sign of one axis, or exchange two, where the points come from.",
+        "Flip the sign of one axis, or exchange two, where the points come from (in mapping.yaml: two of `position`).",
         _changed("positions", partial(np.multiply, [1.0, 1.0, -1.0])),
     )
     for shift in sorted({*range(-LARGEST_ROW_SHIFT, LARGEST_ROW_SHIFT + 1)} - {0}, key=abs):

@@ -9,6 +9,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from armscope.check.motion_links import links_beside_motors
 from armscope.check.motion_readings import Samples, beyond_friction, read_otherwise
 from armscope.check.suspicion import Suspicion, verdict_lines
 from armscope.core.sampling import spread_evenly
@@ -76,7 +77,8 @@ def check_moving(motions: Motions, arm: MovingArm | None = None) -> MotionCheck:
     kept, time, notices = mended_rows(motions)
     told = [Suspicion("hint", notice.text.rstrip(".")) for notice in [*notices, *doubts_about(motions)]]
     even = motions.rows(kept).at_times(time)
-    found = [*told, *_dead(motions), *_saturated(motions), *_units(motions), *_speeds(even), *_same_paths(even)]
+    found = [*told, *_dead(motions), *_saturated(motions), *_units(motions)]
+    found += [*_speeds(even), *_same_paths(even), *links_beside_motors(even)]
     if arm is not None:
         samples = _samples(even)
         if motions.kind == "torque":

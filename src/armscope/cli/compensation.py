@@ -214,10 +214,12 @@ def _tell(result: Compensated) -> None:
         else:
             print(f"up to {outside:.2g} standard deviations outside the identified range")
     # one line per cause: how far rows lie outside differs from row to row
-    causes = np.array([re.sub(r" by \S+ standard deviations", "", reason) for reason in result.reasons])
-    told = np.unique(causes[~reached])
+    refused = np.flatnonzero(~reached)
+    shortened = [re.sub(r" by \S+ standard deviations", "", result.reasons[row]) for row in refused]
+    causes = np.array(shortened, dtype=object)
+    told = np.unique(causes)
     for cause in told[:MOST_CAUSES]:
-        rows = np.flatnonzero(causes == cause)
+        rows = refused[causes == cause]
         reason = result.reasons[rows[0]] if len(set(result.reasons[rows])) == 1 else cause
         print(f"refused: {len(rows)} rows ({_ranges(rows + 1)}): {reason}")
     if len(told) > MOST_CAUSES:

@@ -80,7 +80,7 @@ class Domain:
         thin = (table[:: -(-len(table) // MOST_NEIGHBOURS)] - mean) / scale
         return Domain(tuple(names), tuple(units), len(table), mean, scale, moving, low, high, thin)
 
-    def outside(self, inputs: ArrayLike) -> tuple[Array, NDArray[np.str_]]:
+    def outside(self, inputs: ArrayLike) -> tuple[Array, NDArray[np.object_]]:
         """How far (N,) rows (N, k) lie outside, in standard deviations (0 inside), and what does most ("" inside)."""
         table, directions = np.asarray(inputs, dtype=float), _directions(self.moving, self.units)
         distance, worst = np.zeros(len(table)), np.zeros(len(table), dtype=np.intp)
@@ -89,7 +89,7 @@ class Domain:
             extent = (table[at] - self.mean) / self.scale @ directions.T
             excess = np.maximum(np.maximum(self.low - extent, extent - self.high), 0.0)
             distance[at], worst[at] = excess.max(axis=1), np.argmax(excess, axis=1)
-        labels = np.array(_labels(self.inputs, self.moving, self.units))
+        labels = np.array(_labels(self.inputs, self.moving, self.units), dtype=object)
         return distance, np.where(distance > 0, labels[worst], "")
 
     def nearest(self, inputs: ArrayLike) -> Array:

@@ -16,12 +16,13 @@ from scipy.spatial.transform import Rotation
 from armscope.compensation.forward import Forward, Rows, ToolPose
 from armscope.core.parallel import each_piece
 from armscope.core.types import Array
+from armscope.robot.newton_steps import PATIENCE, damping, least_turns, shortened, smallest_singular_value
 
 TOLERANCE_M = 1e-9
 ITERATIONS = 30
 LARGEST_NEWTON_STEP_RAD = 0.3
-ROWS_AT_A_TIME = 20_000
-"""Frames, Jacobians and steps of so many rows take some hundred megabytes."""
+ROWS_AT_A_TIME = 5_000
+"""Frames, Jacobians and steps of so many rows take some fifty megabytes."""
 POLE = 0.01
 """An arm with a smaller singular value of the scaled Jacobian is at a pole (a wrist: 0.8 degrees from straight)."""
 
@@ -96,10 +97,7 @@ def weakest(wanted: Wanted, pose: ToolPose, free: NDArray[np.bool_], arm_lever: 
     Returns:
         (N,) m per rad; near 0 the row is singular.
     """
-    jacobian = wanted.jacobian(pose, arm_lever) * free
-    gram = jacobian @ np.swapaxes(jacobian, 1, 2)
-    smallest: Array = np.sqrt(np.maximum(np.linalg.eigvalsh(gram)[:, 0], 0)) / arm_lever
-    return smallest
+    return smallest_singular_value(wanted.jacobian(pose, arm_lever) * free) / arm_lever
 
 
 def lever(forward: Forward) -> float:
@@ -174,26 +172,20 @@ def _iterate(
         gap = here.gap(pose, arm_lever)
         jacobian = here.jacobian(pose, arm_lever) * moves[at_work][:, None, :]
         size = np.linalg.norm(gap, axis=1)
-        gram = jacobian @ np.swapaxes(jacobian, 1, 2)
         done = size < TOLERANCE_M
-        if done.any():
-            weakest = np.linalg.eigvalsh(gram[done])[:, 0]
-            singular[at_work[done]] = np.sqrt(np.maximum(weakest, 0)) / arm_lever
-            converged[at_work[done]] = True
-        # a row that has not halved its gap in six steps is given up
+        singular[at_work[done]] = smallest_singular_value(jacobian[done]) / arm_lever
+        converged[at_work[done]] = True
         stuck = np.zeros(len(at_work), dtype=bool)
-        if steps % 6 == 0:
+        if steps % PATIENCE == 0:
             stuck = size > best[at_work] / 2
             best[at_work] = size
         stays = ~done & ~stuck & np.isfinite(size)
         at_work = at_work[stays]
         if not len(at_work) or steps == ITERATIONS:
             break
-        gap, jacobian, gram = gap[stays], jacobian[stays], gram[stays]
+        gap, jacobian = gap[stays], jacobian[stays]
         back = angles[at_work] - origin[at_work]
         goal = gap + np.einsum("nij,nj->ni", jacobian, back)
-        gram += (1e-12 + 1e-6 * np.minimum(size[stays] ** 2, 1.0))[:, None, None] * np.eye(gram.shape[1])
-        step = np.einsum("nij,ni->nj", jacobian, np.linalg.solve(gram, goal[..., None])[..., 0]) - back * moves[at_work]
-        largest = np.abs(step).max(axis=1)
-        angles[at_work] += step * np.minimum(1.0, LARGEST_NEWTON_STEP_RAD / np.maximum(largest, 1e-12))[:, None]
+        step = least_turns(jacobian, goal, damping(size[stays], 1e-12)) - back * moves[at_work]
+        angles[at_work] += shortened(step, LARGEST_NEWTON_STEP_RAD)
     return angles, converged, singular, steps

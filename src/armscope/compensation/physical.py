@@ -24,7 +24,7 @@ from armscope.robot import Arm, Chain, chain
 from armscope.robot.gravity import gravity_torques, mass_moment_regressor
 
 MOST_TORQUES = 20_000
-"""Rows on which mass moments are fitted, spread evenly: a hundred for each."""
+"""Rows on which mass moments are fitted, spread evenly: a hundred for each; so many are computed at a time."""
 FORMAT = "armscope domain 1"
 FILE = "domain.json"
 WHAT = "domain.json of `armscope diagnose`"
@@ -168,7 +168,8 @@ def beyond_time(model: FittedModel, identified: Identified, rows: Recordings) ->
 
 def with_empty_context(rows: Recordings) -> Recordings:
     """Rows with every context column, empty where there is none; rows that lack what they need are refused anyway."""
-    one, per_motor = np.full(len(rows), np.nan), np.full(rows.motor_angles.shape, np.nan)
+    # views of one number: a long path has room for them
+    one, per_motor = (np.broadcast_to(np.nan, shape) for shape in (len(rows), rows.motor_angles.shape))
 
     def kept(values: Array | None, otherwise: Array) -> Array:
         return otherwise if values is None else values
@@ -204,9 +205,11 @@ def with_torques(model: FittedModel, identified: Identified, rows: Recordings, a
         or rows.torque is not None
     ):
         return rows, ""
-    known = ~np.isnan(angles).any(axis=1)
-    torque = np.full_like(angles, np.nan)
-    torque[known] = _torques(model.arm, angles[known], _payload(rows)[known], identified.torque_weights)
+    known = np.flatnonzero(~np.isnan(angles).any(axis=1))
+    torque, payload = np.full_like(angles, np.nan), _payload(rows)
+    for start in range(0, len(known), MOST_TORQUES):
+        at = known[start : start + MOST_TORQUES]
+        torque[at] = _torques(model.arm, angles[at], payload[at], identified.torque_weights)
     return replace(rows, torque=torque), "joint torques: mass moments fitted to the recorded ones"
 
 

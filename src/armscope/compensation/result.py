@@ -23,7 +23,7 @@ class Compensated:
     Attributes:
         arm: the nominal arm.
         id, run: (N,) of the path's rows.
-        reasons: (N,) why a row is refused; "" where it is not.
+        reasons: (N,) texts: why a row is refused; "" where it is not.
         commands: (N, m) motor angles, rad.
         nominal: (N, m) motor angles without correction, rad; NaN where the nominal arm can't get there.
         false_targets: (N, 3) nominal tool points at the commands, base frame, m: what a controller is given.
@@ -43,7 +43,7 @@ class Compensated:
     arm: Arm
     id: NDArray[np.str_]
     run: NDArray[np.str_]
-    reasons: NDArray[np.str_]
+    reasons: NDArray[np.object_]
     commands: Array
     nominal: Array
     false_targets: Array
@@ -67,28 +67,32 @@ class Compensated:
         reached: NDArray[np.bool_] = self.reasons == ""
         return reached
 
-    def to_table(self) -> pd.DataFrame:
-        """One row per row of the path, refused ones with their reason and without commands."""
-        status = np.where(self.reached, "ok", "refused")
-        head = {"id": self.id, "run": self.run, "status": status, "reason": self.reasons}
-        table = pd.DataFrame(head | angle_columns(self.commands))
+    def to_table(self, rows: slice = slice(None)) -> pd.DataFrame:
+        """One row per row of the path, refused ones with their reason and without commands.
+
+        A long path is written some ``rows`` at a time.
+        """
+        reached = self.reached[rows]
+        status = np.where(reached, "ok", "refused")
+        head = {"id": self.id[rows], "run": self.run[rows], "status": status, "reason": self.reasons[rows]}
+        table = pd.DataFrame(head | angle_columns(self.commands[rows]))
         quaternions = np.full((len(table), 4), np.nan)
-        if self.reached.any():
-            turned = Rotation.from_matrix(self.false_rotations[self.reached]).as_quat(canonical=True)
-            quaternions[self.reached] = turned[:, [3, 0, 1, 2]]
+        if reached.any():
+            turned = Rotation.from_matrix(self.false_rotations[rows][reached]).as_quat(canonical=True)
+            quaternions[reached] = turned[:, [3, 0, 1, 2]]
         for prefix, points in (("command", self.false_targets), ("wanted", self.wanted), ("predicted", self.predicted)):
             for n, axis in enumerate("xyz"):
-                table[f"{prefix}_{axis}_mm"] = points[:, n] * 1e3
+                table[f"{prefix}_{axis}_mm"] = points[rows, n] * 1e3
             if prefix == "command":
                 for n, name in enumerate("wxyz"):
                     table[f"command_q{name}"] = quaternions[:, n]
-        table["uncorrected_mm"] = self.uncorrected * 1e3
-        table["residual_mm"] = self.residual * 1e3
+        table["uncorrected_mm"] = self.uncorrected[rows] * 1e3
+        table["residual_mm"] = self.residual[rows] * 1e3
         if self.pose:
-            table["uncorrected_mrad"] = self.uncorrected_turn * 1e3
-            table["residual_mrad"] = self.residual_turn * 1e3
-        table["outside_sd"] = self.outside
-        table["nearest_sd"] = self.nearest
+            table["uncorrected_mrad"] = self.uncorrected_turn[rows] * 1e3
+            table["residual_mrad"] = self.residual_turn[rows] * 1e3
+        table["outside_sd"] = self.outside[rows]
+        table["nearest_sd"] = self.nearest[rows]
         return table
 
     def require_all(self, source: object) -> Array:

@@ -17,7 +17,7 @@ from armscope.compensation.nominal_path import nominal_branch
 from armscope.compensation.path import Frame, WantedPath, unit_doubt
 from armscope.compensation.result import Compensated
 from armscope.core.inputs import InputError
-from armscope.core.parallel import each_piece
+from armscope.core.parallel import piece_by_piece
 from armscope.core.types import Array
 from armscope.robot import Arm, tool_frames
 from armscope.robot.inverse import LARGEST_STEP_RAD
@@ -53,7 +53,7 @@ class PathTask:
         arm: the nominal arm with the tool point that is led along the path.
         stated: the controller's arm, whose tool point may be another one.
         forward: the real arm near given nominal postures, and a note about it.
-        domain_inputs: the domain's inputs at motor angles of all rows.
+        domain_inputs: the domain's inputs at motor angles of some rows, and which rows these are.
         to_base, to_frame: points from the path's frame to the base frame and back.
         turn: (N, 3, 3) the path's frame from the base frame.
     """
@@ -64,7 +64,7 @@ class PathTask:
     options: Options
     domain: Domain
     forward: Callable[[Array], tuple[Forward, str]]
-    domain_inputs: Callable[[Array], Array]
+    domain_inputs: Callable[[Array, NDArray[np.intp]], Array]
     to_base: Callable[[Array], Array]
     to_frame: Callable[[Array], Array]
     turn: Array
@@ -86,7 +86,7 @@ class PathTask:
             pieces = [known[at] for at in row_pieces(len(known))]
             for at, found in zip(
                 pieces,
-                each_piece(pieces, lambda at: correct(real, wanted.rows(at), nominal[at], free, at)),
+                piece_by_piece(pieces, lambda at: correct(real, wanted.rows(at), nominal[at], free, at)),
                 strict=True,
             ):
                 uncorrected[at], uncorrected_turn[at] = found.uncorrected, found.uncorrected_turn
@@ -96,19 +96,18 @@ class PathTask:
                 moved = np.abs(found.solution.angles - nominal[at])
                 self._refuse_unsolved(refused, at, found.solution, moved, found.pole)
         outside, nearest = self._refuse_outside(refused, commands, unit_doubt(wanted.points, self.arm.reach))
-        reasons = np.asarray(refused, dtype=str)
         residual = np.linalg.norm(wanted.points - predicted, axis=1)
         for values in (commands, predicted, residual, residual_turn):
-            values[reasons != ""] = np.nan
-        ok = np.flatnonzero(reasons == "")
+            values[refused != ""] = np.nan
+        ok = np.flatnonzero(refused == "")
         points, turns = np.full((len(rows), 3), np.nan), np.full((len(rows), 3, 3), np.nan)
-        if len(ok):
-            points[ok], turns[ok] = tool_frames(self.stated, commands[ok])
+        for at in (ok[piece] for piece in row_pieces(len(ok))):
+            points[at], turns[at] = tool_frames(self.stated, commands[at])
         return Compensated(
             self.stated,
             self.path.table.id,
             self.path.table.run,
-            reasons,
+            refused,
             commands,
             nominal,
             points,
@@ -219,16 +218,14 @@ class PathTask:
         ``doubt`` is what `unit_doubt` says about the path.
         """
         outside, nearest = np.full(len(commands), np.nan), np.full(len(commands), np.nan)
-        solved = np.isfinite(commands.sum(axis=1))
-        if not solved.any():
-            return outside, nearest
-        inputs = self.domain_inputs(np.where(solved[:, None], commands, 0.0))[solved]
-        outside[solved], label = self.domain.outside(inputs)
-        nearest[solved] = self.domain.nearest(inputs)
-        where = np.flatnonzero(solved)
-        for row, name in zip(where, label, strict=True):
-            if outside[row] > self.options.allowed:
-                text = f"outside the identified range: {name} by {outside[row]:.2g} standard deviations{doubt}"
+        solved = np.flatnonzero(np.isfinite(commands.sum(axis=1)))
+        for rows in (solved[piece] for piece in row_pieces(len(solved))):
+            inputs = self.domain_inputs(commands[rows], rows)
+            outside[rows], label = self.domain.outside(inputs)
+            nearest[rows] = self.domain.nearest(inputs)
+            for at in np.flatnonzero(outside[rows] > self.options.allowed):
+                row = rows[at]
+                text = f"outside the identified range: {label[at]} by {outside[row]:.2g} standard deviations{doubt}"
                 refused[row] = refused[row] or text
         return outside, nearest
 

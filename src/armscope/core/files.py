@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 
 LARGEST_UNPACKED_SHARE = 200
 """Bytes for each packed one: recordings unpack to ten times their size, a bomb to a thousand times."""
-ROWS_AT_A_TIME = 50_000
-"""Numbers as text take several times their memory."""
+ROWS_AT_A_TIME = 10_000
+"""Numbers as text take several times their memory: of thirty columns some forty megabytes."""
 LONGEST_WHOLE = 18
 """Digits of a whole number."""
 
@@ -229,12 +229,28 @@ def write_table(path: Path | str, table: pd.DataFrame, digits: int = 10) -> None
         table: what to write.
         digits: significant digits of its numbers.
     """
+    write_pieces(path, (table.iloc[rows] for rows in rows_at_a_time(len(table))), digits)
+
+
+def rows_at_a_time(rows: int) -> list[slice]:
+    """Which rows of so many are written at a time; one piece without rows where there are none."""
+    return [slice(start, start + ROWS_AT_A_TIME) for start in range(0, max(rows, 1), ROWS_AT_A_TIME)]
+
+
+def write_pieces(path: Path | str, pieces: Iterable[pd.DataFrame], digits: int = 10) -> None:
+    """As `write_table` a table that is never held as a whole.
+
+    Args:
+        path: where to; ``.gz`` compresses.
+        pieces: of the table, with the same columns, one below the other.
+        digits: significant digits of its numbers.
+    """
     # no name and no time in gzip's header, so that the same table has the same bytes
     packer = zlib.compressobj(9, zlib.DEFLATED, 31) if str(path).endswith(".gz") else None
     with replacing(path) as beside, beside.open("wb") as stream:
-        for start in range(0, max(len(table), 1), ROWS_AT_A_TIME):
-            some = _spelt(table.iloc[start : start + ROWS_AT_A_TIME], digits)
-            text = some.to_csv(index=False, header=start == 0, float_format=f"%.{digits}g", lineterminator="\n")
+        for number, piece in enumerate(pieces):
+            some = _spelt(piece, digits)
+            text = some.to_csv(index=False, header=number == 0, float_format=f"%.{digits}g", lineterminator="\n")
             stream.write(text.encode() if packer is None else packer.compress(text.encode()))
         if packer is not None:
             stream.write(packer.flush())

@@ -39,13 +39,19 @@ def each_piece(pieces: Sequence[Piece], work: Callable[[Piece], Result]) -> list
     Raises:
         MemoryError: a process was ended from outside, as happens where memory runs out.
     """
+    return list(piece_by_piece(pieces, work))
+
+
+def piece_by_piece(pieces: Sequence[Piece], work: Callable[[Piece], Result]) -> Iterator[Result]:
+    """As `each_piece`, each result as soon as those before it are taken: where all of them together are too large."""
     count = min(_PROCESSES.get(), len(pieces))
     if count < 2 or "fork" not in multiprocessing.get_all_start_methods():
-        return [work(piece) for piece in pieces]
-    return _forked(len(pieces), lambda number: work(pieces[number]), count)
+        yield from map(work, pieces)
+    else:
+        yield from _forked(len(pieces), lambda number: work(pieces[number]), count)
 
 
-def _forked(many: int, work: Callable[[int], Result], count: int) -> list[Result]:
+def _forked(many: int, work: Callable[[int], Result], count: int) -> Iterator[Result]:
     """As `each_piece`: the first process takes every n-th piece, the second those that follow them, ..."""
     context = multiprocessing.get_context("fork")
     lines, workers = [], []
@@ -56,15 +62,13 @@ def _forked(many: int, work: Callable[[int], Result], count: int) -> list[Result
         sending.close()
         lines.append(receiving)
         workers.append(worker)
-    results: list[Any] = [None] * many
     try:
         for number in range(many):
-            results[number] = _received(lines[number % count])
+            yield _received(lines[number % count])
     finally:
         for worker in workers:
             worker.terminate()
             worker.join()
-    return results
 
 
 def _run(work: Callable[[int], Result], numbers: range, line: Any) -> None:

@@ -51,9 +51,9 @@ class FourierPath:
         acceleration = -(sin * rate**2) @ self.sine.T - (cos * rate**2) @ self.cosine.T
         return angle, speed, acceleration
 
-    def over_period(self) -> tuple[Array, Array, Array]:
-        """As `at`, over one period, fine enough to see its extremes."""
-        count = FINENESS * self.harmonics * 2
+    def over_period(self, finer: int = 1) -> tuple[Array, Array, Array]:
+        """As `at`, over one period, fine enough to see its extremes, or so many times as fine."""
+        count = FINENESS * self.harmonics * 2 * finer
         return self.at(np.arange(count) * self.period / count)
 
     def resting(self) -> FourierPath:

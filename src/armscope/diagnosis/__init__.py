@@ -1,4 +1,4 @@
-"""From recordings to a verdict: atlas, selection, refit, certainty, leftover, validation."""
+"""From recordings to a verdict: rounds of selection and exact refit, then certainty, held-out rows and the atlas."""
 
 from armscope.diagnosis.pipeline import Settings, diagnose
 from armscope.fitting.transfer import Transferred, transfer

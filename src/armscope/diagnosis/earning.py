@@ -6,14 +6,14 @@ once without each. What makes held-out rows worse is no cause, whatever the evid
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 
 import numpy as np
 
 from armscope.core.types import Array, Indices
 from armscope.diagnosis.constants import FOLDING, LOOP
 from armscope.inference.edits import Edits, replaced
-from armscope.inference.evidence import Hypothesis, evaluate
+from armscope.inference.evidence import Hypothesis, evaluate, fitted_values
 from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, SelectedEffect
@@ -97,7 +97,7 @@ def foretold_better(
     for fold, trained in folds(problem, blocks):
         for sign, background in zip((1, -1), readings, strict=True):
             fitted = evaluate(trained, hypothesis.chosen, background, hypothesis.noise)
-            values = fitted.coefficients(len(problem.scale)) / problem.scale
+            (values,) = fitted_values(problem, [fitted])
             values[untold] = 0.0
             lost += sign * sum(blocks[int(k)].rss(values) for k in fold)
     return lost <= 0
@@ -136,10 +136,31 @@ def held_out_errors(
     Returns:
         (blocks, readings) sums of squares, mm^2; zeros where blocks are too few to hold out.
     """
-    errors = np.zeros((len(blocks), len(readings)))
+    return errors_of_fits(
+        problem, blocks, len(readings), lambda trained: [evaluate(trained, *reading, noise) for reading in readings]
+    )
+
+
+def errors_of_fits(
+    problem: Problem,
+    blocks: Sequence[NormalEquations],
+    count: int,
+    fit: Callable[[Problem], Sequence[Hypothesis]],
+) -> Array:
+    """What hypotheses that are fitted to four fifths of the blocks leave of the others.
+
+    Args:
+        problem: the sums of all rows, priors and costs.
+        blocks: sums of blocks of rows.
+        count: K, how many hypotheses.
+        fit: K hypotheses on the sums of some rows.
+
+    Returns:
+        (blocks, K) sums of squares, mm^2; zeros where blocks are too few to hold out.
+    """
+    errors = np.zeros((len(blocks), count))
     for fold, trained in folds(problem, blocks):
-        fitted = [evaluate(trained, chosen, background, noise) for chosen, background in readings]
-        values = np.array([each.coefficients(len(problem.scale)) / problem.scale for each in fitted])
+        values = fitted_values(problem, fit(trained))
         errors[fold] = [blocks[int(k)].rss_of_each(values) for k in fold]
     return errors
 

@@ -11,15 +11,15 @@ from typing import Any
 
 import numpy as np
 from scipy.spatial.transform import Rotation
-from scipy.special import log_ndtr
 
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.diagnosis.constants import GRAVITY
 from armscope.diagnosis.model_space import build_model_space
-from armscope.fitting.linearisation import normal_equations_by_block, point_residuals
+from armscope.fitting.block_sums import normal_equations_by_block
+from armscope.fitting.linearisation import point_residuals
 from armscope.inference.constants import PRIORS
-from armscope.inference.evidence import Hypothesis, evaluate
+from armscope.inference.evidence import Hypothesis, evaluate, half_line_gain
 from armscope.inference.normal_equations import total
 from armscope.inference.problem import Problem, build_problem
 from armscope.measurement import robust
@@ -37,7 +37,7 @@ HEMISPHERE = 2 * np.pi
 
 
 @dataclass(frozen=True, eq=False)
-class Lean:
+class GravityEstimate:
     """Gravity's direction where it is other than stated.
 
     Attributes:
@@ -52,7 +52,9 @@ class Lean:
     evidence: float
 
 
-def lean(start: FittedModel, recordings: Recordings, noise: Noise, tool_per_run: bool) -> Lean | None:
+def estimate_gravity_direction(
+    start: FittedModel, recordings: Recordings, noise: Noise, tool_per_run: bool
+) -> GravityEstimate | None:
     """Gravity's direction, if the evidence is for another one than stated (odds of 20 to 1) and loads are known.
 
     Args:
@@ -69,23 +71,25 @@ def lean(start: FittedModel, recordings: Recordings, noise: Noise, tool_per_run:
     from scipy.optimize import minimize  # takes long to import, and is seldom needed
 
     rows = spread_evenly(len(recordings), GRAVITY.rows)
-    valley = _Valley(start, recordings.rows(rows), noise, tool_per_run)
+    objective = _NegativeLogEvidence(start, recordings.rows(rows), noise, tool_per_run)
     tried: list[Array] = [np.zeros(2)]
     for size in GRAVITY.leans_tried:
         sides = 2 * np.pi * np.arange(GRAVITY.azimuths) / GRAVITY.azimuths
         tried += list(size * np.column_stack([np.cos(sides), np.sin(sides)]))
-    first = tried[int(np.argmin([valley.depth(tilt) for tilt in tried]))]
+    first = tried[int(np.argmin([objective(tilt) for tilt in tried]))]
     simplex = first + GRAVITY.first_step_rad * np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
     options: Any = {"xatol": GRAVITY.close_rad, "fatol": 0.05, "initial_simplex": simplex}
-    best = np.asarray(minimize(valley.depth, first, method="Nelder-Mead", options=options).x, dtype=np.float64)
-    covariance = np.linalg.pinv(_curvature(valley, best), hermitian=True)
+    best = np.asarray(minimize(objective, first, method="Nelder-Mead", options=options).x, dtype=np.float64)
+    covariance = np.linalg.pinv(_curvature(objective, best), hermitian=True)
     width = 2 * float(np.pi * np.sqrt(max(float(np.linalg.det(covariance)), 1e-12)))
-    gained = valley.depth(np.zeros(2)) - valley.depth(best) + min(float(np.log(width / HEMISPHERE)), 0.0)
+    gained = objective(np.zeros(2)) - objective(best) + min(float(np.log(width / HEMISPHERE)), 0.0)
     angle = float(np.linalg.norm(best))
     if gained < PRIORS.sure_nats or angle == 0:
         return None
     along = best / angle
-    return Lean(turned(start.arm, best), angle, float(np.sqrt(max(float(along @ covariance @ along), 0.0))), gained)
+    return GravityEstimate(
+        turned(start.arm, best), angle, float(np.sqrt(max(float(along @ covariance @ along), 0.0))), gained
+    )
 
 
 def turned(arm: Arm, tilt: Array) -> Arm:
@@ -95,7 +99,7 @@ def turned(arm: Arm, tilt: Array) -> Arm:
     return build_arm(arm.description.model_copy(update={"gravity_m_s2": tuple(float(g) for g in gravity)}))
 
 
-class _Valley:
+class _NegativeLogEvidence:
     """Minus the evidence for an arm that is elastic everywhere, by gravity's direction."""
 
     def __init__(self, start: FittedModel, recordings: Recordings, noise: Noise, tool_per_run: bool) -> None:
@@ -105,14 +109,14 @@ class _Valley:
         self.weights = RowWeights.of_positions(robust.huber_weights(left, np.ones(len(left)), noise.least_mm))
         self.known: dict[tuple[float, ...], float] = {}
 
-    def depth(self, tilt: Array) -> float:
+    def __call__(self, tilt: Array) -> float:
         """Minus the evidence, nats, at the best sizes of the geometric and the elastic background."""
         key = tuple(float(t) for t in tilt)
         if key not in self.known:
-            self.known[key] = self._depth(tilt)
+            self.known[key] = self._evaluated(tilt)
         return self.known[key]
 
-    def _depth(self, tilt: Array) -> float:
+    def _evaluated(self, tilt: Array) -> float:
         arm = turned(self.start.arm, tilt)
         space = build_model_space(self.frames, list(backgrounds(arm, self.recordings).values()), [])
         model = FittedModel(arm, self.start.bases, self.start.tools)
@@ -130,20 +134,20 @@ class _Valley:
 def _gives_along(made: Problem, hypothesis: Hypothesis) -> float:
     """Nats for what gives way along its load, not against it: gravity turned round turns all of it round."""
     columns = made.space.families[FAMILIES.index(ELASTIC)].columns
-    away = hypothesis.means(columns) / np.sqrt(hypothesis.variances(columns))
-    return float(np.sum(np.log(2) + log_ndtr(away)))
+    z_scores = hypothesis.means(columns) / np.sqrt(hypothesis.variances(columns))
+    return half_line_gain(z_scores)
 
 
-def _curvature(valley: _Valley, at: Array) -> Array:
-    """(2, 2) second derivatives of the valley, nats per rad^2, by differences."""
+def _curvature(objective: _NegativeLogEvidence, at: Array) -> Array:
+    """(2, 2) second derivatives by the tilt, nats per rad^2, by differences."""
     steps = GRAVITY.step_rad * np.eye(2)
-    here = valley.depth(at)
+    here = objective(at)
     H = np.empty((2, 2))
     for i in range(2):
         for j in range(2):
             if i == j:
-                H[i, i] = (valley.depth(at + steps[i]) - 2 * here + valley.depth(at - steps[i])) / GRAVITY.step_rad**2
+                H[i, i] = (objective(at + steps[i]) - 2 * here + objective(at - steps[i])) / GRAVITY.step_rad**2
             else:
-                mixed = sum(a * b * valley.depth(at + a * steps[0] + b * steps[1]) for a in (1, -1) for b in (1, -1))
+                mixed = sum(a * b * objective(at + a * steps[0] + b * steps[1]) for a in (1, -1) for b in (1, -1))
                 H[i, j] = mixed / (4 * GRAVITY.step_rad**2)
     return H

@@ -2,46 +2,44 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from armscope.core.grouping import same_configuration
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
 from armscope.diagnosis.constants import FOLDING
+from armscope.diagnosis.linearised_rows import LinearisedRows
 from armscope.diagnosis.placed_by_points import placed_by_points
-from armscope.fitting.design_matrix import columns, structured_design
-from armscope.fitting.linearisation import current_parameters, linearised
-from armscope.fitting.parameter_layout import ParameterLayout
 from armscope.inference.constants import BUDGET
-from armscope.inference.evidence import Hypothesis, evaluate
+from armscope.inference.evidence import Hypothesis, evaluate, fitted_values
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, SelectedEffect
 from armscope.inference.search import Search
-from armscope.measurement.constants import WEIGHTS
-from armscope.measurement.row_weights import RowWeights
-from armscope.measurement.whitening import WhitenedPosture, Whitener
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import Driver, Term
-from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 from armscope.verdict.schema import HeldOut, WaterfallStep
 
 
 @dataclass(frozen=True, eq=False)
-class Blocks:
-    """Which block each row is in, which fold each block is in, and what holds rows together."""
+class RowSplit:
+    """How rows are held out.
+
+    Attributes:
+        of_row: (N,) number of each row's block, from 0.
+        fold: (blocks,) number of each block's fold; blocks of one fold are held out together.
+        grouped_by: what is never parted: "configuration" or "run".
+    """
 
     of_row: Indices
     fold: Indices
     grouped_by: str
 
 
-def split(recordings: Recordings, rng: np.random.Generator) -> Blocks:
+def split_rows(recordings: Recordings, rng: np.random.Generator) -> RowSplit:
     """Blocks of whole configurations (targets and repeats of one pose stay together), folds of whole runs if several.
 
     Runs are held out whole where there are at least three with at least thirty rows each.
@@ -57,19 +55,19 @@ def split(recordings: Recordings, rng: np.random.Generator) -> Blocks:
     order = rng.permutation(count)
     if not by_run:
         blocks = min(FOLDING.blocks, count)
-        return Blocks((order % blocks)[pose], np.arange(blocks) % FOLDING.folds, "configuration")
+        return RowSplit((order % blocks)[pose], np.arange(blocks) % FOLDING.folds, "configuration")
     pieces = max(1, FOLDING.blocks // len(runs))
     of_row = which_run * pieces + (order % pieces)[pose]
-    return Blocks(of_row, np.repeat(np.arange(len(runs)), pieces), "run")
+    return RowSplit(of_row, np.repeat(np.arange(len(runs)), pieces), "run")
 
 
 def cross_validate(
     problem: Problem,
     blocks: Sequence[NormalEquations],
-    split: Blocks,
+    split: RowSplit,
     best: Hypothesis,
     order: Sequence[int],
-    rows: Rows,
+    rows: LinearisedRows,
 ) -> tuple[HeldOut, tuple[WaterfallStep, ...]]:
     """Held-out RMS before and after, selection repeated per fold; and the waterfall of the chosen effects.
 
@@ -100,21 +98,20 @@ def cross_validate(
         trained = problem.with_equations(whole - total([blocks[int(k)] for k in np.flatnonzero(split.fold == fold)]))
         chosen = _chosen_again(trained, best)
         readings = [*_readings(trained, sets, best, noise), chosen]
-        values[fold] = np.array([h.coefficients(len(problem.scale)) / problem.scale for h in readings])
+        values[fold] = fitted_values(problem, readings)
     some = spread_evenly(len(split.of_row), FOLDING.judged_rows)
     split, rows = replace(split, of_row=split.of_row[some]), rows.some(some)
     errors = _held_out_errors(problem, blocks, split, rows, values)
-    own = left_over(rows, np.array([h.coefficients(len(problem.scale)) / problem.scale for h in fitted]))
+    own = rows.residuals(fitted_values(problem, fitted))
     fold_of = split.fold[split.of_row]
     told = np.isin(fold_of, folds) & rows.trusted
     turns = _rms(errors[:, told], rows.slices.get("orientation", slice(0)))
     if "orientation" in rows.slices:
         frames = [rows.layout.terms[k] for k in problem.space.frames]
-        taken = (rows.point, rows.recordings, rows.weights)
         each_fold = [np.flatnonzero(fold_of == fold) for fold in folds]
         nominal = own[0, :, POINTS].copy()
         for told_errors, parts in ((errors, each_fold), (own, [np.arange(len(fold_of))])):
-            told_errors[0, :, POINTS] = placed_by_points(taken, frames, nominal, parts, rows.trusted)
+            told_errors[0, :, POINTS] = placed_by_points(rows, frames, nominal, parts)
     per_fold = np.array(
         [_rms(errors[:, told & (fold_of == fold)]) for fold in folds if (told & (fold_of == fold)).any()]
     )
@@ -159,75 +156,12 @@ def _readings(
     return [evaluate(problem, *each) for each in zip(sets, backgrounds, noises, strict=True)]
 
 
-@dataclass(frozen=True, eq=False)
-class Rows:
-    """Rows at a point of linearisation.
-
-    Attributes:
-        point: the model at which columns were taken.
-        recordings: the rows.
-        weights: of the fit.
-        layout: of the columns.
-    """
-
-    point: FittedModel
-    recordings: Recordings
-    weights: RowWeights
-    layout: ParameterLayout
-
-    def some(self, which: Indices) -> Rows:
-        """Some of the rows."""
-        if len(which) == len(self.recordings):
-            return self
-        return replace(self, recordings=self.recordings.rows(which), weights=self.weights.take(which))
-
-    @property
-    def slices(self) -> dict[str, slice]:
-        """Where the numbers of each channel stand in a row."""
-        ends = itertools.accumulate((channel.width for channel in self.weights.channels), initial=0)
-        return {c.name: slice(*at) for c, at in zip(self.weights.channels, itertools.pairwise(ends), strict=True)}
-
-    @property
-    def width(self) -> int:
-        """How many numbers a row has in all channels."""
-        return sum(channel.width for channel in self.weights.channels)
-
-    @property
-    def trusted(self) -> NDArray[np.bool_]:
-        """(N,) rows that do not look like bad shots."""
-        return np.asarray(self.weights.robust_weight > WEIGHTS.inlier_weight)
-
-
-def left_over(rows: Rows, values: Array, number: Indices | None = None) -> Array:
-    """(K, N, c) what K readings leave of every row in all channels, base axes, mm and mrad; NaN where not measured.
-
-    Args:
-        rows: what they are computed from.
-        values: (K, p) values of the layout's terms, SI units; or (F, K, p): each row takes those of its ``number``.
-        number: (N,) 0 ... F - 1.
-
-    Returns:
-        The residuals.
-    """
-    values = values if number is not None else values[None]
-    number = np.zeros(len(rows.recordings), dtype=np.intp) if number is None else number
-    column_order, current = rows.layout.column_order, current_parameters(rows.layout, rows.point)
-    added = (values - current)[:, :, column_order.order]
-    left = np.empty((values.shape[1], len(rows.recordings), rows.width))
-    for part, posture in linearised(rows.recordings).chunks(rows.point):
-        plain = Whitener.plain(rows.weights.channels, len(part))
-        seen, y = structured_design(WhitenedPosture(posture, plain), column_order), plain.response(rows.point, posture)
-        for f in np.unique(number[part]):
-            inside = np.flatnonzero(number[part] == f)
-            modelled = seen.at(inside).matvec(added[f])
-            left[:, part[inside]] = y[inside] - np.swapaxes(modelled, 1, 2)
-    for channel in rows.weights.channels:
-        left[:, ~channel.measured(rows.recordings), rows.slices[channel.name]] = np.nan
-    return left
-
-
 def _held_out_errors(
-    problem: Problem, blocks: Sequence[NormalEquations], split: Blocks, rows: Rows, values: Mapping[int, Array]
+    problem: Problem,
+    blocks: Sequence[NormalEquations],
+    split: RowSplit,
+    rows: LinearisedRows,
+    values: Mapping[int, Array],
 ) -> Array:
     """(K, N, c) errors, mm and mrad, of every row under the readings of the fold that it took no part in.
 
@@ -237,7 +171,7 @@ def _held_out_errors(
     folds = sorted(values)
     fold_of = split.fold[split.of_row]
     number = np.searchsorted(folds, np.where(np.isin(fold_of, folds), fold_of, folds[0]))
-    errors = left_over(rows, np.array([values[f] for f in folds]), number)
+    errors = rows.residuals(np.array([values[f] for f in folds]), number)
     if split.grouped_by != "run":
         return errors
     whole = total(blocks)
@@ -258,11 +192,9 @@ def _held_out_errors(
     return errors
 
 
-def _refitted(rows: Rows, terms: Sequence[Term], at: Indices, errors: Array) -> Array:
+def _refitted(rows: LinearisedRows, terms: Sequence[Term], at: Indices, errors: Array) -> Array:
     """Errors (K, n, c) of rows ``at`` once their own frames are fitted to them."""
-    table = rows.recordings.rows(at)
-    postures = (posture for _, posture in linearised(table).chunks(rows.point))
-    X = np.concatenate([columns(WhitenedPosture.plain(each, rows.weights.channels), terms) for each in postures])
+    X = rows.unweighted_columns(terms, at)
     y = np.moveaxis(errors, 0, 2).reshape(len(X), -1)
     alone = rows.weights.unwhitened.of_channels
     roots = [np.repeat(each.factor(at)[:, None], each.channel.width, axis=1) for each in alone]

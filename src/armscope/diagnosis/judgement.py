@@ -9,18 +9,19 @@ import numpy as np
 
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Progress
-from armscope.diagnosis.held_out import Rows, cross_validate
+from armscope.diagnosis.held_out import cross_validate
+from armscope.diagnosis.linearised_rows import LinearisedRows
 from armscope.diagnosis.state import DiagnosisState
-from armscope.diagnosis.summary import alternatives as certainty
+from armscope.diagnosis.summary.alternatives import alternatives, inclusion_frequency, judged_elsewhere
 from armscope.diagnosis.summary.attribution_map import atlas
 from armscope.diagnosis.summary.causes import causes
 from armscope.diagnosis.summary.constants import TELLING
 from armscope.diagnosis.summary.effects import (
-    Weighed,
+    SummaryBasis,
     as_far_as_it_carries,
-    found_effect,
     rest_of_a_curve,
     scattered_effects,
+    summarise_effect,
     with_weight,
 )
 from armscope.diagnosis.summary.homogeneity import subset_consistency
@@ -35,8 +36,8 @@ from armscope.diagnosis.summary.unexplained import (
     too_faint,
     unexplained_part,
 )
+from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.discrepancy import model_error
-from armscope.fitting.linearisation import normal_equations_by_block
 from armscope.fitting.refit import Refit
 from armscope.inference.detection import averaged_log_odds
 from armscope.inference.normal_equations import NormalEquations
@@ -63,7 +64,7 @@ from armscope.verdict.schema import (
 
 
 def judge(
-    state: DiagnosisState, resamples: int, cross_validation: bool, rng: np.random.Generator, tell: Progress
+    state: DiagnosisState, resamples: int, cross_validation: bool, rng: np.random.Generator, progress: Progress
 ) -> Diagnosis:
     """Certainty, validation, atlas and words.
 
@@ -72,45 +73,45 @@ def judge(
         resamples: how often rows are drawn anew; 0 never.
         cross_validation: whether the procedure is validated on held-out rows.
         rng: draws the resamples.
-        tell: hears what is being done.
+        progress: hears what is being done.
 
     Returns:
         The verdict.
     """
     fit, best, problem = state.fit, state.best, state.problem
     search = Search.on(problem)
-    tell("weighing alternatives", 0.55)
-    weighed = Weighed(
+    progress("weighing alternatives", 0.55)
+    basis = SummaryBasis(
         state,
         search,
-        certainty.judged_elsewhere(
+        judged_elsewhere(
             state,
-            certainty.alternatives(search, best),
+            alternatives(search, best),
             rng.spawn(1)[0],
         ),
-        certainty.inclusion_frequency(state, resamples, rng),
+        inclusion_frequency(state, resamples, rng),
         fit.model.scene(state.recordings.rows(spread_evenly(len(state.recordings), TELLING.curve_rows))),
-        _plain_gram(state),
+        _plain_equations(state),
         model_error(fit, state.recordings, state.noise.least_mm),
         doubts(search, best),
     )
-    variance = weighed.equations.least_rss(fit.pool.frames) / max(weighed.equations.n, 1.0)
-    shared, of_families = _shares(fit, weighed.equations)
+    variance = basis.equations.least_rss(fit.layout.frames) / max(basis.equations.n, 1.0)
+    shared, of_families = _shares(fit, basis.equations)
     found = {
-        c.candidate: found_effect(weighed, c, part, share)
+        c.candidate: summarise_effect(basis, c, part, share)
         for c, part, share in zip(best.chosen, fit.model.parts, shared, strict=True)
     }
     order = sorted(found, key=lambda c: -found[c].share)
     held_out = HeldOut(float("nan"), float("nan"))
     waterfall: tuple[WaterfallStep, ...] = ()
     if cross_validation:
-        tell("validating on held-out rows", 0.75)
-        rows = Rows(state.point, state.recordings, fit.weights, state.space.layout)
-        held_out, waterfall = cross_validate(problem, state.blocks, state.layout, best, order, rows)
-    tell("drawing the atlas", 0.9)
-    background = background_summaries(state, search, weighed.equations, of_families)
+        progress("validating on held-out rows", 0.75)
+        rows = LinearisedRows(state.point, state.recordings, fit.weights, state.space.layout)
+        held_out, waterfall = cross_validate(problem, state.blocks, state.split, best, order, rows)
+    progress("drawing the atlas", 0.9)
+    background = background_summaries(state, search, basis.equations, of_families)
     named = [with_weight(found[c], background) for c in order]
-    masses, weights_told = masses_in_error(state, weighed.equations, of_families[-1])
+    masses, weights_told = masses_in_error(state, basis.equations, of_families[-1])
     background = (*background, *masses)
     left = max(1.0 - sum(effect.share for effect in named) - sum(family.share for family in background), 0.0)
     scattered = [s for s in scattered_effects(state, variance, left) if not rest_of_a_curve(s, named)]
@@ -120,7 +121,7 @@ def judge(
     unexplained = _unexplained(state, search, effects, background)
     told = causes(state, search, dict(zip(order, named, strict=True)), scattered, background)
     answer, mismatch = _answer(effects, background, unexplained)
-    separating = next_poses(state, weighed.rivals, rng)
+    separating = next_poses(state, basis.rivals, rng)
     draft = Diagnosis(
         arm=fit.model.arm.name,
         source=state.recordings.source,
@@ -141,11 +142,11 @@ def judge(
         unexplained=unexplained,
         held_out=held_out,
         waterfall=waterfall,
-        atlas=atlas(fit.pool, fit.model, state.recordings, fit.weights.of_reference),
+        atlas=atlas(fit.layout, fit.model, state.recordings, fit.weights.of_reference),
         residuals=_residuals(state),
         suspects=_suspects(state),
         next_poses=separating,
-        notices=(*state.notices, *_carefully(state), *weights_told, *(weighed.wrong.told() if found else ())),
+        notices=(*state.notices, *_carefully(state), *weights_told, *(basis.model_error.notices() if found else ())),
         model=_held(fit.model, state.recordings),
         orientations=_orientations(state),
     )
@@ -184,14 +185,14 @@ def _held(model: FittedModel, recordings: Recordings) -> FittedModel:
     return replace(model, parts=parts, background=background)
 
 
-def _plain_gram(state: DiagnosisState) -> NormalEquations:
+def _plain_equations(state: DiagnosisState) -> NormalEquations:
     """The fit's sums over the points as they were measured: without whitening and orientations."""
     fit = state.fit
     if fit.weights.is_plain:
-        return fit.gram
+        return fit.equations
     one_block = np.zeros(len(state.recordings), dtype=np.intp)
     return normal_equations_by_block(
-        fit.pool, fit.model, state.recordings, fit.weights.of_reference.unwhitened, one_block
+        fit.layout, fit.model, state.recordings, fit.weights.of_reference.unwhitened, one_block
     )[0]
 
 
@@ -200,20 +201,20 @@ def _weighted_rms(fit: Refit) -> float:
     return float(np.sqrt(np.mean(fit.residuals[trusted] ** 2)))
 
 
-def _shares(fit: Refit, gram: NormalEquations) -> tuple[list[float], list[float]]:
+def _shares(fit: Refit, equations: NormalEquations) -> tuple[list[float], list[float]]:
     """Share of the variance after the frames of every effect, and of every family's background.
 
     Free curves come last in every order: they count for what nothing else explains. Behind them stand stated masses,
     whose errors do nothing but through what gives way.
     """
-    members = [fit.pool.of(part.placed) for part in fit.model.parts]
-    *backgrounds, loads = fit.pool.background
+    members = [fit.layout.of(part.placed) for part in fit.model.parts]
+    *backgrounds, loads = fit.layout.background
     families = [columns for columns in backgrounds if len(columns)]
     curves = {n for n, part in enumerate(fit.model.parts) if part.placed.parametrisation == "curve"}
-    ridge, frames = fit.noise**2 * fit.precision, fit.pool.frames
-    told = shares(gram, ridge, frames, [*members, *families], last=curves)
+    ridge, frames = fit.noise**2 * fit.precision, fit.layout.frames
+    told = shares(equations, ridge, frames, [*members, *families], last=curves)
     before = np.concatenate([frames, *members, *families])
-    of_loads = (1 - told.sum()) * shares(gram, ridge, before, [loads])[0] if len(loads) else 0.0
+    of_loads = (1 - told.sum()) * shares(equations, ridge, before, [loads])[0] if len(loads) else 0.0
     each = iter(told.tolist())
     of_members = [next(each) for _ in members]
     return of_members, [*(next(each) if len(columns) else 0.0 for columns in backgrounds), float(of_loads)]
@@ -245,7 +246,7 @@ def _orientations(state: DiagnosisState) -> Orientations | None:
     """How well the channel of orientations is explained, where it took part."""
     for weights in state.fit.weights.of_channels:
         if weights.channel.name == "orientation":
-            left, before = state.fit.left["orientation"], state.first["orientation"]
+            left, before = state.fit.channel_residuals["orientation"], state.first["orientation"]
             return Orientations(
                 rows=int(np.isfinite(left).all(axis=1).sum()),
                 noise_mrad=1e3 * float(np.sqrt(np.mean(left[weights.counts] ** 2))),

@@ -11,8 +11,8 @@ import numpy as np
 from armscope.check.orientations import trusted_channels
 from armscope.check.preconditions import FEWEST_ROWS, as_notices, check_table, suspected, too_far
 from armscope.core.types import Progress, unheard
-from armscope.diagnosis.gravity_direction import lean
-from armscope.diagnosis.held_out import split
+from armscope.diagnosis.gravity_direction import estimate_gravity_direction
+from armscope.diagnosis.held_out import split_rows
 from armscope.diagnosis.judgement import judge
 from armscope.diagnosis.selection import select
 from armscope.diagnosis.state import DiagnosisState
@@ -20,8 +20,7 @@ from armscope.diagnosis.undecided import undecided
 from armscope.fitting.exchanged_tool import exchanged_tool
 from armscope.fitting.linearisation import LinearisedTable, residuals
 from armscope.fitting.registration import fit_frames
-from armscope.fitting.set_ups import compare_bases
-from armscope.fitting.set_ups import told as set_up_anew
+from armscope.fitting.set_ups import compare_bases, set_up_anew
 from armscope.measurement.channel import Channel, nuisances
 from armscope.measurement.noise import Noise, known_noise
 from armscope.measurement.registry import CHANNELS, supported
@@ -78,11 +77,11 @@ def diagnose(
     Raises:
         InputError: the recordings don't fit the arm or hold no usable rows.
     """
-    settings, tell = settings or Settings(), progress or unheard
+    settings, progress = settings or Settings(), progress or unheard
     started = time.perf_counter()
     checked = check_table(arm, recordings)
     table = checked.recordings if settings.orientation else replace(checked.recordings, orientation=None)
-    tell("fitting base and tool", 0.02)
+    progress("fitting base and tool", 0.02)
     start, tool_per_run, set_ups, told = _frames(arm, table, settings.tool_per_run)
     first = residuals(start, LinearisedTable(table, supported(table, channels)))
     channels, table, doubts = trusted_channels(tuple(first.by_channel), table, first)
@@ -97,18 +96,18 @@ def diagnose(
         arm, told = _gravity(start, table, noise, tool_per_run)
         start, notices = replace(start, arm=arm), (*notices, *told)
     rng = np.random.default_rng(settings.seed)
-    layout = split(table, rng)
-    found = select(start, LinearisedTable(table, channels), noise, frames, layout.of_row, tell)
+    split = split_rows(table, rng)
+    found = select(start, LinearisedTable(table, channels), noise, frames, split.of_row, progress)
     verdict = judge(
         DiagnosisState(
-            **vars(found), start=start, recordings=table, first=first, noise=noise, notices=notices, layout=layout
+            **vars(found), start=start, recordings=table, first=first, noise=noise, notices=notices, split=split
         ),
         settings.resamples,
         settings.cross_validation,
         rng,
-        tell,
+        progress,
     )
-    tell("done", 1.0)
+    progress("done", 1.0)
     return verdict.after(time.perf_counter() - started, vars(settings))
 
 
@@ -138,7 +137,7 @@ def _frames(arm: Arm, table: Recordings, tool_per_run: bool) -> tuple[FittedMode
 
 def _gravity(start: FittedModel, table: Recordings, noise: Noise, tool_per_run: bool) -> tuple[Arm, list[Notice]]:
     """The arm with gravity's direction as estimated, and what to say of it."""
-    found = lean(start, table, noise, tool_per_run)
+    found = estimate_gravity_direction(start, table, noise, tool_per_run)
     if found is None:
         text = "Nothing speaks for another direction of gravity than stated."
         return start.arm, [Notice("gravity as stated", text)]

@@ -9,45 +9,31 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
-from armscope.fitting.design_matrix import columns
-from armscope.fitting.linearisation import linearised
-from armscope.measurement.row_weights import RowWeights
-from armscope.measurement.whitening import WhitenedPosture
+from armscope.diagnosis.linearised_rows import LinearisedRows
 from armscope.physics.effect import Term
-from armscope.physics.model import FittedModel
-from armscope.recordings import Recordings
-
-Taken = tuple[FittedModel, Recordings, RowWeights]
-"""Where columns are taken, the rows, and what they weigh."""
 
 
-def placed_by_points(
-    taken: Taken, frames: Sequence[Term], errors: Array, held: Sequence[Indices], trusted: NDArray[np.bool_]
-) -> Array:
+def placed_by_points(all_rows: LinearisedRows, frames: Sequence[Term], errors: Array, held: Sequence[Indices]) -> Array:
     """Errors of points once base and tool are placed anew by the points of the rows that are not held out.
 
     Args:
-        taken: the model, the rows and their weights.
+        all_rows: N rows; those that look like bad shots place nothing.
         frames: the terms of bases and tools.
         errors: (N, 3) mm, base axes, under any frames, the same for all rows.
         held: rows that are held out together, fold by fold; frames that only they have are placed by themselves.
-        trusted: (N,) rows that do not look like bad shots.
 
     Returns:
         (N, 3) mm; of rows in no fold as they were.
     """
-    model, table, weights = taken
-    postures = (posture for _, posture in linearised(table).chunks(model))
-    X = np.concatenate([columns(WhitenedPosture.plain(each, weights.channels), frames) for each in postures])
-    X = X.reshape(len(table), -1, len(frames))[:, :3]
+    count = len(all_rows.recordings)
+    X = all_rows.unweighted_columns(frames).reshape(count, -1, len(frames))[:, :3]
     X = X / np.maximum(np.linalg.norm(X, axis=(0, 1)), 1e-300)
-    root = weights.unwhitened.of_channels[0].factor(np.arange(len(table))) * trusted
+    root = all_rows.weights.unwhitened.of_channels[0].factor(np.arange(count)) * all_rows.trusted
     left = errors.copy()
     for at in held:
-        learn = np.setdiff1d(np.arange(len(table)), at)
+        learn = np.setdiff1d(np.arange(count), at)
         known = np.linalg.norm(X[learn], axis=(0, 1)) > 0
         for rows, which in ((learn, known), (at, ~known)):
             if which.any():

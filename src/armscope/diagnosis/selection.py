@@ -9,9 +9,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Indices, Progress
 from armscope.diagnosis.constants import LOOP
-from armscope.diagnosis.selection_loop import Selected, SelectionLoop
+from armscope.diagnosis.selection_loop import SelectionLoop
+from armscope.diagnosis.state import Selected
 from armscope.fitting.linearisation import LinearisedTable
 from armscope.inference.additions import best_additions
 from armscope.inference.search import Search
@@ -57,7 +59,7 @@ def select(
 
 def _sample(recordings: Recordings) -> Indices:
     """Rows spread evenly over the table, and some of every run and target."""
-    rows = [np.linspace(0, len(recordings) - 1, LOOP.sample_rows).astype(np.intp)]
+    rows = [spread_evenly(len(recordings), LOOP.sample_rows)]
     groups = np.char.add(np.char.add(recordings.run, "\n"), recordings.target)
     rows += [np.flatnonzero(groups == group)[: LOOP.rows_of_a_group] for group in np.unique(groups)]
     return np.unique(np.concatenate(rows))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,17 +19,18 @@ from armscope.diagnosis.scans.constants import SCANS
 from armscope.diagnosis.scans.context import ScanContext, few_rows
 from armscope.diagnosis.scans.new_candidates import scanned_candidates
 from armscope.diagnosis.sizes_of_waves import with_sizes_of_rows
-from armscope.fitting.joint_scatter import Scattered
-from armscope.fitting.linearisation import LinearisedTable, Measured, linearised, normal_equations_by_block, residuals
+from armscope.diagnosis.state import Selected
+from armscope.fitting.block_sums import normal_equations_by_block
+from armscope.fitting.linearisation import LinearisedTable, Measured, linearised, residuals
 from armscope.fitting.refit import Refit, refit
 from armscope.inference.edits import replaced
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.normal_equations import NormalEquations, total
-from armscope.inference.problem import Problem, background_sizes, build_problem
+from armscope.inference.problem import background_sizes, build_problem
 from armscope.inference.search import Search
 from armscope.measurement.constants import WEIGHTS
-from armscope.measurement.noise import Growth, Noise
+from armscope.measurement.noise import Noise
 from armscope.physics.backgrounds import DRIFT, FAMILIES, TRANSMISSION, backgrounds, gear_waves
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.drift import base_shifts_of_runs
@@ -46,33 +46,6 @@ from armscope.physics.transmission import MESH_COUNTS
 from armscope.physics.wander import is_of_rows
 
 State = tuple[frozenset[str], NDArray[np.bool_]]
-
-
-@dataclass(frozen=True, eq=False)
-class Selected:
-    """Where the rounds ended.
-
-    Attributes:
-        space: what competed.
-        problem: the normal equations and priors of the last round.
-        blocks: its normal equations by block of rows.
-        point: where they were linearised.
-        found: the best hypothesis.
-        best: the same with names.
-        fit: the exact fit of ``best``.
-        scatter: of motors that stand elsewhere each time.
-        growth: of the noise with the distance.
-    """
-
-    space: EffectSpace
-    problem: Problem
-    blocks: list[NormalEquations]
-    point: FittedModel
-    found: Hypothesis
-    best: Hypothesis
-    fit: Refit
-    scatter: tuple[Scattered, ...]
-    growth: Growth | None
 
 
 class SelectionLoop:
@@ -217,7 +190,7 @@ class SelectionLoop:
         most = MESH_COUNTS[-1] if self.scans == SCANS.scan_of_fine_lines else SCANS.ordinary_lines
         new = self._scanned(search, most) if scanning else []
         self.model = self.fit.model
-        self.noise.weigh(self.fit.left, self.fit.noise, self.fit.weights.whitening)
+        self.noise.weigh(self.fit.channel_residuals, self.fit.noise, self.fit.weights.whitening)
         return new
 
     @property

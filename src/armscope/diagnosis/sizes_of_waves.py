@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from armscope.diagnosis.earning import folds
+from armscope.diagnosis.earning import errors_of_fits
 from armscope.diagnosis.model_space import EffectSpace
 from armscope.inference.constants import SIZES_BY_GROUP
 from armscope.inference.evidence import Hypothesis, evaluate
@@ -42,12 +42,12 @@ def with_sizes_of_rows(
     if not hypothesis.background[GEARS]:
         return list(waves)
     groups = _groups(space, hypothesis, waves)
-    errors = np.zeros((len(blocks), 1 + len(SIZES_BY_GROUP.freedoms)))
-    for fold, trained in folds(problem, blocks):
+
+    def fit(trained: Problem) -> list[Hypothesis]:
         plain = evaluate(trained, hypothesis.chosen, hypothesis.background, hypothesis.noise)
-        fitted = [plain, *(sizes_by_group(trained, plain, groups, freedom)[1] for freedom in SIZES_BY_GROUP.freedoms)]
-        values = np.array([each.coefficients(len(problem.scale)) / problem.scale for each in fitted])
-        errors[fold] = [blocks[int(k)].rss_of_each(values) for k in fold]
+        return [plain, *(sizes_by_group(trained, plain, groups, freedom)[1] for freedom in SIZES_BY_GROUP.freedoms)]
+
+    errors = errors_of_fits(problem, blocks, 1 + len(SIZES_BY_GROUP.freedoms), fit)
     gains = errors[:, :1] - errors[:, 1:]
     best = int(np.argmax(gains.sum(axis=0)))
     # a gain that another draw of blocks could have taken away is none (the one-standard-error rule, Breiman 1984)

@@ -9,8 +9,8 @@ import numpy as np
 
 from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import ColumnOrder, StructuredDesign, grouped_columns, structured_design
-from armscope.fitting.linearisation import Measured, current_parameters, linearised
-from armscope.fitting.parameter_layout import ParameterLayout
+from armscope.fitting.linearisation import Measured, linearised
+from armscope.fitting.parameter_layout import ParameterLayout, current_parameters
 from armscope.inference.linear_algebra import ColumnBlocks
 from armscope.measurement.row_weights import RowWeights
 from armscope.measurement.whitening import WhitenedPosture

@@ -62,7 +62,7 @@ class ModelError:
     processes: tuple[Process, ...]
     covariance: Array
 
-    def told(self) -> list[Notice]:
+    def notices(self) -> list[Notice]:
         """What to say of it, where it is sure."""
         sure = [f"{p.what} ({p.rms_mm:.2g} mm)" for p in self.processes if p.evidence > PRIORS.sure_nats]
         if not sure:
@@ -91,7 +91,7 @@ def model_error(fit: Refit, recordings: Recordings, least_mm: float) -> ModelErr
     # what residuals show of an error once the fit has taken up what it can; all in multiples of the noise
     noise = max(fit.noise, least_mm)
     own, pull = sums.own - taken_up.T @ taken_up, sums.pull / noise
-    freedom = share * max(fit.gram.n - fit.spent, 1.0)
+    freedom = share * max(fit.equations.n - fit.effective_dof, 1.0)
     chi2 = freedom * (fit.noise / noise) ** 2
     odds = 1 / max(len(sums.of), 1)
     extra, processes, waiting = np.zeros_like(fit.covariance), [], dict(sums.of)
@@ -148,14 +148,14 @@ def _sums(fit: Refit, recordings: Recordings, rows: Indices) -> _Sums:
     base = [term(axis, "m" if axis[0] == "t" else "rad", (Direction("base", axis), ONE)) for axis in AXES]
     turns = [term("turn", "rad", (motor(j), ONE)) for j in motors]
     slow, shapes = _slow(recordings, rows), _shapes(table.motor_angles[:, [j - 1 for j in motors]])
-    p, wander = len(fit.pool.terms), 3 * slow.shape[1]
+    p, wander = len(fit.layout.terms), 3 * slow.shape[1]
     starts = [0, wander, *(2 * wander + n * shapes.shape[1] for n in range(len(turns) + 1))]
     of = {what: slice(*at) for what, at in zip(_named(motors), pairwise(starts), strict=True) if at[0] < at[1]}
     count = starts[-1]
     normal, own, cross, pull = np.zeros((p, p)), np.zeros((count, count)), np.zeros((p, count)), np.zeros(count)
     for part, posture in linearised(table).chunks(fit.model):
         whitener = fit.weights.whitener(rows[part])
-        X = component_rows(WhitenedPosture(posture, whitener), (*fit.pool.terms, *base, *turns))
+        X = component_rows(WhitenedPosture(posture, whitener), (*fit.layout.terms, *base, *turns))
         moved = (X[p : p + 6, None] * slow[part].T[:, None], X[p + 6 :, None] * shapes[part].T[:, None])
         fitted = X[:p].reshape(p, -1)
         Z = np.concatenate([each.reshape(-1, fitted.shape[1]) for each in moved])

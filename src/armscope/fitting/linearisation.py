@@ -1,8 +1,6 @@
-"""The linear problem: every column of the library at the current model, boiled down to a Gram matrix.
+"""A table's rows with what is computed on them chunk by chunk, and what a model leaves of them.
 
-Columns live only chunk by chunk; what stays is X'WX, X'Wy and y'Wy per block of rows. Selection, resampling and
-cross-validation work on sums of blocks, so their cost does not depend on the number of rows.
-Lengths are mm here: y and the columns are displacements of the tool in base axes, mm per SI unit of a term.
+Lengths are mm here: residuals are measured minus modelled tool points, base axes.
 """
 
 from __future__ import annotations
@@ -12,19 +10,13 @@ from dataclasses import dataclass, field
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from armscope.core.parallel import each_piece
 from armscope.core.types import Array, Indices
 from armscope.fitting.constants import STEPS
-from armscope.fitting.design_matrix import StructuredDesign, structured_design
-from armscope.fitting.parameter_layout import ParameterLayout
-from armscope.inference.normal_equations import NormalEquations
 from armscope.measurement.channel import Channel, ChannelResiduals
 from armscope.measurement.positions import POSITIONS
 from armscope.measurement.registry import supported
-from armscope.measurement.row_weights import RowWeights
-from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.model import FittedModel
 from armscope.physics.posture import Posture
 from armscope.physics.scene import Scene
@@ -149,94 +141,3 @@ def residuals(model: FittedModel, rows: Measured) -> ChannelResiduals:
 def point_residuals(model: FittedModel, recordings: Recordings) -> Array:
     """(N, 3) measured minus modelled tool points, base axes, mm."""
     return residuals(model, LinearisedTable(recordings, (POSITIONS,))).points_mm
-
-
-def normal_equations_by_block(
-    pool: ParameterLayout, model: FittedModel, rows: Measured, weights: RowWeights, blocks: Indices
-) -> list[NormalEquations]:
-    """Gram matrices per block of rows.
-
-    The response is the residual of the model plus what its own effects contribute linearly, so that every hypothesis
-    starts from no effects while the linearisation stands where the model stands.
-
-    Args:
-        pool: of the model's columns.
-        model: the point of linearisation.
-        rows: a table, or recordings.
-        weights: of the rows; only the channels that they are of count.
-        blocks: (N,) number of each row's block, from 0.
-
-    Returns:
-        One per block, mm per SI unit.
-    """
-    column_order = pool.column_order
-    current = current_parameters(pool, model)[column_order.order]
-    count, p = int(blocks.max()) + 1, len(pool.terms)
-    table = linearised(rows)
-
-    def of_part(chunks: Chunks) -> dict[int, _Sums]:
-        sums: dict[int, _Sums] = {}
-        for chunk, posture in chunks:
-            whitener = weights.whitener(chunk)
-            seen = structured_design(WhitenedPosture(posture, whitener), column_order)
-            y = whitener.response(model, posture).T + seen.matvec(current)
-            numbers, inside = weights.numbers(chunk), blocks[chunk]
-            for block in np.unique(inside):
-                at = _where(inside == block)
-                sums.setdefault(int(block), _Sums.of(p)).add(seen.at(at), y[:, at], float(numbers[at].sum()))
-        return sums
-
-    order = np.argsort(blocks, kind="stable") if count > 1 and not table.keeps else None
-    first, *others = table.each_part(model, of_part, order)
-    whole = [first.pop(block) if block in first else _Sums.of(p) for block in range(count)]
-    for part in others:
-        for block, sums in part.items():
-            whole[block].join(sums)
-    back = column_order.back
-    # one after the other: each has millions of numbers
-    whole.reverse()
-    return [(s := whole.pop()).equations(column_order.whole(s.G), back) for _ in range(count)]
-
-
-@dataclass(eq=False)
-class _Sums:
-    """Sums over some rows in the order of a layout's columns; of G only the upper blocks."""
-
-    G: Array
-    b: Array
-    yy: float = 0.0
-    n: float = 0.0
-
-    @classmethod
-    def of(cls, p: int) -> _Sums:
-        return cls(np.zeros((p, p)), np.zeros(p))
-
-    def add(self, seen: StructuredDesign, y: Array, n: float) -> None:
-        seen.add_products(self.G)
-        self.b += seen.rmatvec(y)
-        self.yy += float(np.vdot(y, y))
-        self.n += n
-
-    def join(self, other: _Sums) -> None:
-        self.G += other.G
-        self.b += other.b
-        self.yy += other.yy
-        self.n += other.n
-
-    def equations(self, G: Array, back: Indices) -> NormalEquations:
-        return NormalEquations(G, self.b[back], self.yy, self.n)
-
-
-def _where(inside: NDArray[np.bool_]) -> slice | Indices:
-    """Where a mask holds: as a slice, if it holds in one stretch."""
-    at = np.flatnonzero(inside)
-    return slice(int(at[0]), int(at[-1]) + 1) if at[-1] - at[0] + 1 == len(at) else at
-
-
-def current_parameters(pool: ParameterLayout, model: FittedModel) -> Array:
-    """(p,) the model's values of the pool's terms (frames count as zero: they are part of the linearisation point)."""
-    values = np.zeros(len(pool.terms))
-    for part in (*model.background, *model.parts):
-        for term, value in zip(part.placed.terms, part.values, strict=True):
-            values[pool.index[term]] += value
-    return values

@@ -11,6 +11,7 @@ import numpy as np
 from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import ColumnOrder, grouped_columns
 from armscope.physics.effect import Placed, Term
+from armscope.physics.model import FittedModel
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,3 +80,12 @@ def parameter_layout(
         tuple(np.array([family[column] for column in sorted(family)], dtype=np.float64) for family in scales),
         columns,
     )
+
+
+def current_parameters(layout: ParameterLayout, model: FittedModel) -> Array:
+    """(p,) the model's values of a layout's terms (frames count as zero: they are part of the linearisation point)."""
+    values = np.zeros(len(layout.terms))
+    for part in (*model.background, *model.parts):
+        for term, value in zip(part.placed.terms, part.values, strict=True):
+            values[layout.index[term]] += value
+    return values

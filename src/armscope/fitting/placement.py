@@ -31,6 +31,12 @@ def rigid_motion(points: Array, measured: Array) -> tuple[Array, Array]:
     return rotation, there - rotation @ here
 
 
+def nearest_rotation(matrix: Array) -> Array:
+    """(3, 3) the rotation R with the largest trace of R' matrix, by its singular vectors (Kabsch 1976)."""
+    left, _, right = np.linalg.svd(matrix)
+    return np.asarray((left * [1.0, 1.0, np.sign(np.linalg.det(left @ right)) or 1.0]) @ right)
+
+
 @dataclass(frozen=True, eq=False)
 class Frames:
     """Where R bases and K tools stand.
@@ -113,8 +119,7 @@ def _linear_start(origin: Array, turned: Array, tool: Indices, measured: Array) 
     columns = np.column_stack([origin - origin.mean(axis=0), by_tool.reshape(n_rows, -1), np.ones(n_rows)])
     if n_rows < columns.shape[1]:
         return None
-    left, _, right = np.linalg.svd(np.linalg.lstsq(columns, measured, rcond=1e-9)[0][:3].T)
-    rotation = (left * [1.0, 1.0, np.sign(np.linalg.det(left @ right)) or 1.0]) @ right
+    rotation = nearest_rotation(np.linalg.lstsq(columns, measured, rcond=1e-9)[0][:3].T)
     # translation and tools for a known rotation: of smallest size where not determined
     beside = np.zeros((n_rows, 3, n_tools + 1, 3))
     beside[np.arange(n_rows), :, tool] = rotation @ turned

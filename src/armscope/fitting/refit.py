@@ -8,16 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.constants import STEPS
 from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic, gauss_newton
-from armscope.fitting.linearisation import (
-    Measured,
-    current_parameters,
-    linearised,
-    normal_equations_by_block,
-    residuals,
-)
-from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
+from armscope.fitting.linearisation import Measured, linearised, residuals
+from armscope.fitting.parameter_layout import ParameterLayout, current_parameters, parameter_layout
 from armscope.inference.constants import PRIORS
 from armscope.inference.normal_equations import NormalEquations, column_scales
 from armscope.measurement import robust
@@ -34,33 +29,34 @@ class Refit:
 
     Attributes:
         model: the fitted model.
-        pool: frames, background and effects that were fitted.
-        gram: at the solution, mm per SI unit.
+        layout: of the frames, background and effects that were fitted.
+        equations: the normal equations at the solution, mm per SI unit.
         precision: (p,) prior precision of all values, SI units.
         covariance: (p, p) of all values, SI units.
         noise: mm per axis.
-        spent: effective number of fitted values.
-        left: what the model leaves.
+        effective_dof: effective number of fitted values.
+        weights: of the rows, in every channel.
+        channel_residuals: what the model leaves of every row, by channel.
     """
 
     model: FittedModel
-    pool: ParameterLayout
-    gram: NormalEquations
+    layout: ParameterLayout
+    equations: NormalEquations
     precision: Array
     covariance: Array
     noise: float
-    spent: float
+    effective_dof: float
     weights: RowWeights
-    left: ChannelResiduals
+    channel_residuals: ChannelResiduals
 
     @property
     def residuals(self) -> Array:
         """(N, 3) mm, base axes."""
-        return self.left.points_mm
+        return self.channel_residuals.points_mm
 
     def covariance_of(self, placed: Placed) -> Array:
         """Covariance of one effect's terms, SI units."""
-        at = self.pool.of(placed)
+        at = self.layout.of(placed)
         return np.asarray(self.covariance[np.ix_(at, at)])
 
 
@@ -92,10 +88,10 @@ class ModelFit(NonlinearProblem[FittedModel, ChannelResiduals]):
         self.noise, self.negligible = least_noise, negligible
         self.steps_mm: list[float] = []
         self.weights: RowWeights
-        self.gram: NormalEquations
+        self.equations: NormalEquations
         self.precision: Array
         self.inverse: Array
-        self.spent: float
+        self.effective_dof: float
 
     def residual(self, state: FittedModel) -> ChannelResiduals:
         """What a model leaves of every row, mm and rad."""
@@ -106,16 +102,18 @@ class ModelFit(NonlinearProblem[FittedModel, ChannelResiduals]):
         self.steps_mm.append(np.inf)
         self.weights = self.weigh(residual)
         blocks = np.zeros(len(self.table), dtype=np.intp)
-        self.gram = normal_equations_by_block(self.parts, state, self.table, self.weights, blocks)[0]
+        self.equations = normal_equations_by_block(self.parts, state, self.table, self.weights, blocks)[0]
         noise = self.noise or robust.scale_of(residual.points_mm)
-        self.precision = self.prior(self.gram)
+        self.precision = self.prior(self.equations)
         solved = Quadratic(
-            self.gram.G + np.diag(noise**2 * self.precision), self.gram.b, current_parameters(self.parts, state)
+            self.equations.G + np.diag(noise**2 * self.precision),
+            self.equations.b,
+            current_parameters(self.parts, state),
         )
         self.inverse = solved.inverse
-        self.spent = float(len(self.precision) - noise**2 * np.sum(np.diag(solved.inverse) * self.precision))
-        left = self.gram.rss(solved.values)
-        self.noise = max(float(np.sqrt(max(left, 0.0) / max(self.gram.n - self.spent, 1.0))), 1e-9)
+        self.effective_dof = float(len(self.precision) - noise**2 * np.sum(np.diag(solved.inverse) * self.precision))
+        left = self.equations.rss(solved.values)
+        self.noise = max(float(np.sqrt(max(left, 0.0) / max(self.equations.n - self.effective_dof, 1.0))), 1e-9)
         return solved
 
     def misfit(self, state: FittedModel, residual: ChannelResiduals) -> float:
@@ -137,7 +135,7 @@ class ModelFit(NonlinearProblem[FittedModel, ChannelResiduals]):
 
         Of a long table it is enough that they will: each step is as much less than the last as that one was.
         """
-        uncertain = self.noise * np.sqrt(self.spent / max(self.gram.n, 1.0))
+        uncertain = self.noise * np.sqrt(self.effective_dof / max(self.equations.n, 1.0))
         moved = self.steps_mm[-1] = float(np.sqrt(np.mean((after.points_mm - before.points_mm) ** 2)))
         if len(self.table) > STEPS.kept_rows and len(self.steps_mm) > 1:
             shrunk = moved / self.steps_mm[-2]
@@ -180,7 +178,7 @@ def refit(
         parts,
         rows,
         lambda left: row_noise.weights(left, least_noise, whitening),
-        lambda gram: _precision(parts, gram, [size for _, size in backgrounds], effects),
+        lambda equations: _precision(parts, equations, [size for _, size in backgrounds], effects),
         least_noise,
         STEPS.converged_share,
     )
@@ -188,8 +186,8 @@ def refit(
     # a lucky residual does not make the instrument better than it is known to be
     covariance = max(problem.noise, least_noise) ** 2 * problem.inverse
     return Refit(
-        found.state, parts, problem.gram, problem.precision, covariance,
-        problem.noise, problem.spent, problem.weights, found.residual,
+        found.state, parts, problem.equations, problem.precision, covariance,
+        problem.noise, problem.effective_dof, problem.weights, found.residual,
     )  # fmt: skip
 
 
@@ -229,10 +227,10 @@ def _start(model: FittedModel, background: Sequence[Placed], effects: Sequence[t
 
 
 def _precision(
-    parts: ParameterLayout, gram: NormalEquations, sizes: Sequence[float], effects: Sequence[tuple[Placed, float]]
+    parts: ParameterLayout, equations: NormalEquations, sizes: Sequence[float], effects: Sequence[tuple[Placed, float]]
 ) -> Array:
     """(p,) prior precisions in SI units."""
-    scale = column_scales(gram, parts.frames)
+    scale = column_scales(equations, parts.frames)
     variance = np.full(len(parts.terms), np.inf)
     for columns, tolerance, size in zip(parts.background, parts.background_scale, sizes, strict=True):
         variance[columns] = (size * tolerance) ** 2
@@ -240,7 +238,9 @@ def _precision(
         wide = 1.0 if placed.partly_unseen else STEPS.free
         variance[at] = (wide * size * np.array(placed.prior_scale) / scale[at]) ** 2
         # nor farther than frames go, however much of it they would absorb
-        variance[at] = np.minimum(variance[at], PRIORS.frame_mm**2 * gram.n / np.maximum(np.diag(gram.G)[at], 1e-24))
+        variance[at] = np.minimum(
+            variance[at], PRIORS.frame_mm**2 * equations.n / np.maximum(np.diag(equations.G)[at], 1e-24)
+        )
     inside = np.unique(np.concatenate([*parts.background, *parts.columns])) if parts.columns else np.empty(0, np.intp)
     variance[inside] = np.minimum(variance[inside], np.array([parts.terms[n].prior_size for n in inside]) ** 2)
     variance[parts.frames] = (PRIORS.frame_mm / scale[parts.frames]) ** 2

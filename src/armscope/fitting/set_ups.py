@@ -12,6 +12,7 @@ import numpy as np
 from armscope.core.types import Array, Indices
 from armscope.fitting.constants import SET_UPS
 from armscope.fitting.linearisation import linearised
+from armscope.fitting.placement import nearest_rotation
 from armscope.measurement import robust
 from armscope.physics.model import FittedModel
 from armscope.physics.set_ups import SetUps, in_order_of_time
@@ -95,17 +96,11 @@ class _Points:
         """(n,) squared distances that the best base for some rows leaves, m^2."""
         weight, here, there = self.weight[rows], self.modelled[rows], self.measured[rows]
         here, there = (each - np.average(each, axis=0, weights=weight) for each in (here, there))
-        turn = _turn(here, there, weight)
+        turn = nearest_rotation((there * weight[:, None]).T @ here)
         return np.asarray(np.sum((there - here @ turn.T) ** 2, axis=1))
 
 
-def _turn(here: Array, there: Array, weight: Array) -> Array:
-    """(3, 3) the rotation that brings weighted points (n, 3) about their mean onto others (Kabsch 1976)."""
-    left, _, right = np.linalg.svd((there * weight[:, None]).T @ here)
-    return np.asarray((left * [1.0, 1.0, np.sign(np.linalg.det(left @ right)) or 1.0]) @ right)
-
-
-def told(compared: ComparedBases) -> str:
+def set_up_anew(compared: ComparedBases) -> str:
     """What was set up anew, in words; empty where all runs stand on one base."""
     if np.isnan(compared.apart_mm).any():
         return ""

@@ -139,12 +139,14 @@ def low_rank_update(
     rss = hypothesis.rss + float(mean @ np.linalg.solve(inner, mean)) if len(at) else hypothesis.rss
     logdet = float(np.linalg.slogdet(inner)[1] + np.sum(np.log(noise**2 * np.abs(before - after) / before**2)))
     evidence = hypothesis.log_evidence - 0.5 * logdet - 0.5 * (rss - hypothesis.rss) / noise**2
-    away = _away(problem, hypothesis, chosen, at, inner)
-    paid = negative_log_prior(problem, chosen, background, away)
+    z_scores = _z_scores(problem, hypothesis, chosen, at, inner)
+    paid = negative_log_prior(problem, chosen, background, z_scores)
     return LowRankUpdate(hypothesis, chosen, background, evidence - paid, rss, at, inner)
 
 
-def _away(problem: Problem, whole: Hypothesis, chosen: Sequence[SelectedEffect], at: Indices, inner: Array) -> Array:
+def _z_scores(
+    problem: Problem, whole: Hypothesis, chosen: Sequence[SelectedEffect], at: Indices, inner: Array
+) -> Array:
     """Standard errors from zero at which values that can't be negative stand after an update."""
     own = np.searchsorted(whole.columns, half_line_columns(problem, chosen))
     inverse = whole.inverse[:, own]

@@ -126,8 +126,8 @@ def evaluate(
     logdet = float(2 * np.log(factor.diagonal()).sum() + np.log(variance).sum()) - 2 * len(columns) * math.log(noise)
     evidence = -problem.n * math.log(noise) - 0.5 * logdet - 0.5 * rss / noise**2
     at = np.searchsorted(columns, half_line_columns(problem, chosen))
-    away = mean[at] / (noise * np.sqrt(np.sum(inverse[:, at] ** 2, axis=0)))
-    posterior = evidence - negative_log_prior(problem, chosen, background, away)
+    z_scores = mean[at] / (noise * np.sqrt(np.sum(inverse[:, at] ** 2, axis=0)))
+    posterior = evidence - negative_log_prior(problem, chosen, background, z_scores)
     known = inverse if factor is first else None
     return Hypothesis(chosen, background, noise, posterior, evidence, columns, variance, factor, mean, rss, known)
 
@@ -139,7 +139,7 @@ def half_line_columns(problem: Problem, chosen: Sequence[SelectedEffect]) -> lis
 
 
 def negative_log_prior(
-    problem: Problem, chosen: Sequence[SelectedEffect], background: BackgroundSizes, away: Array
+    problem: Problem, chosen: Sequence[SelectedEffect], background: BackgroundSizes, z_scores: Array
 ) -> float:
     """What a hypothesis pays for its effects and backgrounds, nats; infinite if some effect lacks what it requires.
 
@@ -147,8 +147,8 @@ def negative_log_prior(
         problem: the priors.
         chosen: the effects.
         background: size of each family's background.
-        away: of each effect's value that can't be negative, standard errors from zero; half of the prior goes to the
-            other half, each by itself.
+        z_scores: standard errors from zero of each effect's value that can't be negative; half of the prior goes to
+            the other half, each by itself.
 
     Returns:
         Nats.
@@ -161,7 +161,24 @@ def negative_log_prior(
     paid += PRIORS.excess_special_case_nats * max(
         problem.space.excess_special_cases(frozenset(c.candidate for c in own)), 0
     )
-    return float(paid - np.sum(np.log(2) + log_ndtr(away)))
+    return float(paid - half_line_gain(z_scores))
+
+
+def half_line_gain(z_scores: Array) -> float:
+    """What values gain that can't be negative, nats: priors twice as dense, posteriors' share above zero.
+
+    Args:
+        z_scores: standard errors from zero at which each value would stand if it could be negative.
+
+    Returns:
+        Nats; below zero where they would be negative.
+    """
+    return float(np.sum(np.log(2) + log_ndtr(z_scores)))
+
+
+def fitted_values(problem: Problem, hypotheses: Sequence[Hypothesis]) -> Array:
+    """(K, p) the posterior means of K hypotheses, SI units; zero where a column takes no part."""
+    return np.array([each.coefficients(len(problem.scale)) / problem.scale for each in hypotheses])
 
 
 def savage_dickey(hypothesis: Hypothesis, columns: Indices) -> float:
@@ -187,9 +204,13 @@ def removal_log_bayes_factors(problem: Problem, hypothesis: Hypothesis) -> Array
     pull, widened = root * hypothesis.mean[at], np.log(variance / rest)
     ends, lost = np.cumsum([len(columns) for columns in members]).tolist(), []
     for effect, start, end in zip(hypothesis.chosen, [0, *ends[:-1]], ends, strict=True):
-        own = slice(start, end)
-        factor = lower_cholesky(M[own, own], np.ones(end - start))
-        quadratic = float(np.sum(solve_lower(factor, pull[own]) ** 2))
-        logdet = float(2 * np.sum(np.log(np.diag(factor))) - np.sum(widened[own]))
+        if end - start == 1:  # most of them: a number needs no LAPACK
+            inner = max(1.0, NUMERICS.rounding * M[start, start]) + M[start, start]
+            quadratic, logdet = pull[start] ** 2 / inner, math.log(inner) - widened[start]
+        else:
+            own = slice(start, end)
+            factor = lower_cholesky(M[own, own], np.ones(end - start))
+            quadratic = float((solve_lower(factor, pull[own]) ** 2).sum())
+            logdet = float(2 * np.log(factor.diagonal()).sum() - widened[own].sum())
         lost.append(0.5 * quadratic + 0.5 * logdet - problem.cost(effect.candidate))
     return np.array(lost)

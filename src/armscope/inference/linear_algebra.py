@@ -24,7 +24,7 @@ def lower_cholesky(G: Array, ridge: Array) -> Array:
         LinAlgError: the matrix is not positive definite.
     """
     A = G.copy()
-    A.reshape(-1)[:: len(A) + 1] += np.maximum(ridge, NUMERICS.rounding * np.diag(G))
+    A.reshape(-1)[:: len(A) + 1] += np.maximum(ridge, NUMERICS.rounding * G.diagonal())
     # the transpose of a symmetric matrix: itself, in the order that LAPACK works in without another copy
     factor, failed = dpotrf(A.T, lower=1, clean=1, overwrite_a=1)
     if failed:
@@ -148,12 +148,12 @@ def _factorised(scaled: Array, pull: Array) -> tuple[Array, Array]:
     c = pull.shape[2]
     bordered = np.zeros((*pull.shape[:2], c + 1, c + 1))
     bordered[:, :, :c, :c] = scaled
-    bordered[:, :, range(c), range(c)] += 1
+    bordered.reshape(*pull.shape[:2], -1)[:, :, : c * (c + 1) : c + 2] += 1
     bordered[:, :, c, :c] = pull  # of a symmetric matrix the lower half is read
-    bordered[:, :, c, c] = 1 + 2 * np.sum(pull**2, axis=2)  # any number that keeps it positive definite
+    bordered[:, :, c, c] = 1 + 2 * (pull**2).sum(axis=2)  # any number that keeps it positive definite
     factor = np.linalg.cholesky(bordered)
-    diagonal = np.diagonal(factor, axis1=2, axis2=3)[:, :, :c]
-    return np.sum(factor[:, :, c, :c] ** 2, axis=2), 2 * np.sum(np.log(diagonal), axis=2)
+    diagonal = factor.diagonal(axis1=2, axis2=3)[:, :, :c]
+    return (factor[:, :, c, :c] ** 2).sum(axis=2), 2 * np.log(diagonal).sum(axis=2)
 
 
 def profiled_gain(quadratic: Array, chi2: float, n: float, noise: float, least: float) -> Array:

@@ -270,9 +270,18 @@ class ModelSpace:
     def _curves(self) -> tuple[Candidate, ...]:
         return tuple(candidate for candidate in self.candidates if candidate.is_curve and candidate.competes)
 
+    @functools.cached_property
+    def _excess(self) -> dict[frozenset[int], int]:
+        """What was asked already: a search looks at the same effects with many sizes, folds and draws."""
+        return {}
+
     def excess_special_cases(self, candidates: frozenset[int]) -> int:
         """By how many candidates some curve's special cases exceed what is common side by side."""
-        return max((len(c.special_cases & candidates) - c.side_by_side for c in self._curves), default=0)
+        known = self._excess.get(candidates)
+        if known is None:
+            known = max((len(c.special_cases & candidates) - c.side_by_side for c in self._curves), default=0)
+            self._excess[candidates] = known
+        return known
 
     @functools.cached_property
     def finer(self) -> dict[int, int]:

@@ -6,6 +6,7 @@ are scaled to 1 mm RMS at the tool.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -74,7 +75,7 @@ class Problem:
 
     def cost(self, candidate: int) -> float:
         """What a candidate of any one size pays, nats."""
-        return float(self.prior_costs[candidate] + np.log(len(self.sizes)))
+        return float(self.prior_costs[candidate]) + math.log(len(self.sizes))
 
     def prior_scale(self, effect: SelectedEffect) -> Array:
         """(c,) prior standard deviations of an effect's scaled coefficients, mm."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from armscope.motion import clauses, remedies
 from armscope.motion.causes import Cause
+from armscope.motion.twist_catalogue import TWISTS
 from armscope.verdict.effects import UNKNOWN
 
 FRICTION, DRIVE, MASSES, SPRINGS = "friction", "drive", "masses", "springs"
@@ -247,5 +248,5 @@ CAUSES = (
 
 
 def cause_named(name: str) -> Cause | None:
-    """A cause by its name; None where the library has none of that name."""
-    return next((cause for cause in CAUSES if cause.name == name), None)
+    """A cause by its name, of torque or of a link's place; None where the library has none of that name."""
+    return next((cause for cause in (*CAUSES, *TWISTS) if cause.name == name), None)

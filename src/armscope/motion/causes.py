@@ -88,8 +88,8 @@ class Moment:
 
     @property
     def motion(self) -> tuple[Array, Array, Array]:
-        """(N, m) positions, velocities, accelerations."""
-        return self.signals.q, self.signals.dq, self.signals.ddq
+        """(N, m) positions, velocities, accelerations of the links."""
+        return self.signals.of_links
 
 
 Columns = Callable[[Moment], Array]
@@ -157,6 +157,7 @@ class Seen:
         motion_hz: above which nothing of the motion is seen for noise.
         regressor: (K, 10 n) torque per inertial parameter in some of the samples, joints below each other.
         waves: by joint (from 0), the waves per turn that stand out of what is left, and how many were tried.
+        both_sides: (m,) whether each joint's link was recorded beside its motor; None where none was.
     """
 
     arm: MovingArm
@@ -172,6 +173,7 @@ class Seen:
     regressor: Array
     motion_hz: float = CUTOFF.widest_hz
     waves: Mapping[int, tuple[tuple[int, ...], int]] = field(default_factory=dict)
+    both_sides: NDArray[np.bool_] | None = None
 
     def unit(self, joint: int) -> str:
         """Of a joint's position."""

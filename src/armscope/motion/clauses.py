@@ -10,7 +10,7 @@ import math
 import re
 from collections.abc import Callable
 
-from armscope.core.numerals import shown_unit
+from armscope.core.numerals import shown_unit, size_of
 from armscope.motion.verdict import FoundCause
 from armscope.verdict.effects import INTERVAL, Parameter
 from armscope.verdict.wording import decimals_for
@@ -41,7 +41,9 @@ def amount(parameter: Parameter, sign: bool = False) -> str:
 
 
 def rms_of(cause: FoundCause) -> str:
-    """Its torque's size, as the joint where it is largest has it."""
+    """Its size, as the joint where it is largest has it: of a torque, or of a link's place beside its motor."""
+    if cause.unit in ("rad", "m"):
+        return f"{size_of(cause.rms, cause.unit)} RMS"
     return f"{cause.rms:.2g} {cause.unit} RMS"
 
 
@@ -191,3 +193,39 @@ def offset_clause(cause: FoundCause, numbers: Numbers) -> str:
     offset = numbers["offset"]
     side = "high" if offset.value > 0 else "low"
     return f"the recorded torque of {cause.location} reads {amount(offset)} too {side}"
+
+
+def elasticity_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """A drive that winds up between two encoders."""
+    return f"the drive of {cause.location} winds up under its torque, with {amount(numbers['stiffness'])}"
+
+
+def play_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """A link that lies at either end of a play."""
+    return f"the drive of {cause.location} has play: its link lies {amount(numbers['half'])} to either side"
+
+
+def ratio_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """A reduction that is off."""
+    share = numbers["share"]
+    shown = Parameter("share", "%", 100 * share.value, 100 * share.stderr)
+    return f"the link of {cause.location} turns {amount(shown)} {'more' if share.value > 0 else 'less'} than its motor"
+
+
+def wave_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """An error that comes back every turn."""
+    size = size_of(math.hypot(*(numbers[name].value for name in ("sine", "cosine"))), cause.unit)
+    often = {1: "once", 2: "twice"}.get(round(numbers["per_turn"].value), "several times")
+    return f"link and motor of {cause.location} differ by a wave that comes {often} per turn, by ± {size}"
+
+
+def lag_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """Encoders that are read at different times."""
+    lag = numbers["lag"]
+    side = "after" if lag.value > 0 else "before"
+    return f"the link of {cause.location} was read {amount(lag)} {side} its motor"
+
+
+def nameless_twist(cause: FoundCause, numbers: Numbers) -> str:
+    """A link that lies elsewhere by no known law."""
+    return f"the link of {cause.location} lies beside its motor as the {cause.driver} says ({rms_of(cause)})"

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 
 from armscope.core.types import Array, Indices
+from armscope.inference.evidence import Hypothesis
 from armscope.inference.normal_equations import NormalEquations
+from armscope.inference.problem import Problem
 from armscope.motion.constants import CONSISTENCY
 from armscope.motion.selection import SelectedCauses, coefficients_of
 
@@ -74,8 +77,39 @@ def agreement(selected: SelectedCauses, candidate: int) -> PathAgreement:
     Returns:
         The factors with their standard errors.
     """
+    paths = len(set(selected.rows.run.tolist())) > 1
+    return replace(agreement_of(selected, paths, candidate), runs=selected.rows.layout.placed[candidate].runs)
+
+
+class Weighed(Protocol):
+    """A selection, of torques or of positions: sums by block, what competed, and what won."""
+
+    @property
+    def blocks(self) -> list[NormalEquations]:
+        """Sums of each block."""
+
+    @property
+    def problem(self) -> Problem:
+        """What competed, on their total."""
+
+    @property
+    def best(self) -> Hypothesis:
+        """What won."""
+
+
+def agreement_of(selected: Weighed, paths: bool, candidate: int) -> PathAgreement:
+    """A candidate's size from each block by itself.
+
+    Args:
+        selected: a selection.
+        paths: whether blocks are runs; else they are parts of one.
+        candidate: its number.
+
+    Returns:
+        The factors with their standard errors.
+    """
     best, problem = selected.best, selected.problem
-    columns = selected.space.candidates[candidate].columns
+    columns = problem.space.candidates[candidate].columns
     own = coefficients_of(problem, best)[columns] * problem.scale[columns]
     others = np.setdiff1d(best.columns, columns)
     precision = best.noise**2 / best.variance[best.at(others)]
@@ -85,8 +119,7 @@ def agreement(selected: SelectedCauses, candidate: int) -> PathAgreement:
         size, error = _factor(block.scaled(problem.scale), columns, own, others, (precision, mean), best.noise)
         sizes.append(size)
         errors.append(error)
-    paths = len(set(selected.rows.run.tolist())) > 1
-    return PathAgreement(np.array(sizes), np.array(errors), paths, selected.rows.layout.placed[candidate].runs)
+    return PathAgreement(np.array(sizes), np.array(errors), paths)
 
 
 def _factor(

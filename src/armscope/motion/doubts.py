@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from armscope.core.types import Array
 from armscope.motion import catalogue
 from armscope.motion.consistency import PARTS, PathAgreement
 from armscope.motion.doubt_constants import PLAUSIBLE
 from armscope.motion.layout import NAMED_OF_OWN, OWN
 from armscope.motion.selection import SelectedCauses
+from armscope.robot.dynamics import MovingArm
 
 
 def doubt_of(selected: SelectedCauses, number: int, agreed: PathAgreement) -> str:
@@ -31,13 +33,17 @@ def doubt_of(selected: SelectedCauses, number: int, agreed: PathAgreement) -> st
             f"Undetermined: no two {parts} tell its size by themselves. It may stand for a share of something else; "
             "record another path before anything is changed for it."
         )
-    swing = swing_hz(selected, number)
-    if swing is not None and swing < PLAUSIBLE.slowest_swing_hz:
-        told.append(
-            f"Its link would swing on it at {swing:.2g} Hz; arms' lowest resonances lie above "
-            f"{PLAUSIBLE.slowest_swing_hz:g} Hz as a rule. A belt may be so soft, a gear is not."
-        )
-    return " ".join(told)
+    return " ".join([*told, *too_loose(swing_hz(selected, number))])
+
+
+def too_loose(swing: float | None) -> list[str]:
+    """What is said of a link that swings on its drive at a frequency, Hz: nothing of one that no link has."""
+    if swing is None or swing >= PLAUSIBLE.slowest_swing_hz:
+        return []
+    return [
+        f"Its link would swing on it at {swing:.2g} Hz; arms' lowest resonances lie above "
+        f"{PLAUSIBLE.slowest_swing_hz:g} Hz as a rule. A belt may be so soft, a gear is not."
+    ]
 
 
 def swing_hz(selected: SelectedCauses, number: int) -> float | None:
@@ -54,8 +60,22 @@ def swing_hz(selected: SelectedCauses, number: int) -> float | None:
     compliance = float(selected.coefficients[selected.rows.layout.columns[number][0]])
     if placed.cause is not catalogue.COMPLIANCE or compliance <= 0:
         return None
-    arm, joint = selected.rows.layout.arm, placed.joints[0]
-    q = selected.rows.q[:: max(len(selected.rows) // PLAUSIBLE.poses, 1)]
+    return swing_of(selected.rows.layout.arm, selected.rows.q, placed.joints[0], compliance)
+
+
+def swing_of(arm: MovingArm, poses: Array, joint: int, compliance: float) -> float:
+    """At which frequency a link swings on a drive, motor held, in its heaviest pose.
+
+    Args:
+        arm: the arm.
+        poses: (K, m) positions in which it was.
+        joint: from 0.
+        compliance: of its drive, rad/(N m), above zero.
+
+    Returns:
+        Hz.
+    """
+    q = poses[:: max(len(poses) // PLAUSIBLE.poses, 1)]
     still, turning = np.zeros_like(q), np.zeros_like(q)
     turning[:, joint] = 1.0
     inertia = (arm.torques(q, still, turning, arm.inertial) - arm.torques(q, still, still, arm.inertial))[:, joint]

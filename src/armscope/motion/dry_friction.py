@@ -5,11 +5,29 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.interpolate import make_interp_spline
 
 from armscope.core.types import Array
 from armscope.motion.causes import coulomb_width, sharp_width, side
-from armscope.motion.preparation import Signals, seen_later
+from armscope.motion.preparation import Signals
 from armscope.robot.dynamics import MovingArm
+
+
+def seen_later(time: Array, values: Array, delay: float) -> Array:
+    """Samples as they were some time ago, by a cubic spline.
+
+    A straight line between samples blurs what is between them: of a wave of five samples it loses a fifth half way,
+    and friction that changes sides more softly than it does asks for another law near rest.
+
+    Args:
+        time: (N,) s, even.
+        values: (N,) at these times.
+        delay: s.
+
+    Returns:
+        (N,) of ``delay`` earlier; before the first sample, and after the last one, as it is.
+    """
+    return np.asarray(make_interp_spline(time, values, k=3)(np.clip(time - delay, time[0], time[-1])))
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +76,7 @@ class DryFriction:
         """
         dq, ddq = signals.dq[:, joint], signals.ddq[:, joint]
         if delay:
-            dq, ddq = (seen_later(signals.time, values, delay) for values in (dq, ddq))
+            dq, ddq = signals.some_time_ago(joint, delay)
         dq = dq - ddq * self.turning[joint]
         at = replace(signals, dq=dq[:, None], ddq=ddq[:, None])
         return side(at, np.array([self.width[joint] if width is None else width]))[:, 0]

@@ -18,6 +18,7 @@ from scipy.special import ndtr
 
 from armscope.core.types import Array
 from armscope.inference.evidence import Hypothesis
+from armscope.inference.normal_equations import NormalEquations
 from armscope.inference.search import Search
 from armscope.motion import catalogue
 from armscope.motion.constants import INTERVALS, PRIOR, TELLING
@@ -143,7 +144,7 @@ def _widened(selected: SelectedCauses, search: Search, rivals: Rivals) -> Array:
     """
     best = selected.best
     factor = np.ones(len(selected.problem.scale))
-    own = np.sqrt(_disagreeing(selected))
+    own = np.sqrt(disagreeing(best, selected.problem.scale, selected.blocks))
     among = [best, *_near(selected, search, rivals)]
     error = own * np.sqrt(best.variances(best.columns))
     for place, column in enumerate(best.columns):
@@ -157,17 +158,24 @@ def _widened(selected: SelectedCauses, search: Search, rivals: Rivals) -> Array:
     return factor
 
 
-def _disagreeing(selected: SelectedCauses) -> Array:
-    """(columns,) factor on the variance of each number of the best hypothesis, by what each block makes of it.
+def disagreeing(best: Hypothesis, scale: Array, blocks: Sequence[NormalEquations]) -> Array:
+    """Factor on the variance of each number of a hypothesis, by what each block makes of it.
 
     A block pulls the numbers by M X'r of its own rows, M the inverse of the whole information; squares of these pulls,
     to what noise lets them be, are the Birge ratio. What is known by its prior stays as it is.
+
+    Args:
+        best: the hypothesis.
+        scale: (p,) by which its columns are divided.
+        blocks: sums of parts of the rows, unscaled.
+
+    Returns:
+        (columns,), at least 1.
     """
-    best, scale = selected.best, selected.problem.scale
     at = best.columns
     M = best.inverse.T @ best.inverse
     pulls, allowed, told = [], [], np.zeros(len(at))
-    for block in selected.blocks:
+    for block in blocks:
         own = block.scaled(scale)
         G = own.G[np.ix_(at, at)]
         A = M @ G

@@ -9,7 +9,6 @@ import numpy as np
 
 from armscope.core.numerals import rounded
 from armscope.core.types import Array
-from armscope.inference.model_space import Candidate
 from armscope.inference.shapley import shares
 from armscope.motion.causes import PlacedCause
 from armscope.motion.confounding import gains_instead
@@ -19,6 +18,7 @@ from armscope.motion.doubts import doubt_of
 from armscope.motion.intervals import Sureness, covariance_of
 from armscope.motion.lasting import LastingTorque
 from armscope.motion.layout import OWN
+from armscope.motion.rivals import listed_rivals
 from armscope.motion.selection import SelectedCauses
 from armscope.motion.verdict import FoundCause, JointBackground, UnexplainedTorque
 from armscope.motion.words import clause, cure
@@ -122,24 +122,8 @@ def _shares(selected: SelectedCauses) -> list[float]:
 
 def _alternatives(selected: SelectedCauses, sure: Sureness, number: int) -> tuple[Alternative, ...]:
     """What could stand in a cause's place, nearest first, each name once."""
-    best = selected.best
-    candidate = selected.space.candidates[number]
-    rest = sure.search.without(best, [number])
-    taken = {selected.space.candidates[c].key for c in best.candidates}
-    limit = max(TELLING.listed_nats, TELLING.listed_share * (best.log_posterior - rest.log_posterior))
-    nearest: dict[tuple[str, str], tuple[float, Candidate]] = {}
-    for other in sure.rivals[number]:
-        rival = selected.space.candidates[other.chosen[-1].candidate]
-        gap = best.log_posterior - other.log_posterior
-        if rival.key in taken or rival.key == candidate.key or gap > limit:
-            continue
-        if rival.key not in nearest or gap < nearest[rival.key][0]:
-            nearest[rival.key] = (float(gap), rival)
-    listed = [Alternative(c.kind, c.location, c.family, gap, c.driver, gap) for gap, c in nearest.values()]
     gains = gains_instead(selected, number)
-    if gains is not None and gains.evidence_gap_nats < limit:
-        listed.append(gains)
-    return tuple(sorted(listed, key=lambda each: each.evidence_gap_nats)[: TELLING.listed])
+    return listed_rivals(sure.search, selected.best, number, sure.rivals[number], () if gains is None else (gains,))
 
 
 def joint_backgrounds(selected: SelectedCauses, sure: Sureness) -> tuple[JointBackground, ...]:

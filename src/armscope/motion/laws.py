@@ -13,7 +13,8 @@ from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array
 from armscope.motion.causes import Moment, side
-from armscope.motion.preparation import seen_later, without_lag
+from armscope.motion.dry_friction import seen_later
+from armscope.motion.preparation import without_lag
 
 
 @dataclass(frozen=True)
@@ -153,20 +154,29 @@ def _behind(m: Moment, joints: tuple[int, ...], cutoff: float, compliance: float
     """
     at, every = joints[0], list(joints)
     if compliance == 0:
-        by_motion = zip(m.slopes, _derived(m, m.rigid[:, at], cutoff), strict=True)
+        by_motion = zip(m.slopes, derived(m, m.rigid[:, at], cutoff), strict=True)
         return np.asarray(-sum(slope[:, every, at] * lag[:, None] for slope, lag in by_motion))[:, :, None]
     assert m.bodies is not None
     torque = m.rigid
     for _ in range(2):
         behind = [values.copy() for values in m.motion]
-        for values, lag in zip(behind, _derived(m, torque[:, at], cutoff), strict=True):
+        for values, lag in zip(behind, derived(m, torque[:, at], cutoff), strict=True):
             values[:, at] -= compliance * lag
         torque = m.bodies.torques(*behind)
     return np.asarray((torque - m.bodies.torques(*m.motion))[:, every, None] / compliance)
 
 
-def _derived(m: Moment, torque: Array, cutoff: float) -> tuple[Array, Array, Array]:
-    """A torque (N,) through a low-pass without lag, with its first two derivatives."""
+def derived(m: Moment, torque: Array, cutoff: float) -> tuple[Array, Array, Array]:
+    """A torque, or what follows one, through a low-pass without lag, with its first two derivatives.
+
+    Args:
+        m: N samples.
+        torque: (N,) of them.
+        cutoff: Hz.
+
+    Returns:
+        (N,) each.
+    """
     smooth, time = without_lag(torque, cutoff, m.rate, int(np.ceil(m.rate / cutoff))), m.signals.time
     path = make_interp_spline(time, smooth, k=5)
     return smooth, path.derivative(1)(time), path.derivative(2)(time)
@@ -233,7 +243,26 @@ def _lean(m: Moment, joints: tuple[int, ...], *leans: float) -> Array:
     return np.asarray(m.gravity @ np.array(leans).reshape(-1, 3).T)
 
 
+def _wound_up(m: Moment, joints: tuple[int, ...]) -> Array:
+    """A link lags behind the motor that drives it, in proportion to the torque between them."""
+    return -m.rigid[:, joints[0]]
+
+
+def _played(m: Moment, joints: tuple[int, ...], width: float) -> Array:
+    """A link lies at one end of its play or at the other, as torque pushes it; within a width of torque it changes."""
+    return np.asarray(-np.tanh(m.rigid[:, joints[0]] / width))
+
+
+OF_TWIST: dict[str, Callable[..., Array]] = {
+    "constant": lambda m, joints: np.ones(len(m.rigid)),
+    "wound up": _wound_up,
+    "at either end": _played,
+    "share of the turn": lambda m, joints, middle: m.signals.q[:, joints[0]] - middle,
+    "read later": lambda m, joints: -m.signals.dq[:, joints[0]],
+}
+"""Laws of where a link lies beside its motor: columns are rad (m of a sliding joint)."""
 LAWS: dict[str, Callable[..., Array]] = {
+    **OF_TWIST,
     "absolute speed": lambda m, joints: np.abs(_speed(m, joints)),
     "stribeck": _stribeck,
     "load friction": _load_side,

@@ -53,7 +53,8 @@ def _at_joint(seen: Seen, j: int) -> Iterator[PlacedCause]:
     for delay in LIBRARY.delays_s:
         how = {"variant": f"{delay:.3g} s", "multiplicity": len(LIBRARY.delays_s)}
         yield at.cause(catalogue.DELAY, "torque", (("delay", "s"),), "delayed torque", delay, **how)
-    yield _drive(at)
+    if seen.both_sides is None or not seen.both_sides[j]:
+        yield _drive(at)  # where the link is recorded, its bodies move as it does
     yield from _outside(at)
     yield from _springs(at)
     yield at.curve(catalogue.CURVE, "time", seen.time, LIBRARY.knots_of_time, variant="time")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -19,6 +19,7 @@ from armscope.motion.preparation import Preparation, Signals, parts
 from armscope.motion.rows import SoFar
 from armscope.motion.sampling_constants import FILTER
 from armscope.motion.timing import Stretch
+from armscope.motion.twist_motion import beside_motor, following, moment_of_links
 from armscope.robot.bodies import Bodies
 from armscope.robot.dynamics import MovingArm
 
@@ -50,6 +51,7 @@ class MotionModel:
         gains: (m,) shares by which recorded torque exceeds the true one.
         causes: the named ones.
         response: by how much of its second derivative drives round a torque off, s^2.
+        links: why links lie beside their motors, rad (m): of joints where both were recorded.
     """
 
     arm: MovingArm
@@ -60,6 +62,7 @@ class MotionModel:
     gains: Array
     causes: tuple[FittedCause, ...]
     response: float = 0.0
+    links: tuple[FittedCause, ...] = ()
 
     def followed(self) -> SoFar:
         """What load, delay and gain follow: masses with all that is added to them, friction and rotors."""
@@ -94,7 +97,8 @@ class MotionModel:
             signals: filtered positions with their derivatives, payload and temperature.
             rate: samples per second.
         """
-        regressor = self.arm.regressor(signals.q, signals.dq, signals.ddq)
+        signals = self.with_links(signals)
+        regressor = self.arm.regressor(*signals.of_links)
         carried = np.zeros(regressor.shape[:2])
         if signals.payload is not None:
             carried = signals.payload[:, None] * (regressor @ self.arm.point_load())
@@ -105,7 +109,7 @@ class MotionModel:
         predicted = rigid + np.einsum("nmk,mk->nm", own[:, :, :CAUSES_OF_OWN], followed.background)
         bodies = Bodies(self.arm, followed.inertial_in(signals.run), signals.payload)
         dry = DryFriction.of(self.arm, followed.background[:, 1], turning, FILTER.sharper_at_rest)
-        moment = Moment(signals, rigid, predicted, self._gravity(signals.q), rate, bodies, dry)
+        moment = Moment(signals, rigid, predicted, self._gravity(signals.of_links[0]), rate, bodies, dry)
         moment = followed.with_laws(moment)
         predicted = moment.predicted
         total = regressor @ (self.inertial + self._added(signals.run)) + carried
@@ -115,6 +119,19 @@ class MotionModel:
             if cause.placed.columns is not None:
                 total[:, list(cause.placed.joints)] += cause.placed.columns(moment) @ cause.values
         return np.asarray(total)
+
+    def with_links(self, signals: Signals) -> Signals:
+        """Samples with links where the model puts them, unless they were recorded."""
+        return following(self.arm, self.links, signals, self.followed(), self.how.motion_hz)
+
+    def link_positions(self, signals: Signals) -> Array:
+        """(N, m) where encoders of links stand, rad (m); NaN of joints of which the model knows nothing."""
+        moment = moment_of_links(self.arm, self.with_links(signals), self.followed(), 1 / signals.period)
+        found = np.full(signals.q.shape, np.nan)
+        for j in {cause.placed.joints[0] for cause in self.links}:
+            beside = sum(beside_motor(cause, moment) for cause in self.links if cause.placed.joints[0] == j)
+            found[:, j] = signals.q[:, j] + beside
+        return found
 
     def _turning(self) -> tuple[Array, Array]:
         """(m, 6) the joints' numbers without, and (m,) s, by how much later than its speed dry friction changes sides.
@@ -134,7 +151,11 @@ class MotionModel:
 
 
 def fitted_model(
-    layout: TorqueLayout, coefficients: Array, chosen: Sequence[tuple[int, Array]], how: Preparation
+    layout: TorqueLayout,
+    coefficients: Array,
+    chosen: Sequence[tuple[int, Array]],
+    how: Preparation,
+    links: tuple[FittedCause, ...] = (),
 ) -> MotionModel:
     """The model that coefficients of a selection make.
 
@@ -143,6 +164,7 @@ def fitted_model(
         coefficients: (p,) of all columns, SI.
         chosen: number of each chosen cause, and the covariance of its parameters.
         how: filters and decimation.
+        links: what was found of links beside their motors.
 
     Returns:
         The model.
@@ -162,6 +184,7 @@ def fitted_model(
             for number, covariance in chosen
         ),
         response=float(coefficients[layout.response][0]),
+        links=links,
     )
 
 
@@ -175,10 +198,27 @@ def predicted_torque(model: MotionModel, stretches: Sequence[Stretch]) -> list[A
     Returns:
         (N, m) of each stretch.
     """
+    return _at_samples(model, stretches, lambda signals: model.torque(signals, 1 / signals.period))
+
+
+def predicted_links(model: MotionModel, stretches: Sequence[Stretch]) -> list[Array]:
+    """Where encoders of links stand at every sample, by the motors' positions.
+
+    Args:
+        model: the model.
+        stretches: even samples; neither ``effort`` nor ``link`` is looked at.
+
+    Returns:
+        (N, m) of each stretch, rad (m); NaN of joints of which the model knows nothing.
+    """
+    return _at_samples(model, [replace(stretch, link=None) for stretch in stretches], model.link_positions)
+
+
+def _at_samples(model: MotionModel, stretches: Sequence[Stretch], says: Callable[[Signals], Array]) -> list[Array]:
     found = [np.full(stretch.q.shape, np.nan) for stretch in stretches]
     for number, stretch in enumerate(stretches):
         how = replace(model.how, rate=stretch.rate)
         for signals in parts([stretch], how, every_sample=True):
             start = int(np.searchsorted(stretch.time, signals.time[0]))
-            found[number][start + signals.kept] = model.torque(signals, stretch.rate)[signals.kept]
+            found[number][start + signals.kept] = says(signals)[signals.kept]
     return found

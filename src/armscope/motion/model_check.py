@@ -15,6 +15,7 @@ from armscope.motion.constants import MODEL_FILE
 from armscope.motion.laws import LAWS, Law
 from armscope.motion.model import FittedCause
 from armscope.motion.preparation import Signals
+from armscope.motion.twist_catalogue import TWISTS
 from armscope.robot.bodies import Bodies
 from armscope.robot.dynamics import PARAMETERS, MovingArm
 
@@ -32,15 +33,22 @@ class CauseReader:
 
     def __init__(self, arm: MovingArm, source: object) -> None:
         self.arm, self.source = arm, source
-        self._known = {cause.name: cause for cause in CAUSES}
+        self._known = {cause.name: cause for cause in (*CAUSES, *TWISTS)}
 
-    def causes(self, contents: Sequence[CauseFile]) -> tuple[FittedCause, ...]:
+    def causes(self, contents: Sequence[CauseFile], key: str = "causes") -> tuple[FittedCause, ...]:
         """Causes as the file lists them.
+
+        Args:
+            contents: of the file.
+            key: where they stand in it.
+
+        Returns:
+            The causes.
 
         Raises:
             InputError: a cause, a link or a law that this arm can't have; its place is named.
         """
-        return tuple(self._cause(content, f"causes[{number}]") for number, content in enumerate(contents))
+        return tuple(self._cause(content, f"{key}[{number}]") for number, content in enumerate(contents))
 
     def _cause(self, file: CauseFile, place: str) -> FittedCause:
         if file.effect not in self._known:

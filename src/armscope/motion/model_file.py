@@ -130,6 +130,7 @@ class MotionModelFile(Strict):
     links: tuple[LinkFile, ...]
     causes: tuple[CauseFile, ...]
     response_s2: Number = 0.0
+    twists: tuple[CauseFile, ...] = ()
 
 
 def schema() -> dict[str, Any]:
@@ -165,6 +166,7 @@ def save_motion_model(path: Path | str, model: MotionModel) -> None:
         ),
         causes=tuple(cause_out(cause) for cause in model.causes),
         response_s2=model.response,
+        twists=tuple(cause_out(cause) for cause in model.links),
     )
     robot = model.arm.description.model_dump(mode="json", exclude_none=True)
     write_yaml(path, {**file.model_dump(mode="json"), "robot": robot})
@@ -239,4 +241,5 @@ def load_motion_model(path: Path | str) -> MotionModel:
         gains=np.array([joint.gain for joint in file.joints], dtype=float),
         causes=CauseReader(arm, path).causes(file.causes),
         response=file.response_s2,
+        links=CauseReader(arm, path).causes(file.twists, "twists"),
     )

@@ -48,6 +48,7 @@ from armscope.motion.selection import SelectedCauses, model_so_far, select_cause
 from armscope.motion.tenable import tenable
 from armscope.motion.timing import Stretch, mended, stretches
 from armscope.motion.torque_atlas import torque_atlas
+from armscope.motion.twist_judgement import JudgedTwist, judged_twists, with_links
 from armscope.motion.verdict import MotionVerdict
 from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
@@ -82,6 +83,7 @@ class MotionDiagnosis:
         held: torques where nothing was fitted.
         how: filters and decimation.
         entered: errors on held-out motion when numbers are entered one after the other, see `as_entered`.
+        twists: joints whose links were recorded beside their motors.
     """
 
     arm: MovingArm
@@ -92,6 +94,7 @@ class MotionDiagnosis:
     held: tuple[HeldOutTorque, ...]
     how: Preparation
     entered: tuple[float, ...] = ()
+    twists: tuple[JudgedTwist, ...] = ()
 
     @functools.cached_property
     def atlas(self) -> Atlas:
@@ -108,6 +111,7 @@ class MotionDiagnosis:
             self.selected.coefficients,
             [(number, covariance_of(self.selected, number, self.sure.factor)) for number in numbers],
             self.how,
+            tuple(cause for twist in self.twists for cause in twist.fitted),
         )
 
 
@@ -155,6 +159,8 @@ def diagnose_motion(
     sure = sureness(selected, _carried(motions))
     notices += [*level_told(layout), *told_late(selected, sure)]
     verdict, held, entered = _judged(selected, sure, apart, settings)
+    twists = judged_twists(selected, seen, train, how)
+    verdict = with_links(verdict, [twist.side for twist in twists])
     verdict = replace(
         verdict,
         preparation=how.words,
@@ -164,7 +170,7 @@ def diagnose_motion(
         settings=asdict(settings),
     )
     progress("done", 1.0)
-    return MotionDiagnosis(arm, verdict, selected, sure, apart, held, how, entered)
+    return MotionDiagnosis(arm, verdict, selected, sure, apart, held, how, entered, twists)
 
 
 def _carried(motions: Motions) -> dict[str, float]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -10,9 +11,9 @@ import pandas as pd
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.motion.check import refuse_other_joints
-from armscope.motion.model import MotionModel, predicted_torque
+from armscope.motion.model import MotionModel, predicted_links, predicted_torque
 from armscope.motion.model_file import load_motion_model
-from armscope.motion.timing import mended_rows, stretches
+from armscope.motion.timing import Stretch, mended_rows, stretches
 from armscope.recordings.motions import Motions, read_motions, torque_columns
 
 WARM = ("warm speed", "warm side", "curve over temperature")
@@ -27,8 +28,8 @@ def predict_motions(model: Path, motions: Path) -> tuple[pd.DataFrame, list[str]
         motions: a table like motions.csv, with torques or without.
 
     Returns:
-        Columns run, time_s (as recorded), tau1_nm ... (sliding: f1_n) and, where the model is of currents, current1_a
-        ...; and notes.
+        Columns run, time_s (as recorded), tau1_nm ... (sliding: f1_n), where the model is of currents current1_a ...,
+        and where it knows links beside their motors q1_link_rad ...; and notes.
 
     Raises:
         InputError: a file that can't be used, or a temperature that the model follows and the table lacks.
@@ -61,6 +62,10 @@ def torque_table(fitted: MotionModel, rows: Motions) -> tuple[pd.DataFrame, list
     )
     names = torque_columns(fitted.arm.sliding)
     table[names] = torque
+    if fitted.links:
+        links, _ = _at_rows(rows, lambda laid: predicted_links(fitted, laid))
+        for j in sorted({cause.placed.joints[0] for cause in fitted.links}):
+            table[f"q{j + 1}_link_{'m' if fitted.arm.sliding[j] else 'rad'}"] = links[:, j]
     if fitted.kind == "current":
         table[[f"current{j + 1}_a" for j in range(fitted.arm.n_motors)]] = torque / fitted.arm.gains
     return table, notes
@@ -79,10 +84,14 @@ def torque_of_rows(model: MotionModel, motions: Motions) -> tuple[Array, list[st
     Raises:
         InputError: time goes back, or is not in seconds.
     """
+    return _at_rows(motions, lambda laid: predicted_torque(model, laid))
+
+
+def _at_rows(motions: Motions, says: Callable[[list[Stretch]], list[Array]]) -> tuple[Array, list[str]]:
     kept, time, notices = mended_rows(motions)
     laid = list(stretches(motions.rows(kept).at_times(time)))
     torque = np.full(motions.q.shape, np.nan)
-    found = predicted_torque(model, laid)
+    found = says(laid)
     of_kept = np.full((len(kept), motions.n_motors), np.nan)
     run = motions.run[kept]
     for stretch, values in zip(laid, found, strict=True):

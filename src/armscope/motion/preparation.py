@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.interpolate import make_interp_spline
+from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array, Indices
 from armscope.motion.sampling_constants import CUTOFF, FILTER
@@ -113,23 +113,6 @@ def without_lag(values: Array, cutoff: float, rate: float, padded: int) -> Array
     return np.asarray(sosfiltfilt(_sections(cutoff, rate), values, axis=0, padlen=min(padded, len(values) - 1)))
 
 
-def seen_later(time: Array, values: Array, delay: float) -> Array:
-    """Samples as they were some time ago, by a cubic spline.
-
-    A straight line between samples blurs what is between them: of a wave of five samples it loses a fifth half way,
-    and friction that changes sides more softly than it does asks for another law near rest.
-
-    Args:
-        time: (N,) s, even.
-        values: (N,) at these times.
-        delay: s.
-
-    Returns:
-        (N,) of ``delay`` earlier; before the first sample, and after the last one, as it is.
-    """
-    return np.asarray(make_interp_spline(time, values, k=3)(np.clip(time - delay, time[0], time[-1])))
-
-
 @functools.lru_cache(maxsize=8)
 def _sections(cutoff: float, rate: float) -> Array:
     from scipy.signal import butter
@@ -204,6 +187,9 @@ class Signals:
         payload: (N,) kg; temperature: (N, m) deg C; each or None.
         kept: (K,) which samples become rows.
         stride: of the samples, to the recorded ones.
+        shift: (N, m) by how much the links stand beside their motors, less the middle of it in the stretch, with two
+            derivatives; 0 of joints without an encoder at the link. None where no link has one.
+        twist: (K, m) link less motor of the rows, low-passed, NaN of joints without such an encoder; or None.
     """
 
     run: str
@@ -217,6 +203,30 @@ class Signals:
     temperature: Array | None
     kept: Indices
     stride: int = 1
+    shift: tuple[Array, Array, Array] | None = None
+    twist: Array | None = None
+
+    @functools.cached_property
+    def _paths(self) -> dict[int, BSpline]:
+        """By joint; these samples' own, which no copy with other numbers takes over."""
+        return {}
+
+    def some_time_ago(self, joint: int, delay: float) -> tuple[Array, Array]:
+        """(N,) velocity and acceleration of a joint's motor some time ago, s; their spline is made once."""
+        if joint not in self._paths:
+            both = np.column_stack([self.dq[:, joint], self.ddq[:, joint]])
+            self._paths[joint] = make_interp_spline(self.time, both, k=3)
+        before = self._paths[joint](np.clip(self.time - delay, self.time[0], self.time[-1]))
+        return before[:, 0], before[:, 1]
+
+    @property
+    def of_links(self) -> tuple[Array, Array, Array]:
+        """(N, m) positions of the links and their derivatives: the motors' where no link is recorded."""
+        motors = self.q, self.dq, self.ddq
+        if self.shift is None:
+            return motors
+        q, dq, ddq = (motor + more for motor, more in zip(motors, self.shift, strict=True))
+        return q, dq, ddq
 
     @property
     def period(self) -> float:
@@ -252,6 +262,7 @@ def _part(stretch: Stretch, number: int, rows: Indices, how: Preparation, every_
     q = how.smoothed(stretch.q[inside])
     path = make_interp_spline(np.arange(len(q)) / stretch.rate, q, k=5)
     times = path.t[0] + np.arange(len(q))[::stride] / stretch.rate
+    shift, twist = _beside(stretch, inside, how, times)
     return Signals(
         stretch.run,
         number,
@@ -264,4 +275,20 @@ def _part(stretch: Stretch, number: int, rows: Indices, how: Preparation, every_
         None if stretch.temperature is None else stretch.temperature[inside][::stride],
         (rows - low) // stride,
         stride,
+        shift,
+        None if twist is None or every_sample else how.low_passed(twist, rows - low),
     )
+
+
+def _beside(
+    stretch: Stretch, inside: slice, how: Preparation, times: Array
+) -> tuple[tuple[Array, Array, Array] | None, Array | None]:
+    """What `Signals.shift` is at some times, s from the first sample inside, and link less motor of all samples."""
+    if stretch.link is None:
+        return None, None
+    beside = stretch.link - stretch.q
+    recorded = np.isfinite(beside).all(axis=0)
+    about = np.where(recorded, beside - np.median(np.where(recorded, beside, 0.0), axis=0), 0.0)
+    smooth = how.smoothed(about[inside])
+    path = make_interp_spline(np.arange(len(smooth)) / stretch.rate, smooth, k=5)
+    return (path(times), path.derivative(1)(times), path.derivative(2)(times)), beside[inside]

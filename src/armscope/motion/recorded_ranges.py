@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from armscope.core.types import Array
 from armscope.motion.causes import Seen
@@ -43,7 +44,14 @@ def seen_in(arm: MovingArm, stretches: Sequence[Stretch], still: float) -> Seen:
         runs=runs,
         moving=np.asarray(np.ptp(q, axis=0) > still),
         regressor=regressor.reshape(-1, len(arm.inertial)),
+        both_sides=_both_sides(stretches),
     )
+
+
+def _both_sides(stretches: Sequence[Stretch]) -> NDArray[np.bool_] | None:
+    """(m,) whether all stretches hold the link's position beside the motor's."""
+    links = [stretch.link for stretch in stretches if stretch.link is not None]
+    return np.asarray(np.isfinite(np.concatenate(links)).all(axis=0)) if links else None
 
 
 def _some(stretch: Stretch) -> tuple[Array, Array, Array]:

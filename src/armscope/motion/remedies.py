@@ -88,6 +88,11 @@ def lagging(fitted: Fitted) -> str:
     return f"{fitted.in_general}: {amount(fitted.first)} of torque."
 
 
+def spring_between(fitted: Fitted) -> str:
+    """A spring between motor and link."""
+    return f"{fitted.in_general}: {amount(fitted.numbers['stiffness'])}."
+
+
 def per_load(fitted: Fitted) -> str:
     """Friction that grows with the load."""
     return f"{fitted.in_general}: {amount(fitted.first)} × |torque| × sign of the speed."

@@ -194,7 +194,7 @@ class _Piece:
     def __init__(self, layout: TorqueLayout, signals: Signals, how: Preparation, model: SoFar, first: bool) -> None:
         self.layout, self.signals, self.how = layout, signals, how
         arm = self.arm = layout.arm
-        motion = (signals.q, signals.dq, signals.ddq)
+        motion = signals.of_links
         self.regressor = arm.regressor(*motion) if first else None
         self.background = own_columns(arm, signals, model.delay)
         inertial = model.inertial_in(signals.run)
@@ -208,7 +208,7 @@ class _Piece:
         predicted = rigid + np.einsum("nmk,mk->nm", self.background[:, :, :CAUSES_OF_OWN], model.background)
         gravity = None
         if first and any(cause.cause.name == "gravity_direction" for cause in layout.placed):
-            gravity = np.stack([arm.gravity_torques(signals.q, axis) for axis in np.eye(3)], axis=2)
+            gravity = np.stack([arm.gravity_torques(motion[0], axis) for axis in np.eye(3)], axis=2)
         bodies = Bodies(arm, inertial if model.of_bodies else arm.inertial, signals.payload)
         dry = DryFriction.of(arm, model.background[:, 1])
         rate = how.rate / signals.stride

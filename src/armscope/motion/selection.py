@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices, Progress
 from armscope.inference.evidence import Hypothesis
@@ -115,7 +116,7 @@ def select_causes(
         share = number / most
         before = None if selected is None else selected.rows
         rows = build_rows(layout, stretches, how, model, functools.partial(_within, progress, share), before)
-        block = blocks_of(rows, block_of)
+        block = blocks_of(rows.run, block_of)
         space = build_space(layout, np.sqrt(np.mean(rows.torque**2, axis=0)), how.rate)
         progress("weighing causes", share + 0.15)
         if selected is None:
@@ -232,10 +233,18 @@ def _start(rows: MotionRows) -> TorqueWeights:
     return estimate_weights(rows, np.take_along_axis(left, less[None, None], axis=0)[0])
 
 
-def blocks_of(rows: MotionRows, runs: Sequence[str]) -> Indices:
-    """(K,) number of each row's block: its run, or its part of the time where there is one run only."""
+def blocks_of(rows: NDArray[np.str_], runs: Sequence[str]) -> Indices:
+    """Numbers of blocks: runs, or parts of the time where there is one run only.
+
+    Args:
+        rows: (K,) name of each row's run.
+        runs: their names, in the order of their numbers.
+
+    Returns:
+        (K,) of each row.
+    """
     if len(runs) > 1:
-        return np.asarray([list(runs).index(str(run)) for run in rows.run], dtype=np.intp)
+        return np.asarray([list(runs).index(str(run)) for run in rows], dtype=np.intp)
     return np.minimum(np.arange(len(rows)) * NOISE.blocks_of_time // len(rows), NOISE.blocks_of_time - 1)
 
 

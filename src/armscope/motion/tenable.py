@@ -16,7 +16,7 @@ from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, SelectedEffect
 from armscope.motion import catalogue
-from armscope.motion.consistency import agreement
+from armscope.motion.consistency import Weighed, agreement
 from armscope.motion.constants import CONSISTENCY
 from armscope.motion.doubts import motion_hz, swing_hz
 from armscope.motion.layout import OWN
@@ -107,16 +107,22 @@ def _torque(selected: SelectedCauses, number: int) -> Array:
 
 def _of_one_path(selected: SelectedCauses) -> Iterator[int]:
     """Whose size differs from path to path, or that makes the motion of paths that took no part no better known."""
-    gains = _held_out_gains(selected)
+    gains = held_out_gains(selected)
     for number in selected.best.candidates:
         if agreement(selected, number).consistent is False or gains[number] <= 0:
             yield number
 
 
-def _held_out_gains(selected: SelectedCauses) -> dict[int, float]:
+def held_out_gains(selected: Weighed) -> dict[int, float]:
     """Nats by which each cause betters the middle one of the blocks that took no part in its fit.
 
     Not their sum: where one run has something of its own, a payload say, what that leaves there drowns all else.
+
+    Args:
+        selected: a selection.
+
+    Returns:
+        By number of each chosen cause.
     """
     best = selected.best
     gains: dict[int, list[float]] = {number: [] for number in best.candidates}

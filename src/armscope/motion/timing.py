@@ -25,6 +25,7 @@ class Stretch:
     effort: Array
     payload: Array | None
     temperature: Array | None
+    link: Array | None = None
 
     def __len__(self) -> int:
         return len(self.time)
@@ -175,10 +176,13 @@ def _even(motions: Motions, rows: np.ndarray, run: str, period: float) -> Stretc
         # straight lines between samples that are far apart have corners: acceleration that the arm never had
         q = np.asarray(make_interp_spline(time, motions.q[rows], k=3)(grid))
     assert q is not None
+    beside = laid(None if motions.link is None else motions.link - motions.q)
     assert effort is not None
     payload = (
         None
         if motions.payload is None
         else np.nan_to_num(motions.payload)[rows][np.searchsorted(time, grid).clip(0, len(rows) - 1)]
     )
-    return Stretch(run, 1 / period, grid, q, effort, payload, laid(motions.temperature))
+    return Stretch(
+        run, 1 / period, grid, q, effort, payload, laid(motions.temperature), None if beside is None else q + beside
+    )

@@ -73,6 +73,27 @@ class FoundCause:
         return self.family == UNKNOWN
 
 
+@dataclass(frozen=True, eq=False)
+class LinkSide:
+    """A joint whose link was recorded beside its motor: how they lie, and why.
+
+    Attributes:
+        joint: its name.
+        offset: of the link's zero from the motor's.
+        rms: of link less motor, beyond that.
+        left: of what the causes leave of it on motion that took no part.
+        unit: of both: rad, or m of a sliding joint.
+        causes: why, largest share first; their shares are of the link's place beside its motor, beyond the zero.
+    """
+
+    joint: str
+    offset: Parameter
+    rms: Number
+    left: Number
+    unit: str
+    causes: tuple[FoundCause, ...]
+
+
 @dataclass(frozen=True)
 class JointBackground:
     """What every joint has: friction and rotor inertia, as fitted where robot.yaml doesn't state them.
@@ -172,6 +193,7 @@ class MotionVerdict:
         samples: that were recorded.
         runs: which runs they are of.
         settings: what was asked for.
+        links: joints whose links were recorded beside their motors.
     """
 
     format: Format = FORMAT
@@ -192,6 +214,7 @@ class MotionVerdict:
     samples: int
     runs: tuple[str, ...]
     settings: dict[str, Any] = field(default_factory=dict)
+    links: tuple[LinkSide, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         """The content of verdict.json."""

@@ -66,7 +66,7 @@ def noise_of(rows: MotionRows, residuals: Array, row: Array) -> TorqueWeights:
         The weights.
     """
     power = np.sum(row * residuals**2, axis=0) / np.maximum(row.sum(axis=0), 1.0)
-    correlated = [_autocorrelation_time(rows, column) for column in (np.sqrt(row) * residuals).T]
+    correlated = [autocorrelation_time(rows.stretch, column) for column in (np.sqrt(row) * residuals).T]
     return TorqueWeights(np.maximum(np.sqrt(power), _least(rows)), np.array(correlated), row)
 
 
@@ -74,12 +74,20 @@ def _least(rows: MotionRows) -> Array:
     return np.asarray(np.maximum(NOISE.least_share * np.std(rows.torque, axis=0), 1e-9))
 
 
-def _autocorrelation_time(rows: MotionRows, left: Array) -> float:
-    """1 + 2 x sum of the autocorrelation, up to the first lag that is five times the sum so far."""
+def autocorrelation_time(stretches: Indices, left: Array) -> float:
+    """1 + 2 x sum of the autocorrelation, up to the first lag that is five times the sum so far.
+
+    Args:
+        stretches: (K,) number of the stretch that each row belongs to.
+        left: (K,) what a model leaves of them.
+
+    Returns:
+        Rows, at least 1.
+    """
     longest = min(NOISE.longest_lag, len(left) // 4)
     total = np.zeros(longest + 1)
-    for stretch in np.unique(rows.stretch):
-        part = left[rows.stretch == stretch]
+    for stretch in np.unique(stretches):
+        part = left[stretches == stretch]
         size = 2 ** int(np.ceil(np.log2(2 * len(part))))
         spectrum = np.abs(np.fft.rfft(part, size)) ** 2
         covariance = np.fft.irfft(spectrum, size)[: min(longest + 1, len(part))]

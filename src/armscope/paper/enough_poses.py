@@ -11,10 +11,10 @@ import numpy as np
 import pandas as pd
 
 from armscope.errormodels import FDP_CI
+from armscope.paper.identification_poses import candidate_poses
 from armscope.paper.study import StudyPlan
 from armscope.paper.virtual import VirtualStudy, identification_ranges
 from armscope.robot import forward_kinematics
-from armscope.world.poses import candidate_poses
 
 COUNTS = (6, 8, 10, 12, 15, 20, 30, 40, 60, 85, 120, 170, 340)
 PRINTED_COUNT = 85

@@ -21,13 +21,13 @@ from armscope.core.averages import rms_distance
 from armscope.core.types import Array
 from armscope.errormodels.extended import ModelSet
 from armscope.paper.closed_loop import DIAGNOSED, diagnosed_candidate
+from armscope.paper.identification_poses import candidate_poses, choose_identification_poses, joint_ranges
 from armscope.paper.measurements import Measurements
 from armscope.recordings import Recordings
 from armscope.recordings.columns import angle_columns
 from armscope.recordings.table import as_recordings
 from armscope.robot import Arm, Chain, chain
 from armscope.robot.inverse import follow_path
-from armscope.world.poses import candidate_poses, choose_poses, joint_ranges
 from armscope.world.tolerances import GeometricErrors, geometric_errors
 
 BENT_WRIST = {4: 0.3, 5: 0.7}
@@ -107,7 +107,7 @@ def _identification(truth: GeometricErrors, angles: Array, count: int, seed: int
     low, high = np.where(wrist, low - WRIST_MARGIN_RAD, low), np.where(wrist, high + WRIST_MARGIN_RAD, high)
     poses = candidate_poses(low, high, CANDIDATES, seed)
     jacobian = truth.jacobian(chain(truth.arm, poses))
-    return poses[choose_poses(jacobian, count, np.random.default_rng(seed)).rows]
+    return poses[choose_identification_poses(jacobian, count, np.random.default_rng(seed)).rows]
 
 
 def _measured(truth: GeometricErrors, errors: Array, angles: Array, rng: np.random.Generator) -> Recordings:

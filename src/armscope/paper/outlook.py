@@ -15,16 +15,13 @@ from armscope.errormodels.regions import chosen_regions, compare_regions
 from armscope.paper.measurements import Measurements
 
 
-def paper_regions(
-    measurements: Measurements, specs: Sequence[ModelSpec], seed: int = 0, most_halvings: int = 4
-) -> pd.DataFrame:
+def paper_regions(measurements: Measurements, specs: Sequence[ModelSpec], seed: int = 0) -> pd.DataFrame:
     """Error against the number of blended regions, for the first robot of a study.
 
     Args:
         measurements: of a study.
         specs: which models.
         seed: of the folds.
-        most_halvings: the most that are tried.
 
     Returns:
         Columns model, regions, fit_rms_mm, held_out_rms_mm, stderr_mm, chosen (see `compare_regions`), and one per test
@@ -34,7 +31,7 @@ def paper_regions(
     errors, parts = identification.errors_mm[0], []
     for spec in specs:
         inputs = identification.inputs(spec)
-        table = compare_regions(spec, inputs, errors, np.random.default_rng(seed), most_halvings)
+        table = compare_regions(spec, inputs, errors, np.random.default_rng(seed))
         divided = [with_regions(spec, inputs, errors, int(count)) for count in table["regions"]]
         for path in measurements.held_out:
             table[path.name] = [rms_distance(path.errors_mm[0] - model.predict(path.inputs(spec))) for model in divided]

@@ -16,11 +16,11 @@ from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.fitting.constants import STEPS
 from armscope.fitting.placement import FlangePoses, all_alike, place_frames
+from armscope.paper.identification_poses import ChosenPoses, choose_identification_poses
 from armscope.paper.measurements import Measurements, PoseSet
 from armscope.paper.printed import IDENTIFICATION
 from armscope.recordings import Recordings
 from armscope.robot import Arm, chain
-from armscope.world.poses import Choice, choose_poses
 from armscope.world.tolerances import geometric_errors
 
 HELD_OUT = "held out"
@@ -41,7 +41,7 @@ class RealStudy:
     """
 
     measurements: Measurements
-    choice: Choice
+    choice: ChosenPoses
     base_position_m: Array
     base_rotation: Array
     tools_m: dict[str, Array]
@@ -77,7 +77,7 @@ def real_measurements(arm: Arm, recordings: Recordings, seed: int, count: int = 
     if len(candidates) > MOST_CANDIDATES:
         candidates = np.sort(rng.choice(first_rows, MOST_CANDIDATES, replace=False))
     jacobian = geometric_errors(arm).jacobian(chain(arm, recordings.motor_angles[candidates]))
-    choice = choose_poses(jacobian, n_chosen, rng)
+    choice = choose_identification_poses(jacobian, n_chosen, rng)
     identified = np.isin(configuration, configuration[candidates[choice.rows]])
     frames = chain(arm, recordings.motor_angles)
     # the last frame's origin: the nominal tool point without its offset

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import pandas as pd
 
+from armscope.paper.identification_poses import ChosenPoses
 from armscope.paper.virtual import (
     PlannedPaths,
     PlannedPoses,
@@ -18,7 +19,6 @@ from armscope.paper.virtual import (
     trajectory_poses,
 )
 from armscope.robot import Arm
-from armscope.world.poses import Choice
 from armscope.world.tolerances import GeometricErrors, geometric_errors
 from armscope.world.tracker import Tracker
 
@@ -76,7 +76,7 @@ class StudyPlan:
         return trajectory_poses(self.arm, self.paths.by_name())
 
 
-def measured(plan: StudyPlan) -> tuple[VirtualStudy, Choice]:
+def measured(plan: StudyPlan) -> tuple[VirtualStudy, ChosenPoses]:
     """The robots of a plan, measured at its poses, and what the choice of the identification poses is worth.
 
     Raises:

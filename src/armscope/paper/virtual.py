@@ -10,11 +10,11 @@ import pandas as pd
 
 from armscope.core.types import Array
 from armscope.paper.anchoring import AnchoredRobots, anchor
+from armscope.paper.identification_poses import ChosenPoses, candidate_poses, choose_identification_poses, joint_ranges
 from armscope.paper.measurements import Measurements, PoseSet, pose_arrays, pose_table
 from armscope.paper.printed import IDENTIFICATION, TEST_TRAJECTORIES
 from armscope.robot import Arm, chain, forward_kinematics
 from armscope.robot.inverse import follow_path
-from armscope.world.poses import Choice, candidate_poses, choose_poses, joint_ranges
 from armscope.world.tolerances import GeometricErrors
 from armscope.world.tracker import Tracker
 from armscope.world.trajectories import archimedes_spiral, rectangle
@@ -99,7 +99,7 @@ def trajectory_poses(arm: Arm, paths_mm: Mapping[str, Array]) -> pd.DataFrame:
 
 def identification_poses(
     errors: GeometricErrors, trajectories: pd.DataFrame, planned: PlannedPoses, seed: int
-) -> tuple[pd.DataFrame, Choice]:
+) -> tuple[pd.DataFrame, ChosenPoses]:
     """Poses that cover the trajectories' joint ranges and show the geometric errors best.
 
     Args:
@@ -113,7 +113,9 @@ def identification_poses(
     """
     low, high = identification_ranges(errors, pose_arrays(trajectories)[0], planned)
     poses = candidate_poses(low, high, planned.candidates, seed)
-    choice = choose_poses(errors.jacobian(chain(errors.arm, poses)), planned.count, np.random.default_rng(seed))
+    choice = choose_identification_poses(
+        errors.jacobian(chain(errors.arm, poses)), planned.count, np.random.default_rng(seed)
+    )
     chosen = poses[choice.rows]
     return pose_table(IDENTIFICATION, chosen, forward_kinematics(errors.arm, chosen) * 1e3), choice
 

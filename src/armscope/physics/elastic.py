@@ -11,11 +11,11 @@ from armscope.physics.clause import clear_ones
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import Cure, command
 from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term, motor, term
+from armscope.physics.load_drivers import static_regressor
 from armscope.physics.placing import varies
 from armscope.physics.scene import Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-from armscope.robot.gravity import mass_moment_regressor
 
 UNKNOWN_MASSES = "unknown masses"
 """The variant of a joint's compliance that trusts no stated mass."""
@@ -29,11 +29,6 @@ MASS_DIRECTIONS_SHARE = 1e-3
 """Directions of the unknown mass moments that make up less of the torque's variation are left out."""
 
 
-def has_load(arm: Arm) -> bool:
-    """Whether gravity's load is known; a payload alone is not the load, the arm weighs something, too."""
-    return arm.has_masses
-
-
 def loaded_joints(scene: Scene) -> list[int]:
     """Motors (1-based) whose load varies by more than a trace: under less, a drive would have to be a soft spring."""
     torques = scene.torques
@@ -43,7 +38,7 @@ def loaded_joints(scene: Scene) -> list[int]:
 
 
 def _place_joints(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    if not has_load(arm) and recordings.torque is None:
+    if not arm.has_masses and recordings.torque is None:
         yield from _unknown_masses(arm, recordings)
         return
     scene = Scene(arm, recordings)
@@ -115,7 +110,7 @@ def _mass_moment_terms(scene: Scene, j: int) -> Iterator[tuple[Term, float]]:
     All are equally likely in kg m: the strongest, which comes first, does most to the motor. Beside stated masses,
     which hold that one, none is likelier than another.
     """
-    regressor = scene.remember("regressor", lambda: _regressor(scene))[:, j - 1]
+    regressor = static_regressor(scene)[:, j - 1]
     spread = regressor - regressor.mean(axis=0)
     _, size, directions = np.linalg.svd(spread, full_matrices=False)
     if size[0] < 1e-6:
@@ -125,11 +120,7 @@ def _mass_moment_terms(scene: Scene, j: int) -> Iterator[tuple[Term, float]]:
         load = Driver("regressor", (j, *(float(w) for w in direction)))
         give = plausible_give(PLAUSIBLE.drive_rad, scene.driver(load))
         name = f"compliance_times_moment_{number}"
-        yield term(name, "rad/(m/s^2)", (motor(j), load), plausible=give), 1.0 if has_load(scene.arm) else float(share)
-
-
-def _regressor(scene: Scene) -> Array:
-    return mass_moment_regressor(scene.arm, scene.loaded)
+        yield term(name, "rad/(m/s^2)", (motor(j), load), plausible=give), 1.0 if scene.arm.has_masses else float(share)
 
 
 JOINT_COMPLIANCE = Effect(
@@ -159,7 +150,7 @@ JOINT_COMPLIANCE = Effect(
 
 
 def _place_bearings(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    if not has_load(arm):
+    if not arm.has_masses:
         return
     scene = Scene(arm, recordings)
     for j in range(1, arm.n_joints + 1):
@@ -203,7 +194,7 @@ BEARING_COMPLIANCE = Effect(
 
 
 def _place_base(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    if has_load(arm):
+    if arm.has_masses:
         scene = Scene(arm, recordings)
         yield Placed(BASE_COMPLIANCE, "base", (_tilt(scene, "base"),), (1.0,), "moment on the base")
         terms = _two_axes(scene, "base")
@@ -264,18 +255,17 @@ BASE_COMPLIANCE = Effect(
 
 
 def _place_beams(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    if not has_load(arm):
+    if not arm.has_masses:
         return
     scene = Scene(arm, recordings)
     for j in range(1, arm.n_joints + 1):
         step = arm.before[j - 1] if arm.is_modified_dh else arm.behind[j - 1]
         if np.linalg.norm(step[:3, 3]) < SHORTEST_BEAM_M:
             continue
-        site = f"joint {j}" if arm.is_modified_dh else f"link {j}"
         flexibility = term(
             "flexibility",
             "1/(N m^2)",
-            *(Product(Direction(site, axis), Driver("bend", (j, n))) for n, axis in enumerate(AXES)),
+            *(Product(Direction(scene.beam_site(j), axis), Driver("bend", (j, n))) for n, axis in enumerate(AXES)),
             plausible=plausible_give(PLAUSIBLE.beam_rad, np.linalg.norm(scene.bending(j)[:, 3:], axis=1)),
         )
         yield Placed(LINK_BENDING, f"link {j}", (flexibility,), (1.0,), f"load at the end of link {j}")

@@ -14,9 +14,10 @@ from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
-from armscope.physics.elastic import drive, has_load, loaded_joints
+from armscope.physics.elastic import drive, loaded_joints
 from armscope.physics.geometric import JOINT_OFFSET
 from armscope.physics.placing import moving_joints, varies, varying_columns
+from armscope.physics.recorded_drivers import REFERENCE_TEMPERATURE_C, SECONDS_PER_HOUR
 from armscope.physics.scene import Scene
 from armscope.physics.transmission import BACKLASH, GEAR_RATIO, wave_terms
 from armscope.recordings import Recordings
@@ -24,7 +25,8 @@ from armscope.robot import Arm
 
 SMOOTH_WAVES, SMOOTH_FINE_WAVES = 6.0, 24.0
 """Waves up to which a free curve's waves are equally likely; beyond, their size falls with the square."""
-KNOTS = 8
+KNOTS, CONTEXT_KNOTS = 8, 5
+"""Splines over a load or an angle, and over time or temperature."""
 ROWS_PER_WAVE, ROWS_PER_FINE_WAVE = 7, 20
 FEWEST_WAVES, MOST_WAVES, MOST_FINE_WAVES = 8, 20, 72
 ISOLATED = 0.1
@@ -112,14 +114,14 @@ def _angle_curve(arm: Arm, recordings: Recordings, j: int, count: int, smooth: f
 
 
 def _load(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    if not has_load(arm) and recordings.torque is None:
+    if not arm.has_masses and recordings.torque is None:
         return
     scene = Scene(arm, recordings)
     offsets = {placed.location: placed.terms for placed in JOINT_OFFSET.place(arm, recordings)}
     flanks = {p.location: p.terms for p in BACKLASH.place(arm, recordings) if p.variant == "load"}
     for j in loaded_joints(scene):
         source = Driver("torque", (j,))
-        bumps = spline_terms(source, scene.driver(source), motor(j), "rad")
+        bumps = spline_terms(source, scene.driver(source), motor(j), "rad", KNOTS)
         linear = drive(scene, j, source)
         terms = (*offsets.get(f"joint {j}", ()), *flanks.get(f"joint {j}", ()), linear, *bumps)
         trends = len(terms) - len(bumps)
@@ -154,15 +156,13 @@ def _context(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
         assert values is not None
         start = float(np.nanmin(values))
         driver = Driver("hours", (start,)) if source == "hours" else Driver("warmth")
-        drives = (values - start) / 3600 if source == "hours" else values - 20.0
-        knots = _knots(drives[~np.isnan(drives)], 5)
+        drives = (values - start) / SECONDS_PER_HOUR if source == "hours" else values - REFERENCE_TEMPERATURE_C
+        known = drives[~np.isnan(drives)]
+        knots = _knots(known, CONTEXT_KNOTS)
         base = [t for centre, width in knots for t in six_terms("base", Driver("spline", (driver, centre, width)))]
         yield _curve("base", tuple(base), [1.0] * len(base), name, name)
         for j in moving_joints(recordings):
-            terms = tuple(
-                term(f"at_{n}", "rad", (motor(j), Driver("spline", (driver, centre, width))))
-                for n, (centre, width) in enumerate(knots)
-            )
+            terms = spline_terms(driver, known, motor(j), "rad", CONTEXT_KNOTS)
             trend = (*offsets.get(f"joint {j}", ()), term("trend", "rad per driver", (motor(j), driver)))
             yield _curve(f"joint {j}", (*trend, *terms), [1.0] * len(terms), name, name, trends=len(trend))
 
@@ -184,9 +184,7 @@ def _curve(
     )
 
 
-def spline_terms(
-    source: Driver, values: Array, direction: Direction, unit: str, count: int = KNOTS
-) -> tuple[Term, ...]:
+def spline_terms(source: Driver, values: Array, direction: Direction, unit: str, count: int) -> tuple[Term, ...]:
     """Cubic B-splines over the range of a driver's values, each a term in one direction.
 
     Args:

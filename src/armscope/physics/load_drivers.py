@@ -86,9 +86,12 @@ def _heavier_link(scene: Scene, load: Driver, link: int) -> Array:
 
 def _regressor(scene: Scene, j: int, *weights: float) -> Array:
     """Combination of the static torque regressor's columns of motor j: gravity torque of unknown mass moments."""
-    regressor = scene.remember("regressor", lambda: mass_moment_regressor(scene.arm, scene.loaded))
-    values: Array = regressor[:, j - 1] @ np.array(weights)
-    return values
+    return np.asarray(static_regressor(scene)[:, j - 1] @ np.array(weights))
+
+
+def static_regressor(scene: Scene) -> Array:
+    """(N, m, k) gravity torque on the motors per unit of each mass moment (`mass_moment_regressor`), computed once."""
+    return np.asarray(scene.remember("regressor", lambda: mass_moment_regressor(scene.arm, scene.loaded)))
 
 
 def _load_side(scene: Scene, j: int) -> Array:

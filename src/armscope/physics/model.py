@@ -15,6 +15,7 @@ from armscope.physics.effect import Placed
 from armscope.physics.frames import ToolKey
 from armscope.physics.posture import Posture
 from armscope.physics.scene import Part, Scene
+from armscope.physics.set_ups import SetUps
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.robot.kinematics import ROWS_AT_A_TIME
@@ -40,7 +41,7 @@ class FittedModel:
         bases: where the base stands, by run, the last one last.
         tools: tool offsets as parts.
         parts: the effects, SI units.
-        background: geometric errors of tolerance size, as parts.
+        background: the small errors of each family that are allowed for everywhere without a name, as parts.
         tool_turns: (3, 3) the arm's last frame from the measured tool frame, by tool, where orientations were measured.
     """
 
@@ -63,6 +64,14 @@ class FittedModel:
     def scene(self, recordings: Recordings) -> Scene:
         """The arm at the rows of a table."""
         return Scene(self.arm, recordings)
+
+    @property
+    def set_ups(self) -> SetUps:
+        """The runs that stand on one base, for each base."""
+        runs: dict[bytes, list[str]] = {}
+        for run, base in self.bases.items():
+            runs.setdefault(base.rotation.tobytes() + base.translation.tobytes(), []).append(run)
+        return tuple(map(tuple, runs.values()))
 
     @property
     def everything(self) -> tuple[Part, ...]:

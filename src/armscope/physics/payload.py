@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from typing import Any
+from functools import partial
 
 import numpy as np
 
@@ -50,7 +50,7 @@ def payload_errors(recordings: Recordings, elastic: Sequence[Part]) -> Iterator[
         yield Placed(PAYLOAD_ERROR, "payload", (factor,), (1.0,), "payload", variant="factor")
     centre = tuple(
         replace(
-            _term(f"com_{name}", "mm", 1e-3, loaded, lambda load, axis=axis: Driver("off centre", (load, axis))),
+            _term(f"com_{name}", "mm", 1e-3, loaded, partial(_off_centre, axis)),
             plausible=PLAUSIBLE.payload_centre_m,
         )
         for axis, name in enumerate("xyz")
@@ -74,7 +74,13 @@ def _by_share(load: Driver) -> Driver:
     return Driver("heavier by share", (load,))
 
 
-def _term(name: str, unit: str, si: float, loaded: Sequence[Product], change: Any, *itself: Product) -> Term:
+def _off_centre(axis: int, load: Driver) -> Driver:
+    return Driver("off centre", (load, axis))
+
+
+def _term(
+    name: str, unit: str, si: float, loaded: Sequence[Product], change: Callable[[Driver], Driver], *itself: Product
+) -> Term:
     """What one unit of the payload's error does through all that gives way, and by itself."""
     through = tuple(Product(g.direction, change(g.driver), g.factor) for g in loaded)
     return Term(name, unit, si, (*through, *itself))

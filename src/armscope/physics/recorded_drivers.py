@@ -36,7 +36,7 @@ def recorded(scene: Scene, context: str, motor: int = 0) -> Array:
     Args:
         scene: N rows.
         context: name of the field.
-        motor: from 0, where the field has a column per motor.
+        motor: its number, from 1, where the field has a column per motor; 0 for the field as it is.
 
     Returns:
         (N,) in the field's unit.

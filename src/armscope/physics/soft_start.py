@@ -14,7 +14,7 @@ import numpy as np
 
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.effect import Driver, Placed, motor, term
-from armscope.physics.elastic import JOINT_COMPLIANCE, has_load, loaded_joints
+from armscope.physics.elastic import JOINT_COMPLIANCE, loaded_joints
 from armscope.physics.scene import Scene
 from armscope.physics.transmission import is_pulled_both_ways
 from armscope.recordings import Recordings
@@ -46,7 +46,7 @@ def soft_starts(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     Yields:
         One per motor, rad.
     """
-    if not has_load(arm) and recordings.torque is None:
+    if not arm.has_masses and recordings.torque is None:
         return
     scene = Scene(arm, recordings)
     size = PLAUSIBLE.soft_share * PLAUSIBLE.drive_rad

@@ -26,8 +26,9 @@ from armscope.check.orientations import trusted_channels
 from armscope.check.preconditions import check_table
 from armscope.core.location import Location
 from armscope.core.types import Array
+from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.gauss_newton import Quadratic, gauss_newton
-from armscope.fitting.linearisation import normal_equations_by_block, residuals
+from armscope.fitting.linearisation import residuals
 from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
 from armscope.fitting.refit import ModelFit
 from armscope.fitting.registration import fit_frames

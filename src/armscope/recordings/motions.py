@@ -19,7 +19,7 @@ from armscope.recordings.textfile import read_text_table
 
 MOTION_COLUMN = (
     DRIVE_COLUMN + r"|q[1-9]\d*_(rad|deg|m)|dq[1-9]\d*_(rad|deg|m)_s|ddq[1-9]\d*_(rad|deg|m)_s2"
-    r"|q[1-9]\d*_cmd_(rad|deg|m)|temperature[1-9]\d*_c"
+    r"|q[1-9]\d*_(cmd|link)_(rad|deg|m)|temperature[1-9]\d*_c"
 )
 PLAIN = ("run", "time_s", "payload_kg", "temperature_c")
 SCALE = {"rad": 1.0, "deg": np.pi / 180, "m": 1.0}
@@ -42,6 +42,7 @@ class Motions:
         run: (N,) text; "" where the table has no such column.
         dq, ddq, command: (N, m) recorded velocity, acceleration, commanded position; each or None.
         payload: (N,) kg; temperature: (N, m) deg C; each or None.
+        link: (N, m) positions of the links behind their drives, rad or m; NaN where none is recorded; or None.
         notes: what a user should know about how the table was read.
         source: the file's name, for messages.
     """
@@ -57,6 +58,7 @@ class Motions:
     command: Array | None = None
     payload: Array | None = None
     temperature: Array | None = None
+    link: Array | None = None
     notes: tuple[str, ...] = ()
     source: str = ""
 
@@ -149,6 +151,7 @@ def as_motions(
         command=reader.per_motor(units, "q{}_cmd_{}"),
         payload=reader.optional(["payload_kg"], 1.0, squeeze=True),
         temperature=own,
+        link=reader.links(units),
         notes=notes,
         source=str(source),
     )
@@ -218,6 +221,26 @@ class _Reader(ColumnReader):
         rule = f"what the motors did stands in {torque[0]} ... or {current[0]} ..."
         cure = nearest(torque[0], self.table.columns)
         raise InputError(self.source, "line 1", f"no column {torque[0]}", rule, cure)
+
+    def links(self, units: list[str]) -> Array | None:
+        """(N, m) positions of the links, NaN of joints where none is recorded; None where there are none at all.
+
+        Args:
+            units: of the motors' positions; a link may be recorded in the other unit of an angle.
+
+        Returns:
+            rad or m.
+        """
+        found = np.full((len(self.table), len(units)), np.nan)
+        for j, unit in enumerate(units, start=1):
+            allowed = ("m",) if unit == "m" else ("rad", "deg")
+            present = [u for u in SCALE if f"q{j}_link_{u}" in self.table]
+            for each in present:
+                if each not in allowed or len(present) > 1:
+                    rule = f"one position of link {j}, in {' or '.join(allowed)} as its motor moves"
+                    raise InputError(self.source, "line 1", f"q{j}_link_{each}", rule, "Keep one, in that unit.")
+                found[:, j - 1] = self.required(f"q{j}_link_{each}") * SCALE[each]
+        return None if np.isnan(found).all() else found
 
     def per_motor(self, units: list[str], name: str) -> Array | None:
         """(N, m) an optional quantity of every motor, in the unit of its position."""

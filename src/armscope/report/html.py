@@ -16,6 +16,7 @@ from markupsafe import Markup, escape
 from armscope.core.files import write_text
 from armscope.core.inputs import spelt_out
 from armscope.core.outputs import readable
+from armscope.report.compiled import BesideTemplates
 from armscope.verdict.wording import plain
 
 _TEMPLATES = jinja2.Environment(
@@ -24,6 +25,8 @@ _TEMPLATES = jinja2.Environment(
     trim_blocks=True,
     lstrip_blocks=True,
     undefined=jinja2.StrictUndefined,
+    auto_reload=False,
+    bytecode_cache=BesideTemplates(Path(__file__).parent / "templates"),
 )
 
 

@@ -75,7 +75,10 @@ class Arm:
 
     @property
     def has_masses(self) -> bool:
-        """Whether any link's mass is stated: without, gravity loads are known up to unknown mass moments only."""
+        """Whether any link's mass is stated: without, gravity loads are known up to unknown mass moments only.
+
+        A payload alone is not the load: the arm weighs something, too.
+        """
         return bool(np.any(self.masses > 0))
 
     @property

@@ -21,16 +21,16 @@ from armscope.core.types import Array
 from armscope.robot.arm import Arm
 from armscope.robot.kinematics import chain, position_jacobian
 from armscope.robot.model import TIP
+from armscope.robot.newton_steps import PATIENCE, damping, least_turns, shortened
 
 TOLERANCE_M = 1e-9
 ITERATIONS = 25
 LARGEST_STEP_RAD = 0.35
 """A joint that turns further than this (20 degrees) between neighbouring points of a path has jumped."""
 
-CLOUD, STARTS_PER_CLOUD = 4000, 3
-PATIENCE = 6
-"""A search that has not halved its gap within so many steps is given up."""
+LARGEST_NEWTON_STEP_RAD = 0.5
 
+CLOUD, STARTS_PER_CLOUD = 4000, 3
 BEYOND_REACH = "beyond reach"
 
 
@@ -168,7 +168,7 @@ class _Newton:
             gram = jacobian @ jacobian.T
             gram.flat[::4] += 1e-12
             step = jacobian.T @ np.linalg.solve(gram, gap + jacobian @ (q - previous)) + previous - q
-            q = q + step * min(1.0, 0.5 / max(1e-12, float(np.abs(step).max())))
+            q = q + step * min(1.0, LARGEST_NEWTON_STEP_RAD / max(1e-12, float(np.abs(step).max())))
         return None
 
     def _point_and_jacobian(self, q: Array) -> tuple[Array, Array]:
@@ -252,11 +252,7 @@ def _solved(arm: Arm, goals: Array, q: Array, held: Mapping[int, float]) -> Arra
         at_work, gap, size = at_work[stays], gap[stays], size[stays]
         if not len(at_work):
             return q
-        damping = 1e-6 * np.minimum(size**2, 1.0) + 1e-14
-        gram = jacobian @ np.swapaxes(jacobian, 1, 2) + damping[:, None, None] * np.eye(3)
-        step = np.einsum("nji,nj->ni", jacobian, np.linalg.solve(gram, gap[..., None])[..., 0])
-        step *= np.minimum(1.0, 0.5 / np.maximum(1e-12, np.abs(step).max(axis=1)))[:, None]
-        q[at_work] += step
+        q[at_work] += shortened(least_turns(jacobian, gap, damping(size, 1e-14)), LARGEST_NEWTON_STEP_RAD)
     q[at_work] = np.nan
     return q
 

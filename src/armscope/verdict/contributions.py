@@ -172,11 +172,11 @@ def contributions(verdict: Diagnosis) -> Contributions:
 
 
 def _frames(verdict: Diagnosis, posture: Posture) -> Array:
-    """(3 n, f) orthonormal: what base (per run) and tool frames take up."""
+    """(3 n, f) orthonormal: what base (one for all runs of a set-up) and tool frames take up."""
     run = posture.scene.recordings.run
     columns = [
-        moved * (run == name)[:, None]
-        for name in np.unique(run)
+        moved * np.isin(run, together)[:, None]
+        for together in verdict.model.set_ups
         for axis in AXES
         if (moved := posture.displacement(Direction("base", axis))) is not None
     ]

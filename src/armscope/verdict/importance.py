@@ -7,8 +7,8 @@ with the error before and with what is left, over the squared error. The shares 
 below zero hides part of what others do: its cure pays only once theirs are done.
 
 What is told as major is worth its place by that measure or, where it hides what others do, by its own squared size: it
-is off by as much, though its cure waits for theirs. What base and tool take up whenever they are placed anew (a base
-that moved between runs) has no share to lose.
+is off by as much, though its cure waits for theirs. What base and tool take up whenever they are placed anew (an
+arm that was set up anew between runs) has no share to lose; a base that jumped while it was one has its own.
 """
 
 from __future__ import annotations

@@ -202,7 +202,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         what=capitalised(phrase(effect)),
         place=effect.location,
         change=known.cure.change if known else "",
-        motion="" if "offset" in told else motion(scene, cause.parts),  # the instruction has it
+        motion="" if "offset" in told or words["jump"] else motion(scene, cause.parts),  # the instruction has it
         instruction=_settled(effect, asked) + (known.cure.instruction.format(**words) if known else ""),
         cure=(known.cure.rule if known else effect.cure).replace("`", ""),
         confirm=effect.confirm,
@@ -281,13 +281,11 @@ def _range(amount: Array, turning: bool) -> str:
         low = high = float(amount.mean())
     ends = [low] if low == high else [low, high]
 
-    def all_in(factor: float, unit: str) -> str:
-        return " … ".join(_signed(factor * end, 3) for end in ends) + unit
-
+    small = " … ".join(_signed(1e3 * end, 3) for end in ends)
     if not turning:
-        return all_in(1e3, " mm")
+        return f"{small} mm"
     degrees = " … ".join(_signed(math.degrees(end), 4) for end in ends)
-    return f"{all_in(1e3, ' mrad')} ({degrees}°)"
+    return f"{small} mrad ({degrees}°)"
 
 
 def _signed(value: float, decimals: int) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
 from armscope.diagnosis.model_space import EffectSpace
 from armscope.diagnosis.scans.constants import SCANS
@@ -24,7 +25,7 @@ from armscope.recordings import Recordings
 
 def scanned_rows(count: int) -> Indices:
     """Numbers of the rows, of so many, on which many waves are tried."""
-    return np.unique(np.linspace(0, count - 1, min(count, SCANS.scanned_rows)).astype(np.intp))
+    return spread_evenly(count, SCANS.scanned_rows)
 
 
 def few_rows(recordings: Recordings) -> LinearisedTable:

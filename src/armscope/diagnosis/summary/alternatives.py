@@ -61,7 +61,7 @@ def alternatives(search: Search, best: Hypothesis) -> dict[int, list[Rival]]:
         best: the hypothesis chosen.
 
     Returns:
-        Gap, effect in place, and the hypothesis with it.
+        The rivals of each chosen candidate, by its number.
     """
     refused = _Refused(search, best, none=not search.additions(best, 1, least=0.0))
     return {c.candidate: _of_one(search, best, c.candidate, refused) for c in best.chosen}
@@ -240,7 +240,7 @@ def listed(found: Sequence[Rival], apart: Sequence[float]) -> tuple[Alternative,
     )
 
 
-def name(effect: Candidate, rivals: Sequence[Candidate]) -> tuple[Specific, str]:
+def specific_name(effect: Candidate, rivals: Sequence[Candidate]) -> tuple[Specific, str]:
     """How specific the name may be, and the name in words, given the rivals that cannot be told apart from it."""
     if not rivals and effect.is_curve:
         return "effect", f"an unknown error at {effect.location} that follows the {effect.driver}"

@@ -9,13 +9,13 @@ import numpy as np
 from armscope.core.location import Location
 from armscope.core.sampling import spread_evenly
 from armscope.diagnosis.summary.constants import TELLING
+from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.column_blocks import column_blocks
-from armscope.fitting.linearisation import LinearisedTable, normal_equations_by_block
+from armscope.fitting.linearisation import LinearisedTable
 from armscope.fitting.parameter_layout import ParameterLayout
 from armscope.inference.linear_algebra import lower_cholesky, rss_reduction, solve_lower
 from armscope.measurement.row_weights import RowWeights
 from armscope.physics.effect import AXES, ONE, Direction, Driver, Term, motor, term
-from armscope.physics.elastic import has_load
 from armscope.physics.model import FittedModel
 from armscope.physics.placing import varies
 from armscope.physics.registry import effects
@@ -110,7 +110,7 @@ def _locations(model: FittedModel, whole: list[tuple[str, str, tuple[Term, ...]]
 def _drivers(model: FittedModel, recordings: Recordings) -> list[tuple[str, str]]:
     """(name, kind) of the drivers that the recordings hold."""
     there = {
-        "gravity load": has_load(model.arm) or recordings.torque is not None,
+        "gravity load": model.arm.has_masses or recordings.torque is not None,
         "side of approach": recordings.approach is not None,
         "speed": recordings.speed is not None,
         "temperature": varies(recordings.temperature, 0.1),

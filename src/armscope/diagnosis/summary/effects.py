@@ -13,7 +13,7 @@ from armscope.diagnosis.promotion import nested_log_odds
 from armscope.diagnosis.scans.change_points import when_stderr
 from armscope.diagnosis.scans.context import ScanContext
 from armscope.diagnosis.state import DiagnosisState
-from armscope.diagnosis.summary import alternatives as certainty
+from armscope.diagnosis.summary.alternatives import Rival, discriminability, listed, specific_name, too_close
 from armscope.diagnosis.summary.constants import TELLING
 from armscope.diagnosis.summary.effect_curve import curve_of
 from armscope.diagnosis.summary.homogeneity import SameSize
@@ -37,35 +37,35 @@ NOTHING = "nothing in the table"
 
 
 @dataclass(frozen=True, eq=False)
-class Weighed:
+class SummaryBasis:
     """What the summaries of all effects rest on.
 
     Attributes:
         state: the finished selection.
         search: its search.
         rivals: what could stand in the place of each candidate.
-        often: inclusion frequency by candidate.
+        inclusion: inclusion frequency by candidate.
         scene: recorded rows, spread evenly where there are many.
         equations: sums over all rows as they were measured.
-        wrong: what no effect explains, and what it does to the covariance.
-        doubts: by candidate, what backgrounds of other sizes add to the covariance of its values.
+        model_error: what no effect explains, and what it does to the covariance.
+        background_doubt: by candidate, what backgrounds of other sizes add to the covariance of its values.
     """
 
     state: DiagnosisState
     search: Search
-    rivals: Mapping[int, Sequence[certainty.Rival]]
-    often: Mapping[int, float]
+    rivals: Mapping[int, Sequence[Rival]]
+    inclusion: Mapping[int, float]
     scene: Scene
     equations: NormalEquations
-    wrong: ModelError
-    doubts: Mapping[int, Array]
+    model_error: ModelError
+    background_doubt: Mapping[int, Array]
 
 
-def found_effect(weighed: Weighed, chosen: SelectedEffect, part: Part, share: float) -> FoundEffect:
+def summarise_effect(basis: SummaryBasis, chosen: SelectedEffect, part: Part, share: float) -> FoundEffect:
     """One effect with everything that is known about it.
 
     Args:
-        weighed: what is known of all of them.
+        basis: what is known of all of them.
         chosen: the effect, with its size.
         part: its place in the fitted model.
         share: of the mean square that it explains, 0 ... 1.
@@ -73,18 +73,18 @@ def found_effect(weighed: Weighed, chosen: SelectedEffect, part: Part, share: fl
     Returns:
         The effect as the verdict has it.
     """
-    state, search, rivals = weighed.state, weighed.search, weighed.rivals[chosen.candidate]
+    state, search, rivals = basis.state, basis.search, basis.rivals[chosen.candidate]
     fit, placed, candidate = state.fit, part.placed, search.candidate(chosen.candidate)
-    at = fit.pool.of(placed)
-    coefficients = np.zeros(len(fit.pool.terms))
+    at = fit.layout.of(placed)
+    coefficients = np.zeros(len(fit.layout.terms))
     coefficients[at] = _sized(state, chosen, part.values, fit.covariance_of(placed))
-    values, covariance = _with_drive_of_background(fit, part, weighed.wrong.covariance)
-    covariance = covariance + weighed.doubts.get(chosen.candidate, 0.0)
-    rms = projected_rms(weighed.equations, fit.pool.frames, coefficients)
+    values, covariance = _with_drive_of_background(fit, part, basis.model_error.covariance)
+    covariance = covariance + basis.background_doubt.get(chosen.candidate, 0.0)
+    rms = projected_rms(basis.equations, fit.layout.frames, coefficients)
     if candidate.is_curve:
         rms = min(rms, _own_size(fit, part))
-    apart = [certainty.discriminability(state.best, r.hypothesis, candidate, r.candidate) for r in rivals]
-    named_as, title = certainty.name(candidate, certainty.too_close(candidate, rivals, apart))
+    apart = [discriminability(state.best, r.hypothesis, candidate, r.candidate) for r in rivals]
+    named_as, title = specific_name(candidate, too_close(candidate, rivals, apart))
     left_open = undetermined(placed, covariance)
     told = tuple(p for p in parameters(placed, values, covariance) if p.name not in left_open)
     return FoundEffect(
@@ -100,9 +100,9 @@ def found_effect(weighed: Weighed, chosen: SelectedEffect, part: Part, share: fl
         rms_at_tool_mm=rms,
         share=share,
         evidence_nats=float(_worth(state, search, chosen)),
-        alternatives=certainty.listed(rivals, apart),
-        inclusion=weighed.often.get(chosen.candidate),
-        curve=curve_of(placed, part.values, covariance, weighed.scene),
+        alternatives=listed(rivals, apart),
+        inclusion=basis.inclusion.get(chosen.candidate),
+        curve=curve_of(placed, part.values, covariance, basis.scene),
         physics=placed.effect.physics,
         confirm=placed.effect.confirm,
         cure=placed.effect.cure.words,
@@ -115,13 +115,13 @@ def _with_drive_of_background(fit: Refit, part: Part, covariance: Array) -> tupl
     The background's drive gives way to the load of the stated masses and the payload, the effect to other masses and
     the payload: under the payload, by which it is told, they give way together.
     """
-    placed, at = part.placed, fit.pool.of(part.placed)
+    placed, at = part.placed, fit.layout.of(part.placed)
     own = covariance[np.ix_(at, at)]
     (number,) = [n for n, term in enumerate(placed.terms) if term.name == "compliance"] or [-1]
     drives = (p for p in fit.model.background if p.placed.key == placed.key and p.placed.variant == "")
     if placed.variant != UNKNOWN_MASSES or number < 0 or (drive := next(drives, None)) is None:
         return part.values, own
-    (beside,) = fit.pool.of(drive.placed)
+    (beside,) = fit.layout.of(drive.placed)
     together = np.eye(len(at), len(at) + 1)
     together[number, -1] = 1.0
     every = np.append(at, beside)
@@ -153,14 +153,14 @@ def _own_size(fit: Refit, curve: Part) -> float:
     values = {
         t: float(v) for p in (*fit.model.background, curve) for t, v in zip(p.placed.terms, p.values, strict=True)
     }
-    own = {fit.pool.index[term] for term in curve.placed.terms}
+    own = {fit.layout.index[term] for term in curve.placed.terms}
     moved = {product.direction for term in curve.placed.terms for product in term.products}
-    waves = fit.pool.background[FAMILIES.index(TRANSMISSION)]
-    own |= {int(n) for n in waves if fit.pool.terms[n].products[0].direction in moved}
+    waves = fit.layout.background[FAMILIES.index(TRANSMISSION)]
+    own |= {int(n) for n in waves if fit.layout.terms[n].products[0].direction in moved}
     at = np.array(sorted(own))
-    told = np.array([values.get(fit.pool.terms[n], 0.0) for n in at])
+    told = np.array([values.get(fit.layout.terms[n], 0.0) for n in at])
     left = np.linalg.inv(fit.covariance[np.ix_(at, at)]) - np.diag(fit.precision[at])
-    return float(fit.noise * np.sqrt(max(float(told @ left @ told), 0.0) / max(fit.gram.n, 1.0)))
+    return float(fit.noise * np.sqrt(max(float(told @ left @ told), 0.0) / max(fit.equations.n, 1.0)))
 
 
 def _with_moment(
@@ -196,7 +196,7 @@ def as_far_as_it_carries(found: FoundEffect, candidate: Candidate, over: SameSiz
     if over is None:
         return found
     if not over.agrees and found.named_as == "effect":
-        named_as, title = certainty.name(candidate, [candidate])
+        named_as, title = specific_name(candidate, [candidate])
         found = replace(found, named_as=named_as, title=title)
     return replace(found, carries_over=over.text)
 

@@ -13,7 +13,8 @@ from armscope.core.types import Indices
 from armscope.diagnosis.constants import FOLDING
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.constants import TELLING
-from armscope.fitting.linearisation import current_parameters, normal_equations_by_block
+from armscope.fitting.block_sums import normal_equations_by_block
+from armscope.fitting.parameter_layout import current_parameters
 from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem
@@ -58,7 +59,7 @@ def subset_consistency(state: DiagnosisState) -> dict[int, SameSize]:
 
 def _divisions(state: DiagnosisState) -> Iterator[tuple[list[NormalEquations], str]]:
     """Sums over the rows of each run; of each payload; of the near and of the far half of the workspace."""
-    split, recordings, point, layout = state.layout, state.recordings, state.point, state.space.layout
+    split, recordings, point, layout = state.split, state.recordings, state.point, state.space.layout
     if split.grouped_by == "run":
         runs = [np.flatnonzero(split.fold == run) for run in np.unique(split.fold)]
         yield [total([state.blocks[int(k)] for k in inside]) for inside in runs], "runs"

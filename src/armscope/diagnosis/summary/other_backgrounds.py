@@ -13,6 +13,7 @@ import numpy as np
 from scipy.special import softmax
 
 from armscope.core.types import Array
+from armscope.inference.edits import replaced
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.search import Search
 
@@ -44,7 +45,7 @@ def _by_family(search: Search, best: Hypothesis) -> Iterator[tuple[list[Hypothes
     """The effects with each size of a family's background, the others as they are; and how likely each is."""
     unpaid = np.log(search.space.kinds)
     for number, family in enumerate(search.space.families):
-        sizes = [(*best.background[:number], size, *best.background[number + 1 :]) for size in range(family.sizes)]
+        sizes = [replaced(best.background, number, size) for size in range(family.sizes)]
         readings = [search.evaluated(best.chosen, best, background) for background in sizes]
         likely = [r.log_posterior + unpaid * (family.is_priced and size > 0) for size, r in enumerate(readings)]
         yield readings, softmax(np.array(likely))

@@ -22,15 +22,15 @@ from armscope.verdict.schema import Background, Notice, Unexplained
 
 
 def background_summaries(
-    state: DiagnosisState, edits: Edits, gram: NormalEquations, of_families: Sequence[float]
+    state: DiagnosisState, edits: Edits, equations: NormalEquations, of_families: Sequence[float]
 ) -> tuple[Background, ...]:
     """What each family's background amounts to, and whether the evidence asks for it.
 
     Args:
         state: the finished selection.
         edits: of the search.
-        gram: sums over all rows.
-        of_families: RMS at the tool by family, mm.
+        equations: sums over all rows.
+        of_families: share of the variance after the frames that each family explains, 0 ... 1.
 
     Returns:
         One per family.
@@ -41,10 +41,10 @@ def background_summaries(
     told = []
     for family, members in MENDED.items():
         numbers = [FAMILIES.index(member) for member in members]
-        columns = np.concatenate([fit.pool.background[number] for number in numbers])
-        coefficients = np.zeros(len(fit.pool.terms))
-        coefficients[columns] = [values[fit.pool.terms[column]] for column in columns]
-        rms = projected_rms(gram, fit.pool.frames, coefficients)
+        columns = np.concatenate([fit.layout.background[number] for number in numbers])
+        coefficients = np.zeros(len(fit.layout.terms))
+        coefficients[columns] = [values[fit.layout.terms[column]] for column in columns]
+        rms = projected_rms(equations, fit.layout.frames, coefficients)
         without = best
         for number in numbers:
             without = edits.with_background(without, number, 0)
@@ -57,13 +57,13 @@ def background_summaries(
 
 
 def masses_in_error(
-    state: DiagnosisState, gram: NormalEquations, share: float
+    state: DiagnosisState, equations: NormalEquations, share: float
 ) -> tuple[list[Background], list[Notice]]:
     """What stated masses are found to be off by, where the evidence asks for it; otherwise nothing.
 
     Args:
         state: the finished selection.
-        gram: sums over all rows.
+        equations: sums over all rows.
         share: of the mismatch that their errors explain.
 
     Returns:
@@ -77,11 +77,11 @@ def masses_in_error(
     if lost < TELLING.background_seen_nats:
         return [], []
     parts = [part for part in fit.model.background if part.placed.effect is STATED_MASSES]
-    at = [int(fit.pool.of(part.placed)[0]) for part in parts]
+    at = [int(fit.layout.of(part.placed)[0]) for part in parts]
     off, stderr = np.array([part.values[0] for part in parts]), np.sqrt(np.diag(fit.covariance)[at])
-    coefficients = np.zeros(len(fit.pool.terms))
+    coefficients = np.zeros(len(fit.layout.terms))
     coefficients[at] = off
-    rms = projected_rms(gram, fit.pool.frames, coefficients)
+    rms = projected_rms(equations, fit.layout.frames, coefficients)
     found = Background(family.name, True, family.label(family.sizes - 1), rms, share)
     known = [
         f"{part.placed.location} {100 * value:+.0f} +- {196 * error:.0f} %"
@@ -137,5 +137,5 @@ def too_faint(found: Detection) -> Unexplained:
 
 def _significant(state: DiagnosisState) -> bool:
     """Whether the residual's excess over the stated noise is beyond chance (five standard errors of an RMS)."""
-    freedom = max(state.fit.gram.n - state.fit.spent, 1.0)
+    freedom = max(state.fit.equations.n - state.fit.effective_dof, 1.0)
     return bool(state.fit.noise > state.noise.stated_mm * (1 + 5 / np.sqrt(2 * freedom)))

@@ -24,12 +24,16 @@ from armscope.poses.obstacles import Surroundings, refusals
 from armscope.robot import Arm
 from armscope.robot.dynamics import inertial_parameters
 
-SAMPLES = 80
-"""Samples of a motion in the search; a period of 5 to 10 harmonics is smooth beyond that."""
+SAMPLES, PER_WAVE = 80, 8
+"""Samples of a motion in the search, and at least so many of its shortest wave."""
+FINER = 4
+"""Torque is looked at in steps so many times as fine as positions are: it peaks where several joints' waves meet."""
 STARTS = 24
 """Random motions of which the best is bettered; their median is what "before" means."""
 USES = (0.95, 0.7, 0.5, 0.35)
 """Shares of the limits that are tried in turn until torques and surroundings allow the motion."""
+TORQUE_USE = 0.99
+"""Share of the torques' limits that may be used: between its samples a torque is higher by less."""
 NARROWING, LEAST_STEP = 0.35, 0.02
 """How far coefficients are moved at first, as a share of their size; less and less towards the end."""
 
@@ -142,21 +146,23 @@ class _Search:
         self.tried = self.refused = 0
 
     def motion(self, path: FourierPath) -> Motion:
-        time = np.arange(SAMPLES) * path.period / SAMPLES
-        return Motion(*path.at(time), step=path.period / SAMPLES)
+        count = max(SAMPLES, PER_WAVE * path.harmonics)
+        time = np.arange(count) * path.period / count
+        return Motion(*path.at(time), step=path.period / count)
 
     def score(self, path: FourierPath) -> MotionScore:
         self.tried += 1
         return motion_score(self.arm, self.shown, self.motion(path), self.wanted.pairs)
 
     def torques(self, path: FourierPath) -> Array:
-        """(N, m) of the stated model."""
-        found: Array = all_columns(self.arm, self.motion(path)) @ self.numbers
+        """(N, m) of the stated model, fine enough to see its peaks."""
+        fine = path.over_period(FINER)
+        found: Array = all_columns(self.arm, Motion(*fine, step=path.period / len(fine[0]))) @ self.numbers
         return found
 
     def possible(self, path: FourierPath) -> bool:
         """Whether torques and surroundings allow it."""
-        if np.any(np.abs(self.torques(path)) > self.limits.torque):
+        if np.any(np.abs(self.torques(path)) > TORQUE_USE * self.limits.torque):
             self.refused += 1
             return False
         angle, _, _ = path.over_period()

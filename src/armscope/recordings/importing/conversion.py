@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import cast
 
 import numpy as np
@@ -19,22 +20,37 @@ TIME_UNITS = {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0}
 
 
 class Clock:
-    """Seconds from a column of times; remembers a run's first time stamp."""
+    """Seconds from a column of times; remembers each run's first time stamp."""
 
     def __init__(self) -> None:
-        self.start: pd.Timestamp | None = None
+        self.start: dict[str, pd.Timestamp] = {}
 
-    def time(self, piece: Piece, group: Time) -> Array:
-        """(N,) s of a piece's rows."""
+    def time(self, piece: Piece, group: Time, runs: Sequence[str]) -> Array:
+        """Seconds of a piece's rows.
+
+        Args:
+            piece: the rows.
+            group: where their times stand, and in what unit or format.
+            runs: (N,) of which run each row is; time stamps count from the run's first one.
+
+        Returns:
+            (N,) s.
+
+        Raises:
+            InputError: what stands there is no time of that format.
+        """
         if group.unit is not None:
             return piece.numbers(group.column) * TIME_UNITS[group.unit]
         words = pd.Series(piece.words(group.column), dtype=object)
         stamps = self._stamps(piece, group, words)
-        if self.start is None:
-            if not stamps.notna().any():
-                return np.full(len(piece), np.nan)
-            self.start = stamps[stamps.first_valid_index()]
-        return np.asarray((stamps - self.start).dt.total_seconds(), dtype=float)
+        of_run, seconds = np.array(runs), np.full(len(piece), np.nan)
+        for run in dict.fromkeys(runs):
+            own = stamps[of_run == run]
+            if run not in self.start and own.notna().any():
+                self.start[run] = own[own.first_valid_index()]
+            if run in self.start:
+                seconds[of_run == run] = (own - self.start[run]).dt.total_seconds()
+        return seconds
 
     @staticmethod
     def _stamps(piece: Piece, group: Time, words: pd.Series) -> pd.Series:
@@ -52,23 +68,33 @@ class Converter:
 
     def __init__(self, columns: Columns, run: str) -> None:
         self.columns, self.run, self.clock = columns, run, Clock()
-        self.ids: set[tuple[str, str]] = set()
+        self.ids: set[tuple[str, str, str]] = set()
 
     def table(self, piece: Piece) -> pd.DataFrame:
         """A piece in the columns of the recordings table that the run has."""
         columns = self.columns
         assert columns.angles is not None
-        table: dict[str, object] = {"id": self._ids(piece), "run": [self.run] * len(piece)}
+        runs = self._runs(piece)
+        table: dict[str, object] = {"id": self._ids(piece), "run": runs}
         if columns.target is not None:
             table["target"] = _label(piece, columns.target)
         if columns.id is not None and columns.id.column is not None:
-            self._check_ids(
-                piece, cast(list[str], table["id"]), cast(list[str], table.get("target", [""] * len(piece)))
-            )
+            targets = cast(list[str], table.get("target", [""] * len(piece)))
+            self._check_ids(piece, list(zip(cast(list[str], table["id"]), targets, runs, strict=True)))
         table |= as_columns([f"q{j + 1}_rad" for j in range(len(columns.angles.columns))], self._angles(piece))
         table |= self._measured(piece)
-        table |= self._context(piece)
+        table |= self._context(piece, runs)
         return pd.DataFrame(table)
+
+    def _runs(self, piece: Piece) -> list[str]:
+        if self.columns.run is None:
+            return [self.run] * len(piece)
+        column = self.columns.run.column
+        runs = piece.words(column)
+        if "" in runs:
+            cure = "Write the run there, or leave such rows out: `rows: [{drop_missing: [...]}]`."
+            raise piece.error(runs.index(""), (column,), "nothing", "every row is of a run", cure)
+        return runs
 
     def _ids(self, piece: Piece) -> list[str]:
         numbers = piece.rows.numbers_of_rows
@@ -79,10 +105,10 @@ class Converter:
             return piece.words(identity.column)
         return list(numbers.astype(str).tolist())
 
-    def _check_ids(self, piece: Piece, ids: list[str], targets: list[str]) -> None:
+    def _check_ids(self, piece: Piece, keys: list[tuple[str, str, str]]) -> None:
         assert self.columns.id is not None
         assert self.columns.id.column is not None
-        for row, key in enumerate(zip(ids, targets, strict=True)):
+        for row, key in enumerate(keys):
             if key in self.ids:
                 cure = "Keep one with `rows: [{first_of: [...]}]`, or leave `id` out to number the source's rows."
                 rule = "an id stands once per run and target"
@@ -159,7 +185,7 @@ class Converter:
         except NotARotation as error:
             raise piece.error(error.row, columns, error.found, error.rule, error.cure) from error
 
-    def _context(self, piece: Piece) -> dict[str, Array]:
+    def _context(self, piece: Piece, runs: Sequence[str]) -> dict[str, Array]:
         columns = self.columns
         context: dict[str, Array] = {}
         if columns.torque is not None:
@@ -177,7 +203,7 @@ class Converter:
         if columns.payload is not None:
             context["payload_kg"] = scalar(piece, columns.payload, 0.0, "a payload is not negative")
         if columns.time is not None:
-            context["time_s"] = self.clock.time(piece, columns.time)
+            context["time_s"] = self.clock.time(piece, columns.time, runs)
         if columns.temperature is not None:
             rule = "no temperature is below absolute zero"
             context["temperature_c"] = scalar(piece, columns.temperature, ABSOLUTE_ZERO_C, rule)

@@ -16,6 +16,8 @@ from armscope.recordings.importing.mapping import Mapping
 
 FEWEST_MOTORS = 2
 RADIANS_UP_TO = 2 * np.pi + 0.01
+MOST_NAMED = 12
+"""Columns that are not used, by name."""
 METRES_UP_TO = 30.0
 """Coordinates whose largest is below this are metres: no arm stays within 30 mm of the origin."""
 
@@ -42,9 +44,15 @@ BESIDE = {
     "speed": ("dq", "qd", "v", "vel", "velocity", "speed", "omega"),
     "approach": ("approach", "dir", "direction"),
 }
+RUNS = r"(run|session|series|campaign|lauf|serie|messreihe|sitzung)([\s_]?(id|name|no|nr|number))?"
 NOT_ANGLES = ("current", "i", "temp", "temperature", "volt", "m", "ddq", "qdd", "acc")
 MAKERS_LETTERS = ("s", "l", "u", "r", "b", "t")
 """How Yaskawa-Motoman names the six motors of an arm, from the base to the tool."""
+UR_JOINTS = (
+    ("shoulder pan", "shoulder lift", "elbow", "wrist 1", "wrist 2", "wrist 3"),
+    ("base", "shoulder", "elbow", "wrist 1", "wrist 2", "wrist 3"),
+)
+"""The six joints of a Universal Robots arm, from the base on; its logs have them in the order of the alphabet, too."""
 COMMANDED = ("target", "cmd", "command", "commanded", "set", "desired", "nominal", "ref", "soll")
 MEASURED = ("measured", "meas", "actual", "act", "ist", "tracker", "laser", "leica", "faro", "mcs")
 
@@ -64,8 +72,12 @@ def draft_mapping(path: Path | str) -> str:
     path = Path(path)
     table = first_table(path)
     lines = list(_format_lines(table))
-    columns = _guess_columns(path, table)
+    columns = list(_guess_columns(path, table))
     lines += ["columns:", *columns]
+    unused = [name for name in table.names if table.header and not any(_quoted(name) in line for line in columns)]
+    if unused:
+        shown = ", ".join(_quoted(_printable(name)) for name in unused[:MOST_NAMED])
+        lines += [f"# not used: {shown}{', ...' * (len(unused) > MOST_NAMED)}"]
     head = f"# A draft for {path.name}: read every guess, mend it where it is wrong, then"
     text = "\n".join([head, _NEXT, *lines, ""])
     validate(Mapping, yaml.safe_load(text), path)
@@ -99,7 +111,9 @@ def _guess_columns(path: Path, table: ForeignTable) -> Iterator[str]:
     why = "stated by the name" if stated else f"guessed: none is beyond {largest:.4g}"
     why = "guessed: Grad is German for degrees" if "grad" in _words(table.names[angles[0]]) else why
     unnumbered = table.header and not any(JOINT.fullmatch(table.names[column].strip()) for column in angles[:1])
-    why += "; no numbers in the names: in the table's order" if unnumbered else ""
+    of_ur = angles == _ur_joints(table)
+    why += "; the joints of a UR, from the base on" if of_ur else ""
+    why += "; no numbers in the names: in the table's order" if unnumbered and not of_ur else ""
     yield f"  angles: {{columns: {_listed(table, angles)}, unit: {unit}}}   # {why}; columns by likeness of names"
     largest = _largest(table.values[:, points])
     stated = _stated_unit(table.names[points[0]], LENGTH_UNITS)
@@ -122,6 +136,11 @@ def _listed(table: ForeignTable, columns: Sequence[int]) -> str:
 
 def _quoted(name: str) -> str:
     return "'" + name.replace("'", "''") + "'"
+
+
+def _printable(name: str) -> str:
+    """A name that ends no comment and breaks no line."""
+    return "".join(sign if sign.isprintable() else "?" for sign in name)
 
 
 def _stated_unit(name: str, units: dict[str, str]) -> str | None:
@@ -155,6 +174,17 @@ def _without_unit(words: str) -> str:
     return ends[1].strip(" _.-[]()") if ends and ends[2] in units else bare
 
 
+def _ur_joints(table: ForeignTable) -> list[int]:
+    """Columns of angles named as Universal Robots' joints, from the base on; none where one is missing."""
+    beside = {"joint", "q", "pos", "position", "angle", *ANGLE_UNITS}
+    named: dict[str, int] = {}
+    for column, name in enumerate(table.names if table.header else ()):
+        words = [word for word in re.findall(r"[a-z]+|\d+", name.lower()) if word not in beside]
+        if np.isfinite(table.values[:, column]).any():
+            named.setdefault(" ".join(words), column)
+    return next(([named[joint] for joint in joints] for joints in UR_JOINTS if set(joints) <= set(named)), [])
+
+
 def _named_joints(table: ForeignTable) -> list[int]:
     """Columns of angles named by joint, as in a URDF (`elbow_joint`), or by a maker's letters, in the table's order."""
     bare = {_words(name)[0]: column for column, name in reversed([*enumerate(table.names)]) if _words(name)}
@@ -185,7 +215,7 @@ def _motor_columns(table: ForeignTable) -> list[int]:
             continue
         commanded = bool(set(parts) & set(COMMANDED)) - bool(set(parts) & set(MEASURED))
         ranked.append((commanded, len(columns), -columns[0], columns))
-    named = _named_joints(table)
+    named = _ur_joints(table) or _named_joints(table)
     if len(named) >= FEWEST_MOTORS and all(len(named) > count for _, count, *_ in ranked):
         return named
     return max(ranked)[-1] if ranked else []
@@ -233,10 +263,18 @@ def _further(table: ForeignTable, n_motors: int, taken: set[int]) -> Iterator[st
         "time": (r"(time|t|timestamp)([\s_.\[(]*s)?[\])]?", "time: {{column: {}, unit: s}}"),
         "target": (r"(target|reflector|smr|point)([\s_]?(id|name|no))?", "target: {{column: {}}}"),
     }
+    run = next((column for name, column in small.items() if re.fullmatch(RUNS, name)), None)
+    if run is not None and not _all_different(table.values[:, run]):
+        yield f"  run: {{column: {_quoted(table.names[run])}}}   # guessed by name: of which run each row is"
     for what, (pattern, line) in singles.items():
         match = next((column for name, column in small.items() if re.fullmatch(pattern, name)), None)
         if match is not None and (what == "target" or np.isfinite(table.values[:, match]).any()):
             yield f"  {line.format(_quoted(table.names[match]))}   # guessed by name"
+
+
+def _all_different(numbers: Array) -> bool:
+    """Whether these are numbers that count rows."""
+    return bool(np.isfinite(numbers).all()) and len(np.unique(numbers)) == len(numbers)
 
 
 def _per_motor(table: ForeignTable, n_motors: int, taken: set[int]) -> dict[str, list[int]]:

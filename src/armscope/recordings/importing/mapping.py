@@ -116,6 +116,12 @@ class Label(Strict):
         return self
 
 
+class RunColumn(Strict):
+    """The ``column`` that says of which run a row is: several runs in one file."""
+
+    column: Column
+
+
 class Identity(Strict):
     """What names a configuration: a ``column``, or the ``row_of`` a file beside (by its ``name``)."""
 
@@ -153,6 +159,7 @@ class Columns(Groups):
     temperature: Scalar | None = None
     payload: Scalar | None = None
     target: Label | None = None
+    run: RunColumn | None = None
     id: Identity | None = None
 
     def measured(self) -> list[Column]:

@@ -134,7 +134,10 @@ class MotionConverter:
         assert columns.positions is not None
         effort = columns.torque or columns.current
         assert effort is not None
-        values = [self.clock.time(piece, columns.time)[:, None], _scaled(piece, columns.positions)]
+        values = [
+            self.clock.time(piece, columns.time, [self.run] * len(piece))[:, None],
+            _scaled(piece, columns.positions),
+        ]
         if columns.speeds is not None:
             values.append(_scaled(piece, columns.speeds))
         values.append(required(piece, effort.columns) * effort.scale)

@@ -38,6 +38,8 @@ class RunReport:
     rows_written: int = 0
     left_out: list[LeftOut] = field(default_factory=list)
     notes: Counter[str] = field(default_factory=Counter)
+    within: set[str] = field(default_factory=set)
+    """The runs that its rows name themselves; its own name where they name none."""
 
 
 @dataclass
@@ -50,7 +52,8 @@ class ImportReport:
 
     def text(self) -> str:
         """The report in words."""
-        lines = [f"{self.output}: {sum(run.rows_written for run in self.runs)} rows, {len(self.runs)} run(s)"]
+        named = set().union(*(run.within for run in self.runs))
+        lines = [f"{self.output}: {sum(run.rows_written for run in self.runs)} rows, {len(named)} run(s)"]
         lines += ["columns: " + ", ".join(self.columns)]
         for run in self.runs:
             lines.append(f"run {run.run} from {run.file}: {run.rows_written} of {run.rows_read} rows")
@@ -215,7 +218,9 @@ def convert_run(mapping: AnyMapping, run: AnyRun, paths: dict[str, Path], report
             piece = each.apply(piece)
         if len(piece):
             report.rows_written += len(piece)
-            yield converter.table(piece)
+            table = converter.table(piece)
+            report.within |= set(table["run"]) if "run" in table else {run.run}
+            yield table
     beside.check_all_used(report.rows_read)
     if report.rows_written == 0:
         raise InputError(

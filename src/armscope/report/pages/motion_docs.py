@@ -10,6 +10,7 @@ from armscope.core.files import read_table, write_text
 from armscope.core.markdown import table_lines
 from armscope.motion.catalogue import CAUSES
 from armscope.motion.judgement import ON_HELD_OUT
+from armscope.motion.twist_catalogue import TWISTS
 from armscope.motion.verdict import read_motion_verdict
 from armscope.report.html import significant
 from armscope.report.pages.readme import filled
@@ -41,7 +42,7 @@ def fill_motion_page(page: Path, proof: Path | None, real: Path | None, of: str)
 
 def cause_lines() -> list[str]:
     """Every cause of the library: its name in verdict.json, its family, what it is."""
-    rows = ((f"`{cause.name}`", cause.family, cause.physics) for cause in CAUSES)
+    rows = ((f"`{cause.name}`", cause.family, cause.physics) for cause in (*CAUSES, *TWISTS))
     return table_lines(("name", "family", "what it is"), rows)
 
 

@@ -3,106 +3,33 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import pandas as pd
 
 from armscope.core.inputs import InputError
 from armscope.core.location import Location
-from armscope.motion.catalogue import cause_named
 from armscope.motion.clauses import amount
-from armscope.motion.verdict import FoundCause, JointBackground
-from armscope.motion.words import clause
+from armscope.motion.verdict import JointBackground
 from armscope.report.figures.arm_picture import draw_arm
 from armscope.report.figures.atlas import atlas_map
 from armscope.report.figures.motion import curve_figures, friction_figures, left_figures, trace_figures
+from armscope.report.figures.twist import twist_figures
 from armscope.report.figures.waterfall import Quantity, draw_waterfall
 from armscope.report.motion_subject import MotionSubject
 from armscope.report.sectioning import Drawn, Section
-from armscope.report.sections.effect_cards import ShownAlternative, gap_in_words
+from armscope.report.sections.motion_cards import motion_card
+from armscope.report.sections.motion_links import links_of_motion
 from armscope.robot.arm import build_arm
-from armscope.verdict.effects import INDISTINGUISHABLE_NATS, Alternative, Parameter
-from armscope.verdict.wording import Reading, capitalised, evidence_in_words, percent, read_parameter
+from armscope.verdict.effects import Parameter
+from armscope.verdict.wording import percent
 
 RELATIVE = Quantity("error on held-out motion, relative to its torque (%)", lambda value: f"{value:.3g} %")
-KNOT = "knot "
 SEEN = 0.005
 """Share from which what no cause explains has a line of its own."""
-BY_VALUES = "found by trying values"
 NOT_SEEN = "not seen"
-
-
-@dataclass(frozen=True)
-class MotionCard:
-    """The texts of a cause's card; `figure` is the name of its curve's figure or ""."""
-
-    anchor: str
-    title: str
-    said: str
-    share: str
-    share_width: float
-    size: str
-    readings: tuple[Reading, ...]
-    physics: str
-    confirm: str
-    cure: str
-    evidence: str
-    alternatives: tuple[ShownAlternative, ...]
-    paths: str
-    doubt: str
-    figure: str
-
-
-def motion_card(cause: FoundCause, number: int) -> MotionCard:
-    """The card of the ``number``-th cause (from 1)."""
-    curve = any(each.name.startswith(KNOT) for each in cause.parameters)
-    known = cause_named(cause.effect)
-    labels = known.labels if known else {}
-    return MotionCard(
-        anchor=f"cause-{number}",
-        title=capitalised(cause.title),
-        said=f"{capitalised(clause(cause))}.",
-        share=percent(cause.share),
-        share_width=min(100.0, max(0.0, 100 * cause.share)),
-        size=f"{cause.rms:.2g} {cause.unit} RMS at {cause.joint}",
-        readings=tuple(signed(each, labels) for each in cause.parameters if not _of_a_curve(cause, each)),
-        physics=cause.physics,
-        confirm=cause.confirm,
-        cure=cause.cure.replace("`", ""),
-        evidence=f"{capitalised(evidence_in_words(cause.evidence_nats))} ({cause.evidence_nats:.0f} nats).",
-        alternatives=tuple(
-            ShownAlternative(
-                _named(other),
-                gap_in_words(other),
-                other.discriminability_nats < INDISTINGUISHABLE_NATS,
-            )
-            for other in cause.alternatives
-        ),
-        paths=f"{capitalised(cause.carries_over)}." if cause.carries_over else "",
-        doubt=cause.doubt,
-        figure=f"curve_{number}" if curve else "",
-    )
-
-
-def _of_a_curve(cause: FoundCause, parameter: Parameter) -> bool:
-    """Whether a number is one of a curve without a law, and says nothing by itself: they stand in model.yaml."""
-    return cause.nameless or parameter.name.startswith(KNOT)
-
-
-def signed(parameter: Parameter, labels: Mapping[str, str]) -> Reading:
-    """A parameter as a card shows it, by its cause's own label: departures carry their sign."""
-    reading = read_parameter(parameter)
-    reading = replace(reading, label=labels.get(parameter.name, reading.label))
-    fitted = reading.interval != BY_VALUES
-    return replace(reading, value=f"+{reading.value}") if fitted and parameter.value > 0 else reading
-
-
-def _named(other: Alternative) -> str:
-    follows = f" that follows the {other.driver}" if other.nameless and other.driver else ""
-    name = "an unknown torque" if other.nameless else other.effect.replace("_", " ")
-    return f"{name} at {other.location}{follows}" if other.location != "payload" else name
 
 
 def _cards(subject: MotionSubject) -> dict[str, Any]:
@@ -227,6 +154,14 @@ Motion = Section[MotionSubject]
 MOTION_SECTIONS: tuple[Motion, ...] = (
     Motion("locations", "Where", "Where the torque goes", _where, (arm_of_motion,)),
     Motion("causes", "Causes", "What was found", _cards, (curve_figures,)),
+    Motion(
+        "links",
+        "Links",
+        "Links beside their motors",
+        links_of_motion,
+        (twist_figures,),
+        applies=lambda verdict: bool(verdict.links),
+    ),
     Motion("torque", "Torque", "Torque on motion that took no part", lambda s: {"n": s.arm.n_motors}, (trace_figures,)),
     Motion("friction", "Friction", "Friction and rotors of every joint", friction_table, (friction_figures,)),
     Motion("validation", "Validation", "How much better the model predicts", _better, (waterfall_of_motion,)),

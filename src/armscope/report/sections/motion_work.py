@@ -13,7 +13,8 @@ from armscope.motion.export import URDF
 from armscope.motion.verdict import FoundCause
 from armscope.report.html import significant
 from armscope.report.motion_subject import MotionSubject
-from armscope.report.sections.motion import friction_table, motion_card
+from armscope.report.sections.motion import friction_table
+from armscope.report.sections.motion_cards import motion_card
 
 IN_FULL = 3
 """Causes whose steps are told in full, as many as the headline tells; the others stand in a line each: one page."""

@@ -128,7 +128,7 @@ class MovingArm:
 
     def __init__(self, geometry: Geometry, dynamics: Dynamics) -> None:
         self.dynamics = dynamics
-        self.model = mujoco.MjModel.from_xml_string(_mjcf(geometry, dynamics))
+        self.model = mujoco.MjModel.from_xml_string(mjcf_of(geometry, dynamics))
         self.data = mujoco.MjData(self.model)
 
     def torques(self, angle: Array, speed: Array, acceleration: Array) -> Array:
@@ -160,7 +160,8 @@ class MovingArm:
         return found
 
 
-def _mjcf(geometry: Geometry, dynamics: Dynamics) -> str:
+def mjcf_of(geometry: Geometry, dynamics: Dynamics) -> str:
+    """The mechanism in MuJoCo's words: joints are called "joint 1" ..."""
     parts, depth = ["<body>"], 1
     for j in range(geometry.n_joints):
         to_joint, to_link = (placed(step(j, geometry.rows)) for step in (geometry.step_to_joint, geometry.step_to_link))

@@ -4,6 +4,9 @@ The criterion is the observability index of Borm & Menq (1991), O1 = (s_1 s_2 ..
 the ellipsoid that the identification Jacobian makes of the unit sphere of parameter errors, for p identifiable
 parameters and n poses. It is the D-optimality of the design of experiments. Driels & Pathre (1990) add that poses
 should fill the joints' ranges: candidates come from a low-discrepancy sequence over them, and each is used once.
+
+The study's poses stay those that this exchange finds: `armscope.design.exchange`, which tries every chosen pose against
+every candidate from several starts, finds other optima, and would make another study of it.
 """
 
 from __future__ import annotations
@@ -22,7 +25,7 @@ EXCHANGES = 200
 
 
 @dataclass(frozen=True)
-class Choice:
+class ChosenPoses:
     """Rows chosen from candidates, and what the choice is worth.
 
     Attributes:
@@ -69,7 +72,9 @@ def joint_ranges(motor_angles: ArrayLike, margin: float) -> tuple[Array, Array]:
     return low - margin * moves, high + margin * moves
 
 
-def choose_poses(jacobian: Array, count: int, rng: np.random.Generator, random_draws: int = 50) -> Choice:
+def choose_identification_poses(
+    jacobian: Array, count: int, rng: np.random.Generator, random_draws: int = 50
+) -> ChosenPoses:
     """The ``count`` candidates with the largest observability index, by greedy growth and then exchanges.
 
     Args:
@@ -94,7 +99,7 @@ def choose_poses(jacobian: Array, count: int, rng: np.random.Generator, random_d
         raise ValueError(f"{count} poses for {n_parameters} parameters: a pose gives 3 numbers, so more are needed")
     chosen = _exchanged(reduced, _grown(reduced, count))
     random = [_index(reduced, rng.choice(n_candidates, count, replace=False)) for _ in range(random_draws)]
-    return Choice(np.sort(chosen), _index(reduced, chosen), float(np.median(random)), n_parameters)
+    return ChosenPoses(np.sort(chosen), _index(reduced, chosen), float(np.median(random)), n_parameters)
 
 
 def _identifiable(jacobian: Array) -> Array:

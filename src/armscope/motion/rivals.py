@@ -1,0 +1,43 @@
+"""What could stand in a cause's place."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from armscope.inference.evidence import Hypothesis
+from armscope.inference.model_space import Candidate
+from armscope.inference.search import Search
+from armscope.motion.constants import TELLING
+from armscope.verdict.effects import Alternative
+
+
+def listed_rivals(
+    search: Search, best: Hypothesis, number: int, rivals: Sequence[Hypothesis], more: Sequence[Alternative] = ()
+) -> tuple[Alternative, ...]:
+    """Rivals of a cause that are told, nearest first, each name once.
+
+    Args:
+        search: on the selection's problem.
+        best: what won.
+        number: of the cause's candidate.
+        rivals: hypotheses with another candidate, their last, in its place.
+        more: rivals that are no candidates.
+
+    Returns:
+        The nearest.
+    """
+    candidate = search.space.candidates[number]
+    rest = search.without(best, [number])
+    taken = {search.space.candidates[c].key for c in best.candidates}
+    limit = max(TELLING.listed_nats, TELLING.listed_share * (best.log_posterior - rest.log_posterior))
+    nearest: dict[tuple[str, str], tuple[float, Candidate]] = {}
+    for other in rivals:
+        rival = search.space.candidates[other.chosen[-1].candidate]
+        gap = best.log_posterior - other.log_posterior
+        if rival.key in taken or rival.key == candidate.key or gap > limit:
+            continue
+        if rival.key not in nearest or gap < nearest[rival.key][0]:
+            nearest[rival.key] = (float(gap), rival)
+    listed = [Alternative(c.kind, c.location, c.family, gap, c.driver, gap) for gap, c in nearest.values()]
+    listed += [each for each in more if each.evidence_gap_nats < limit]
+    return tuple(sorted(listed, key=lambda each: each.evidence_gap_nats)[: TELLING.listed])

@@ -1,0 +1,99 @@
+"""The card of a cause of an arm in motion."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from armscope.motion.catalogue import cause_named
+from armscope.motion.clauses import rms_of
+from armscope.motion.verdict import FoundCause
+from armscope.motion.words import clause
+from armscope.report.sections.effect_cards import ShownAlternative, gap_in_words
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS, Alternative, Parameter
+from armscope.verdict.wording import Reading, capitalised, evidence_in_words, percent, read_parameter
+
+KNOT = "knot "
+BY_VALUES = "found by trying values"
+
+
+@dataclass(frozen=True)
+class MotionCard:
+    """The texts of a cause's card; `figure` is the name of its curve's figure or ""."""
+
+    anchor: str
+    title: str
+    said: str
+    share: str
+    share_width: float
+    size: str
+    readings: tuple[Reading, ...]
+    physics: str
+    confirm: str
+    cure: str
+    evidence: str
+    alternatives: tuple[ShownAlternative, ...]
+    paths: str
+    doubt: str
+    figure: str
+
+
+def motion_card(cause: FoundCause, number: int | str) -> MotionCard:
+    """The card of a cause.
+
+    Args:
+        cause: it.
+        number: of it among the causes of torque (from 1); other words make another anchor.
+
+    Returns:
+        Its texts.
+    """
+    curve = any(each.name.startswith(KNOT) for each in cause.parameters)
+    known = cause_named(cause.effect)
+    labels = known.labels if known else {}
+    return MotionCard(
+        anchor=f"cause-{number}",
+        title=capitalised(cause.title),
+        said=f"{capitalised(clause(cause))}.",
+        share=percent(cause.share),
+        share_width=min(100.0, max(0.0, 100 * cause.share)),
+        size=f"{rms_of(cause)} at {cause.joint}",
+        readings=tuple(signed(each, labels) for each in cause.parameters if not _of_a_curve(cause, each)),
+        physics=cause.physics,
+        confirm=cause.confirm,
+        cure=cause.cure.replace("`", ""),
+        evidence=f"{capitalised(evidence_in_words(cause.evidence_nats))} ({cause.evidence_nats:.0f} nats).",
+        alternatives=tuple(
+            ShownAlternative(
+                _named(other),
+                gap_in_words(other),
+                other.discriminability_nats < INDISTINGUISHABLE_NATS,
+            )
+            for other in cause.alternatives
+        ),
+        paths=f"{capitalised(cause.carries_over)}." if cause.carries_over else "",
+        doubt=cause.doubt,
+        figure=f"curve_{number}" if curve else "",
+    )
+
+
+def _of_a_curve(cause: FoundCause, parameter: Parameter) -> bool:
+    """Whether a number is one of a curve without a law, and says nothing by itself: they stand in model.yaml."""
+    return cause.nameless or parameter.name.startswith(KNOT)
+
+
+def signed(parameter: Parameter, labels: Mapping[str, str]) -> Reading:
+    """A parameter as a card shows it, by its cause's own label: departures carry their sign."""
+    reading = read_parameter(parameter)
+    reading = replace(reading, label=labels.get(parameter.name, reading.label))
+    fitted = reading.interval != BY_VALUES
+    return replace(reading, value=f"+{reading.value}") if fitted and parameter.value > 0 else reading
+
+
+_NAMELESS = {"unknown_twist": "a twist"}
+
+
+def _named(other: Alternative) -> str:
+    follows = f" that follows the {other.driver}" if other.nameless and other.driver else ""
+    name = _NAMELESS.get(other.effect, "an unknown torque") if other.nameless else other.effect.replace("_", " ")
+    return f"{name} at {other.location}{follows}" if other.location != "payload" else name

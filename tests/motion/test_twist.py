@@ -1,0 +1,73 @@
+"""Links recorded beside their motors: what winds up, plays or is rigid in MuJoCo is told as what it is."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from armscope.motion.pipeline import MotionDiagnosis, diagnose_motion
+from armscope.motion.verdict import FoundCause
+from armscope.recordings.motions import as_motions
+from tests.motion.moving import robot
+from tests.motion.two_inertias import RIGID, play, recorded, spring
+
+
+def diagnosed(table: pd.DataFrame) -> MotionDiagnosis:
+    return diagnose_motion(robot(), as_motions(table, "motions.csv", 3))
+
+
+def named(found: MotionDiagnosis) -> list[FoundCause]:
+    (side,) = found.verdict.links
+    return [cause for cause in side.causes if not cause.minor]
+
+
+@pytest.mark.parametrize(("joint", "stiffness", "seed"), [(1, 12000.0, 1), (2, 12000.0, 2), (3, 3000.0, 3)])
+def test_a_spring_between_two_inertias_is_found_with_its_stiffness(joint: int, stiffness: float, seed: int) -> None:
+    found = diagnosed(recorded(spring(stiffness), joint, seed))
+    (cause,) = named(found)
+    assert (cause.effect, cause.location, cause.doubt) == ("joint_elasticity", f"joint {joint}", "")
+    told = cause.parameters[0]
+    assert (told.name, told.unit) == ("stiffness", "N m/rad")
+    low, high = told.interval
+    assert low < stiffness < high < 1.02 * low
+    assert cause.consistent
+    assert found.verdict.answer in ("explained", "partly explained")
+    assert "winds up under its torque" in found.verdict.headline
+    side = found.verdict.links[0]
+    assert side.left < 0.05 * side.rms  # on motion that took no part
+    assert "joint_compliance" not in [each.effect for each in found.verdict.effects]  # told once, where it was read
+
+
+def test_a_rigid_drive_says_nothing() -> None:
+    found = diagnosed(recorded(RIGID, 2))
+    assert not found.verdict.links[0].causes
+    assert found.verdict.links[0].left == found.verdict.links[0].rms
+    assert "winds up" not in found.verdict.headline
+
+
+def test_zeros_that_differ_are_an_offset_and_no_cause() -> None:
+    table = recorded(RIGID, 2)
+    table["q2_link_rad"] += 0.3
+    side = diagnosed(table).verdict.links[0]
+    low, high = side.offset.interval
+    assert low < 0.3 < high
+    assert not side.causes
+
+
+def test_a_play_is_no_spring() -> None:
+    (cause,) = named(diagnosed(recorded(play(1e-3), 1)))
+    assert cause.effect == "joint_play"
+    low, high = cause.parameters[0].interval
+    assert low < 1e-3 < high
+
+
+def test_a_link_read_late_or_geared_otherwise_winds_up_nowhere() -> None:
+    for effect, size, change in (
+        ("encoder_lag", 0.002, lambda run: np.interp(run.time_s - 0.002, run.time_s, run.q2_link_rad)),
+        ("gear_ratio", 0.004, lambda run: 1.004 * run.q2_link_rad),
+    ):
+        table = recorded(RIGID, 2)
+        for _, run in table.groupby("run"):
+            table.loc[run.index, "q2_link_rad"] = change(run)
+        (cause,) = named(diagnosed(table))
+        assert cause.effect == effect
+        assert cause.parameters[0].value == pytest.approx(size, rel=0.02)
