@@ -273,7 +273,8 @@ def _contains(curve: Placed, special: Placed) -> bool:
 def _finest_wave(placed: Placed) -> float:
     """Waves per turn of the finest wave among an effect's terms; 0 without any."""
     drivers = (product.driver for t in placed.terms for product in t.products)
-    return max((float(d.arguments[1]) for d in drivers if d.kind == "cosine"), default=0.0)
+    per_turn = [d.arguments[1] for d in drivers if d.kind == "cosine"]
+    return max((float(count) for count in per_turn if isinstance(count, int | float)), default=0.0)
 
 
 def region(placed: Placed) -> str:
