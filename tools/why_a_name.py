@@ -24,7 +24,7 @@ from armscope.diagnosis.constants import NAMING
 from armscope.diagnosis.earning import held_out_gains, without_members
 from armscope.diagnosis.held_out import split_rows
 from armscope.diagnosis.selection import select
-from armscope.diagnosis.selection_loop import Selected
+from armscope.diagnosis.state import Selected
 from armscope.fitting.linearisation import LinearisedTable
 from armscope.fitting.registration import fit_frames
 from armscope.inference.additions import best_additions
