@@ -15,7 +15,7 @@ LONG_ROWS = 300_000
 
 @dataclass(frozen=True)
 class Cost:
-    """CPU time and memory of a command, as `python -m benchmarks.scale` measured them.
+    """CPU time and memory of a command, of tables as `python -m benchmarks.scale` makes them.
 
     Attributes:
         start_s, start_mb: of a short table.

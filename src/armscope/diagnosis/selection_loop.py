@@ -144,8 +144,11 @@ class SelectionLoop:
             new = self._scanned(Search.on(self.problem), MESH_COUNTS[-1])
             if not new:
                 break
+            known = self._state()
             self.candidates = [*self.candidates, *new]
             self.round(self._where_it_ended())
+            if self._alike(self._state(), known):
+                break
             self.noise.look_for_scatter()  # what looked like it may have been the line
             self.round(self._where_it_ended())
 
