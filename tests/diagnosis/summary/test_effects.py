@@ -37,10 +37,10 @@ def test_a_drive_under_unknown_masses_is_told_by_how_far_a_payload_turns_it(in_b
     values = np.append(1e-6 * rng.normal(size=len(UNKNOWN.terms) - 1), -0.4 * GIVE)
     named, drive = Part(UNKNOWN, values), Part(DRIVE, np.array([GIVE]))
     background = (drive,) if in_background else ()
-    pool = parameter_layout(free_frames(ROWS, False), [[DRIVE]], [UNKNOWN])
-    root = 1e-7 * rng.normal(size=(len(pool.terms), len(pool.terms)))
+    layout = parameter_layout(free_frames(ROWS, False), [[DRIVE]], [UNKNOWN])
+    root = 1e-7 * rng.normal(size=(len(layout.terms), len(layout.terms)))
     covariance = root @ root.T
-    fit: Any = SimpleNamespace(pool=pool, model=SimpleNamespace(background=background))
+    fit: Any = SimpleNamespace(layout=layout, model=SimpleNamespace(background=background))
     told, spread = _with_drive_of_background(fit, named, covariance)
 
     loaded, bare = np.full(len(ROWS), 8.0), np.zeros(len(ROWS))
@@ -49,19 +49,19 @@ def test_a_drive_under_unknown_masses_is_told_by_how_far_a_payload_turns_it(in_b
     number = [t.name for t in UNKNOWN.terms].index("compliance")
     assert turned == pytest.approx(told[number] * more[:, JOINT - 1], rel=1e-6, abs=1e-12)
 
-    draws = rng.multivariate_normal(np.zeros(len(pool.terms)), covariance, 200_000)
-    both = [pool.of(UNKNOWN)[number], *(pool.of(DRIVE) if in_background else [])]
+    draws = rng.multivariate_normal(np.zeros(len(layout.terms)), covariance, 200_000)
+    both = [layout.of(UNKNOWN)[number], *(layout.of(DRIVE) if in_background else [])]
     assert np.sqrt(spread[number, number]) == pytest.approx(draws[:, both].sum(axis=1).std(), rel=0.02)
     others = np.delete(np.arange(len(values)), number)
     assert told[others] == pytest.approx(values[others])
     assert spread[np.ix_(others, others)] == pytest.approx(
-        covariance[np.ix_(pool.of(UNKNOWN), pool.of(UNKNOWN))][np.ix_(others, others)]
+        covariance[np.ix_(layout.of(UNKNOWN), layout.of(UNKNOWN))][np.ix_(others, others)]
     )
 
 
 def test_a_drive_under_stated_masses_is_told_as_it_is() -> None:
-    pool = parameter_layout(free_frames(ROWS, False), [[DRIVE]], [DRIVE])
+    layout = parameter_layout(free_frames(ROWS, False), [[DRIVE]], [DRIVE])
     drive = Part(DRIVE, np.array([GIVE]))
-    fit: Any = SimpleNamespace(pool=pool, model=SimpleNamespace(background=(drive,)))
-    told, spread = _with_drive_of_background(fit, drive, 4e-14 * np.eye(len(pool.terms)))
+    fit: Any = SimpleNamespace(layout=layout, model=SimpleNamespace(background=(drive,)))
+    told, spread = _with_drive_of_background(fit, drive, 4e-14 * np.eye(len(layout.terms)))
     assert (told.item(), spread.item()) == (GIVE, pytest.approx(4e-14))
