@@ -161,7 +161,6 @@ class Placed:
             phase, or "curve" for a free curve.
         refinement: a finer form of a curve: it does not compete, it may take the curve's place once that is chosen.
         partly_unseen: recordings may not tell some combination of its values, which then stays as wide as its prior.
-        finest_wave: of a free curve of an angle, waves per turn up to which it follows it, its finer form included.
     """
 
     effect: Effect
@@ -175,7 +174,6 @@ class Placed:
     parametrisation: Literal["plain", "sine", "curve"] = "plain"
     refinement: bool = False
     partly_unseen: bool = False
-    finest_wave: float = 0.0
 
     @property
     def name(self) -> str:
@@ -261,22 +259,11 @@ def clash(one: Placed, other: Placed) -> bool:
 
 
 def _contains(curve: Placed, special: Placed) -> bool:
-    """Whether a free curve holds an effect as a special case; a variant named as a driver is in that one's curve.
-
-    A wave that is finer than the curve ever gets is not in it: a gear's line of 106 per turn stands beside it.
-    """
+    """Whether a free curve holds an effect as a special case; a variant named as a driver is in that one's curve."""
     within = special.effect.contained_in
     if curve.parametrisation != "curve" or curve.variant not in within:
         return False
-    named_as_driver = special.variant in within and special.variant != curve.variant
-    return not named_as_driver and _finest_wave(special) <= curve.finest_wave
-
-
-def _finest_wave(placed: Placed) -> float:
-    """Waves per turn of the finest wave among an effect's terms; 0 without any."""
-    drivers = (product.driver for t in placed.terms for product in t.products)
-    per_turn = [d.arguments[1] for d in drivers if d.kind == "cosine"]
-    return max((float(count) for count in per_turn if isinstance(count, int | float)), default=0.0)
+    return special.variant not in within or special.variant == curve.variant
 
 
 def region(placed: Placed) -> str:

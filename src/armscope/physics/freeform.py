@@ -42,11 +42,6 @@ def waves(recordings: Recordings) -> int:
     return int(np.clip(len(recordings) // ROWS_PER_WAVE, FEWEST_WAVES, MOST_WAVES))
 
 
-def _fine_waves(recordings: Recordings) -> int:
-    """How many waves its finer form gets."""
-    return min(len(recordings) // ROWS_PER_FINE_WAVE, MOST_FINE_WAVES)
-
-
 def refined(arm: Arm, recordings: Recordings, curve: Placed) -> Placed | None:
     """A free curve of a joint's own angle with the finest waves that a long table carries; None for other curves.
 
@@ -58,7 +53,7 @@ def refined(arm: Arm, recordings: Recordings, curve: Placed) -> Placed | None:
     Returns:
         The finer curve in place.
     """
-    count = _fine_waves(recordings)
+    count = min(len(recordings) // ROWS_PER_FINE_WAVE, MOST_FINE_WAVES)
     if curve.effect is not UNKNOWN or curve.variant != "angle" or curve.refinement or count <= MOST_WAVES:
         return None
     j = Location.of(curve.location).number
@@ -115,8 +110,7 @@ def _angle_curve(arm: Arm, recordings: Recordings, j: int, count: int, smooth: f
     for number in range(1, count + 1):
         terms += wave_terms(j, number if longest == 2 * np.pi else number * 2 * np.pi / longest)
         shape += [1 / (1 + (number / smooth) ** 2)] * 2
-    curve = _curve(f"joint {j}", tuple(terms), shape, f"angle of joint {j}", "angle", trends=2)
-    return replace(curve, finest_wave=max(count, _fine_waves(recordings)) * 2 * np.pi / longest)
+    return _curve(f"joint {j}", tuple(terms), shape, f"angle of joint {j}", "angle", trends=2)
 
 
 def _load(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
