@@ -158,10 +158,19 @@ def test_small_errors_everywhere_are_led_by_what_is_a_twentieth_of_them(share, s
 
 def test_a_cause_has_one_pair_of_brackets():
     vague = compliance(named_as="region", title="elastic, around joint 1, joint 2")
-    said = cause_in_words("elastic", [vague, compliance()], everywhere())
-    assert said.endswith("under gravity; one more of its kind, all others a little)")
+    said = cause_in_words("elastic", [vague, compliance(location="joint 3")], everywhere())
+    assert said.endswith("under gravity; also giving way: joint 3; all others a little)")
     assert said.count("(") == 1
     assert cause_in_words("elastic", [compliance()], everywhere()).endswith("under gravity (all others a little)")
+
+
+def test_a_cause_of_several_places_says_where_the_others_are():
+    at = [compliance(), *(compliance(location=place) for place in ("joint 5", "link 3", "joint 4"))]
+    assert cause_in_words("elastic", at).endswith("under gravity (also giving way: joints 4 and 5 and link 3)")
+    many = [*at, compliance(location="base"), compliance(location="tool")]
+    assert cause_in_words("elastic", many).endswith("(also giving way: five more places)")
+    assert cause_in_words("elastic", [compliance(), compliance()]).endswith("(one more at the same place)")
+    assert "(" not in cause_in_words("elastic", at[:1])
 
 
 def test_nothing_missing_and_cannot_tell_are_whole_answers():

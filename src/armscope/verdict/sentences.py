@@ -12,6 +12,7 @@ from armscope.verdict.effects import Cause, FoundEffect
 from armscope.verdict.schema import Background, Verdict
 from armscope.verdict.wording import (
     SMALL,
+    also_out,
     capitalised,
     implausible,
     main_and_minor,
@@ -60,12 +61,11 @@ _CURES = {
 """What mends a family where it has several members or small errors everywhere."""
 
 TOLD = 0.05
-"""Share of the squared error from which a cause is told in the headline, whatever its members; smaller ones are
-counted, unless a member stands out or it is the largest."""
+"""Share of the squared error from which a cause is told; smaller ones are counted, unless a member stands out."""
 UNSURE = 0.01
 """Share from which small errors are told that the evidence does not ask for."""
 FAINT = 0.7
-"""Something unexplained that is smaller than this share of the residual is hidden in the noise."""
+"""Something unexplained of a smaller share of the residual is hidden in the noise."""
 
 
 def headline(verdict: Diagnosis) -> str:
@@ -100,11 +100,11 @@ def _told_and_rest(causes: Sequence[Cause]) -> tuple[list[Cause], list[Cause]]:
 
 
 def cause_in_words(family: str, members: Sequence[FoundEffect], small: Background | None = None) -> str:
-    """What is wrong, in a clause: the largest member, how many more, and whether it is so everywhere.
+    """What is wrong, in a clause: the largest member, where the others are, and whether it is so everywhere.
 
     Args:
         family: of the cause.
-        members: its effects, largest share first; those that are minor are counted, not told.
+        members: its effects, largest share first; of those that are minor only the places are told.
         small: small errors of the family in the whole arm, where they belong to it; the larger part is told first.
 
     Returns:
@@ -114,7 +114,7 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], small: Backgroun
     none_stands_out = _EVERYWHERE.get(family, f"small {family} errors in all joints and links, as in any arm")
     if not told or (small and _is_next_to_nothing(told[0], small)):
         return none_stands_out
-    beside = [f"{spelled(len(members) - 1)} more of its kind"] if len(members) > 1 else []
+    beside = also_out(family, told[0], members)
     if small and small.share > sum(effect.share for effect in members) and family in _ALL:
         return _with_others(f"{_ALL[family]}, most of all: {phrase(told[0])}", beside)
     beside += [_BESIDE.get(family, _OTHERS)] if small else []
@@ -126,7 +126,7 @@ def _with_others(clause: str, beside: Sequence[str]) -> str:
     if not beside:
         return clause
     opened = f"{clause[:-1]}; " if clause.endswith(")") else f"{clause} ("
-    return f"{opened}{', '.join(beside)})"
+    return f"{opened}{'; '.join(beside)})"
 
 
 def _is_next_to_nothing(effect: FoundEffect, small: Background) -> bool:

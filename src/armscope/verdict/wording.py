@@ -31,6 +31,17 @@ SMALL = {
 }
 """What every arm and set-up has a little of, by family."""
 
+_ALSO = {
+    "geometric": "also off",
+    "elastic": "also giving way",
+    "transmission": "also erring",
+    "thermal": "also growing",
+    "drift": "also moving",
+}
+"""What the places of a cause do that stand beside the first, by family."""
+MOST_PLACES = 4
+"""More places than this are counted, not told."""
+
 
 @dataclass(frozen=True)
 class Reading:
@@ -63,6 +74,43 @@ def spelled(count: int) -> str:
     """Small numbers as words."""
     words = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
     return words[count] if count < len(words) else str(count)
+
+
+def also_out(family: str, told: FoundEffect, members: Sequence[FoundEffect]) -> list[str]:
+    """Where else a cause is, for brackets behind its first member: "also off: joints 3, 4 and link 2".
+
+    Args:
+        family: of the cause.
+        told: the member that stands before the brackets.
+        members: all of them.
+
+    Returns:
+        One clause, or none where there is no other member.
+    """
+    others = [effect for effect in members if effect is not told]
+    places = list(dict.fromkeys(effect.location for effect in others if effect.location != told.location))
+    if not places:
+        return [f"{spelled(len(others))} more at the same place"] if others else []
+    listed = places_in_words(places) if len(places) <= MOST_PLACES else f"{spelled(len(places))} more places"
+    return [f"{_ALSO.get(family, 'also')}: {listed}"]
+
+
+def places_in_words(places: Sequence[str]) -> str:
+    """Places in one phrase, numbered ones of a kind together and in order: "joints 3 and 4, link 2 and base"."""
+    kinds: dict[str, list[str]] = {}
+    for place in places:
+        kind, _, number = place.rpartition(" ")
+        kinds.setdefault(kind if number.isdigit() else place, []).append(number if number.isdigit() else "")
+    phrases = []
+    for kind, numbers in kinds.items():
+        listed = _and([number for number in sorted(numbers, key=lambda each: int(each or 0)) if number])
+        phrases.append(f"{kind}{'s' * (len(numbers) > 1)} {listed}".strip())
+    return _and(phrases)
+
+
+def _and(words: Sequence[str]) -> str:
+    """ "one, two and three"."""
+    return " and ".join([", ".join(words[:-1]), words[-1]]) if len(words) > 1 else "".join(words)
 
 
 def capitalised(text: str) -> str:
