@@ -126,6 +126,42 @@ def test_the_table_is_read_as_it_was_meant(case, tmp_path):
         np.testing.assert_allclose(table.torque, TORQUES, atol=1e-8)
 
 
+@pytest.mark.parametrize(
+    ("stated", "below"), [("{} [in]", ""), ("{} (Zoll)", ""), ("{}", "deg," * 6 + "inch,inch,inch\n")]
+)
+def test_inches_are_read_where_the_table_states_them(stated, below, tmp_path):
+    file = written(tmp_path, names("J{}", np.degrees(ANGLES)) | axes(stated, POINTS / 25.4))
+    head, rows = file.read_text().split("\n", 1)
+    file.write_text(f"{head}\n{below}{rows}")
+    (tmp_path / "mapping.yaml").write_text(draft_mapping(file))
+    import_recordings([file], tmp_path / "mapping.yaml", tmp_path / "out.csv")
+    np.testing.assert_allclose(read_recordings(tmp_path / "out.csv").positions, POINTS / 1e3, atol=1e-8)
+
+
+def test_rows_without_a_value_are_left_out_and_said(tmp_path):
+    rows = [
+        ",".join(f"{value:.6f}" for value in (*angles, *point)) for angles, point in zip(ANGLES, POINTS, strict=True)
+    ]
+    rows[3] = rows[3].rsplit(",", 3)[0] + ",---,---,---"
+    rows.append("Mittelwert" + "," * 5 + ",1,2,3")
+    file = tmp_path / "foreign.csv"
+    file.write_text("\n".join(["A1,A2,A3,A4,A5,A6,X,Y,Z", *rows, ""]))
+    draft = draft_mapping(file)
+    assert "guessed: 2 rows have none there" in draft
+    assert "'Mittelwert': no value" in draft
+    (tmp_path / "mapping.yaml").write_text(draft)
+    import_recordings([file], tmp_path / "mapping.yaml", tmp_path / "out.csv")
+    np.testing.assert_allclose(
+        read_recordings(tmp_path / "out.csv").positions, np.delete(POINTS, 3, 0) / 1e3, atol=1e-8
+    )
+
+
+def test_a_spoilt_number_is_no_missing_value(tmp_path):
+    file = tmp_path / "foreign.csv"
+    file.write_text("A1,A2,X,Y,Z\n1,2,3,4,5\n1,2,3x1,4,5\n1,2,3,4,5\n")
+    assert "missing" not in yaml.safe_load(draft_mapping(file))["format"]
+
+
 def test_a_table_without_names_is_read_by_its_place(tmp_path):
     file = tmp_path / "bare.txt"
     np.savetxt(file, np.column_stack([ANGLES, POINTS]), fmt="%.9f")
@@ -152,7 +188,10 @@ def test_what_looks_like_no_recordings_is_one_error(text, words, tmp_path):
 
 def test_another_encoding_and_other_files_are_named(tmp_path):
     file = tmp_path / "foreign.csv"
-    file.write_text("Achse 1;Achse 2;X;Y;Z\n1;2;3;4;5\n", encoding="utf-16")
+    whole = "Achse 1;Achse 2;X;Y;Z\n1;2;3;4;5\n".encode("utf-16")
+    file.write_bytes(whole)
+    assert yaml.safe_load(draft_mapping(file))["format"]["encoding"] == "utf-16"
+    file.write_bytes(whole[:-1])
     with pytest.raises(InputError, match="UTF-16"):
         draft_mapping(file)
     file.write_bytes(b"PK\x03\x04" + bytes(40))

@@ -27,7 +27,8 @@ LARGEST_NUMBER = 1e15
 
 ABSOLUTE_ZERO_C = -273.15
 
-UNITS: dict[str, float] = {"rad": 1.0, "deg": np.pi / 180, "mm": 1e-3, "m": 1.0}
+UNITS: dict[str, float] = {"rad": 1.0, "deg": np.pi / 180, "mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254}
+"""SI of one. Tables of raw files may be in centimetres and inches; those of armscope are not."""
 
 
 @dataclass(frozen=True)

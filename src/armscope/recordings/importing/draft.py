@@ -12,7 +12,9 @@ import yaml
 from armscope.core.inputs import InputError, validate
 from armscope.core.types import Array
 from armscope.recordings.importing.first_table import ForeignTable, first_table
+from armscope.recordings.importing.formats import TextFormat
 from armscope.recordings.importing.mapping import Mapping
+from armscope.recordings.importing.stated_units import ANGLE_UNITS, LENGTH_UNITS, OTHER_UNITS, stated_unit
 
 FEWEST_MOTORS = 2
 RADIANS_UP_TO = 2 * np.pi + 0.01
@@ -23,18 +25,6 @@ METRES_UP_TO = 30.0
 
 JOINT = re.compile(r"(?P<word>.*?)[\s_.\[(\-]*(?P<number>\d{1,2})(?!\d)[\])]?(?P<rest>\D*)")
 """A column of one motor: words, its number, and what may follow: a unit, words."""
-ANGLE_UNITS = {
-    "rad": "rad",
-    "radians": "rad",
-    "deg": "deg",
-    "degree": "deg",
-    "degrees": "deg",
-    "°": "deg",
-    "grad": "deg",
-}
-"""Grad is German for degrees (a gon is 0.9 of them: the comment says so)."""
-LENGTH_UNITS = {"mm": "mm", "millimeters": "mm", "m": "m", "meters": "m"}
-OTHER_UNITS = ("rad/s", "deg/s", "nm", "n m", "s", "ms", "kg", "c", "°c", "degc")
 ANGLE_WORDS = (
     *("q", "j", "joint", "theta", "th", "axis", "axe", "achse", "gelenk", "a", "angle", "ang", "pos", "position"),
     *("encoder", "motor", "rax", "s"),
@@ -71,9 +61,10 @@ def draft_mapping(path: Path | str) -> str:
     """
     path = Path(path)
     table = first_table(path)
-    lines = list(_format_lines(table))
     columns = list(_guess_columns(path, table))
-    lines += ["columns:", *columns]
+    angles = _motor_columns(table)
+    needed = [*angles, *_triple(table, taken=angles)]
+    lines = [*_format_lines(table, needed), "columns:", *columns, *_row_lines(table, needed)]
     unused = [name for name in table.names if table.header and not any(_quoted(name) in line for line in columns)]
     if unused:
         shown = ", ".join(_quoted(_printable(name)) for name in unused[:MOST_NAMED])
@@ -87,13 +78,28 @@ def draft_mapping(path: Path | str) -> str:
 _NEXT = "# armscope import TABLE --mapping mapping.yaml -o recordings.csv"
 
 
-def _format_lines(table: ForeignTable) -> Iterator[str]:
+def _format_lines(table: ForeignTable, needed: Sequence[int]) -> Iterator[str]:
     stated = {"delimiter": table.delimiter, "decimal": table.decimal}
     parts = [f'{key}: "{value}"' for key, value in stated.items()]
     parts += ["header: false"] if not table.header else []
     parts += [f"skip_lines: {table.skip}"] if table.skip else []
+    parts += ["below_header: 1"] if table.units else []
     parts += [f"encoding: {table.encoding}"] if table.encoding != "utf-8-sig" else []
-    yield f"format: {{{', '.join(parts)}}}   # guessed: most lines are cut alike by it"
+    words = [word for word in table.words(needed) if word not in TextFormat().missing]
+    if words:
+        listed = ", ".join(_quoted(word) for word in (*TextFormat().missing, *words[:MOST_NAMED]))
+        parts += [f"missing: [{listed}]"]
+    why = f"; {', '.join(_quoted(_printable(word)) for word in words[:MOST_NAMED])}: no value" if words else ""
+    yield f"format: {{{', '.join(parts)}}}   # guessed: most lines are cut alike by it{why}"
+
+
+def _row_lines(table: ForeignTable, needed: Sequence[int]) -> Iterator[str]:
+    """Rows without angles or points are left out, and which is said."""
+    lacking = np.isnan(table.values[:, needed])
+    if lacking.any():
+        listed = _listed(table, [column for column, some in zip(needed, lacking.any(axis=0), strict=True) if some])
+        yield "rows:"
+        yield f"- drop_missing: {listed}   # guessed: {lacking.any(axis=1).sum()} rows have none there"
 
 
 def _guess_columns(path: Path, table: ForeignTable) -> Iterator[str]:
@@ -102,13 +108,13 @@ def _guess_columns(path: Path, table: ForeignTable) -> Iterator[str]:
     for what, found in (("the motor angles", angles), ("measured x, y, z", points)):
         if not found:
             rule = f"no columns look like {what}"
-            cure = "Write the mapping by hand: docs/bring-your-recordings.md."
+            cure = "Write the mapping by hand: docs/bring-your-recordings.md; of a program, write a table."
             raise InputError(path, f"line {table.skip + 1}", ", ".join(table.names[:12]), rule, cure)
     numbers = table.values[:, angles]
     largest = _largest(numbers)
-    stated = _stated_unit(table.names[angles[0]], ANGLE_UNITS)
+    stated = stated_unit(table.names[angles[0]], _below(table, angles[0]), ANGLE_UNITS)
     unit = stated or ("rad" if largest <= RADIANS_UP_TO else "deg")
-    why = "stated by the name" if stated else f"guessed: none is beyond {largest:.4g}"
+    why = "stated by the table" if stated else f"guessed: none is beyond {largest:.4g}"
     why = "guessed: Grad is German for degrees" if "grad" in _words(table.names[angles[0]]) else why
     unnumbered = table.header and not any(JOINT.fullmatch(table.names[column].strip()) for column in angles[:1])
     of_ur = angles == _ur_joints(table)
@@ -116,11 +122,16 @@ def _guess_columns(path: Path, table: ForeignTable) -> Iterator[str]:
     why += "; no numbers in the names: in the table's order" if unnumbered and not of_ur else ""
     yield f"  angles: {{columns: {_listed(table, angles)}, unit: {unit}}}   # {why}; columns by likeness of names"
     largest = _largest(table.values[:, points])
-    stated = _stated_unit(table.names[points[0]], LENGTH_UNITS)
+    stated = stated_unit(table.names[points[0]], _below(table, points[0]), LENGTH_UNITS)
     unit = stated or ("m" if largest <= METRES_UP_TO else "mm")
-    why = "stated by the name" if stated else f"guessed: none is beyond {largest:.4g}"
+    why = "stated by the table" if stated else f"guessed: none is beyond {largest:.4g}"
     yield f"  position: {{columns: {_listed(table, points)}, unit: {unit}}}   # {why}; columns by likeness of names"
     yield from _further(table, len(angles), {*angles, *points})
+
+
+def _below(table: ForeignTable, column: int) -> str:
+    """What a line of units says of a column; "" where there is none."""
+    return table.units[column] if table.units else ""
 
 
 def _largest(values: Array) -> float:
@@ -141,11 +152,6 @@ def _quoted(name: str) -> str:
 def _printable(name: str) -> str:
     """A name that ends no comment and breaks no line."""
     return "".join(sign if sign.isprintable() else "?" for sign in name)
-
-
-def _stated_unit(name: str, units: dict[str, str]) -> str | None:
-    found = re.search(r"[\s_.\-\[(]+\[?\(?([A-Za-z°]+)[\])]?\s*$", name)
-    return units.get(found[1].lower()) if found else None
 
 
 def _numbered(table: ForeignTable) -> dict[str, dict[int, int]]:

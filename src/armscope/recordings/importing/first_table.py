@@ -12,7 +12,8 @@ import numpy as np
 
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
-from armscope.recordings.opening import open_text, refuse_other_than_text, start_of
+from armscope.recordings.importing.stated_units import ANGLE_UNITS, LENGTH_UNITS
+from armscope.recordings.opening import UTF_16, open_text, refuse_other_than_text, start_of
 
 LOOKED_AT = 2000
 """Lines of the file that guesses rest on."""
@@ -24,7 +25,17 @@ NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 
 @dataclass(frozen=True, eq=False)
 class ForeignTable:
-    """The first lines of a foreign table: how they are cut, their names, their numbers (NaN where none is)."""
+    """The first lines of a foreign table: how they are cut, their names, their numbers (NaN where none is).
+
+    Attributes:
+        delimiter, decimal, encoding: as mappings call them.
+        skip: lines above the header, or above the first row where there is none.
+        names: of the columns, or their numbers.
+        header: whether the first line names the columns.
+        values: (rows, columns).
+        cells: the words that the numbers were read from.
+        units: the cells of a line of units below the header; empty where there is none.
+    """
 
     delimiter: str
     decimal: str
@@ -32,7 +43,15 @@ class ForeignTable:
     names: list[str]
     header: bool
     values: Array
-    encoding: str = "utf-8-sig"
+    encoding: str
+    cells: list[list[str]]
+    units: list[str]
+
+    def words(self, columns: Sequence[int]) -> list[str]:
+        """What stands in some columns in place of a number and holds no digit, "---" or "n/a", in order."""
+        at = np.argwhere(np.isnan(self.values[:, columns]))
+        found = dict.fromkeys(self.cells[row][columns[column]] for row, column in at.tolist())
+        return [word for word in found if not any(sign.isdigit() for sign in word)]
 
 
 def first_table(path: Path) -> ForeignTable:
@@ -41,12 +60,14 @@ def first_table(path: Path) -> ForeignTable:
     Raises:
         InputError: it is no text table, or has no rows.
     """
-    encoding = "utf-8-sig"
     start = start_of(path, "a table of recordings")
-    refuse_other_than_text(path, start, encoding, "Save it as UTF-8, or write `encoding: utf-16` in the mapping.")
+    encoding = "utf-16" if start.startswith(UTF_16) else "utf-8-sig"
+    refuse_other_than_text(path, start, encoding, "")
     try:
         lines = _first_lines(path, encoding)
-    except UnicodeDecodeError:
+    except UnicodeError as error:
+        if encoding == "utf-16":
+            raise InputError(path, "", str(error), "UTF-16 text is cut off or spoilt", "Save it as UTF-8.") from error
         encoding = "latin-1"
         lines = _first_lines(path, encoding)
     filled = [line for line in lines if line.strip()]
@@ -62,10 +83,19 @@ def first_table(path: Path) -> ForeignTable:
     for name in names:
         if len(name) > LONGEST_NAME:
             raise InputError(path, f"line {first + 1}", name, f"column names of at most {LONGEST_NAME} characters")
-    numbers = np.array([[_value(cell, decimal) for cell in row] for row in rows[1 if header else 0 :]], dtype=float)
+    cells = rows[1:] if header else rows
+    units = cells[0] if header and len(cells) > 1 and _is_of_units(cells[0]) else []
+    cells = cells[1:] if units else cells
+    numbers = np.array([[_value(cell, decimal) for cell in row] for row in cells], dtype=float)
     if not len(numbers):
         raise InputError(path, "", "a header alone", "rows are needed to guess units from")
-    return ForeignTable(delimiter, decimal, first, names, header, numbers, encoding)
+    return ForeignTable(delimiter, decimal, first, names, header, numbers, encoding, cells, units)
+
+
+def _is_of_units(cells: Sequence[str]) -> bool:
+    """Whether a line below the header says units: an angle's and a length's at least, and no number."""
+    words = {cell.lower().strip(" []()") for cell in cells}
+    return bool(words & set(ANGLE_UNITS)) and bool(words & set(LENGTH_UNITS)) and not any(map(NUMBER.fullmatch, words))
 
 
 def _first_lines(path: Path, encoding: str) -> list[str]:

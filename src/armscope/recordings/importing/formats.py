@@ -26,7 +26,8 @@ Column = Annotated[int | str, pydantic.BeforeValidator(_column)]
 class TextFormat(Strict):
     """Delimited text; ``decimal`` is the sign that every number uses, ``missing`` are words for no value.
 
-    Lines after ``last_line`` are not read. ``values_per_row`` cuts a flat list of values, one a line, into rows.
+    ``below_header`` lines below the names hold units, say, and are passed over; lines after ``last_line`` are not read.
+    ``values_per_row`` cuts a flat list of values, one a line, into rows.
     """
 
     kind: Literal["text"] = "text"
@@ -34,6 +35,7 @@ class TextFormat(Strict):
     decimal: Literal[".", ","] = "."
     header: bool = True
     skip_lines: int = Field(default=0, ge=0)
+    below_header: int = Field(default=0, ge=0)
     last_line: int | None = Field(default=None, ge=1)
     values_per_row: int | None = Field(default=None, ge=2)
     comment: str | None = Field(default=None, min_length=1)
@@ -44,6 +46,8 @@ class TextFormat(Strict):
     def _consistent(self) -> Self:
         if self.delimiter == self.decimal:
             raise ValueError("`delimiter` and `decimal` can't both be a comma")
+        if self.below_header and not self.header:
+            raise ValueError("without a header there is nothing below it: say `skip_lines` in place of `below_header`")
         if self.values_per_row is not None and self.header:
             raise ValueError("a flat list (`values_per_row`) has no header: say `header: false`")
         return self

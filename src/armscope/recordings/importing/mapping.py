@@ -18,7 +18,7 @@ from armscope.core.inputs import Strict, nearest
 from armscope.recordings.importing.formats import Column, Format, RowFilter, TextFormat, Time
 
 AngleUnit = Literal["rad", "deg"]
-LengthUnit = Literal["mm", "m"]
+LengthUnit = Literal["mm", "m", "cm", "in"]
 
 
 class Angles(Strict):

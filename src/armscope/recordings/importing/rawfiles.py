@@ -110,6 +110,8 @@ def _gather(
             raise InputError(path, "line 1", "nothing", "the first line names the columns", "Is the file empty?")
         names = tuple(name.strip() for name in first[1])
         width = len(names)
+        for _ in range(style.below_header):
+            next(rows, None)
     cells: list[list[str]] = []
     lines: list[int] = []
     done = 0

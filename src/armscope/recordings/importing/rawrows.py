@@ -15,6 +15,8 @@ from armscope.recordings.importing.formats import Column, TextFormat
 
 TOO_LARGE = f"no recorded value reaches {LARGEST_NUMBER:.0e}"
 
+NO_VALUE = "Declare it under `missing` if it stands for no value."
+
 
 @dataclass(frozen=True, eq=False)
 class TextRows:
@@ -60,8 +62,10 @@ class TextRows:
         if not cure and self.numbers_of_rows[row] == 1:
             cure = "If this line names the columns, leave out `header: false`."
             if self.names:
-                cure = f"If this line holds units, count columns: `header: false`, `skip_lines: {self.lines[row]}`."
-        if wrong_sign in word:
+                cure = f"If this line holds units, declare `below_header: {self.format.below_header + 1}`."
+        if {".", ","} <= set(word):
+            cure = "Signs between thousands are not read: write the numbers without them."
+        elif wrong_sign in word:
             cure = (
                 f"The mapping declares decimal: {self.format.decimal!r} for the whole file, this number uses another."
             )
@@ -73,8 +77,10 @@ class TextRows:
             else:
                 if abs(value) <= LARGEST_NUMBER:
                     return value
-                cure = "Declare it under `missing` if it stands for no value."
+                cure = NO_VALUE
                 rule = TOO_LARGE if np.isfinite(value) else rule
+        if not cure:
+            cure = f"{NO_VALUE} If this line is no row of the table, remove it, or say `last_line` where rows end."
         place = f"line {self.lines[row]}, column {column}"
         raise InputError(self.source, place, word, rule, cure)
 
