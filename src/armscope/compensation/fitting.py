@@ -73,7 +73,7 @@ def fit_error_model(
     _check_rows(how, arm, recordings)
     base = Base(np.eye(3), np.zeros(3))
     if register:
-        arm, base = register_frames(arm, recordings)
+        arm, base = _register_frames(arm, recordings)
     frames = chain(arm, recordings.motor_angles)
     errors = ((recordings.positions - base.translation) @ base.rotation - frames.tool) * 1e3
     off = rms(errors)
@@ -156,29 +156,13 @@ def _turning(
     if not len(rows):
         return None
     _check_rows(how, arm, rows, "rows with an orientation")
-    turns, tool = turning_errors(arm, rows, base, register)
+    turns, tool = _turning_errors(arm, rows, base, register)
     fitted = how.fit(_inputs(arm, how.spec, rows.motor_angles), turns * 1e3, cut, arm.name)
     return Turning(fitted.features, fitted.coefficients, fitted.rms, tool)
 
 
-def turning_errors(arm: Arm, rows: Recordings, base: Base, register: bool) -> tuple[Array, Array]:
-    """Rotation vectors r (N, 3), rad: measured = exp(r) * nominal in base axes; and the tool frame from the last frame.
-
-    With ``register`` the tool frame's constant turn is the mean of what is measured behind the nominal last frame;
-    without, the two frames are the same.
-
-    Args:
-        arm: the nominal arm.
-        rows: with orientations (N, 4), measurement frame from tool frame.
-        base: measurement frame from base frame.
-        register: fit the tool frame's constant turn.
-
-    Returns:
-        Rotation vectors (N, 3), rad, and the tool frame's turn (3, 3).
-
-    Raises:
-        InputError: orientations of another frame.
-    """
+def _turning_errors(arm: Arm, rows: Recordings, base: Base, register: bool) -> tuple[Array, Array]:
+    """Rotation vectors r (N, 3), rad, measured = exp(r) * nominal in base axes; tool from last frame (3, 3)."""
     measured = Rotation.from_quat(rows.quaternions, scalar_first=True).as_matrix()
     nominal = chain(arm, rows.motor_angles).tool_rotation
     in_base = base.rotation.T @ measured
@@ -199,12 +183,8 @@ def turning_errors(arm: Arm, rows: Recordings, base: Base, register: bool) -> tu
     return turns, np.asarray(tool, dtype=float)
 
 
-def register_frames(arm: Arm, recordings: Recordings) -> tuple[Arm, Base]:
-    """The measurement frame and the tool offset that suit the nominal arm best (least squares, 9 numbers).
-
-    Returns:
-        The arm with that tool offset, and measurement frame from base frame.
-    """
+def _register_frames(arm: Arm, recordings: Recordings) -> tuple[Arm, Base]:
+    """The arm with the tool offset, and the measurement frame, that suit it best (least squares, 9 numbers)."""
     frames, one = chain(arm, recordings.motor_angles), np.zeros(len(recordings), dtype=np.intp)
     flange = frames.tool - frames.tool_rotation @ arm.tool
     poses = FlangePoses(flange, frames.tool_rotation, recordings.positions, base=one, tool=one)

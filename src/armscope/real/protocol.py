@@ -128,15 +128,7 @@ def effects_named(verdict: Diagnosis) -> list[dict[str, object]]:
 
 
 def paper_models(arm: Arm, table: Recordings) -> list[dict[str, object]]:
-    """The paper's models at 85 identification rows, by least squares: rows of model, split, train, test, rms_mm.
-
-    Args:
-        arm: the nominal arm.
-        table: rows of one run.
-
-    Returns:
-        One dictionary per model and split.
-    """
+    """The paper's models at 85 identification rows, by least squares: rows of model, split, train, test, rms_mm."""
     sets = {each.name: each for each in real_measurements(arm, table, 0, PAPER_ROWS).measurements.sets}
     train, test = sets.pop(IDENTIFICATION), next(iter(sets.values()))
     found: list[tuple[str, Array]] = [(UNCORRECTED, test.errors_mm[0])]
