@@ -11,7 +11,8 @@ from armscope.compensation.black_box import ErrorModel, Turning, domain_of
 from armscope.core.averages import rms, rms_distance
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
-from armscope.errormodels import FeatureSet, FitProblem, ModelSpec, fit_least_squares, fit_swarms
+from armscope.errormodels.features import FeatureSet, ModelSpec
+from armscope.errormodels.least_squares import fit_least_squares
 from armscope.errormodels.products import ProductFeatures, fit_products
 from armscope.errormodels.regions import (
     Cut,
@@ -22,6 +23,7 @@ from armscope.errormodels.regions import (
     fit_regions,
     halvings_of,
 )
+from armscope.errormodels.swarm_fit import FitProblem, fit_swarms
 from armscope.fitting.constants import STEPS
 from armscope.fitting.placement import FlangePoses, all_alike, place_frames
 from armscope.physics.model import Base

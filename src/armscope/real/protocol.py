@@ -20,7 +20,8 @@ from armscope.calibration.splits import random_split
 from armscope.core.averages import rms_distance
 from armscope.core.types import Array, unheard
 from armscope.diagnosis import Diagnosis, Settings, diagnose
-from armscope.errormodels import PAPER_MODELS, fit_least_squares
+from armscope.errormodels.features import PAPER_MODELS
+from armscope.errormodels.least_squares import fit_least_squares
 from armscope.measurement.orientations import ORIENTATIONS
 from armscope.paper.printed import IDENTIFICATION
 from armscope.paper.real import real_measurements
