@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +11,7 @@ import pandas as pd
 
 from armscope.core.types import Array
 from armscope.proof.matching import UNKNOWN
-from armscope.proof.truth import Concealed, unsealed
+from armscope.proof.truth import Concealed, concealed, unsealed
 
 COMPARED = {
     "coulomb_friction": ("coulomb",), "viscous_friction": ("viscous",), "asymmetric_friction": ("viscous_difference",),
@@ -87,18 +87,6 @@ def _truth(world: str, content: dict[str, Any], test: pd.DataFrame) -> MotionTru
 
 
 def _effect(content: dict[str, Any]) -> Concealed:
-    kept = COMPARED.get(content["effect"], ())
-    return Concealed(
-        effect=content["effect"],
-        location=content["location"],
-        driver=content["driver"],
-        minor=False,
-        strength=content["strength"],
-        parameters={p["name"]: (p["value"], p["unit"]) for p in content["parameters"] if p["name"] in kept},
-        comparable=content["effect"] != UNKNOWN,
-        noncentrality=float("nan"),
-        columns=0,
-        frame_numbers=0,
-        alternatives=tuple((each["effect"], each["location"]) for each in content["alternatives"]),
-        shape=content["shape"],
-    )
+    found, kept = concealed(content), COMPARED.get(content["effect"], ())
+    numbers = {name: number for name, number in found.parameters.items() if name in kept}
+    return replace(found, parameters=numbers, comparable=found.effect != UNKNOWN)

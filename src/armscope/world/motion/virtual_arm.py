@@ -171,7 +171,7 @@ def _sized(arm: VirtualArm, concealed: Concealed, strength: float, plain: Array)
     """Numbers grown or shrunk until the strength is reached; a power law is followed from step to step."""
     power, before = 1.0, None
     for _ in range(8):
-        found = measure(arm, concealed, plain)
+        found = _measure(arm, concealed, plain)
         if found is None or found.strength < TOO_SMALL:
             return None
         if abs(found.strength / strength - 1) < CLOSE:
@@ -187,17 +187,8 @@ def _sized(arm: VirtualArm, concealed: Concealed, strength: float, plain: Array)
     return None
 
 
-def measure(arm: VirtualArm, concealed: Concealed, plain: Array) -> Sized | None:
-    """How large it is with the numbers it has.
-
-    Args:
-        arm: the arm.
-        concealed: what is wrong with it.
-        plain: (T, n) torques with nothing concealed.
-
-    Returns:
-        Its size; None where no body can be so.
-    """
+def _measure(arm: VirtualArm, concealed: Concealed, plain: Array) -> Sized | None:
+    """How large it is with the numbers it has beside torques (T, n) without it; None where no body can be so."""
     may_be = concealed.kind.possible
     if may_be is not None and not may_be(arm, concealed.joint, concealed.numbers):
         return None
