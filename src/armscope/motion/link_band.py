@@ -7,7 +7,7 @@ motion up to 14 Hz, is 2 N m of a link of 60 kg m^2.
 from __future__ import annotations
 
 import numpy as np
-from scipy.signal import welch
+from scipy.signal import detrend, welch
 
 from armscope.core.types import Array
 from armscope.motion.sampling_constants import CUTOFF
@@ -26,7 +26,8 @@ def link_bands(beside: Array, rate: float) -> Array:
     """
     bands = np.zeros(beside.shape[1])
     for j in np.flatnonzero(np.isfinite(beside).all(axis=0)):
-        frequency, power = welch(beside[:, j], rate, nperseg=min(len(beside), CUTOFF.window), detrend="linear")
+        steady = detrend(beside[:, j])
+        frequency, power = welch(steady, rate, nperseg=min(len(beside), CUTOFF.window))
         seen = np.flatnonzero(power[1:] > CUTOFF.above_noise * np.median(power[-len(power) // 4 :]))
         bands[j] = CUTOFF.beyond_motion * frequency[1 + seen[-1]] if len(seen) else 0.0
     return bands
