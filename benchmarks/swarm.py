@@ -25,9 +25,10 @@ from pathlib import Path
 import numpy as np
 from benchmarks.swarm_peers import ITERATIONS, PARTICLES, PEERS, Fit, Runner
 
-from armscope.errormodels import PAPER_MODELS, FitProblem, fit_swarms, make_basis
-from armscope.swarm import spawn_generators
-from armscope.swarm.streams import WeightStream
+from armscope.errormodels.basis import make_basis
+from armscope.errormodels.features import PAPER_MODELS
+from armscope.errormodels.swarm_fit import FitProblem, fit_swarms
+from armscope.swarm.streams import WeightStream, spawn_generators
 
 KERNEL, NUMPY, RANDOM = "armscope kernel", "armscope NumPy", "random numbers alone (NumPy)"
 ONE_THREAD = {

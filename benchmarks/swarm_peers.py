@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from armscope.swarm import PRESETS
+from armscope.swarm.update import PRESETS
 
 INERTIA, COGNITIVE, SOCIAL = PRESETS["constriction"].coefficients(0, 200)
 PARTICLES, ITERATIONS = 100, 200

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from armscope.core.inputs import InputError
-    from armscope.notebook import (
+    from armscope.notebook.commands import (
         calibrate,
         check,
         choose_poses,
@@ -30,8 +30,8 @@ if TYPE_CHECKING:
         predict,
         read_recordings,
         read_robot,
-        read_verdict,
     )
+    from armscope.verdict.files import read_verdict
 
 __all__ = [
     "InputError",
@@ -53,8 +53,8 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     import importlib
 
-    home = "armscope.core.inputs" if name == "InputError" else "armscope.notebook"
-    return getattr(importlib.import_module(home), name)
+    home = {"InputError": "core.inputs", "read_verdict": "verdict.files"}.get(name, "notebook.commands")
+    return getattr(importlib.import_module(f"{__name__}.{home}"), name)
 
 
 def __dir__() -> list[str]:

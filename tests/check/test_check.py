@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from armscope.check import check
+from armscope.check.report import check
 from armscope.recordings import read_recordings
 from armscope.robot import chain, load_arm
 from tests.calibration.worlds import far_away, measured, planted, poses, ur_like

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from armscope.check import check
 from armscope.check.quantities import of_quantities
+from armscope.check.report import check
 from armscope.robot import chain, load_arm
 from armscope.robot.gravity import gravity_torques
 from tests.check.test_check import ROOT

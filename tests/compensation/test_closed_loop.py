@@ -21,7 +21,8 @@ from armscope.compensation.path import as_path
 from armscope.compensation.physical import identified_on
 from armscope.compensation.task import Options
 from armscope.diagnosis import Settings, diagnose
-from armscope.errormodels import FDP_CI, SDP_AI, FitProblem, fit_swarms
+from armscope.errormodels.features import FDP_CI, SDP_AI
+from armscope.errormodels.swarm_fit import FitProblem, fit_swarms
 from armscope.recordings import read_recordings
 from armscope.recordings.table import as_recordings
 from armscope.robot import chain, load_arm

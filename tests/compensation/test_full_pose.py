@@ -18,7 +18,7 @@ from armscope.compensation.nominal_path import nominal_branch
 from armscope.compensation.path import as_path
 from armscope.compensation.task import Options
 from armscope.core.inputs import InputError
-from armscope.errormodels import FDP_CI, FOURIER_2_AI, SDP_AI, ModelSpec
+from armscope.errormodels.features import FDP_CI, FOURIER_2_AI, SDP_AI, ModelSpec
 from armscope.physics.model_file import save_model
 from armscope.recordings.table import as_recordings
 from armscope.robot import chain, forward_kinematics, tool_frames

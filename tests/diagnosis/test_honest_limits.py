@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from armscope.check import check
+from armscope.check.report import check
 from armscope.compensation.physical import identified_on
 from armscope.core.inputs import InputError
 from armscope.diagnosis import Settings, diagnose

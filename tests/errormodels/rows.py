@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from armscope.errormodels import FitProblem, ModelSpec
+from armscope.errormodels.features import ModelSpec
+from armscope.errormodels.swarm_fit import FitProblem
 
 
 def identification(

@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from armscope.errormodels import FOURIER_2_AI, PAPER_MODELS, SDP_CI, BasisKind, ModelSpec, make_basis
+from armscope.errormodels.basis import BasisKind, make_basis
+from armscope.errormodels.features import FOURIER_2_AI, PAPER_MODELS, SDP_CI, ModelSpec
 from tests.errormodels.rows import identification
 
 ANGLES, POSITIONS, ERRORS = identification()

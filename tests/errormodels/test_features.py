@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from armscope.errormodels import (
+from armscope.errormodels.features import (
     FDP_AI,
     FDP_CI,
     FOURIER_2_AI,

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from armscope.errormodels import PAPER_MODELS, ModelSpec
+from armscope.errormodels.features import PAPER_MODELS, ModelSpec
 
 SPECS = [*PAPER_MODELS, ModelSpec("fourier", 2, "cartesian"), ModelSpec("polynomial", 3, "cartesian")]
 

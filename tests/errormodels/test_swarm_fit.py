@@ -5,20 +5,12 @@ import json
 import numpy as np
 import pytest
 
-from armscope.errormodels import (
-    FDP_AI,
-    FDP_CI,
-    FOURIER_2_AI,
-    PAPER_MODELS,
-    SDP_AI,
-    SDP_CI,
-    FitProblem,
-    SwarmFit,
-    fit_least_squares,
-    fit_random_search,
-    fit_swarms,
-)
-from armscope.swarm import StopReason, SwarmSettings
+from armscope.errormodels.features import FDP_AI, FDP_CI, FOURIER_2_AI, PAPER_MODELS, SDP_AI, SDP_CI
+from armscope.errormodels.fitted import SwarmFit
+from armscope.errormodels.least_squares import fit_least_squares
+from armscope.errormodels.swarm_fit import FitProblem, fit_random_search, fit_swarms
+from armscope.swarm.result import StopReason
+from armscope.swarm.settings import SwarmSettings
 from tests.errormodels.rows import identification, problem
 
 POLYNOMIALS = [FDP_CI, FDP_AI, SDP_CI, SDP_AI]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from armscope.calibration import calibrate
-from armscope.check import check
+from armscope.check.report import check
 from armscope.fitting.exchanged_tool import exchanged_tool
 from armscope.fitting.registration import fit_frames
 

@@ -108,6 +108,17 @@ def test_constant_noise_stays_silent(seed: int) -> None:
         assert all(notice.kind != "noise by distance" for notice in verdict.notices)
 
 
+@pytest.mark.parametrize("rows", [8, 20, 50])
+def test_few_rows_of_constant_noise_hardly_ever_seem_to_grow(rows: int) -> None:
+    """Below 1 in 200 by the evidence asked for; a table of fifty rows that grows clearly is still seen to."""
+    rng = np.random.default_rng(rows)
+    all_rows = np.ones(rows, dtype=bool)
+    tables = [(rng.uniform(1.5, 7.0, rows), 0.03 * rng.normal(size=(rows, 3))) for _ in range(400)]
+    assert sum(growth(left, away, all_rows) is not None for away, left in tables) <= 4
+    away = rng.uniform(0.5, 7.0, rows)
+    assert rows < 50 or growth(np.hypot(0.01, 0.02 * away)[:, None] * rng.normal(size=(rows, 3)), away, all_rows)
+
+
 @pytest.mark.long
 def test_standard_errors_are_right_where_noise_grows() -> None:
     """Errors over worlds in units of their standard errors: their mean square is that of chi2, 99.8 % of the time."""

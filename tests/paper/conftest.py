@@ -4,7 +4,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from armscope.errormodels import FDP_AI, FDP_CI, FOURIER_2_AI, POLYNOMIAL_4_AI, SDP_AI, SDP_CI, fit_swarms
+from armscope.errormodels.features import FDP_AI, FDP_CI, FOURIER_2_AI, POLYNOMIAL_4_AI, SDP_AI, SDP_CI
+from armscope.errormodels.swarm_fit import fit_swarms
 from armscope.paper.residuals import residual_table
 from armscope.paper.virtual import PlannedPaths, PlannedPoses, identification_poses, measure_virtual, trajectory_poses
 from armscope.robot import load_arm

@@ -7,7 +7,8 @@ import pandas as pd
 import pytest
 from scipy.stats import beta
 
-from armscope.errormodels import FDP_AI, FDP_CI, fit_swarms
+from armscope.errormodels.features import FDP_AI, FDP_CI
+from armscope.errormodels.swarm_fit import fit_swarms
 from armscope.paper.claims import AS_PRINTED, IMPROVED, Evidence, judge_claims, summarise
 from armscope.paper.claims.catalogue import CLAIMS
 from armscope.paper.claims.claim import GROUPS
@@ -16,7 +17,7 @@ from armscope.paper.claims.verdicts import DEPENDS, FAILS, HOLDS, OPEN, interval
 from armscope.paper.method import PRINTED_BASIS, PRINTED_LAYOUT, as_printed
 from armscope.paper.outlook import outlook
 from armscope.paper.sub_volumes import sub_volumes
-from armscope.swarm import SwarmSettings
+from armscope.swarm.settings import SwarmSettings
 from tests.paper.conftest import ENSEMBLE, SPECS
 
 

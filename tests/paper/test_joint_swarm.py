@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
-from armscope.errormodels import FDP_AI, Layout, SwarmFit, fit_swarms
-from armscope.swarm import SwarmSettings
+from armscope.errormodels.features import FDP_AI
+from armscope.errormodels.fitted import Layout, SwarmFit
+from armscope.errormodels.swarm_fit import fit_swarms
+from armscope.swarm.settings import SwarmSettings
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from armscope.core.inputs import InputError
-from armscope.errormodels import FDP_AI, FDP_CI, fit_swarms
+from armscope.errormodels.features import FDP_AI, FDP_CI
+from armscope.errormodels.swarm_fit import fit_swarms
 from armscope.paper.real import real_measurements
 from armscope.paper.residuals import residual_table
 from armscope.paper.table2 import table2

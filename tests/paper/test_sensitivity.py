@@ -7,14 +7,14 @@ import pandas as pd
 import pytest
 
 from armscope.core.inputs import InputError
-from armscope.errormodels import FDP_AI, FDP_CI, ModelSpec
+from armscope.errormodels.features import FDP_AI, FDP_CI, ModelSpec
 from armscope.paper.decisive_errors import explain, meaning, reasons
 from armscope.paper.enough_poses import COUNTS, enough_poses, smallest_sufficient
 from armscope.paper.method import method_table
 from armscope.paper.scenarios import JOINTLY, Varied, check_reach, scenarios
 from armscope.paper.sensitivity import Fitting, judge_scenario, rank_of_anchored
 from armscope.paper.study import PlannedPaths, PlannedPoses, Sizes, StudyPlan, measured
-from armscope.swarm import SwarmSettings
+from armscope.swarm.settings import SwarmSettings
 from armscope.world.tracker import Tracker
 from tests.paper.conftest import CORNERS_MM, STARTS_MM
 

@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
-from armscope.errormodels import FDP_CI, SDP_AI, FitProblem, fit_swarms
+from armscope.errormodels.features import FDP_CI, SDP_AI
+from armscope.errormodels.swarm_fit import FitProblem, fit_swarms
 from armscope.paper.coefficients import coefficient_table
 from armscope.paper.convergence import RANDOM_SEARCH, convergence, iterations_needed
-from armscope.swarm import SwarmSettings
+from armscope.swarm.settings import SwarmSettings
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from armscope.errormodels import FDP_CI, FOURIER_2_AI
+from armscope.errormodels.features import FDP_CI, FOURIER_2_AI
 from armscope.paper.cross_check import cross_check
 from armscope.paper.outlook import outlook
 from armscope.paper.residuals import residual_table

@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from armscope.core.inputs import InputError
-from armscope.errormodels import FDP_CI
+from armscope.errormodels.features import FDP_CI
 from armscope.paper.anchoring import anchor
 from armscope.paper.measurements import Measurements, pose_arrays
 from armscope.paper.printed import printed_matrix

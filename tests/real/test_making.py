@@ -19,7 +19,7 @@ from armscope.recordings import as_recordings
 from tests.real.recorded import ROBOT, arm, table
 
 RULES = (Path(__file__).parents[2] / "workflow" / "rules" / "proof_real.smk").read_text(encoding="utf-8")
-EFFECTS = ("joint_coupling", "instrument_scale")
+EFFECTS = ("joint_coupling", "gear_mesh")
 
 
 def places(folder):

@@ -104,6 +104,12 @@ def test_only_names_that_nothing_asks_for_count_as_new():
     assert (found["new_names"], found["new"], found["lost"]) == (1, "gear_ratio joint 4", "joint_offset joint 6")
 
 
+def test_a_name_that_the_arms_own_verdict_listed_is_new_and_yet_heard_of():
+    own = claim("gear_eccentricity", "joint 5", alternatives=[("gear_ratio", "joint 5")])
+    found = case(original(own), altered(spring(), claim("gear_ratio", "joint 5"), claim("gear_ratio", "joint 4")))
+    assert (found["new_names"], found["unheard_of"]) == (2, 1)
+
+
 def test_a_jump_is_right_if_no_seen_row_lies_between():
     truth = {"effect": "base_shift", "location": "base", "parameters": [{"name": "x", "value": 1.0, "unit": "mm"}]}
     truth |= {"jump_between_ids": [40.0, 43.0]}

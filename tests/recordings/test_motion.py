@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from armscope.check import check
+from armscope.check.report import check
 from armscope.diagnosis import Settings, diagnose
 from armscope.physics.placing import moving_joints
 from armscope.recordings.motion import STANDS_STILL_RAD, moving

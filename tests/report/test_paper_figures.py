@@ -4,7 +4,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from armscope.errormodels import FDP_CI, ModelSpec, fit_swarms
+from armscope.errormodels.features import FDP_CI, ModelSpec
+from armscope.errormodels.swarm_fit import fit_swarms
 from armscope.paper.bands import TRUE, band_of, ensemble_bands
 from armscope.paper.measurements import Measurements, PoseSet
 from armscope.report.figures.paper import FIGURES, PaperResults, draw

@@ -111,8 +111,9 @@ def test_what_was_concealed_is_told_with_what_was_not(arm_, tmp_path):
     rate = {"half": "both", "size": 3.0, "score": "found", "cases": 4, "right": 3, "estimate": 0.75}
     rates = [rate | {"by": by, "of": of} for by, of in (("all", "all"), ("effect", "gear_mesh"), ("arm", "arm"))]
     write_table(proof / "rates.csv", pd.DataFrame(rates))
-    skipped = {"set": "arm", "effect": "joint_compliance", "half": "fixed", "reason": "no load"}
-    write_table(proof / "skipped.csv", pd.DataFrame([skipped, skipped | {"half": "fresh"}]))
+    skipped = {"set": "arm", "effect": "joint_compliance", "size": 3.0, "half": "fixed", "reason": "no load"}
+    others = [skipped | {"half": "fresh"}, skipped | {"size": 0.5}]
+    write_table(proof / "skipped.csv", pd.DataFrame([skipped, *others]))
     withheld = {
         "set": "arm", "rows": "run", "withheld": "torques withheld", "orientations": True, "load_found": False,
         "compliance_found": False, "follows_load": None, "background_mm": 0.4, "held_out_mm": 0.31,
@@ -120,10 +121,10 @@ def test_what_was_concealed_is_told_with_what_was_not(arm_, tmp_path):
     write_table(proof / "withheld.csv", pd.DataFrame([withheld]))
     write_concealment(tmp_path / "page.md", proof, {"arm": "An arm", "other": "Other"}, "commit abc")
     text = (tmp_path / "page.md").read_text(encoding="utf-8")
-    assert "| An arm | 3 | 75 % (3/4) | – | – | – |" in text
+    assert "| An arm | 3 | 75 % (3/4) | – | – | – | – |" in text
     assert "| gear mesh | 3 | 75 % (3/4) |" in text
     assert "Not run for this page: Other." in text
-    assert text.count("joint compliance in An arm (no load)") == 1
+    assert text.count("| joint compliance | An arm | 0.5, 3 | no load |") == 1
     assert (
         "| An arm | all joints move | points and orientations | torques withheld | nothing | no | 0.400 | 0.310 |"
         in text

@@ -3,7 +3,10 @@
 import numpy as np
 import pytest
 
-from armscope.swarm import StopReason, SwarmResult, SwarmSettings, minimise, spawn_generators
+from armscope.swarm.engine import minimise
+from armscope.swarm.result import StopReason, SwarmResult
+from armscope.swarm.settings import SwarmSettings
+from armscope.swarm.streams import spawn_generators
 
 SMALL = SwarmSettings(particles=20, iterations=40)
 

@@ -5,7 +5,11 @@ import multiprocessing
 import numpy as np
 import pytest
 
-from armscope.swarm import LeastSquares, StopReason, SwarmSettings, UpdateRule, minimise_least_squares, spawn_generators
+from armscope.swarm.least_squares import LeastSquares, minimise_least_squares
+from armscope.swarm.result import StopReason
+from armscope.swarm.settings import SwarmSettings
+from armscope.swarm.streams import spawn_generators
+from armscope.swarm.update import UpdateRule
 
 pytest.importorskip("numba")
 

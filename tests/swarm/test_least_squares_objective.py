@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from armscope.swarm import LeastSquares, SwarmSettings, minimise_least_squares, spawn_generators
+from armscope.swarm.least_squares import LeastSquares, minimise_least_squares
+from armscope.swarm.settings import SwarmSettings
+from armscope.swarm.streams import spawn_generators
 
 
 @pytest.fixture

@@ -2,7 +2,11 @@
 
 import numpy as np
 
-from armscope.swarm import StopReason, SwarmSettings, minimise, random_search, spawn_generators
+from armscope.swarm.engine import minimise
+from armscope.swarm.random_search import random_search
+from armscope.swarm.result import StopReason
+from armscope.swarm.settings import SwarmSettings
+from armscope.swarm.streams import spawn_generators
 
 
 def sphere(positions, swarms):

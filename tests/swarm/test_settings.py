@@ -2,7 +2,8 @@
 
 import pytest
 
-from armscope.swarm import SwarmSettings, UpdateRule
+from armscope.swarm.settings import SwarmSettings
+from armscope.swarm.update import UpdateRule
 
 
 def test_the_defaults_are_the_papers_numbers():

@@ -74,10 +74,6 @@ def explained(samples: Samples, arm: MovingArm) -> float:
 def read_otherwise(samples: Samples, arm: MovingArm) -> Iterator[Suspicion]:
     """What the table means if it is not what its columns say: degrees, or another order of the joints.
 
-    Args:
-        samples: of all runs.
-        arm: the robot that it should belong to.
-
     Yields:
         A problem, where the masses explain the torque only if the table is read otherwise.
     """

@@ -62,13 +62,6 @@ class MotionCheck:
 def check_moving(motions: Motions, arm: MovingArm | None = None) -> MotionCheck:
     """Look through a table of motions.
 
-    Args:
-        motions: the table.
-        arm: the robot it should belong to; None looks at the table alone.
-
-    Returns:
-        What it holds and what looks wrong.
-
     Raises:
         InputError: time goes back or is in milliseconds, nothing moves, no channel records torque, other joints slide.
     """

@@ -72,9 +72,6 @@ def nominal_fits(recordings: Recordings) -> tuple[NominalFit, ...]:
 
     Args:
         recordings: the table; of a long one rows are taken evenly.
-
-    Returns:
-        A fit for each arm.
     """
     usable = np.flatnonzero(np.isfinite(recordings.positions).all(axis=1))
     some = recordings.rows(usable[spread_evenly(len(usable), MOST_ROWS)] if len(usable) > MOST_ROWS else usable)

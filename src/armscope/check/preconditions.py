@@ -70,10 +70,6 @@ def refuse_unusable(arm: Arm, recordings: Recordings) -> None:
 
     Orientations that are not the tool's are no reason: a diagnosis leaves them out by itself and says so.
 
-    Args:
-        arm: the robot it should belong to.
-        recordings: the table as it was read.
-
     Raises:
         InputError: it holds a problem.
     """

@@ -30,12 +30,7 @@ MOST_ROWS = 400
 
 
 def of_quantities(recordings: Recordings, arm: Arm | None) -> list[Suspicion]:
-    """Look at temperature, payload, stated uncertainty, time and torques.
-
-    Args:
-        recordings: the table.
-        arm: its robot, with the table's number of motors; None looks at the numbers alone.
-    """
+    """Look at temperature, payload, stated uncertainty, time and torques."""
     found = [_temperature(recordings), _payload(recordings, arm), _sigma(recordings), _time(recordings)]
     return [each for each in [*found, _torque(recordings, arm)] if each is not None]
 

@@ -34,10 +34,6 @@ def verdict_lines(suspicions: tuple[Suspicion, ...]) -> list[str]:
 def refuse_problems(suspicions: Sequence[Suspicion], source: object) -> None:
     """Where something makes results meaningless, none are made.
 
-    Args:
-        suspicions: what the check found.
-        source: the table, for the error.
-
     Raises:
         InputError: there is a problem among them.
     """

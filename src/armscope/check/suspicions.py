@@ -59,12 +59,7 @@ class Consistency:
 
 
 def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
-    """Try the common mistakes on a table.
-
-    Args:
-        arm: the nominal arm.
-        recordings: the table as it was read.
-    """
+    """Try the common mistakes on a table."""
     if recordings.n_motors != arm.n_motors:
         statement = f"the table has {recordings.n_motors} motor angles, {arm.name} has {arm.n_motors} motors"
         wrong = Suspicion("problem", statement, "Is this the right robot for the recordings?")

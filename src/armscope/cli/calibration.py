@@ -40,7 +40,7 @@ def check(
     table = table_of(recordings) if json else read_recordings(recordings)  # the text has the reader's notes
     arm = None if robot is None else robot_of(robot)
 
-    from armscope.check import check as check_table
+    from armscope.check.report import check as check_table
 
     found = check_table(table, arm)
     if json:
@@ -90,7 +90,7 @@ def calibrate(
 
     from armscope.calibration import calibrate as calibrated
     from armscope.calibration.export import export
-    from armscope.check import check as check_table
+    from armscope.check.report import check as check_table
 
     looked_through = check_table(table, arm)
     consistency = looked_through.consistency

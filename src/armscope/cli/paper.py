@@ -93,7 +93,7 @@ def fit(
 ) -> None:
     """Fit the error models to every robot of a table by particle swarm, with many seeds."""
     from armscope.cli.paper_settings import SwarmStudySettings, specs_of, swarm_settings_of
-    from armscope.errormodels import fit_swarms
+    from armscope.errormodels.swarm_fit import fit_swarms
     from armscope.paper import method
 
     chosen = parsed(SwarmStudySettings, settings)

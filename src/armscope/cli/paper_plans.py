@@ -82,10 +82,6 @@ def scenarios_of(settings: ReachSettings, arm: Arm) -> list[Scenario]:
 def follow_all(robot: Path | str, settings: Path | str) -> pd.DataFrame:
     """Follow the test paths of a study and of all its scenarios.
 
-    Args:
-        robot: robot.yaml.
-        settings: file of `ReachSettings`.
-
     Returns:
         See `armscope.paper.scenarios.check_reach`.
 

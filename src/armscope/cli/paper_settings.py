@@ -17,8 +17,8 @@ from armscope.core.config import (
 )
 from armscope.core.inputs import Strict
 from armscope.core.variants import Variant
-from armscope.errormodels import ModelSpec
-from armscope.swarm import SwarmSettings
+from armscope.errormodels.features import ModelSpec
+from armscope.swarm.settings import SwarmSettings
 
 
 class MeasureSettings(Strict):

@@ -15,7 +15,8 @@ from armscope.core.inputs import InputError, Model, folder_of, validate
 if TYPE_CHECKING:
     import pandas as pd
 
-    from armscope.errormodels import ModelSpec, SwarmFit
+    from armscope.errormodels.features import ModelSpec
+    from armscope.errormodels.fitted import SwarmFit
     from armscope.paper.measurements import Measurements
 
 Settings = Annotated[
@@ -148,7 +149,7 @@ def write_fits(path: Path, fits: Sequence[SwarmFit]) -> None:
 def read_fits(*paths: Path) -> list[SwarmFit]:
     """Fitted models that `write_fits` wrote, file by file."""
     from armscope.core.files import read_json
-    from armscope.errormodels import SwarmFit
+    from armscope.errormodels.fitted import SwarmFit
 
     fits = []
     for path in paths:
@@ -162,7 +163,7 @@ def read_fits(*paths: Path) -> list[SwarmFit]:
 def model_named(name: str) -> ModelSpec:
     """A model by its name."""
     from armscope.core.inputs import nearest
-    from armscope.errormodels import ModelSpec
+    from armscope.errormodels.features import ModelSpec
 
     specs = [
         ModelSpec(f, n, s) for f in ("polynomial", "fourier") for n in range(1, 7) for s in ("cartesian", "angular")

@@ -27,10 +27,6 @@ SAME_PAYLOAD_KG = 0.1
 def stacked(arm: Arm, recordings: Mapping[str, Recordings]) -> tuple[Recordings, Indices]:
     """One table of all rows that can be used: bases free per run, tools free per recording.
 
-    Args:
-        arm: the nominal arm.
-        recordings: by name.
-
     Returns:
         The table, and (N,) the number of the recording that each row is of.
 

@@ -9,7 +9,8 @@ from scipy.spatial.transform import Rotation
 
 from armscope.compensation.domain import Domain
 from armscope.core.types import Array
-from armscope.errormodels import FeatureSet, ModelSpec, SwarmFit
+from armscope.errormodels.features import FeatureSet, ModelSpec
+from armscope.errormodels.fitted import SwarmFit
 from armscope.errormodels.products import ProductFeatures
 from armscope.errormodels.regions import Cut, weights
 from armscope.physics.model import Base

@@ -13,7 +13,7 @@ from armscope.compensation.file_contents import ErrorModelContent, ProductsConte
 from armscope.core.files import read_json, write_json
 from armscope.core.inputs import InputError, format_of, nearest, validate
 from armscope.core.types import Array
-from armscope.errormodels import FeatureSet
+from armscope.errormodels.features import FeatureSet
 from armscope.errormodels.products import ProductFeatures
 from armscope.errormodels.regions import Cut, weights
 from armscope.physics.model import Base

@@ -11,7 +11,8 @@ from armscope.compensation.black_box import ErrorModel, Turning, domain_of
 from armscope.core.averages import rms, rms_distance
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
-from armscope.errormodels import FeatureSet, FitProblem, ModelSpec, fit_least_squares, fit_swarms
+from armscope.errormodels.features import FeatureSet, ModelSpec
+from armscope.errormodels.least_squares import fit_least_squares
 from armscope.errormodels.products import ProductFeatures, fit_products
 from armscope.errormodels.regions import (
     Cut,
@@ -22,6 +23,7 @@ from armscope.errormodels.regions import (
     fit_regions,
     halvings_of,
 )
+from armscope.errormodels.swarm_fit import FitProblem, fit_swarms
 from armscope.fitting.constants import STEPS
 from armscope.fitting.placement import FlangePoses, all_alike, place_frames
 from armscope.physics.model import Base
@@ -73,7 +75,7 @@ def fit_error_model(
     _check_rows(how, arm, recordings)
     base = Base(np.eye(3), np.zeros(3))
     if register:
-        arm, base = register_frames(arm, recordings)
+        arm, base = _register_frames(arm, recordings)
     frames = chain(arm, recordings.motor_angles)
     errors = ((recordings.positions - base.translation) @ base.rotation - frames.tool) * 1e3
     off = rms(errors)
@@ -156,29 +158,13 @@ def _turning(
     if not len(rows):
         return None
     _check_rows(how, arm, rows, "rows with an orientation")
-    turns, tool = turning_errors(arm, rows, base, register)
+    turns, tool = _turning_errors(arm, rows, base, register)
     fitted = how.fit(_inputs(arm, how.spec, rows.motor_angles), turns * 1e3, cut, arm.name)
     return Turning(fitted.features, fitted.coefficients, fitted.rms, tool)
 
 
-def turning_errors(arm: Arm, rows: Recordings, base: Base, register: bool) -> tuple[Array, Array]:
-    """Rotation vectors r (N, 3), rad: measured = exp(r) * nominal in base axes; and the tool frame from the last frame.
-
-    With ``register`` the tool frame's constant turn is the mean of what is measured behind the nominal last frame;
-    without, the two frames are the same.
-
-    Args:
-        arm: the nominal arm.
-        rows: with orientations (N, 4), measurement frame from tool frame.
-        base: measurement frame from base frame.
-        register: fit the tool frame's constant turn.
-
-    Returns:
-        Rotation vectors (N, 3), rad, and the tool frame's turn (3, 3).
-
-    Raises:
-        InputError: orientations of another frame.
-    """
+def _turning_errors(arm: Arm, rows: Recordings, base: Base, register: bool) -> tuple[Array, Array]:
+    """Rotation vectors r (N, 3), rad, measured = exp(r) * nominal in base axes; tool from last frame (3, 3)."""
     measured = Rotation.from_quat(rows.quaternions, scalar_first=True).as_matrix()
     nominal = chain(arm, rows.motor_angles).tool_rotation
     in_base = base.rotation.T @ measured
@@ -199,12 +185,8 @@ def turning_errors(arm: Arm, rows: Recordings, base: Base, register: bool) -> tu
     return turns, np.asarray(tool, dtype=float)
 
 
-def register_frames(arm: Arm, recordings: Recordings) -> tuple[Arm, Base]:
-    """The measurement frame and the tool offset that suit the nominal arm best (least squares, 9 numbers).
-
-    Returns:
-        The arm with that tool offset, and measurement frame from base frame.
-    """
+def _register_frames(arm: Arm, recordings: Recordings) -> tuple[Arm, Base]:
+    """The arm with the tool offset, and the measurement frame, that suit it best (least squares, 9 numbers)."""
     frames, one = chain(arm, recordings.motor_angles), np.zeros(len(recordings), dtype=np.intp)
     flange = frames.tool - frames.tool_rotation @ arm.tool
     poses = FlangePoses(flange, frames.tool_rotation, recordings.positions, base=one, tool=one)

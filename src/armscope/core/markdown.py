@@ -6,15 +6,7 @@ from collections.abc import Iterable, Sequence
 
 
 def table_lines(head: Sequence[str], rows: Iterable[Iterable[object]]) -> list[str]:
-    """A table, line by line.
-
-    Args:
-        head: the columns' names.
-        rows: as many cells each.
-
-    Returns:
-        Head, rule and rows.
-    """
+    """A table, line by line."""
     return [_line(head), f"|{'---|' * len(head)}", *map(_line, rows)]
 
 

@@ -94,7 +94,7 @@ def foretold_better(
     """
     lost = 0.0
     readings = hypothesis.background, replaced(hypothesis.background, family, 0)
-    for fold, trained in folds(problem, blocks):
+    for fold, trained in _folds(problem, blocks):
         for sign, background in zip((1, -1), readings, strict=True):
             fitted = evaluate(trained, hypothesis.chosen, background, hypothesis.noise)
             (values,) = fitted_values(problem, [fitted])
@@ -159,22 +159,14 @@ def errors_of_fits(
         (blocks, K) sums of squares, mm^2; zeros where blocks are too few to hold out.
     """
     errors = np.zeros((len(blocks), count))
-    for fold, trained in folds(problem, blocks):
+    for fold, trained in _folds(problem, blocks):
         values = fitted_values(problem, fit(trained))
         errors[fold] = [blocks[int(k)].rss_of_each(values) for k in fold]
     return errors
 
 
-def folds(problem: Problem, blocks: Sequence[NormalEquations]) -> Iterator[tuple[Indices, Problem]]:
-    """Blocks that are held out together, and the problem on the rows of the others.
-
-    Args:
-        problem: the sums of all rows, priors and costs.
-        blocks: sums of blocks of rows.
-
-    Yields:
-        Numbers of blocks, and a problem; nothing where blocks are too few to hold out.
-    """
+def _folds(problem: Problem, blocks: Sequence[NormalEquations]) -> Iterator[tuple[Indices, Problem]]:
+    """Numbers of blocks held out together, and the problem on the others; nothing where blocks are too few."""
     everything = total(blocks)
     for first in range(FOLDING.folds if len(blocks) >= FOLDING.folds else 0):
         fold = np.arange(first, len(blocks), FOLDING.folds)

@@ -16,10 +16,6 @@ from armscope.recordings import Recordings
 def on_loads(model: FittedModel, recordings: Recordings) -> tuple[FittedModel, list[Placed], list[Placed]]:
     """The model with its errors of loads written anew, and those errors on top of what gives way in it.
 
-    Args:
-        model: as fitted.
-        recordings: the rows.
-
     Returns:
         The model, payload errors, and the masses' errors.
     """

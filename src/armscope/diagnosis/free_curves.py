@@ -56,13 +56,6 @@ def told_by_laws(edits: Edits, hypothesis: Hypothesis) -> Hypothesis:
     """A hypothesis with the law in a free curve's place that the evidence does not tell from it, at odds of 20 to 1.
 
     Both are told then, the law first: it says what to mend, and what holds beyond the angles that were measured.
-
-    Args:
-        edits: of the search.
-        hypothesis: that may hold curves.
-
-    Returns:
-        The hypothesis, with laws in place of curves.
     """
     for curve in hypothesis.chosen:
         laws = edits.candidate(curve.candidate).special_cases - hypothesis.candidates

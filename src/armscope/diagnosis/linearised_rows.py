@@ -62,10 +62,6 @@ class LinearisedRows:
     def unweighted_columns(self, terms: Sequence[Term], at: Indices | None = None) -> Array:
         """(N c, p) displacements and turns of the tool by unit terms, mm and mrad per SI unit.
 
-        Args:
-            terms: p of them.
-            at: which rows; all where not given.
-
         Returns:
             A row's numbers in all channels stand together.
         """

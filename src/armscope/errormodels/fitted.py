@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from armscope.core.types import Array
 from armscope.errormodels.basis import BasisKind
 from armscope.errormodels.features import FeatureSet
-from armscope.swarm import StopReason
+from armscope.swarm.result import StopReason
 
 
 class Layout(StrEnum):

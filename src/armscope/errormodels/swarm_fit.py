@@ -21,8 +21,10 @@ from armscope.errormodels.basis import Basis, BasisKind, make_basis
 from armscope.errormodels.features import FeatureSet, ModelSpec, checked_inputs
 from armscope.errormodels.fitted import Layout, SwarmFit
 from armscope.errormodels.least_squares import fit_least_squares
-from armscope.swarm import LeastSquares, SwarmResult, SwarmSettings, minimise_least_squares
+from armscope.swarm.least_squares import LeastSquares, minimise_least_squares
 from armscope.swarm.random_search import random_search
+from armscope.swarm.result import SwarmResult
+from armscope.swarm.settings import SwarmSettings
 
 Search = Callable[[LeastSquares, Array, Array, list[np.random.Generator]], SwarmResult]
 

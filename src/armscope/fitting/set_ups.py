@@ -41,9 +41,6 @@ def compare_bases(own: FittedModel, recordings: Recordings) -> ComparedBases:
     Args:
         own: the arm with its frames fitted to the recordings, a base for every run.
         recordings: the rows.
-
-    Returns:
-        The set-ups.
     """
     runs = in_order_of_time(recordings)
     if not 2 <= len(runs) <= SET_UPS.most_runs:

@@ -24,15 +24,7 @@ COMMON = 0.3
 
 
 def verdicts(members: Sequence[Member], folders: Sequence[Path]) -> tuple[dict[str, Verdict], dict[str, str]]:
-    """Verdicts by member's name, and why others have none.
-
-    Args:
-        members: of the fleet.
-        folders: that `diagnose_members` wrote.
-
-    Returns:
-        Both by name.
-    """
+    """Verdicts by member's name, and why others have none."""
     found, failed = {}, {}
     for member in members:
         for folder in folders:
@@ -93,15 +85,7 @@ def outliers(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def repeated(table: pd.DataFrame, of_arms: pd.DataFrame) -> pd.DataFrame:
-    """By type and cause: in how many of the arms it was named, and how large; what is minor does not count.
-
-    Args:
-        table: of `causes_of_arms`.
-        of_arms: of `arms`.
-
-    Returns:
-        Most frequent first.
-    """
+    """By type and cause: in how many of the arms it was named, and how large; what is minor does not count."""
     count = of_arms.groupby("type")["arm"].nunique()
     groups = table[~table["minor"].astype(bool)].groupby(["type", "cause"])
     size = "rms_at_tool_mm"
@@ -130,15 +114,7 @@ def learned_sizes(members: Sequence[Member], found: Mapping[str, Verdict]) -> pd
 
 
 def priors(table: pd.DataFrame, sizes: pd.DataFrame) -> dict[str, Any]:
-    """What the next arm of a type may be expected to have, as written to priors.yaml (`armscope.robot.arm_type`).
-
-    Args:
-        table: of `repeated`.
-        sizes: of `learned_sizes`.
-
-    Returns:
-        Plain values.
-    """
+    """What the next arm of a type may be expected to have, as written to priors.yaml (`armscope.robot.arm_type`)."""
     content: dict[str, Any] = {}
     for row in table.to_dict("records"):
         of_type = content.setdefault(str(row["type"]), {"arms": int(row["of"]), "causes": {}})

@@ -155,15 +155,7 @@ class ToleranceFamily:
         return len(self.shares)
 
     def prior_variance(self, size: int, scale: Array) -> Array:
-        """As of `BackgroundFamily`.
-
-        Args:
-            size: index of the background's size.
-            scale: (p,) by which columns are divided.
-
-        Returns:
-            (c,) mm^2.
-        """
+        """As of `BackgroundFamily`."""
         return np.asarray((self.shares[size] * self.tolerance * scale[self.columns]) ** 2)
 
     def label(self, size: int) -> float:

@@ -22,22 +22,11 @@ class NoiseRules(Constants):
         "judgement: fewer give a scale that is wrong by a third; twice and half change no golden verdict",
         unit="visits",
     )
-    fewest_for_growth: int = constant(
-        60,
-        "from which growth with the distance is estimated",
-        "judgement: some dozens near and far; twice and half change no golden verdict",
-        unit="rows",
-    )
     sure_nats: float = constant(
         3.0,
         "evidence that noise grows with the distance, or stays with the pose, beyond what one number more costs",
         "convention: 20 to 1, ln 20; twice and half change no golden verdict",
         unit="nats",
-    )
-    least_growth: float = constant(
-        1.25,
-        "noise of the farthest over that of the nearest rows, below which it is called constant",
-        "judgement: less changes no weight much; twice and half change no golden verdict",
     )
 
 

@@ -131,7 +131,7 @@ def growth(residuals: Array, distance: Array, trusted: NDArray[np.bool_]) -> Gro
         Noise at the nearest and per distance, mm, with its evidence, nats.
     """
     squares, d = np.sum(residuals[trusted] ** 2, axis=1), distance[trusted]
-    if len(d) < NOISE.fewest_for_growth or squares.sum() <= 0:
+    if squares.sum() <= 0:
         return None
     ratios = np.concatenate([[0.0], np.geomspace(0.01, 100.0, 81) / np.median(d)])
     variance, likelihood = np.empty((2, len(ratios)))
@@ -141,8 +141,7 @@ def growth(residuals: Array, distance: Array, trusted: NDArray[np.bool_]) -> Gro
         likelihood[n] = -1.5 * (len(d) * np.log(variance[n]) + np.sum(np.log(shape)))
     best = int(np.argmax(likelihood))
     gain = float(likelihood[best] - likelihood[0]) - 0.5 * float(np.log(3 * len(d))) - NOISE.sure_nats
-    low, high = np.quantile(np.hypot(1.0, ratios[best] * d), [0.05, 0.95])
-    if gain < 0 or high < NOISE.least_growth * low:
+    if gain < 0:
         return None
     size = float(np.sqrt(variance[best]))
     return Growth(size, size * float(ratios[best]), gain)

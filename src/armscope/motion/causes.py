@@ -70,6 +70,7 @@ class Moment:
         rate: samples per second.
         bodies: what asks for torque on other motions than the samples'; None where no law has any.
         dry: the dry friction that is in ``predicted``; None where that holds none.
+        bare: (N, m) what is predicted without laws that may still go; None: all of it.
     """
 
     signals: Signals
@@ -79,12 +80,18 @@ class Moment:
     rate: float
     bodies: Bodies | None = None
     dry: DryFriction | None = None
+    bare: Array | None = None
 
     @functools.cached_property
     def slopes(self) -> tuple[Array, Array, Array]:
         """(N, m, m) how the bodies' torque changes with position, velocity and acceleration of each motor."""
         assert self.bodies is not None
         return self.bodies.slopes(*self.motion)
+
+    @property
+    def scaled(self) -> Array:
+        """(N, m) torque that a gain is of."""
+        return self.predicted if self.bare is None else self.bare
 
     @property
     def motion(self) -> tuple[Array, Array, Array]:

@@ -140,7 +140,7 @@ def taken_along(values: Array, ways: tuple[float, ...]) -> Array:
 
 
 def _powers_of_torque(m: Moment, joints: tuple[int, ...], usual: float) -> Array:
-    torque = m.predicted[:, joints[0]]
+    torque = m.scaled[:, joints[0]]
     share = torque / usual
     return np.column_stack([torque, torque * np.abs(share), torque * share**2])
 
@@ -269,7 +269,7 @@ LAWS: dict[str, Callable[..., Array]] = {
     "powers of speed": _powers,
     "warm speed": _warm_speed,
     "warm side": _warm_side,
-    "torque": lambda m, joints: m.predicted[:, joints[0]],
+    "torque": lambda m, joints: m.scaled[:, joints[0]],
     "delayed torque": _delayed,
     "powers of torque": _powers_of_torque,
     "clinging over ways": lambda m, joints, *ways: taken_along(m.signals.q[:, joints[0]], ways),

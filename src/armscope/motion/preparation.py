@@ -16,6 +16,7 @@ import numpy as np
 from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array, Indices
+from armscope.motion.link_band import link_bands
 from armscope.motion.sampling_constants import CUTOFF, FILTER
 from armscope.motion.timing import Stretch
 
@@ -188,7 +189,7 @@ class Signals:
         kept: (K,) which samples become rows.
         stride: of the samples, to the recorded ones.
         shift: (N, m) by how much the links stand beside their motors, less the middle of it in the stretch, with two
-            derivatives; 0 of joints without an encoder at the link. None where no link has one.
+            derivatives; 0 of joints whose link has no encoder, or one that tells noise. None where no link has one.
         twist: (K, m) link less motor of the rows, low-passed, NaN of joints without such an encoder; or None.
     """
 
@@ -289,6 +290,8 @@ def _beside(
     beside = stretch.link - stretch.q
     recorded = np.isfinite(beside).all(axis=0)
     about = np.where(recorded, beside - np.median(np.where(recorded, beside, 0.0), axis=0), 0.0)
-    smooth = how.smoothed(about[inside])
+    smooth = np.zeros_like(about[inside])
+    for j in np.flatnonzero(bands := np.minimum(link_bands(beside, how.rate), how.position_cutoff)):
+        smooth[:, j] = without_lag(about[inside, j], float(bands[j]), how.rate, 15 * how.every)
     path = make_interp_spline(np.arange(len(smooth)) / stretch.rate, smooth, k=5)
     return (path(times), path.derivative(1)(times), path.derivative(2)(times)), beside[inside]

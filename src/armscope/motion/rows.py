@@ -84,6 +84,8 @@ class SoFar:
         of_runs: (10 n,) inertial parameters that are added in some runs: a load that only these carry.
         of_bodies: whether masses were held near the stated ones; else they are whatever the motion tells of them.
         laws: causes of one joint that follow the motion alone, with their numbers: a gain, a delay is theirs, too.
+        laws_stay: whether these laws are in the model for good. While causes compete a gain is of the torque without
+            them: of all of it, it would be the laws in another form, and put an end to them.
     """
 
     inertial: Array
@@ -92,6 +94,7 @@ class SoFar:
     of_runs: Mapping[str, Array] = field(default_factory=dict)
     of_bodies: bool = True
     laws: tuple[tuple[PlacedCause, Array], ...] = ()
+    laws_stay: bool = True
 
     def inertial_in(self, run: str) -> Array:
         """(10 n,) inertial parameters in a run."""
@@ -105,7 +108,7 @@ class SoFar:
         for placed, values in self.laws:
             assert placed.columns is not None
             predicted[:, list(placed.joints)] += placed.columns(moment) @ values
-        return replace(moment, predicted=predicted)
+        return replace(moment, predicted=predicted, bare=None if self.laws_stay else moment.predicted)
 
 
 def stated_model(arm: MovingArm) -> SoFar:

@@ -17,20 +17,20 @@ from armscope.inference.problem import Problem, SelectedEffect, build_problem
 from armscope.inference.search import Search
 from armscope.motion import catalogue
 from armscope.motion.causes import PlacedCause
-from armscope.motion.constants import LIBRARY, NOISE, PRIOR
+from armscope.motion.constants import NOISE, PRIOR
 from armscope.motion.laws import Law, follows_motion
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
-from armscope.motion.masses import at_its_place
 from armscope.motion.preparation import Preparation
+from armscope.motion.refining import refined
 from armscope.motion.rows import MotionRows, SoFar, build_rows, stated_model
 from armscope.motion.space import build_space
 from armscope.motion.sums import Earlier, JointSums, sums_by_joint
 from armscope.motion.timing import Stretch
-from armscope.motion.torque_delay import Between, lag_step
-from armscope.motion.weights import TorqueWeights, estimate_weights, left_apart, weighed
+from armscope.motion.torque_delay import Between
+from armscope.motion.weights import TorqueWeights, estimate_weights, left_apart, left_elsewhere, weighed
 
-SCANNED = (catalogue.STRIBECK, catalogue.DELAY, catalogue.COMPLIANCE)
-"""Causes whose law holds a number that is fitted by its slope."""
+OF_A_GAIN = ("torque", "powers of torque")
+"""Laws that scale a joint's torque, by one more than their first number."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +61,13 @@ class SelectedCauses:
     def residuals(self) -> Array:
         """(K, m) N m that the model leaves."""
         return np.asarray(self.rows.torque - self.rows.nominal - self.rows.modelled(self.coefficients))
+
+    @property
+    def noise(self) -> TorqueWeights:
+        """How much rows count by what the model leaves of them, as part of the fit and apart from it."""
+        blocks = dict(enumerate(self.blocks))
+        apart = left_elsewhere(self.rows, self.block, blocks, self.problem, self.best) if len(blocks) > 1 else None
+        return estimate_weights(self.rows, self.residuals, apart)
 
 
 def coefficients_of(problem: Problem, hypothesis: Hypothesis) -> Array:
@@ -122,64 +129,32 @@ def select_causes(
         if selected is None:
             selected = chosen(rows, _start(rows), block, space)
             found, last = None, (selected.best, selected.best.chosen)
-            weights = estimate_weights(rows, selected.residuals)
+            weights = selected.noise
         else:
             found, last = selected.best.candidates, (selected.best, selected.best.chosen)
-            weights = estimate_weights(rows, selected.residuals)
+            weights = selected.noise
         selected = chosen(rows, weights, block, space, last, selected)
         finer = refined(selected, between)
         if finer is None and (selected.best.candidates == found or number + 1 >= NOISE.rounds):
             break
-        model = model_so_far(layout, selected.coefficients)
+        model = replace(model_so_far(layout, selected.coefficients), laws_stay=False)
         layout = finer or layout
     assert selected is not None
-    return selected
+    return _with_laws_scaled(selected, stretches, how)
 
 
-def refined(selected: SelectedCauses, between: Between) -> TorqueLayout | None:
-    """The layout with scanned speeds and delays where the fit puts them; None where they rest."""
-    layout, moved = selected.rows.layout, False
-    placed = list(layout.placed)
+def _with_laws_scaled(selected: SelectedCauses, stretches: Sequence[Stretch], how: Preparation) -> SelectedCauses:
+    """The same causes, with gains that are of the laws beside them, too: their sizes are then of true torque."""
+    layout, coefficients = selected.rows.layout, selected.coefficients
+    model, gains = model_so_far(layout, coefficients), dict[tuple[int, ...], float]()
     for number in selected.best.candidates:
-        cause, columns = placed[number], layout.columns[number]
-        if cause.cause is catalogue.LINK_CENTRE:
-            exact, rests = _exact(selected, number)
-            placed[number], moved = exact, moved or not rests
-            continue
-        if cause.cause not in SCANNED or not isinstance(cause.columns, Law):
-            continue
-        values = selected.coefficients[columns]
-        error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
-        *others, now = cause.columns.numbers
-        if cause.cause is catalogue.DELAY:
-            more, unsure = lag_step(selected, number)
-            better = float(values[0]) + more
-            settled = NOISE.settled * max(float(error[0]), unsure)
-            rests = max(abs(better - now), abs(float(values[0]) - now)) < settled
-            better = between.next(frozenset(selected.best.candidates), number, now, better)
-        elif cause.cause is catalogue.COMPLIANCE:
-            better = float(values[0])
-            rests = better <= 0 or abs(better - now) < NOISE.settled * float(error[0])
-            better = better if better > 0 else now
-        else:
-            by = float(np.clip(values[1] / values[0], -LIBRARY.between_speeds, LIBRARY.between_speeds))
-            better, rests = now * np.exp(by), abs(values[1]) < NOISE.settled * error[1]
-        scanned = tuple((name, unit, better) for name, unit, _ in cause.scanned)
-        placed[number] = replace(cause, columns=replace(cause.columns, numbers=(*others, better)), scanned=scanned)
-        moved = moved or not rests
-    return replace(layout, placed=tuple(placed)) if moved else None
-
-
-def _exact(selected: SelectedCauses, number: int) -> tuple[PlacedCause, bool]:
-    """A moved centre with the square of its moments, and whether that was in its columns already, within errors."""
-    layout, columns = selected.rows.layout, selected.rows.layout.columns[number]
-    cause, values = layout.placed[number], selected.coefficients[columns]
-    exact = at_its_place(cause, layout.arm, values)
-    assert cause.inertial is not None
-    assert exact.inertial is not None
-    error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
-    unsure = np.sqrt(np.sum((cause.inertial * error) ** 2, axis=1))
-    return exact, bool(np.all(np.abs((exact.inertial - cause.inertial) @ values) <= NOISE.settled * unsure))
+        law = layout.placed[number].columns
+        if isinstance(law, Law) and law.kind in OF_A_GAIN:
+            gains[law.joints] = 1.0 + float(coefficients[layout.columns[number][0]])
+    if not any(placed.joints in gains for placed, _ in model.laws):
+        return selected
+    laws = tuple((placed, values / gains.get(placed.joints, 1.0)) for placed, values in model.laws)
+    return weighed_anew(build_rows(layout, stretches, how, replace(model, laws=laws), before=selected.rows), selected)
 
 
 def _within(progress: Progress, start: float, text: str, done: float) -> None:
@@ -207,10 +182,7 @@ def chosen(
     Returns:
         What won.
     """
-    known = None if earlier is None else Earlier(earlier.rows, earlier.weights.row, earlier.by_joint)
-    by_joint = sums_by_joint(rows, weights.row, block, known)
-    blocks = [weighed(rows.layout, parts, weights) for parts in by_joint]
-    problem = build_problem(space, total(blocks), least_noise=0.5 * PRIOR.unit)
+    by_joint, blocks, problem = _summed(rows, weights, block, space, earlier)
     search = Search.on(problem)
     if before is None:
         best = search.best()
@@ -219,6 +191,22 @@ def chosen(
         best = search.best((), also=search.evaluated(effects, found))
     best = _settled(search, named_first(search, best))
     return SelectedCauses(rows, weights, block, blocks, by_joint, space, problem, best)
+
+
+def weighed_anew(rows: MotionRows, earlier: SelectedCauses) -> SelectedCauses:
+    """A selection's effects, none else, on the same rows whose columns may be other functions."""
+    by_joint, blocks, problem = _summed(rows, earlier.weights, earlier.block, earlier.space, earlier)
+    best = Search.on(problem).evaluated(earlier.best.chosen, earlier.best)
+    return SelectedCauses(rows, earlier.weights, earlier.block, blocks, by_joint, earlier.space, problem, best)
+
+
+def _summed(
+    rows: MotionRows, weights: TorqueWeights, block: Indices, space: ModelSpace, earlier: SelectedCauses | None
+) -> tuple[list[list[JointSums]], list[NormalEquations], Problem]:
+    known = None if earlier is None else Earlier(earlier.rows, earlier.weights.row, earlier.by_joint)
+    by_joint = sums_by_joint(rows, weights.row, block, known)
+    blocks = [weighed(rows.layout, parts, weights) for parts in by_joint]
+    return by_joint, blocks, build_problem(space, total(blocks), least_noise=0.5 * PRIOR.unit)
 
 
 def _start(rows: MotionRows) -> TorqueWeights:

@@ -7,14 +7,16 @@ through the sums.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from armscope.core.types import Array, Indices
+from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.linear_algebra import lower_cholesky, solve_lower
 from armscope.inference.normal_equations import NormalEquations, total
+from armscope.inference.problem import Problem
 from armscope.measurement.robust import huber_weights
 from armscope.motion.constants import NOISE, PRIOR
 from armscope.motion.layout import TorqueLayout
@@ -36,12 +38,13 @@ class TorqueWeights:
     row: Array
 
 
-def estimate_weights(rows: MotionRows, residuals: Array) -> TorqueWeights:
+def estimate_weights(rows: MotionRows, residuals: Array, elsewhere: Array | None = None) -> TorqueWeights:
     """Noise and autocorrelation time of each joint, from what a model leaves, and what lies far from it.
 
     Args:
         rows: K rows.
         residuals: (K, m) N m.
+        elsewhere: (K, m) N m, as `noise_of` has it.
 
     Returns:
         The weights.
@@ -51,35 +54,68 @@ def estimate_weights(rows: MotionRows, residuals: Array) -> TorqueWeights:
         moving, left = ~rows.still[:, j], residuals[:, j]
         if moving.any():
             row[moving, j] = huber_weights(left[moving, None], np.ones(int(moving.sum())), least)
-    return noise_of(rows, residuals, row)
+    return noise_of(rows, residuals, row, elsewhere)
 
 
-def noise_of(rows: MotionRows, residuals: Array, row: Array) -> TorqueWeights:
+def noise_of(rows: MotionRows, residuals: Array, row: Array, elsewhere: Array | None = None) -> TorqueWeights:
     """Noise and autocorrelation time of each joint, from what a model leaves.
+
+    A fit takes part of the noise up, and of noise that lasts most of all: it leaves (I - H) e of a block's noise e,
+    while numbers from the other blocks leave (I - H)^-1 of that. So the product of both has the noise's own power,
+    e' e, in the mean.
 
     Args:
         rows: K rows.
         residuals: (K, m) N m.
         row: (K, m) how much each counts; none where 0.
+        elsewhere: (K, m) N m, what numbers from the other blocks leave of each; the residuals where not given.
 
     Returns:
         The weights.
     """
-    power = np.sum(row * residuals**2, axis=0) / np.maximum(row.sum(axis=0), 1.0)
-    correlated = [autocorrelation_time(rows.stretch, column) for column in (np.sqrt(row) * residuals).T]
-    return TorqueWeights(np.maximum(np.sqrt(power), _least(rows)), np.array(correlated), row)
+    other, root = residuals if elsewhere is None else elsewhere, np.sqrt(row)
+    power = np.sum(row * residuals * other, axis=0) / np.maximum(row.sum(axis=0), 1.0)
+    pairs = zip((root * residuals).T, (root * other).T, strict=True)
+    correlated = [autocorrelation_time(rows.stretch, *pair) for pair in pairs]
+    sigma = np.sqrt(np.maximum(power, 0.0))
+    return TorqueWeights(np.maximum(sigma, _least(rows)), np.array(correlated), row)
+
+
+def left_elsewhere(
+    rows: MotionRows, block: Indices, blocks: Mapping[int, NormalEquations], problem: Problem, best: Hypothesis
+) -> Array:
+    """What a hypothesis leaves of each block by numbers from the others.
+
+    Args:
+        rows: K rows.
+        block: (K,) number of each row's block.
+        blocks: sums by these numbers; rows of no such block are left as they are.
+        problem: what competes.
+        best: the hypothesis.
+
+    Returns:
+        (K, m) N m; what is measured beyond the nominal torque where there is no block or no other.
+    """
+    left = rows.torque - rows.nominal
+    for number in blocks if len(blocks) > 1 else ():
+        rest = problem.with_equations(total([own for other, own in blocks.items() if other != number]))
+        fitted = evaluate(rest, best.chosen, best.background, best.noise)
+        which = np.flatnonzero(block == number)
+        left[which] -= rows.modelled(fitted.coefficients(len(problem.scale)) / problem.scale, which)
+    return np.asarray(left)
 
 
 def _least(rows: MotionRows) -> Array:
     return np.asarray(np.maximum(NOISE.least_share * np.std(rows.torque, axis=0), 1e-9))
 
 
-def autocorrelation_time(stretches: Indices, left: Array) -> float:
+def autocorrelation_time(stretches: Indices, left: Array, other: Array | None = None) -> float:
     """1 + 2 x sum of the autocorrelation, up to the first lag that is five times the sum so far.
 
     Args:
         stretches: (K,) number of the stretch that each row belongs to.
         left: (K,) what a model leaves of them.
+        other: (K,) what else it leaves of them, with which ``left`` is multiplied; itself where not given.
 
     Returns:
         Rows, at least 1.
@@ -89,7 +125,9 @@ def autocorrelation_time(stretches: Indices, left: Array) -> float:
     for stretch in np.unique(stretches):
         part = left[stretches == stretch]
         size = 2 ** int(np.ceil(np.log2(2 * len(part))))
-        spectrum = np.abs(np.fft.rfft(part, size)) ** 2
+        first = np.fft.rfft(part, size)
+        second = first if other is None else np.fft.rfft(other[stretches == stretch], size)
+        spectrum = (np.conj(first) * second).real
         covariance = np.fft.irfft(spectrum, size)[: min(longest + 1, len(part))]
         total[: len(covariance)] += covariance
     if total[0] <= 0:

@@ -11,10 +11,10 @@ from threadpoolctl import threadpool_limits
 
 from armscope.calibration import Calibration
 from armscope.calibration import calibrate as calibrate_arm
-from armscope.check import CheckReport
-from armscope.check import check as check_table
 from armscope.check.motions import MotionCheck
 from armscope.check.preconditions import check_table as usable_rows
+from armscope.check.report import CheckReport
+from armscope.check.report import check as check_table
 from armscope.comparison import Comparison
 from armscope.comparison import compare as compare_recordings
 from armscope.compensation.black_box import ErrorModel

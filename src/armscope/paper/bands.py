@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from armscope.core.types import Array
-from armscope.errormodels import SwarmFit
+from armscope.errormodels.fitted import SwarmFit
 from armscope.paper.measurements import Measurements
 from armscope.paper.table2 import ENSEMBLE_RANGE
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
-from armscope.errormodels import SwarmFit
+from armscope.errormodels.fitted import SwarmFit
 from armscope.paper.printed import EQUATIONS, printed_coefficients
 
 

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from armscope.errormodels import FitProblem, SwarmFit, fit_random_search, fit_swarms
-from armscope.swarm import SwarmSettings
+from armscope.errormodels.fitted import SwarmFit
+from armscope.errormodels.swarm_fit import FitProblem, fit_random_search, fit_swarms
+from armscope.swarm.settings import SwarmSettings
 
 RULES: dict[str, dict[str, Any]] = {
     "constriction": {"update": "constriction", "neighbourhood": "gbest", "velocity_clamp": None},

@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 
 from armscope.core.types import Array
-from armscope.errormodels import SwarmFit
+from armscope.errormodels.fitted import SwarmFit
 from armscope.paper.printed import AXES, EQUATIONS, printed_features, printed_matrix, printed_table2
 from armscope.paper.residuals import typical
 

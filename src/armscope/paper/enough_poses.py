@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from armscope.errormodels import FDP_CI
+from armscope.errormodels.features import FDP_CI
 from armscope.paper.identification_poses import candidate_poses
 from armscope.paper.study import StudyPlan
 from armscope.paper.virtual import VirtualStudy, identification_ranges

@@ -9,11 +9,12 @@ from typing import Any
 import pandas as pd
 
 from armscope.core.types import unheard
-from armscope.errormodels import SwarmFit, fit_random_search
+from armscope.errormodels.fitted import SwarmFit
+from armscope.errormodels.swarm_fit import fit_random_search
 from armscope.paper.claims import AS_PRINTED, IMPROVED, Evidence
 from armscope.paper.measurements import Measurements
 from armscope.paper.printed import PRINTED_MODELS
-from armscope.swarm import SwarmSettings
+from armscope.swarm.settings import SwarmSettings
 
 
 def gather(

@@ -12,7 +12,8 @@ import numpy as np
 import pandas as pd
 
 from armscope.core.types import Array
-from armscope.errormodels import FitProblem, ModelSpec
+from armscope.errormodels.features import ModelSpec
+from armscope.errormodels.swarm_fit import FitProblem
 from armscope.paper.printed import IDENTIFICATION
 from armscope.recordings.columns import angle_columns
 

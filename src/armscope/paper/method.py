@@ -14,15 +14,17 @@ import numpy as np
 import pandas as pd
 
 from armscope.core.types import unheard
-from armscope.errormodels import BasisKind, Layout, SwarmFit, fit_random_search, fit_swarms
+from armscope.errormodels.basis import BasisKind
 from armscope.errormodels.features import ModelSpec
+from armscope.errormodels.fitted import Layout, SwarmFit
+from armscope.errormodels.swarm_fit import fit_random_search, fit_swarms
 from armscope.paper.claims.catalogue import CLAIMS
 from armscope.paper.claims.evidence import Evidence
 from armscope.paper.claims.judges import CLOSE_PER_CENT, arrival, cost_ratio
 from armscope.paper.claims.table import missing_models
 from armscope.paper.claims.verdicts import interval
 from armscope.paper.measurements import Measurements
-from armscope.swarm import SwarmSettings
+from armscope.swarm.settings import SwarmSettings
 
 BASES = tuple(kind.value for kind in BasisKind)
 LAYOUTS = tuple(layout.value for layout in (Layout.JOINT, Layout.PER_AXIS))

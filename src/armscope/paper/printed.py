@@ -12,7 +12,7 @@ import yaml
 from numpy.typing import ArrayLike
 
 from armscope.core.types import Array
-from armscope.errormodels import FDP_AI, FDP_CI, SDP_AI, SDP_CI, FeatureSet, ModelSpec
+from armscope.errormodels.features import FDP_AI, FDP_CI, SDP_AI, SDP_CI, FeatureSet, ModelSpec
 
 AXES = ("x", "y", "z")
 UNCOMPENSATED = "Uncompensated"

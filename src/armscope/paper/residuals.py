@@ -10,7 +10,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
-from armscope.errormodels import SwarmFit
+from armscope.errormodels.fitted import SwarmFit
 from armscope.paper.measurements import Measurements
 from armscope.paper.printed import AXES, UNCOMPENSATED
 

@@ -101,9 +101,6 @@ def _together(
 def check_reach(plans: Sequence[tuple[str, StudyPlan]]) -> pd.DataFrame:
     """Follow the paths of all scenarios before anything else is done with them.
 
-    Args:
-        plans: what each is called, and the plan.
-
     Returns:
         Columns scenario, arm, points (all reached).
 

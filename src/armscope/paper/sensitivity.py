@@ -8,7 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pandas as pd
 
-from armscope.errormodels import FDP_CI, FitProblem, ModelSpec, SwarmFit, fit_random_search, fit_swarms
+from armscope.errormodels.features import FDP_CI, ModelSpec
+from armscope.errormodels.fitted import SwarmFit
+from armscope.errormodels.swarm_fit import FitProblem, fit_random_search, fit_swarms
 from armscope.paper.anchoring import ANCHORED
 from armscope.paper.claims import AS_PRINTED, IMPROVED, Evidence, judge_claims
 from armscope.paper.enough_poses import enough_poses
@@ -19,7 +21,7 @@ from armscope.paper.residuals import SPATIAL
 from armscope.paper.scenarios import Scenario
 from armscope.paper.study import measured
 from armscope.paper.sub_volumes import sub_volumes
-from armscope.swarm import SwarmSettings
+from armscope.swarm.settings import SwarmSettings
 
 COLUMNS = ["scenario", "factor", "level", "key", "method", "verdict", "true", "robots", "share"]
 """What every table of scenarios has at least."""

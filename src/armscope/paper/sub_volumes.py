@@ -12,7 +12,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
-from armscope.errormodels import FDP_CI, SDP_CI, ModelSpec
+from armscope.errormodels.features import FDP_CI, SDP_CI, ModelSpec
 from armscope.paper.measurements import Measurements
 
 SPLIT_ORDER = (1, 2)

@@ -5,10 +5,11 @@ from __future__ import annotations
 import pandas as pd
 
 from armscope.core.variants import Variant
-from armscope.errormodels import FitProblem, ModelSpec, fit_swarms
+from armscope.errormodels.features import ModelSpec
+from armscope.errormodels.swarm_fit import FitProblem, fit_swarms
 from armscope.paper.measurements import Measurements
 from armscope.paper.residuals import SPATIAL, residual_table
-from armscope.swarm import SwarmSettings
+from armscope.swarm.settings import SwarmSettings
 
 
 def run_variant(

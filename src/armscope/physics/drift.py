@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -171,37 +172,19 @@ def _axes_of_tool(recordings: Recordings) -> tuple[str, ...]:
     return AXES if recordings.oriented.any() else AXES[:3]
 
 
-def base_shift(recordings: Recordings, row: int, multiplicity: int, later: tuple[str, ...] = ()) -> Placed:
-    """The base jumps before a row (0-based) and stays so until the end of the row's run, and in later runs.
+def shift(effect: Effect, recordings: Recordings, row: int, multiplicity: int, later: tuple[str, ...] = ()) -> Placed:
+    """Base or tool jumps before a row (0-based) and stays so until the end of the row's run, and in later runs.
 
     Args:
+        effect: `BASE_SHIFT` or `TOOL_SHIFT`.
         recordings: the table.
         row: the first after the jump.
         multiplicity: how many moments compete.
-        later: runs that share the base and come after the row's run.
+        later: runs that share the base, or the tool, and come after the row's run.
 
     Returns:
         The effect in place.
     """
-    return _shift(BASE_SHIFT, recordings, row, multiplicity, later)
-
-
-def tool_shift(recordings: Recordings, row: int, multiplicity: int, later: tuple[str, ...] = ()) -> Placed:
-    """The tool jumps before a row (0-based) and stays so until the end of the row's run, and in later runs.
-
-    Args:
-        recordings: the table.
-        row: the first after the jump.
-        multiplicity: how many moments compete.
-        later: runs that share the tool and come after the row's run.
-
-    Returns:
-        The effect in place.
-    """
-    return _shift(TOOL_SHIFT, recordings, row, multiplicity, later)
-
-
-def _shift(effect: Effect, recordings: Recordings, row: int, multiplicity: int, later: tuple[str, ...]) -> Placed:
     location, axes = ("base", AXES) if effect is BASE_SHIFT else ("tool", _axes_of_tool(recordings))
     run = str(recordings.run[row])
     several = f", run {run}" if len(np.unique(recordings.run)) > 1 else ""
@@ -260,4 +243,5 @@ TOOL_SHIFT = Effect(
     several=True,
 )
 
+base_shift, tool_shift = partial(shift, BASE_SHIFT), partial(shift, TOOL_SHIFT)
 EFFECTS = [BASE_DRIFT, BASE_SHIFT, TOOL_SHIFT]

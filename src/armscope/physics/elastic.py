@@ -64,20 +64,12 @@ def drive(scene: Scene, j: int, load: Driver) -> Term:
     Returns:
         The compliance, rad/(N m) where the load is a torque.
     """
-    size = plausible_give(PLAUSIBLE.drive_rad, scene.driver(load))
+    size = _plausible_give(PLAUSIBLE.drive_rad, scene.driver(load))
     return term("compliance", "rad/(N m)", (motor(j), load), plausible=size)
 
 
-def plausible_give(turn: float, load: Array) -> float:
-    """What gives way per unit of a load, where its largest value turns it by ``turn``.
-
-    Args:
-        turn: rad.
-        load: (N,) in any unit.
-
-    Returns:
-        rad per that unit; infinite where there is no load.
-    """
+def _plausible_give(turn: float, load: Array) -> float:
+    """rad per unit of a load (N,) whose largest value turns what gives way by ``turn`` rad; infinite without load."""
     largest = float(np.abs(load).max(initial=0.0))
     return turn / largest if largest > 0 else np.inf
 
@@ -118,7 +110,7 @@ def _mass_moment_terms(scene: Scene, j: int) -> Iterator[tuple[Term, float]]:
     strong = size > MASS_DIRECTIONS_SHARE * size[0]
     for number, (direction, share) in enumerate(zip(directions[strong], size[strong] / size[0], strict=True), start=1):
         load = Driver("regressor", (j, *(float(w) for w in direction)))
-        give = plausible_give(PLAUSIBLE.drive_rad, scene.driver(load))
+        give = _plausible_give(PLAUSIBLE.drive_rad, scene.driver(load))
         name = f"compliance_times_moment_{number}"
         yield term(name, "rad/(m/s^2)", (motor(j), load), plausible=give), 1.0 if scene.arm.has_masses else float(share)
 
@@ -168,7 +160,7 @@ def _tilt(scene: Scene, location: str) -> Term:
 
 
 def _plausible_tilt(scene: Scene, location: str) -> float:
-    return plausible_give(PLAUSIBLE.bearing_rad, np.linalg.norm(scene.moment(location)[:, :2], axis=1))
+    return _plausible_give(PLAUSIBLE.bearing_rad, np.linalg.norm(scene.moment(location)[:, :2], axis=1))
 
 
 BEARING_COMPLIANCE = Effect(
@@ -266,7 +258,7 @@ def _place_beams(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
             "flexibility",
             "1/(N m^2)",
             *(Product(Direction(scene.beam_site(j), axis), Driver("bend", (j, n))) for n, axis in enumerate(AXES)),
-            plausible=plausible_give(PLAUSIBLE.beam_rad, np.linalg.norm(scene.bending(j)[:, 3:], axis=1)),
+            plausible=_plausible_give(PLAUSIBLE.beam_rad, np.linalg.norm(scene.bending(j)[:, 3:], axis=1)),
         )
         yield Placed(LINK_BENDING, f"link {j}", (flexibility,), (1.0,), f"load at the end of link {j}")
 

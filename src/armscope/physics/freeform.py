@@ -121,7 +121,7 @@ def _load(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     flanks = {p.location: p.terms for p in BACKLASH.place(arm, recordings) if p.variant == "load"}
     for j in loaded_joints(scene):
         source = Driver("torque", (j,))
-        bumps = spline_terms(source, scene.driver(source), motor(j), "rad", KNOTS)
+        bumps = _spline_terms(source, scene.driver(source), motor(j), "rad", KNOTS)
         linear = drive(scene, j, source)
         terms = (*offsets.get(f"joint {j}", ()), *flanks.get(f"joint {j}", ()), linear, *bumps)
         trends = len(terms) - len(bumps)
@@ -162,7 +162,7 @@ def _context(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
         base = [t for centre, width in knots for t in six_terms("base", Driver("spline", (driver, centre, width)))]
         yield _curve("base", tuple(base), [1.0] * len(base), name, name)
         for j in moving_joints(recordings):
-            terms = spline_terms(driver, known, motor(j), "rad", CONTEXT_KNOTS)
+            terms = _spline_terms(driver, known, motor(j), "rad", CONTEXT_KNOTS)
             trend = (*offsets.get(f"joint {j}", ()), term("trend", "rad per driver", (motor(j), driver)))
             yield _curve(f"joint {j}", (*trend, *terms), [1.0] * len(terms), name, name, trends=len(trend))
 
@@ -184,19 +184,8 @@ def _curve(
     )
 
 
-def spline_terms(source: Driver, values: Array, direction: Direction, unit: str, count: int) -> tuple[Term, ...]:
-    """Cubic B-splines over the range of a driver's values, each a term in one direction.
-
-    Args:
-        source: the driver.
-        values: (N,) its values in the table.
-        direction: which way it moves the tool.
-        unit: of the parameters.
-        count: how many splines.
-
-    Returns:
-        One term per spline.
-    """
+def _spline_terms(source: Driver, values: Array, direction: Direction, unit: str, count: int) -> tuple[Term, ...]:
+    """``count`` cubic B-splines over the range of a driver's values (N,), each a term in one direction."""
     return tuple(
         term(f"at_{n}", unit, (direction, Driver("spline", (source, centre, width))))
         for n, (centre, width) in enumerate(_knots(values, count))

@@ -218,10 +218,6 @@ def _unstated_bars(scene: Scene) -> list[Placed]:
 def finer_bars(scene: Scene, placed: Placed) -> list[Placed]:
     """Bars of unknown lengths at directions of the rocker less than a coarse step from those of others.
 
-    Args:
-        scene: the arm in its poses.
-        placed: bars in place.
-
     Returns:
         The bars at each finer direction; none where the bars are stated, or are no bars.
     """

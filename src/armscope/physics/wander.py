@@ -50,13 +50,6 @@ def wander(recordings: Recordings, set_ups: SetUps) -> list[Placed]:
 
     A random walk in the waves that count, its cosines falling with their number (Karhunen-Loeve). In time where it is
     recorded, else in the order of rows. All waves together, and every run, are as large as is plausible.
-
-    Args:
-        recordings: the table.
-        set_ups: runs that share a base.
-
-    Returns:
-        Waves, then runs, in place.
     """
     waves = [_wandering(driver, share, f"wave {k}") for k, driver, share in _waves(recordings, WANDER_WAVES)]
     if any(map(is_of_rows, waves)):

@@ -76,20 +76,11 @@ def candidates(arm: Arm, count: int, around: Surroundings, seed: int, payload_kg
             "--candidates", "", f"{len(poses)} possible poses of {drawn} drawn", f"{count} are wanted; most: {most}",
             "Check --tracker, --floor-mm and --radius-mm (mm in the arm's base frame) and the joint limits.",
         )  # fmt: skip
-    return Candidates(pose_rows(poses, np.random.default_rng(seed + 1), payload_kg), drawn, refused)
+    return Candidates(_pose_rows(poses, np.random.default_rng(seed + 1), payload_kg), drawn, refused)
 
 
-def pose_rows(angles: Array, rng: np.random.Generator, payload_kg: float = 0.0) -> Recordings:
-    """Rows to be measured, with the context that effects may follow: side of approach and payload.
-
-    Args:
-        angles: (N, m) rad.
-        rng: draws side of approach and payload.
-        payload_kg: carried in every other row, on average.
-
-    Returns:
-        N rows without positions.
-    """
+def _pose_rows(angles: Array, rng: np.random.Generator, payload_kg: float = 0.0) -> Recordings:
+    """Poses (N, m), rad, to be measured, with side of approach and, in every other row on average, payload."""
     approach = rng.choice([-1.0, 1.0], angles.shape)
     payload = np.where(rng.random(len(angles)) < 0.5, payload_kg, 0.0) if payload_kg > 0 else None
     return replace(unmeasured(angles), approach=approach, payload=payload, source="poses")
@@ -121,7 +112,7 @@ def grid(arm: Arm, count: int, around: Surroundings, rng: np.random.Generator, p
         possible = angles[refusals(arm, angles, around) == ""]
         if len(possible) >= count:
             order = rng.permutation(len(possible))[:count]
-            return pose_rows(possible[np.sort(order)], rng, payload_kg)
+            return _pose_rows(possible[np.sort(order)], rng, payload_kg)
         levels += 1
     raise InputError("--poses", "", count, f"a grid of {levels - 1} steps per joint has fewer possible poses")
 

@@ -44,10 +44,6 @@ def match(concealed: Sequence[Concealed], claims: Sequence[NamedEffect]) -> tupl
     """Concealed effects with the claims that stand for them, and the claims left over.
 
     As many as possible in all; among those, own names before alternatives, and the story before the background.
-
-    Args:
-        concealed: all of a world's effects.
-        claims: distinct claims.
     """
     pairs: dict[int, int] = {}
     if concealed and claims:
@@ -126,15 +122,7 @@ def name_row(concealed: Sequence[Concealed], claim: NamedEffect, right: bool) ->
 
 
 def effect_row(found: Match, claims: Sequence[NamedEffect]) -> dict[str, object]:
-    """A concealed effect as a case.
-
-    Args:
-        found: the effect and the claim that stands for it.
-        claims: all claims of its world.
-
-    Returns:
-        What its row in the table of effects says of every arm, standing or moving.
-    """
+    """A concealed effect as a case."""
     truth, claim = found.truth, found.claim
     return {
         "effect": truth.effect,

@@ -37,7 +37,7 @@ def aims_table(cases: Cases, rng: np.random.Generator) -> pd.DataFrame:
     """Every aim for fixed, fresh and all worlds, with its rate, interval, bounds and verdict."""
     rows = aim_rows(AIMS, cases.tables())
     for seeds in SEEDS:
-        found = detection_threshold(of_seeds(cases.effects, seeds), "seen", RELIABLE, rng)
+        found = _detection_threshold(of_seeds(cases.effects, seeds), "seen", RELIABLE, rng)
         counted = Rate(found.cases, None, found.value, found.low, found.high)
         rows.append(aim_row(THRESHOLD_TEXT, seeds, counted, THRESHOLD_AIM))
     return pd.DataFrame(rows)
@@ -50,18 +50,8 @@ def _powered(effects: pd.DataFrame) -> pd.DataFrame:
     return single[~single["world"].duplicated(keep=False)]
 
 
-def detection_threshold(effects: pd.DataFrame, column: str, share: float, rng: np.random.Generator) -> Threshold:
-    """Where on the scale of the oracle's thresholds that share is found.
-
-    Args:
-        effects: one row per concealed effect, as `scoring` writes them.
-        column: which finding counts.
-        share: where to read it off, 0 ... 1.
-        rng: of the bootstrap over cases.
-
-    Returns:
-        The size in multiples of the oracle's threshold.
-    """
+def _detection_threshold(effects: pd.DataFrame, column: str, share: float, rng: np.random.Generator) -> Threshold:
+    """Multiple of the oracle's threshold at which that share of the effects is found; rng: of the bootstrap."""
     chosen = _powered(effects)
     return threshold(
         chosen["size_in_thresholds"].to_numpy(dtype=float), chosen[column].to_numpy(dtype=bool), share, rng
@@ -74,7 +64,7 @@ def thresholds_table(effects: pd.DataFrame, rng: np.random.Generator) -> pd.Data
     for seeds in SEEDS:
         for column in ("seen", "right"):
             for share in (0.5, RELIABLE):
-                found = detection_threshold(of_seeds(effects, seeds), column, share, rng)
+                found = _detection_threshold(of_seeds(effects, seeds), column, share, rng)
                 rows.append({"seeds": seeds, "found": column, "share": share, **vars(found)})
     return pd.DataFrame(rows)
 

@@ -42,10 +42,6 @@ def read_worlds(folder: Path) -> Iterator[World]:
 def check_seal(seen: Path, allowed: Collection[str] = ALLOWED) -> None:
     """Make sure that a diagnosing job saw nothing but what may be seen.
 
-    Args:
-        seen: the list of the files that it could see.
-        allowed: names of files that it may see.
-
     Raises:
         InputError: the list holds another file.
     """

@@ -145,7 +145,7 @@ def _truth(world: str, content: dict[str, Any], test: pd.DataFrame) -> Truth:
         left_out=tuple(about["columns_left_out"]),
         outside=about["outside_library"],
         true_rms_mm=content["rms_on_test_mm"]["true_model"],
-        effects=tuple(_effect(effect) for effect in content["effects"]),
+        effects=tuple(concealed(effect) for effect in content["effects"]),
         test=test,
         rough=tuple(about.get("rough", ())),
         also_allowed=tuple((effect, location) for effect, location in about.get("also_allowed", ())),
@@ -154,16 +154,17 @@ def _truth(world: str, content: dict[str, Any], test: pd.DataFrame) -> Truth:
     )
 
 
-def _effect(content: dict[str, Any]) -> Concealed:
+def concealed(content: dict[str, Any]) -> Concealed:
+    """One concealed effect of a truth.yaml."""
     oracle = content.get("oracle", {"noncentrality": float("nan"), "columns": 0, "frame_numbers": 0})
     return Concealed(
         effect=content["effect"],
         location=content["location"],
         driver=content["driver"],
-        minor=content["minor"],
+        minor=content.get("minor", False),
         strength=content["strength"],
         parameters={p["name"]: (p["value"], p["unit"]) for p in content["parameters"]},
-        comparable=content["values_comparable"],
+        comparable=content.get("values_comparable", True),
         noncentrality=oracle["noncentrality"],
         columns=oracle["columns"],
         frame_numbers=oracle["frame_numbers"],

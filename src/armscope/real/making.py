@@ -22,8 +22,9 @@ from scipy.spatial.transform import Rotation
 from armscope.core.files import copy_file, new_folder, write_table, write_yaml
 from armscope.proof.making import TEST_POSES
 from armscope.proof.truth import seal
-from armscope.real.planting import CannotPlantError, Planted, Theatre, plant, truth_of
+from armscope.real.planting import CannotPlantError, NotPlanted, Planted, plant, truth_of
 from armscope.real.staging import AXES_MM, QUATERNION, Stage
+from armscope.real.theatre import Theatre
 
 
 @dataclass(frozen=True)
@@ -99,9 +100,13 @@ def make_altered(
     for number, name in enumerate(effects):
         rng = np.random.default_rng([*seed, number])
         try:
-            made += [(truth_of(theatre, each), each) for each in plant(theatre, judge, name, sizes, level, rng)]
+            for each in plant(theatre, judge, name, sizes, level, rng):
+                if isinstance(each, NotPlanted):
+                    skipped.append({"effect": name, "size": each.size, "reason": each.reason})
+                else:
+                    made.append((truth_of(theatre, each), each))
         except CannotPlantError as error:
-            skipped.append({"effect": name, "reason": str(error)})
+            skipped += [{"effect": name, "size": size, "reason": str(error)} for size in sizes]
     with _sealing(places) as folder:
         order = np.random.default_rng([*seed, len(effects)]).permutation(len(made))
         for place, (truth, planted) in zip(order.tolist(), made, strict=True):

@@ -20,7 +20,8 @@ from armscope.calibration.splits import random_split
 from armscope.core.averages import rms_distance
 from armscope.core.types import Array, unheard
 from armscope.diagnosis import Diagnosis, Settings, diagnose
-from armscope.errormodels import PAPER_MODELS, fit_least_squares
+from armscope.errormodels.features import PAPER_MODELS
+from armscope.errormodels.least_squares import fit_least_squares
 from armscope.measurement.orientations import ORIENTATIONS
 from armscope.paper.printed import IDENTIFICATION
 from armscope.paper.real import real_measurements
@@ -128,15 +129,7 @@ def effects_named(verdict: Diagnosis) -> list[dict[str, object]]:
 
 
 def paper_models(arm: Arm, table: Recordings) -> list[dict[str, object]]:
-    """The paper's models at 85 identification rows, by least squares: rows of model, split, train, test, rms_mm.
-
-    Args:
-        arm: the nominal arm.
-        table: rows of one run.
-
-    Returns:
-        One dictionary per model and split.
-    """
+    """The paper's models at 85 identification rows, by least squares: rows of model, split, train, test, rms_mm."""
     sets = {each.name: each for each in real_measurements(arm, table, 0, PAPER_ROWS).measurements.sets}
     train, test = sets.pop(IDENTIFICATION), next(iter(sets.values()))
     found: list[tuple[str, Array]] = [(UNCORRECTED, test.errors_mm[0])]

@@ -24,19 +24,19 @@ def tables(scores: Scores) -> dict[str, pd.DataFrame]:
 
 
 def rates_table(scores: Scores) -> pd.DataFrame:
-    """Found, right place, no new name, interval holds: by size, and by effect or arm and size; for each half and both.
+    """Found, right place, no new name, none unheard of, interval holds; by size, and by effect or arm and size.
 
-    Columns by, of, size, half, score, and those of `Rate`.
+    For each half and both. Columns by, of, size, half, score, and those of `Rate`.
     """
     rows = []
-    cases = scores.cases.assign(quiet=scores.cases["new_names"] == 0)
+    cases = scores.cases.assign(quiet=scores.cases["new_names"] == 0, none_unheard_of=scores.cases["unheard_of"] == 0)
     covered = scores.numbers
     if len(covered):
         covered = covered[covered["covered"].notna()]
     for by, keys in GROUPS.items():
         for half in ("fixed", "fresh", "both"):
             for key, group in _grouped(cases, keys, half):
-                for score in ("found", "right_place", "quiet"):
+                for score in ("found", "right_place", "quiet", "none_unheard_of"):
                     rows.append({"by": by, **key, "half": half, "score": score, **vars(rate(group[score]))})
             for key, group in _grouped(covered, keys, half):
                 rows.append({"by": by, **key, "half": half, "score": "covered", **vars(rate(group["covered"]))})

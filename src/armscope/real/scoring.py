@@ -13,7 +13,8 @@ in these poses within 5 nats of evidence), `listed` (its name among the alternat
 name (nothing where it does not name it, though the arm may have some: coverage then falls short of 95 %).
 
 **New names** are names that neither the original's verdict has nor the planted effect explains: false alarms that the
-planted effect caused.
+planted effect caused. **Unheard of** are those of them that the original's verdict does not list as an alternative of
+its own names either: the others are one of two answers that it said cannot be told apart.
 
 **Twins.** Where both halves draw the same place and numbers, the recordings are the same: they count once in both
 halves together.
@@ -110,14 +111,14 @@ def score(worlds: Sequence[Sealed]) -> Scores:
             for c in compared
         ]
         for each in world.truth["skipped"]:
-            skipped[world.set, each["effect"], world.part] = each["reason"]
-    gone = [{"set": s, "effect": e, "half": h, "reason": reason} for (s, e, h), reason in sorted(skipped.items())]
+            skipped[world.set, each["effect"], each["size"], world.part] = each["reason"]
+    gone = [(*key, reason) for key, reason in sorted(skipped.items())]
     loads = [_withheld(world) for world in worlds if world.truth["kind"] == "withheld"]
     return Scores(
         pd.DataFrame(cases),
         pd.DataFrame(numbers),
         pd.DataFrame(loads),
-        pd.DataFrame(gone, columns=["set", "effect", "half", "reason"]),
+        pd.DataFrame(gone, columns=["set", "effect", "size", "half", "reason"]),
     )
 
 
@@ -128,6 +129,7 @@ def _case(world: Sealed, original: Sealed) -> tuple[dict[str, Any], list[Compare
     explained = {truth.name, *truth.alternatives}
     had = {each.name for each in before}
     new = [c for c in now if c.effect != UNKNOWN and c.name not in explained and c.name not in had]
+    heard_of = had.union(*(each.alternatives for each in before))
     compared = _numbers(truth, world.truth, now, before) if outcome == "named" else []
     case = {
         "set": world.set,
@@ -148,6 +150,7 @@ def _case(world: Sealed, original: Sealed) -> tuple[dict[str, Any], list[Compare
         "had_it_before": truth.name in had,
         "new_names": len({each.name for each in new}),
         "new": _listed(sorted({each.name for each in new})),
+        "unheard_of": len({each.name for each in new} - heard_of),
         "lost": _listed(sorted(had - {each.name for each in now})),
         "failed": world.answer.failed,
     }

@@ -57,17 +57,8 @@ def calibrated_transfer(arm: Arm, recordings: Recordings, transfer: ReferenceTra
     return found
 
 
-def diagnosed_transfer(learned: Diagnosis, rows: Recordings, transfer: ReferenceTransfer) -> dict[str, float]:
-    """RMS of the 3D distance (mm) on the other run of a whole verdict's model, and of its elastic part alone.
-
-    Args:
-        learned: the verdict on the run that was learned on.
-        rows: of the other run.
-        transfer: which runs.
-
-    Returns:
-        mm by model.
-    """
+def _diagnosed_transfer(learned: Diagnosis, rows: Recordings, transfer: ReferenceTransfer) -> dict[str, float]:
+    """RMS of the 3D distance (mm) on the other run of a whole verdict's model, and of its elastic part alone."""
     if "tool" not in transfer.refitted:
         known = [part.placed.variant for part in learned.model.tools]
         rows = replace(rows, target=np.where(np.isin(rows.target, known), rows.target, known[0]))
@@ -140,7 +131,7 @@ def measure_transfers(
     for transfer in transfers:
         rows = recordings.of_runs([transfer.applied])
         by_model = calibrated_transfer(arm, recordings, transfer)
-        by_model |= diagnosed_transfer(verdicts[transfer.learned], rows, transfer)
+        by_model |= _diagnosed_transfer(verdicts[transfer.learned], rows, transfer)
         by_model |= curves_transfer(arm, verdicts[transfer.learned], rows)
         tell(f"{transfer.learned} to {transfer.applied}: " + ", ".join(f"{k} {v:.3f}" for k, v in by_model.items()))
         found.append((transfer, by_model))

@@ -33,9 +33,6 @@ def read_text_table(path: Path, check: Callable[[list[str]], object] = lambda he
         path: of the file.
         check: refuses a header that can't be used, before the rest is read.
 
-    Returns:
-        The table.
-
     Raises:
         InputError: it is no such table.
     """

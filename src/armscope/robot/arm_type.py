@@ -69,9 +69,6 @@ def read_arm_type(path: Path | str, name: str | None = None) -> ArmType:
         path: that ``snakemake fleet`` wrote.
         name: of the type; may be left out where the file holds one.
 
-    Returns:
-        The type.
-
     Raises:
         InputError: the file is none, or has no such type, or several and none is named.
     """

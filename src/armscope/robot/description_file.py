@@ -51,9 +51,6 @@ def describe_urdf(path: Path | str, tip: str | None = None) -> RobotDescription:
         path: of the URDF.
         tip: the frame that carries the tool; None guesses it.
 
-    Returns:
-        The description.
-
     Raises:
         InputError: it is no URDF, or has no arm, or several.
     """

@@ -214,13 +214,6 @@ def load_moving_arm(path: Path | str) -> MovingArm:
 def build_moving_arm(description: RobotDescription, source: Path | str = "robot.yaml") -> MovingArm:
     """The arm of a description.
 
-    Args:
-        description: what robot.yaml says.
-        source: where it was read, for errors.
-
-    Returns:
-        The arm.
-
     Raises:
         InputError: it states no masses, or joints that are not possible.
     """
@@ -258,9 +251,6 @@ def build_moving_arm(description: RobotDescription, source: Path | str = "robot.
 
 def attached_bodies(model: pin.Model) -> tuple[tuple[str, Array], ...]:
     """Bodies that fixed or locked joints hold to a moving link, each with what it carries.
-
-    Args:
-        model: of the chain.
 
     Returns:
         Name and (10 n,) inertial parameters, SI, in the frames of the links, of each.

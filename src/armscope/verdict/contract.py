@@ -177,24 +177,15 @@ def from_json(content: Any, source: object) -> Verdict:
     turns = seen.held_out_rms_mrad if seen else BeforeAfter(before=np.nan, after=np.nan)
     return Verdict(
         **{name: getattr(file, name) for name in _SAME if name != "effects"},
-        effects=tuple(in_memory(FoundEffect, effect) for effect in file.effects),
-        held_out=in_memory(HeldOut, file.held_out_rms_mm, turn_before=turns.before, turn_after=turns.after),
+        effects=tuple(_in_memory(FoundEffect, effect) for effect in file.effects),
+        held_out=_in_memory(HeldOut, file.held_out_rms_mm, turn_before=turns.before, turn_after=turns.after),
         residual_before_mm=file.fitted_rms_mm.before,
         residual_after_mm=file.fitted_rms_mm.after,
-        orientations=in_memory(Orientations, seen) if seen else None,
+        orientations=_in_memory(Orientations, seen) if seen else None,
     )
 
 
-def in_memory(kind: type[Made], part: BaseModel, **changes: Any) -> Made:
-    """A part of the file as what it is in memory, without what is said twice.
-
-    Args:
-        kind: of what it is.
-        part: of the file.
-        changes: attributes that the file has in another shape.
-
-    Returns:
-        It.
-    """
+def _in_memory(kind: type[Made], part: BaseModel, **changes: Any) -> Made:
+    """A part of the file as what it is in memory, without what is said twice; changes: what it has in another shape."""
     known = {field.name for field in fields(kind)}
     return kind(**{**{name: value for name, value in part if name in known}, **changes})

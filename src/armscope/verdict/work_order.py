@@ -186,7 +186,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
     known = effect_named(effect.effect)
     words = {"location": effect.location, "zero": "–", "ratio": "–", "size": "", "jump": _jump(effect)}
     words["row"] = "; ".join(_row(effect)) or "its errors can't be told apart in these poses"
-    words["opposite"] = motion(scene, cause.parts, -1) or "its opposite"
+    words["opposite"] = _motion(scene, cause.parts, -1) or "its opposite"
     told = {p.name: p for p in effect.parameters if not implausible(p, effect)}
     if "offset" in told:
         words["zero"] = f"where the controller shows 0°, the joint stands at {angle(told['offset'].value)}"
@@ -202,7 +202,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         what=capitalised(phrase(effect)),
         place=effect.location,
         change=known.cure.change if known else "",
-        motion="" if "offset" in told or words["jump"] else motion(scene, cause.parts),  # the instruction has it
+        motion="" if "offset" in told or words["jump"] else _motion(scene, cause.parts),  # the instruction has it
         instruction=_settled(effect, asked) + (known.cure.instruction.format(**words) if known else ""),
         cure=(known.cure.rule if known else effect.cure).replace("`", ""),
         confirm=effect.confirm,
@@ -246,17 +246,8 @@ def _row(effect: FoundEffect) -> Iterator[str]:
         yield f"{p.name} = stated {p.name} {size}"
 
 
-def motion(scene: Scene, parts: tuple[Part, ...], sign: int = 1) -> str:
-    """The largest turn and the largest shift of parts over the recorded rows.
-
-    Args:
-        scene: the fitted model's, of the recorded rows.
-        parts: of the fitted model.
-        sign: -1 for what undoes them.
-
-    Returns:
-        In words, with signs; "" for none.
-    """
+def _motion(scene: Scene, parts: tuple[Part, ...], sign: int = 1) -> str:
+    """The largest turn and shift of parts over the recorded rows, in words, with signs; sign -1: to undo them."""
     amounts: dict[str, list[tuple[str, Array]]] = {"turns": [], "moves": []}
     for direction, amount in scene.amounts(parts).items():
         place = Location.of(direction.location)

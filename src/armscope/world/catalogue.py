@@ -33,12 +33,7 @@ COMMON_KINDS = (
 
 
 def catalogue(proof_seed: int, size: Literal["small", "full"] = "small") -> list[WorldSpec]:
-    """The worlds of a proof: 24 in the small one, some 500 in the full one.
-
-    Args:
-        proof_seed: from which the seeds of every second world are derived.
-        size: which proof.
-    """
+    """The worlds of a proof: 24 in the small one, some 500 in the full one."""
     recipes = list(_small() if size == "small" else _full())
     return [_spec(number, category, recipe, proof_seed) for number, (category, recipe) in enumerate(recipes)]
 

@@ -54,12 +54,7 @@ class VirtualArm:
 
 
 def conceal(spec: WorldSpec, robots: Path) -> VirtualArm:
-    """The virtual arm of a specification; the same one gives the same arm.
-
-    Args:
-        spec: what to make.
-        robots: folder of the arms' descriptions.
-    """
+    """The virtual arm of a specification; the same one gives the same arm."""
     poses, effects, noise, rough = (np.random.default_rng(seed) for seed in np.random.SeedSequence(spec.seed).spawn(4))
     description = rough_description(load_description(robots / f"{spec.arm}.yaml"), spec.rough, rough)
     # thermal growth needs a hall that warms up

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from armscope.motion.verdict import FoundCause, UnexplainedTorque, read_motion_verdict
+from armscope.motion.verdict import FoundCause, LinkSide, UnexplainedTorque, read_motion_verdict
 from armscope.proof.motion.answers import MotionAnswer, claims_of
 from armscope.proof.motion.scoring import MotionWorld
 from armscope.proof.motion.truth import MotionTruth, _effect
@@ -45,6 +45,11 @@ def verdict_of(causes, unknown_at=None, **changes):
     return replace(read_motion_verdict(WRITTEN), effects=tuple(causes), unexplained=left, **changes)
 
 
+def link_side(causes):
+    """A link that lies beside its motor for these causes."""
+    return LinkSide("joint 1", Parameter("offset", "rad", 0.0, 1e-5), 1e-3, 1e-4, "rad", tuple(causes))
+
+
 def table(torque):
     return pd.DataFrame({f"tau{j + 1}_nm": torque[:, j] for j in range(2)})
 
@@ -55,12 +60,14 @@ def world(effects=(), answers=(), category="single", unknown_at=None, off=0.0, *
         rows=1000, stated=changes.get("stated", False), outside=any(each["effect"] == "unknown" for each in effects),
         effects=tuple(_effect(each) for each in effects),
         background={f"joint {j}": {"coulomb": 5.0, "viscous": 4.0, "inertia": 1.0} for j in (1, 2)},
+        zeros=np.array(changes.get("zeros", ())),
         left_nm=LEFT, left_moving_nm=LEFT, test=table(TORQUE + NOISE).assign(moves1=MOVES, moves2=1),
     )  # fmt: skip
     if changes.get("failed"):
         return MotionWorld(truth, MotionAnswer(truth.world, failed="InputError: no"))
     answer = MotionAnswer(
         truth.world, claims=claims_of(verdict_of(answers, unknown_at)), mismatch=bool(answers), answer="explained",
-        background=changes.get("background", ()), predicted=table(TORQUE + off * LEFT),
+        background=changes.get("background", ()), zeros=changes.get("told_zeros", {}),
+        predicted=table(TORQUE + off * LEFT),
     )  # fmt: skip
     return MotionWorld(truth, answer)

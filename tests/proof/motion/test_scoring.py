@@ -5,11 +5,12 @@ import pytest
 from scipy.stats import beta
 
 from armscope.core.inputs import InputError
+from armscope.proof.motion.answers import claims_of
 from armscope.proof.motion.rates import in_words, per_effect, summary
 from armscope.proof.motion.reading import ALLOWED
 from armscope.proof.motion.scoring import COLUMNS, held_out_ratio, score
 from armscope.proof.reading import check_seal
-from tests.proof.motion.cases import LEFT, ROWS, effect, said, world
+from tests.proof.motion.cases import LEFT, ROWS, effect, link_side, said, verdict_of, world
 
 HYSTERESIS = effect("unknown", "joint 2", shape="hysteresis")
 
@@ -104,6 +105,18 @@ def test_ordinary_friction_counts_where_nothing_is_concealed_at_the_joint():
     assert list(intervals["location"]) == ["joint 1", "joint 1"]
     assert list(intervals["covered"]) == [True, False]
     assert score([world([effect()], [said()], background=told, stated=True)])["intervals"].empty
+
+
+def test_what_lays_a_link_beside_its_motor_is_a_name_and_zeros_are_none():
+    claims = claims_of(verdict_of([], links=(link_side([said("joint_play", "joint 1")]),)))
+    assert [claim.name for claim in claims] == [("joint_play", "joint 1")]
+    read = {"joint 1": (1.1e-3, 1e-4, "rad"), "joint 2": (0.0, 1e-4, "rad")}
+    clean = score([world(category="clean", zeros=(1e-3, 1e-3), told_zeros=read)])
+    assert only(clean)["silent"]
+    assert clean["intervals"]["covered"].tolist() == [True, False]
+    busy = [effect("joint_play", "joint 1", half=1e-4)]
+    beside = score([world(busy, [], zeros=(1e-3, 1e-3), told_zeros=read)])["intervals"]
+    assert beside[["location", "parameter"]].to_numpy().tolist() == [["joint 2", "zero"]]
 
 
 def test_rates_have_exact_intervals_and_aims_are_judged():

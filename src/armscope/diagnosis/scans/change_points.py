@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
-from typing import Protocol
 
 import numpy as np
 
@@ -22,15 +21,7 @@ from armscope.physics.drift import base_shift, tool_shift
 from armscope.physics.effect import Placed
 from armscope.recordings import Recordings
 
-
-class Build(Protocol):
-    """Puts a shift before a row."""
-
-    def __call__(self, recordings: Recordings, row: int, multiplicity: int, later: tuple[str, ...] = ()) -> Placed:
-        """The shift, one of so many that compete, which holds in later runs, too."""
-
-
-BUILDS: dict[str, Build] = {"base": base_shift, "tool": tool_shift}
+BUILDS = {"base": base_shift, "tool": tool_shift}
 
 
 def jumps(context: ScanContext, given: Sequence[Hypothesis]) -> Iterator[Placed]:

@@ -55,13 +55,6 @@ def alternatives(search: Search, best: Hypothesis) -> dict[int, list[Rival]]:
     right; what is in a background, too, pays as little for its name. A line taken from a curve of load is rivalled by
     what rivals the curve, and by what could stand beside the curve's rest; a curve of another drive's load is told as
     its compliance. What would be worth as much beside the effect takes no place of it: held-out rows have refused it.
-
-    Args:
-        search: the finished one.
-        best: the hypothesis chosen.
-
-    Returns:
-        The rivals of each chosen candidate, by its number.
     """
     refused = _Refused(search, best, none=not search.additions(best, 1, least=0.0))
     return {c.candidate: _of_one(search, best, c.candidate, refused) for c in best.chosen}

@@ -32,14 +32,7 @@ class SameSize:
 
 
 def subset_consistency(state: DiagnosisState) -> dict[int, SameSize]:
-    """For effects with plain parameters: whether every run, payload and half of the workspace alone gives the same.
-
-    Args:
-        state: the finished selection.
-
-    Returns:
-        By candidate.
-    """
+    """For effects with plain parameters: whether every run, payload and half of the workspace alone gives the same."""
     told: dict[int, list[tuple[bool, str]]] = {}
     plain = [
         c.candidate

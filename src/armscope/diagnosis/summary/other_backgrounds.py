@@ -21,10 +21,6 @@ from armscope.inference.search import Search
 def doubts(search: Search, best: Hypothesis) -> Mapping[int, Array]:
     """What the covariance of each effect's values gains when backgrounds may have other sizes; not of free curves.
 
-    Args:
-        search: the finished one.
-        best: the hypothesis chosen.
-
     Returns:
         By candidate, (k, k) in SI units: the spread about the values as they are told, beyond their covariance.
     """

@@ -11,7 +11,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
-from armscope.errormodels import SwarmFit
+from armscope.errormodels.fitted import SwarmFit
 from armscope.paper.measurements import Measurements
 from armscope.paper.printed import PRINTED_MODELS, TEST_TRAJECTORIES, printed_table2
 from armscope.paper.residuals import SPATIAL, spatial_rms

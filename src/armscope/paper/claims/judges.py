@@ -8,7 +8,8 @@ import numpy as np
 import pandas as pd
 
 from armscope.core.types import Array
-from armscope.errormodels import FOURIER_2_AI, POLYNOMIAL_4_AI, SwarmFit
+from armscope.errormodels.features import FOURIER_2_AI, POLYNOMIAL_4_AI
+from armscope.errormodels.fitted import SwarmFit
 from armscope.paper.claims.evidence import Evidence, Judged, printed_cells, printed_spatial
 from armscope.paper.enough_poses import PRINTED_COUNT, smallest_sufficient
 from armscope.paper.outlook import PLAIN, SUB_VOLUMES

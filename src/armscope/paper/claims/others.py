@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from armscope.errormodels import FDP_CI, SDP_AI, SDP_CI
+from armscope.errormodels.features import FDP_CI, SDP_AI, SDP_CI
 from armscope.paper.claims import judges
 from armscope.paper.claims.claim import OVER_TESTS, PRODUCT, REGIONS, TAUTOLOGY, WITHOUT, Claim
 from armscope.paper.claims.judges import FOURIER, FOURTH

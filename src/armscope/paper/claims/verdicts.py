@@ -14,12 +14,7 @@ DECISIVE = (HOLDS, FAILS, DEPENDS)
 
 @cache
 def interval(true: int, robots: int) -> tuple[float, float]:
-    """Exact 95 % interval of a share (Clopper & Pearson 1934).
-
-    Args:
-        true: of how many robots a claim is true.
-        robots: of how many.
-    """
+    """Exact 95 % interval of a share (Clopper & Pearson 1934)."""
     from scipy.stats import binomtest  # takes half a second: seldom needed
 
     found = binomtest(true, robots).proportion_ci(0.95, "exact")

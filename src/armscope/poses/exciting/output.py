@@ -20,12 +20,7 @@ from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
 
 def trajectory_table(found: Excitation, rate: float) -> pd.DataFrame:
-    """time_s, q1_rad ..., dq1_rad_s ..., ddq1_rad_s2 ..., and the stated model's torques tau1_nm ..., over one period.
-
-    Args:
-        found: the motion.
-        rate: samples per second.
-    """
+    """time_s, q1_rad ..., dq1_rad_s ..., ddq1_rad_s2 ..., and the stated model's torques tau1_nm ..., over a period."""
     time = np.arange(round(found.path.period * rate) + 1) / rate
     angle, speed, acceleration = found.path.at(time)
     numbers = np.concatenate([inertial_parameters(found.arm.model), stated_friction(found.arm)])

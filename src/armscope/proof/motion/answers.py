@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import pandas as pd
@@ -27,6 +27,7 @@ class MotionAnswer:
         world: whose.
         claims: its causes, one per name, and what it calls unknown.
         mismatch, answer: as in verdict.json.
+        zeros: of links' encoders beside their motors': (value, standard error, unit) by joint.
         background: ordinary friction and rotors by joint: (value, standard error, unit) by name.
         predicted: torques of the test path; None: there are none, ``not_predicted`` says why.
     """
@@ -36,6 +37,7 @@ class MotionAnswer:
     mismatch: bool | None = None
     answer: str = "failed"
     background: tuple[tuple[str, Numbers], ...] = ()
+    zeros: Numbers = field(default_factory=dict)
     predicted: pd.DataFrame | None = None
     failed: str = ""
     not_predicted: str = ""
@@ -53,15 +55,17 @@ def read_answer(folder: Path) -> MotionAnswer:
         mismatch=verdict.mismatch,
         answer=verdict.answer,
         background=tuple((joint.joint, numbers_of(joint.parameters)) for joint in verdict.background),
+        zeros={each.joint: (each.offset.value, each.offset.stderr, each.offset.unit) for each in verdict.links},
         predicted=None if why.is_file() else read_table(folder / PREDICTED),
         not_predicted=why.read_text(encoding="utf-8").strip() if why.is_file() else "",
     )
 
 
 def claims_of(verdict: MotionVerdict) -> tuple[NamedEffect, ...]:
-    """One per name, minor only if all of that name are; structure without a cause counts as `unknown`."""
+    """One per name, of torques and links, minor only if all of that name are; structure without a cause: `unknown`."""
     by_name: dict[Name, NamedEffect] = {}
-    for cause in sorted(verdict.effects, key=lambda cause: cause.minor):
+    causes = (*verdict.effects, *(cause for link in verdict.links for cause in link.causes))
+    for cause in sorted(causes, key=lambda cause: cause.minor):
         by_name.setdefault((cause.effect, cause.location), NamedEffect.of(cause))
     left = verdict.unexplained
     if left.present and left.location:

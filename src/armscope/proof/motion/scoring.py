@@ -2,11 +2,11 @@
 
 Names are right, acceptable or wrong, and worlds exact, as `armscope.proof.definitions` has them for positions. Beyond
 that: a clean world is silent if nothing is named and nothing called unknown; ordinary friction and rotors, which every
-arm has, are no names, but their intervals count where nothing is concealed at their joint; the held-out ratio is
-the RMS of measured minus predicted torque on a path nobody has seen, each joint in units of what the truth itself
-leaves there (noise, and what the drives' filter rounds off). Where a joint stands its friction is whatever holds it,
-within a band, and no motion foretells it: `held_out_moving` is the same ratio without those readings, as verdicts
-count their own errors.
+arm has, and zeros of links' encoders are no names, but their intervals count where nothing is concealed at their joint;
+the held-out ratio is the RMS of measured minus predicted torque on a path nobody has seen, each joint in units of what
+the truth itself leaves there (noise, and what the drives' filter rounds off). Where a joint stands its friction is
+whatever holds it, within a band, and no motion foretells it: `held_out_moving` is the same ratio without those
+readings, as verdicts count their own errors.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ def score(worlds: Iterable[MotionWorld]) -> dict[str, pd.DataFrame]:
         rows["names"] += [
             common | name_row(truth.effects, claim, claim not in left) for claim in claims if claim.effect != UNKNOWN
         ]
-        rows["intervals"] += [common | number for number in [*_numbers(matches), *_ordinary(world)]]
+        rows["intervals"] += [common | number for number in [*_numbers(matches), *_ordinary(world), *_zeros(world)]]
     return {name: pd.DataFrame(found, columns=list(COLUMNS[name])) for name, found in rows.items()}
 
 
@@ -139,6 +139,16 @@ def _ordinary(world: MotionWorld) -> Iterator[Row]:
                 if name in numbers:
                     about: Row = {"effect": ORDINARY, "location": joint}
                     yield about | _covered(name, numbers[name][2], true, numbers[name])
+
+
+def _zeros(world: MotionWorld) -> Iterator[Row]:
+    """The zeros of links' encoders where nothing lays the link elsewhere."""
+    busy = {place(each.location) for each in world.truth.effects}
+    for j, zero in enumerate(world.truth.zeros):
+        joint = f"joint {j + 1}"
+        if joint in world.answer.zeros and place(joint) not in busy:
+            about: Row = {"effect": ORDINARY, "location": joint}
+            yield about | _covered("zero", world.answer.zeros[joint][2], float(zero), world.answer.zeros[joint])
 
 
 def _covered(name: str, unit: str, true: float, fitted: tuple[float, float, str]) -> Row:

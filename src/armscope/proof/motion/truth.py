@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +11,7 @@ import pandas as pd
 
 from armscope.core.types import Array
 from armscope.proof.matching import UNKNOWN
-from armscope.proof.truth import Concealed, unsealed
+from armscope.proof.truth import Concealed, concealed, unsealed
 
 COMPARED = {
     "coulomb_friction": ("coulomb",), "viscous_friction": ("viscous",), "asymmetric_friction": ("viscous_difference",),
@@ -19,6 +19,8 @@ COMPARED = {
     "rotor_inertia": ("inertia",), "torque_offset": ("offset",), "motor_constant": ("gain",),
     "torque_delay": ("delay",), "joint_compliance": ("compliance",),
     "link_mass": ("mass",), "payload_error": ("mass",), "torque_ripple": ("amplitude",),
+    "joint_elasticity": ("compliance",), "joint_play": ("half",), "gear_ratio": ("share",), "encoder_lag": ("lag",),
+    "encoder_wave": ("sine", "cosine"),
     "coupled_friction": ("coulomb", "viscous"), "coupled_inertia": ("inertia",), "gravity_direction": ("x", "y"),
 }  # fmt: skip
 """Numbers whose meaning does not hang on what else is fitted; scanned ones (speed, waves per turn) have no interval."""
@@ -35,6 +37,7 @@ class MotionTruth:
         outside: whether no library has it.
         effects: what is concealed.
         background: by joint, the friction and rotors of this arm.
+        zeros: (n,) rad, of links' encoders beside their motors'; empty where links have none.
         left_nm: (n,) RMS that the truth itself leaves on the test path; left_moving_nm: where the joint moves.
         test: the test path with its torques, and where each joint moves.
     """
@@ -48,6 +51,7 @@ class MotionTruth:
     outside: bool
     effects: tuple[Concealed, ...]
     background: dict[str, dict[str, float]]
+    zeros: Array
     left_nm: Array
     left_moving_nm: Array
     test: pd.DataFrame
@@ -75,6 +79,7 @@ def _truth(world: str, content: dict[str, Any], test: pd.DataFrame) -> MotionTru
         effects=tuple(_effect(each) for each in content["effects"]),
         background={each["location"]: {name: each[key] for name, key in BACKGROUND.items()} 
                     for each in content["background"]},
+        zeros=np.array(content["zeros_rad"], dtype=float),
         left_nm=np.array(content["left_on_test_nm"]),
         left_moving_nm=np.array(content["left_moving_nm"]),
         test=test,
@@ -82,18 +87,6 @@ def _truth(world: str, content: dict[str, Any], test: pd.DataFrame) -> MotionTru
 
 
 def _effect(content: dict[str, Any]) -> Concealed:
-    kept = COMPARED.get(content["effect"], ())
-    return Concealed(
-        effect=content["effect"],
-        location=content["location"],
-        driver=content["driver"],
-        minor=False,
-        strength=content["strength"],
-        parameters={p["name"]: (p["value"], p["unit"]) for p in content["parameters"] if p["name"] in kept},
-        comparable=content["effect"] != UNKNOWN,
-        noncentrality=float("nan"),
-        columns=0,
-        frame_numbers=0,
-        alternatives=tuple((each["effect"], each["location"]) for each in content["alternatives"]),
-        shape=content["shape"],
-    )
+    found, kept = concealed(content), COMPARED.get(content["effect"], ())
+    numbers = {name: number for name, number in found.parameters.items() if name in kept}
+    return replace(found, parameters=numbers, comparable=found.effect != UNKNOWN)

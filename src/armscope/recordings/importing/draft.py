@@ -50,12 +50,6 @@ MEASURED = ("measured", "meas", "actual", "act", "ist", "tracker", "laser", "lei
 def draft_mapping(path: Path | str) -> str:
     """The text of a mapping.yaml that reads this file, with a comment on every guess.
 
-    Args:
-        path: of a delimited text table.
-
-    Returns:
-        YAML.
-
     Raises:
         InputError: it is no text table, or no columns look like motor angles and points.
     """

@@ -85,14 +85,14 @@ def import_recordings(raw_files: list[Path], mapping_file: Path | str, output: P
     """
     _check_output(Path(output), [*raw_files, Path(mapping_file)])
     mapping = load_any_mapping(mapping_file)
-    runs = runs_for(mapping, [Path(path) for path in raw_files], mapping_file)
+    runs = _runs_for(mapping, [Path(path) for path in raw_files], mapping_file)
     columns = _columns_of(mapping, [run for run, _ in runs])
     report = ImportReport(Path(output), tuple(columns), [])
     with replacing(output) as beside, _writing(beside, Path(output).suffix == ".gz") as stream:
         stream.write(",".join(columns) + "\n")
         for run, paths in runs:
             report.runs.append(RunReport(run.run, run.file))
-            for piece in convert_run(mapping, run, paths, report.runs[-1]):
+            for piece in _convert_run(mapping, run, paths, report.runs[-1]):
                 if "time_s" in piece:  # seconds since 1970 need more digits than anything measured
                     piece["time_s"] = piece["time_s"].map(f"{{:.{TIME_DIGITS}g}}".format, na_action="ignore")
                 piece.reindex(columns=columns).to_csv(
@@ -101,20 +101,8 @@ def import_recordings(raw_files: list[Path], mapping_file: Path | str, output: P
     return report
 
 
-def runs_for(mapping: AnyMapping, raw_files: list[Path], source: Path | str) -> list[tuple[AnyRun, dict[str, Path]]]:
-    """Each run with the paths of its files, by the names that the mapping uses.
-
-    Args:
-        mapping: of the set.
-        raw_files: the files.
-        source: the mapping's file, for errors.
-
-    Returns:
-        Runs with their files' paths by name.
-
-    Raises:
-        InputError: a run without its file, or a file that no run wants.
-    """
+def _runs_for(mapping: AnyMapping, raw_files: list[Path], source: Path | str) -> list[tuple[AnyRun, dict[str, Path]]]:
+    """Each run with the paths of its files, by the names that the mapping uses; none left over."""
     by_name = {path.name: path for path in raw_files}
     if len(by_name) < len(raw_files):
         names = [path.name for path in raw_files]
@@ -191,21 +179,8 @@ def _table_columns(mapping: Mapping, runs: Sequence[AnyRun]) -> list[str]:
     return names + [f"sigma_{axis}_mm" for axis in "xyz"] * any_has("sigma")
 
 
-def convert_run(mapping: AnyMapping, run: AnyRun, paths: dict[str, Path], report: RunReport) -> Iterator[pd.DataFrame]:
-    """The rows of one run as pieces of a recordings table; ``report`` counts along.
-
-    Args:
-        mapping: the mapping as a whole.
-        run: the run, one of `runs_for`.
-        paths: its files by name.
-        report: takes the counts.
-
-    Yields:
-        Pieces with the contract's columns, in the order of the file.
-
-    Raises:
-        InputError: a value that can't be converted, at its place in the raw file.
-    """
+def _convert_run(mapping: AnyMapping, run: AnyRun, paths: dict[str, Path], report: RunReport) -> Iterator[pd.DataFrame]:
+    """The rows of one run as pieces of a recordings table, in the order of the file; ``report`` counts along."""
     beside = BesideFiles(run.format or mapping.format, run, paths, report.notes)
     filters = [Filter(rule) for rule in (mapping.rows if run.rows is None else run.rows)]
     report.left_out = [each.left_out for each in filters]

@@ -65,15 +65,7 @@ class ErrorField:
 
 
 def turnable(arm: Arm, shown: ErrorField) -> Markup:
-    """The figure's content for a page that includes error_field.css and error_field.js.
-
-    Args:
-        arm: the nominal arm.
-        shown: what is to be turned.
-
-    Returns:
-        HTML.
-    """
+    """The figure's content for a page that includes error_field.css and error_field.js."""
     content = json.dumps(figure_data(arm, shown), separators=(",", ":"), ensure_ascii=False).replace("<", "\\u003c")
     return Markup(
         '<figure class="field" id="field"><script type="application/json">{}</script>'

@@ -14,15 +14,7 @@ LINES = ("-", "--", "-.", ":")
 
 
 def motion_figure(found: Excitation, table: pd.DataFrame) -> Figure:
-    """Four panels over time, one line per joint: angle, degrees; speed, acceleration and torque as shares of limits.
-
-    Args:
-        found: the motion.
-        table: of `armscope.poses.exciting.output.trajectory_table`.
-
-    Returns:
-        The figure.
-    """
+    """Four panels over time, one line per joint: angle, degrees; speed, acceleration and torque as shares of limits."""
     limits = found.limits
     parts = (
         ("q{}_rad", np.full(len(limits.torque), np.pi / 180), "angle (deg)"),

@@ -10,7 +10,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from armscope.core.types import Array
-from armscope.errormodels import SwarmFit
+from armscope.errormodels.fitted import SwarmFit
 from armscope.paper.bands import TRUE, band_of
 from armscope.paper.measurements import Measurements
 from armscope.paper.printed import PRINTED_MODELS

@@ -20,11 +20,7 @@ BENT_DEG = (0, 20, -25, 0, 0, 0)
 
 
 def arm_with_frames(arm: Arm) -> Figure:
-    """Fig. 1: the arm from the side, its D-H lengths in mm, and the parallelogram.
-
-    Args:
-        arm: described by D-H rows.
-    """
+    """Fig. 1: the arm from the side, its D-H lengths in mm, and the parallelogram."""
     shape = arm_shape(arm, np.radians(BENT_DEG) if arm.n_motors == len(BENT_DEG) else np.zeros(arm.n_motors))
     with styled():
         figure, panel = plt.subplots(figsize=(7.4, 5.6))

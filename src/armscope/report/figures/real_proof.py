@@ -21,12 +21,7 @@ RECOVERED_RANGE = (-1.0, 1.5)
 
 
 def draw_all(tables: Mapping[str, pd.DataFrame], titles: Mapping[str, str]) -> dict[str, Figure]:
-    """Every figure by name.
-
-    Args:
-        tables: of `armscope real score`.
-        titles: what to call each set.
-    """
+    """Every figure by name."""
     cases = tables["cases"].assign(arm=[titles.get(name, name) for name in tables["cases"]["set"]])
     with styled():
         return {"found": found(cases), "sizes": sizes(cases), "held_out": held_out_by_arm(cases)}

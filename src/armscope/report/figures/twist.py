@@ -32,9 +32,6 @@ def draw_twist(twist: JudgedTwist, torque_unit: str) -> Drawing:
     Args:
         twist: of the joint.
         torque_unit: N m, or N of a sliding joint.
-
-    Returns:
-        The figure.
     """
     rows, zero = twist.selected.rows, twist.side.offset.value
     few = spread_evenly(len(rows), MOST_DOTS)

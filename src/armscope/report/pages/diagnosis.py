@@ -36,30 +36,17 @@ ZEROS, ROWS = "zero_offsets.csv", "corrected_dh.csv"
 
 
 def write_report(verdict: Diagnosis, folder: Path | str) -> Path:
-    """Write ``report.html``, ``work-order.html``, its tables as CSV, and ``figures/*.svg``.
-
-    Args:
-        verdict: the diagnosis.
-        folder: where the page goes.
-
-    Returns:
-        The page's path.
-    """
+    """Write ``report.html``, ``work-order.html``, its tables as CSV, and ``figures/*.svg``."""
     folder, subject = Path(folder), Subject(verdict)
     written = write_sections(SECTIONS, subject, "diagnosis", folder)
-    write_work_order(subject, folder)
+    _write_work_order(subject, folder)
     page = render_page("diagnosis.html.j2", **_head(verdict), sections=written)
     write_text(folder / REPORT, page)
     return folder / REPORT
 
 
-def write_work_order(subject: Subject, folder: Path) -> None:
-    """The work order as a page, and its numbers as tables.
-
-    Args:
-        subject: the diagnosis.
-        folder: where the files go.
-    """
+def _write_work_order(subject: Subject, folder: Path) -> None:
+    """The work order as a page, and its numbers as tables."""
     verdict, zeros, rows = subject.verdict, zero_offsets(subject.verdict), corrected_rows(subject.verdict)
     write_table(folder / ZEROS, zeros)
     if rows is not None:

@@ -22,7 +22,16 @@ report):"""
 WITHHELD = """\
 The same recordings without the columns that say how loaded the arm was: is it still found to give way? Where drives and
 bearings are not told apart, they give way without a name, among the small errors everywhere."""
-SCORES = {"found": "found", "right_place": "right place", "covered": "interval holds", "quiet": "no new name"}
+SCORES = {
+    "found": "found",
+    "right_place": "right place",
+    "covered": "interval holds",
+    "quiet": "no new name",
+    "none_unheard_of": "none that was not listed",
+}
+LISTED = """\
+A new name is one that the arm's own verdict does not have; in the last column, one that it does not even list as what
+one of its names could be in place of."""
 
 
 def write_concealment(path: Path, proof: Path, titles: Mapping[str, str], of: str) -> None:
@@ -41,17 +50,27 @@ def write_concealment(path: Path, proof: Path, titles: Mapping[str, str], of: st
     lines = [HEAD, "", f"Measured at {of}.", "", CONCEALMENT, ""]
     lines += _rates(rates, [("all", "all"), *(("arm", name) for name in titles)], titles, "arm")
     lines += ["", *_rates(rates, [("effect", name) for name in sorted(rates[rates["by"] == "effect"]["of"].unique())])]
+    lines += ["", LISTED]
     if missing:
         lines += ["", f"Not run for this page: {', '.join(missing)}."]
     skipped = pd.read_csv(proof / "skipped.csv")
     if len(skipped):
-        told = skipped.drop_duplicates(["set", "effect"])
-        lines += ["", "Not planted: "]
-        lines[-1] += "; ".join(
-            f"{effect.replace('_', ' ')} in {titles.get(name, name)} ({reason})"
-            for name, effect, reason in zip(told["set"], told["effect"], told["reason"], strict=True)
-        )
+        lines += [
+            "",
+            "Not planted, because nobody could find it or no real arm has it:",
+            "",
+            *_not_planted(skipped, titles),
+        ]
     write_text(path, "\n".join([*lines, *_withheld(proof, titles)]) + "\n")
+
+
+def _not_planted(skipped: pd.DataFrame, titles: Mapping[str, str]) -> list[str]:
+    """A row per effect, arm and reason, with the sizes at which it holds."""
+    rows = []
+    for (effect, name, reason), group in skipped.groupby(["effect", "set", "reason"], sort=True):
+        sizes = ", ".join(f"{size:g}" for size in sorted(group["size"].unique()))
+        rows.append((str(effect).replace("_", " "), titles.get(str(name), str(name)), sizes, str(reason)))
+    return table_lines(["effect", "arm", "size", "why"], rows)
 
 
 def _rates(

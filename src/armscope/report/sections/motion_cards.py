@@ -44,9 +44,6 @@ def motion_card(cause: FoundCause, number: int | str) -> MotionCard:
     Args:
         cause: it.
         number: of it among the causes of torque (from 1); other words make another anchor.
-
-    Returns:
-        Its texts.
     """
     curve = any(each.name.startswith(KNOT) for each in cause.parameters)
     known = cause_named(cause.effect)

@@ -35,9 +35,6 @@ class MotionTask:
 def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
     """What the work order of a motion is filled with.
 
-    Args:
-        subject: the diagnosis.
-
     Returns:
         Tasks of the causes, largest share first; those worth little in a word each; friction and rotors of the joints.
     """

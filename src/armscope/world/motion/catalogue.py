@@ -13,11 +13,12 @@ import numpy as np
 
 from armscope.core.inputs import Strict
 from armscope.world.motion.kinds import LIBRARY, Kind
+from armscope.world.motion.links import LINKED
 from armscope.world.motion.outside import OUTSIDE
 from armscope.world.motion.session import PathRule
 from armscope.world.spec import Details, EffectSpec, Recipe, seeded
 
-KINDS: dict[str, Kind] = {kind.name: kind for kind in LIBRARY + OUTSIDE}
+KINDS: dict[str, Kind] = {kind.name: kind for kind in LIBRARY + OUTSIDE + LINKED}
 ARMS = ("two-axis", "six-axis", "seven-axis")
 RATES = (100, 125, 250)
 """Hz; divisors of the grid's rate."""
@@ -42,6 +43,7 @@ class MotionSpec(Strict):
         effects: what it conceals.
         stated: whether robot.yaml states friction and rotor inertia.
         current: whether motor currents are recorded instead of torques, with exact gains in robot.yaml.
+        linked: whether every link has an encoder of its own beside its motor's.
         rule, joint: how the training runs move: freely, or one joint (0-based) one way only, or hardly at all.
         durations: s, of the training runs and, last, of the test path.
     """
@@ -56,6 +58,7 @@ class MotionSpec(Strict):
     effects: tuple[EffectSpec, ...] = ()
     stated: bool = False
     current: bool = False
+    linked: bool = False
     rule: PathRule = "free"
     joint: int | None = None
     durations: tuple[float, ...] = (14.0, 14.0, 10.0)
@@ -103,6 +106,11 @@ def _full() -> Iterator[tuple[Category, Recipe]]:
     for recipe in CONFOUNDED:
         for _ in range(3):
             yield "confounded", recipe
+    for _ in range(3):
+        yield "clean", _linked
+    for kind in LINKED:
+        for strength in STRENGTHS:
+            yield "single", _single(kind.name, strength)
 
 
 def _small() -> Iterator[tuple[Category, Recipe]]:
@@ -115,10 +123,17 @@ def _small() -> Iterator[tuple[Category, Recipe]]:
         yield "outside", _single(kind.name, 5.0)
     yield "confounded", CONFOUNDED[0]
     yield "single", _single("joint_compliance", 5.0)
+    yield "clean", _linked
+    for name in ("joint_elasticity", "joint_play"):
+        yield "single", _single(name, 5.0)
 
 
 def _nothing(rng: np.random.Generator) -> Details:
     return {}
+
+
+def _linked(rng: np.random.Generator) -> Details:
+    return {"linked": True}
 
 
 def _single(kind: str, strength: float) -> Recipe:
@@ -132,6 +147,8 @@ def _circumstances(kinds: list[str], rng: np.random.Generator) -> Details:
         details["arm"] = str(rng.choice(ARMS[1:]))
     if any(KINDS[kind].stated for kind in kinds):
         details["stated"] = True
+    if any(KINDS[kind].lies is not None for kind in kinds):
+        details["linked"] = True
     return details
 
 

@@ -29,8 +29,20 @@ def behind_its_drive(stage: Stage, joint: int, numbers: Numbers) -> Array:
     Returns:
         (T, n) N m.
     """
+    return wound_up(stage, joint, numbers)[1] - stage.load
+
+
+def wound_up(stage: Stage, joint: int, numbers: Numbers) -> tuple[Array, Array]:
+    """Where links lie beside their motors, and what they then ask of these.
+
+    Args:
+        stage, joint, numbers: as of `behind_its_drive`.
+
+    Returns:
+        (T, n) rad, (T, n) N m.
+    """
     shift, load = np.zeros_like(stage.session.angle), stage.load
     for _ in range(ROUNDS):
         shift[:, joint] = -numbers["compliance"] * load[:, joint]
         load = stage.links(stage.session.moved(shift))
-    return load - stage.load
+    return shift, load

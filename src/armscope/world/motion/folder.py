@@ -1,21 +1,22 @@
 """A moving world as two folders: what the diagnosis may see, and the sealed truth.
 
-    visible/  robot.yaml (what the user believes), motions.csv, test_motions.csv (another path, without torques)
+    visible/  robot.yaml (what the user believes), motions.csv, test_motions.csv (another path, without torques, and
+              without the links' own encoders where motions.csv has them)
     sealed/   truth.yaml, test.csv (that path with torques, N m, also where the diagnosis gets currents; `moves1 ...`: 0
               where a joint stands, and its friction may be anything within its band)
 
 truth.yaml: `effects` (effect, location, parameters, `strength` = RMS torque over noise at the joint where it is
-largest, `rms_nm` there, `alternatives` that are as good on these paths, by evidence), `background` (the arm's own
-friction and rotors, which robot.yaml may or may not state), `noise_nm` per joint, `left_on_test_nm` per joint: what the
-truth itself leaves on the held-out path (noise, and what the drives' filter rounds off), and `left_moving_nm`, the
-same where the joint moves; `scoring`:
-category, seed, circumstances.
+largest, `rms_nm` there, `rms_rad` of a link beside its motor, `alternatives` that are as good on these paths, by
+evidence), `background` (the arm's own friction and rotors, which robot.yaml may or may not state), `noise_nm` per
+joint, `left_on_test_nm` per joint: what the truth itself leaves on the held-out path (noise, and what the drives'
+filter rounds off), and `left_moving_nm`, the same where the joint moves; `zeros_rad` of links' encoders beside their
+motors', none where links have none; `scoring`: category, seed, circumstances.
 """
 
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +29,7 @@ from armscope.core.files import write_table, write_yaml
 from armscope.core.types import Array
 from armscope.robot.description_file import load_description
 from armscope.world.motion.catalogue import ARMS, KINDS, MotionSpec
+from armscope.world.motion.links import read_links
 from armscope.world.motion.mechanism import stated_dynamics
 from armscope.world.motion.recording import Recorded, record, table
 from armscope.world.motion.rivals import alternatives
@@ -49,7 +51,10 @@ GAINS = (4.0, 14.0)
 
 @dataclass(frozen=True, eq=False)
 class World:
-    """A world in memory: the arm, what it conceals, what else would do, and what was recorded."""
+    """A world in memory: the arm, what it conceals, what else would do, and what was recorded.
+
+    ``zeros``: (n,) rad, of links' encoders beside their motors'; None where links have none.
+    """
 
     spec: MotionSpec
     arm: VirtualArm
@@ -58,6 +63,7 @@ class World:
     torque: Array
     recorded: Recorded
     gains: Array | None
+    zeros: Array | None = None
 
 
 def make(spec: MotionSpec, robots: Path) -> World:
@@ -105,7 +111,12 @@ def _make(spec: MotionSpec, robots: Path, draw: int = 0) -> World:
     torque = arm.torques([each.concealed for each in concealed]) if concealed else plain
     gains = drives.uniform(*GAINS, dynamics.n_joints).round(2) if spec.current else None
     recorded = record(session, torque, sigma, spec.rate, noise)
-    return World(spec, arm, concealed, alternatives(arm, concealed, spec.rate, plain), torque, recorded, gains)
+    zeros = None
+    if spec.linked:
+        beside = arm.beside_motors([each.concealed for each in concealed])
+        links, zeros = read_links(session, recorded.rows, beside, np.random.default_rng([spec.seed, 8]))
+        recorded = replace(recorded, links=links)
+    return World(spec, arm, concealed, alternatives(arm, concealed, spec.rate, plain), torque, recorded, gains, zeros)
 
 
 def build(spec: MotionSpec, folder: Path, robots: Path) -> Path:
@@ -127,7 +138,7 @@ def build(spec: MotionSpec, folder: Path, robots: Path) -> Path:
     columns = tuple(name for name, drawn in shown.items() if drawn or name in needed)
     motions = table(world.arm.session, world.recorded, columns, world.gains)
     test = motions["run"] == "test"
-    torques = [str(name) for name in motions if str(name).startswith(("tau", "current"))]
+    torques = [str(name) for name in motions if str(name).startswith(("tau", "current")) or "_link_" in str(name)]
     write_table(home / "visible" / "motions.csv", motions[~test])
     write_table(home / "visible" / "test_motions.csv", motions[test].drop(columns=torques))
     torques_read = table(world.arm.session, world.recorded, columns, None)
@@ -180,6 +191,7 @@ def _truth(world: World) -> dict[str, Any]:
         "noise_nm": np.sqrt(np.mean(noise[~test] ** 2, axis=0)).round(6),
         "left_on_test_nm": np.sqrt(np.mean(left[test] ** 2, axis=0)).round(6),
         "left_moving_nm": np.sqrt(while_moving).round(6),
+        "zeros_rad": [] if world.zeros is None else world.zeros.round(9),
         "scoring": {
             "category": spec.category,
             "arm": spec.arm,
@@ -207,6 +219,6 @@ def _effect(sized: Sized, others: list[Alternative]) -> dict[str, Any]:
             for name, value in concealed.numbers.items()
         ],
         "strength": round(sized.strength, 3),
-        "rms_nm": float(f"{sized.rms_nm:.5g}"),
+        "rms_nm" if kind.lies is None else "rms_rad": float(f"{sized.rms:.5g}"),
         "alternatives": [vars(other) for other in others],
     }

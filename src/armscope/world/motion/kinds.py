@@ -1,8 +1,9 @@
 """What moving worlds can conceal: each kind with its places, its numbers, and the physics that it changes.
 
-A kind acts in one of three ways: on the mechanism (`changes`: masses, friction, springs that MuJoCo simulates), as a
-torque beside it (`pulls`: laws of friction and curves that MuJoCo has no name for), or on what is recorded
-(`records`). Signs: torque is the motor's, positive along the joint's angle; friction that is positive resists.
+A kind acts in one of four ways: on the mechanism (`changes`: masses, friction, springs that MuJoCo simulates), as a
+torque beside it (`pulls`: laws of friction and curves that MuJoCo has no name for), on what is recorded
+(`records`), or on where a link that has an encoder of its own lies beside its motor (`lies`). Signs: torque is the
+motor's, positive along the joint's angle; friction that is positive resists.
 """
 
 from __future__ import annotations
@@ -68,7 +69,7 @@ class Kind:
         units: of every number.
         scaled: names of the numbers that the size multiplies.
         largest: how far the scaled numbers may go before the thing would be absurd, by name.
-        changes, pulls, records: its physics, one of them.
+        changes, pulls, records, lies: its physics, one of them; a drive that winds up pulls, too.
         driver: what it follows.
         needs: columns of motions.csv without which nobody could see it.
         stated: whether robot.yaml states what it departs from (ordinary friction is in every arm).
@@ -85,6 +86,7 @@ class Kind:
     changes: Changes | None = None
     pulls: Pulls | None = None
     records: Records | None = None
+    lies: Pulls | None = None
     driver: str = "speed"
     needs: tuple[str, ...] = ()
     stated: bool = False

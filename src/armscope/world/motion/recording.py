@@ -33,12 +33,14 @@ class Recorded:
         torque: (N, n) read, N m.
         noise: (N, n) noise and steps in it, N m.
         left: (N, n) what the true torque of that moment leaves: the noise, and what the drives' filter rounds off.
+        links: (N, n) rad, of the links' own encoders; None where they have none.
     """
 
     rows: NDArray[np.intp]
     torque: Array
     noise: Array
     left: Array
+    links: Array | None = None
 
 
 def record(session: Session, torque: Array, sigma: Array, rate: int, rng: np.random.Generator) -> Recorded:
@@ -100,6 +102,8 @@ def table(session: Session, recorded: Recorded, columns: tuple[str, ...], gains:
     angle = (np.round(session.angle[rows] / step) * step).round(8)
     content: dict[str, object] = {"run": session.run[rows], "time_s": session.time[rows].round(6)}
     content |= {f"q{j}_rad": angle[:, j - 1] for j in names}
+    if recorded.links is not None:
+        content |= {f"q{j}_link_rad": recorded.links[:, j - 1] for j in names}
     if "speed" in columns:
         speed = _reported_speed(session)[rows].round(6)
         content |= {f"dq{j}_rad_s": speed[:, j - 1] for j in names}

@@ -16,10 +16,11 @@ from numpy.typing import NDArray
 from armscope.core.types import Array
 from armscope.world.layout import Geometry
 from armscope.world.motion.kinds import Stage, joints, sign
+from armscope.world.motion.links import NOISE_RAD, link_rivals
 from armscope.world.motion.mechanism import Dynamics, MovingArm
 from armscope.world.motion.recording import independent_share
 from armscope.world.motion.session import COLD_C, GRID_HZ, Session
-from armscope.world.motion.virtual_arm import Sized, VirtualArm
+from armscope.world.motion.virtual_arm import Sized, VirtualArm, stage_of
 from armscope.world.rivals import ALTERNATIVE_NATS, Alternative, Rival
 
 MOST_SAMPLES = 600
@@ -46,7 +47,22 @@ def alternatives(arm: VirtualArm, concealed: list[Sized], rate: int, plain: Arra
     others = list(rivals(arm, plain, rows))
     weights = np.tile(np.sqrt(worth) / arm.sigma, len(rows))
     free = _background(arm, rows)
-    return [_equal(each, [o for o in concealed if o is not each], others, rows, weights, free) for each in concealed]
+    found = []
+    for each in concealed:
+        if each.concealed.kind.lies is not None:
+            found.append(_of_link(arm, each, rows, len(train) / GRID_HZ * rate / len(rows)))
+            continue
+        rest = [other for other in concealed if other is not each and other.concealed.kind.lies is None]
+        found.append(_equal(each, rest, others, rows, weights, free))
+    return found
+
+
+def _of_link(arm: VirtualArm, one: Sized, rows: NDArray[np.intp], worth: float) -> list[Alternative]:
+    """What else would lay a link beside its motor so, whatever their zeros."""
+    stage = stage_of(Geometry(arm.description), arm.dynamics, arm.session.taken(rows))
+    weights = np.full(len(rows), np.sqrt(worth) / NOISE_RAD)
+    others = list(link_rivals(stage, one.concealed.joint))
+    return _equal(one, [], others, rows, weights, np.ones((len(rows), 1)))
 
 
 def _equal(
@@ -111,7 +127,7 @@ def rivals(arm: VirtualArm, torque: Array, rows: NDArray[np.intp]) -> Iterator[R
     session = arm.session.taken(rows)
     geometry = Geometry(arm.description)
     links = MovingArm(geometry, arm.dynamics.without_friction())
-    stage = Stage(session, lambda motion: links.torques(motion.angle, motion.speed, motion.acceleration))
+    stage = stage_of(geometry, arm.dynamics, session)
     places = joints(arm.description)
     for j, place in enumerate(places):
         for effect, columns in _joint_patterns(stage, j, plain[:, j], slope[:, j]):

@@ -11,6 +11,7 @@ from armscope.core.types import Array
 from armscope.robot.description import RobotDescription
 from armscope.world.layout import Geometry
 from armscope.world.motion.kinds import Concealed, Kind, Stage, sign
+from armscope.world.motion.links import NOISE_RAD
 from armscope.world.motion.mechanism import Dynamics, MovingArm
 from armscope.world.motion.session import Session
 
@@ -22,6 +23,20 @@ MOST_TRIES = 40
 """Places and numbers that are drawn before an effect counts as impossible."""
 TOO_SMALL = 1e-9
 """What background friction absorbs has no size."""
+
+
+def stage_of(geometry: Geometry, dynamics: Dynamics, session: Session) -> Stage:
+    """What laws see of a motion.
+
+    Args:
+        geometry, dynamics: of the arm.
+        session: the motion.
+
+    Returns:
+        The stage, with the torques of the links alone.
+    """
+    links = MovingArm(geometry, dynamics.without_friction())
+    return Stage(session, lambda motion: links.torques(motion.angle, motion.speed, motion.acceleration))
 
 
 class ImpossibleEffect(ValueError):
@@ -61,8 +76,7 @@ class VirtualArm:
         for each in concealed:
             if each.kind.changes is not None:
                 dynamics = each.kind.changes(dynamics, Location.of(each.location), each.numbers)
-        links = MovingArm(geometry, dynamics.without_friction())
-        stage = Stage(session, lambda motion: links.torques(motion.angle, motion.speed, motion.acceleration))
+        stage = stage_of(geometry, dynamics, session)
         torque = MovingArm(geometry, dynamics).torques(session.angle, session.speed, session.acceleration)
         for each in concealed:
             if each.kind.pulls is not None:
@@ -72,6 +86,15 @@ class VirtualArm:
             if each.kind.records is not None:
                 torque = each.kind.records(session, torque, each.joint, each.numbers)
         return torque
+
+    def beside_motors(self, concealed: list[Concealed]) -> Array:
+        """(T, n) rad by which links lie beside their motors."""
+        stage = stage_of(Geometry(self.description), self.dynamics, self.session)
+        found = np.zeros_like(self.session.angle)
+        for each in concealed:
+            if each.kind.lies is not None:
+                found[:, each.joint] += each.kind.lies(stage, each.joint, each.numbers)
+        return found
 
     def background(self, joint: int) -> Array:
         """(T, k) torques that are fitted anyway at a joint (0-based): friction and rotor, where they are not stated."""
@@ -93,11 +116,14 @@ class VirtualArm:
 
 @dataclass(frozen=True, eq=False)
 class Sized:
-    """What is concealed, and its strength: RMS of the torque over the noise, at the joint where that is largest."""
+    """What is concealed, and its strength: RMS over the noise, at the joint where that is largest.
+
+    RMS and change, (T, n), are of torque, N m; of a link beside its motor they are of its angle, rad, (T, 1).
+    """
 
     concealed: Concealed
     strength: float
-    rms_nm: float
+    rms: float
     change: Array
 
 
@@ -145,7 +171,7 @@ def _sized(arm: VirtualArm, concealed: Concealed, strength: float, plain: Array)
     """Numbers grown or shrunk until the strength is reached; a power law is followed from step to step."""
     power, before = 1.0, None
     for _ in range(8):
-        found = measure(arm, concealed, plain)
+        found = _measure(arm, concealed, plain)
         if found is None or found.strength < TOO_SMALL:
             return None
         if abs(found.strength / strength - 1) < CLOSE:
@@ -161,25 +187,20 @@ def _sized(arm: VirtualArm, concealed: Concealed, strength: float, plain: Array)
     return None
 
 
-def measure(arm: VirtualArm, concealed: Concealed, plain: Array) -> Sized | None:
-    """How large it is with the numbers it has.
-
-    Args:
-        arm: the arm.
-        concealed: what is wrong with it.
-        plain: (T, n) torques with nothing concealed.
-
-    Returns:
-        Its size; None where no body can be so.
-    """
+def _measure(arm: VirtualArm, concealed: Concealed, plain: Array) -> Sized | None:
+    """How large it is with the numbers it has beside torques (T, n) without it; None where no body can be so."""
     may_be = concealed.kind.possible
     if may_be is not None and not may_be(arm, concealed.joint, concealed.numbers):
         return None
+    if concealed.kind.lies is not None:
+        beside = arm.beside_motors([concealed])[:, [concealed.joint]]
+        rms = float(np.std(beside[~arm.session.test]))
+        return Sized(concealed, rms / NOISE_RAD, rms, beside)
     try:
         change = arm.torques([concealed]) - plain
     except ValueError:
         return None
     left = arm.beyond_background(change)
-    rms = np.sqrt(np.mean(left**2, axis=0))
-    most = int(np.argmax(rms / arm.sigma))
-    return Sized(concealed, float((rms / arm.sigma)[most]), float(rms[most]), change)
+    each = np.sqrt(np.mean(left**2, axis=0))
+    most = int(np.argmax(each / arm.sigma))
+    return Sized(concealed, float((each / arm.sigma)[most]), float(each[most]), change)
