@@ -91,7 +91,7 @@ def _row_lines(table: ForeignTable, needed: Sequence[int]) -> Iterator[str]:
     """Rows without angles or points are left out, and which is said."""
     lacking = np.isnan(table.values[:, needed])
     if lacking.any():
-        listed = _listed(table, [column for column, some in zip(needed, lacking.any(axis=0), strict=True) if some])
+        listed = _listed(table, [needed[column] for column in np.unique(np.argwhere(lacking)[:, 1]).tolist()])
         yield "rows:"
         yield f"- drop_missing: {listed}   # guessed: {lacking.any(axis=1).sum()} rows have none there"
 

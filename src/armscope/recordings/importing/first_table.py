@@ -83,13 +83,13 @@ def first_table(path: Path) -> ForeignTable:
     for name in names:
         if len(name) > LONGEST_NAME:
             raise InputError(path, f"line {first + 1}", name, f"column names of at most {LONGEST_NAME} characters")
-    cells = rows[1:] if header else rows
-    units = cells[0] if header and len(cells) > 1 and _is_of_units(cells[0]) else []
-    cells = cells[1:] if units else cells
-    numbers = np.array([[_value(cell, decimal) for cell in row] for row in cells], dtype=float)
+    body = rows[1:] if header else rows
+    units = body[0] if header and len(body) > 1 and _is_of_units(body[0]) else []
+    body = body[1:] if units else body
+    numbers = np.array([[_value(cell, decimal) for cell in row] for row in body], dtype=float)
     if not len(numbers):
         raise InputError(path, "", "a header alone", "rows are needed to guess units from")
-    return ForeignTable(delimiter, decimal, first, names, header, numbers, encoding, cells, units)
+    return ForeignTable(delimiter, decimal, first, names, header, numbers, encoding, body, units)
 
 
 def _is_of_units(cells: Sequence[str]) -> bool:
