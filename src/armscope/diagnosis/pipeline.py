@@ -86,8 +86,11 @@ def diagnose(
     table = checked.recordings if settings.orientation else replace(checked.recordings, orientation=None)
     progress("fitting base and tool", 0.02)
     start, tool_per_run, set_ups, told = _frames(arm, _telling(table), settings.tool_per_run)
-    first = residuals(start, LinearisedTable(table, supported(table, channels)))
+    rows = LinearisedTable(table, supported(table, channels))
+    first = residuals(start, rows)
     channels, table, doubts = trusted_channels(tuple(first.by_channel), table, first)
+    if table is not rows.recordings or channels != rows.channels:
+        rows = LinearisedTable(table, channels)
     noise = known_noise(arm, table)
     frames = sharing_bases(nuisances(channels, table, tool_per_run), set_ups)
     problems = suspected(arm, checked.recordings)
@@ -100,7 +103,7 @@ def diagnose(
         start, notices = replace(start, arm=arm), (*notices, *told)
     rng = np.random.default_rng(settings.seed)
     split = split_rows(table, rng)
-    found = select(start, LinearisedTable(table, channels), noise, frames, split.of_row, progress)
+    found = select(start, rows, noise, frames, split.of_row, progress)
     verdict = judge(
         DiagnosisState(
             **vars(found), start=start, recordings=table, first=first, noise=noise, notices=notices, split=split

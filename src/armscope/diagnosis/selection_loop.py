@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +23,7 @@ from armscope.diagnosis.sizes_of_waves import with_sizes_of_rows
 from armscope.diagnosis.state import Selected
 from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.constants import STEPS
-from armscope.fitting.linearisation import LinearisedTable, Measured, linearised, residuals
+from armscope.fitting.linearisation import Measured, linearised, residuals
 from armscope.fitting.refit import Refit, refit
 from armscope.fitting.summed_rows import SummedRows
 from armscope.inference.edits import replaced
@@ -72,9 +73,8 @@ class SelectionLoop:
         block_of_row: Indices,
         progress: Progress,
     ) -> None:
-        recordings = linearised(rows).recordings
-        self.table = LinearisedTable(recordings, linearised(rows).channels, np.argsort(block_of_row, kind="stable"))
-        self.recordings = recordings
+        self.table = replace(linearised(rows), order=np.argsort(block_of_row, kind="stable"))
+        self.recordings = recordings = self.table.recordings
         self.frames, self.progress = frames, progress
         self.block_of_row = block_of_row
         self.candidates: list[Placed] = []
@@ -198,7 +198,8 @@ class SelectionLoop:
         most = MESH_COUNTS[-1] if self.scans == SCANS.scan_of_fine_lines else SCANS.ordinary_lines
         new = self._scanned(search, most) if scanning else []
         self.model = self.fit.model
-        self.noise.weigh(self.fit.channel_residuals, self.fit.noise, self.fit.weights.whitening)
+        if not self.summed:  # else the last fit is still to come
+            self.noise.weigh(self.fit.channel_residuals, self.fit.noise, self.fit.weights.whitening)
         return new
 
     @property
@@ -215,13 +216,12 @@ class SelectionLoop:
         self.found = search.refined(told_by_laws(search, found))
         self.best, self.last = named(search, self.space, self.found), (found, self.space)
         self.fit = self._fitted()
-        against = self._against_their_load()
-        if against:
+        if against := self._against_their_load():
             self.best = search.without(self.best, against)
             self.fit = self._fitted()
 
-    def _fitted(self) -> Refit:
-        """The best hypothesis fitted with the exact model."""
+    def _fitted(self, of_all: bool = False) -> Refit:
+        """The best hypothesis fitted with the exact model; rows that were summed up count as they did in the sums."""
         effects = [
             (self.space.placed[c.candidate], float(self.problem.sizes[c.size]) * (LOOP.within if c.nested else 1.0))
             for c in self.best.chosen
@@ -229,8 +229,9 @@ class SelectionLoop:
         small = list(zip(self.families, background_sizes(self.problem, self.best.background), strict=True))
         (masses,) = self.space.companions
         small.append((self.loads, float(masses.joins(self.best.candidates, self.best.background))))
-        # where a long table was summed up, its rows count as they did in the sums
         rows, white, known = self.summed or (self.noise.rows, self.noise.weights.whitening, self.table)
+        if isinstance(known, SummedRows):
+            known.on_the_way = not of_all
         return refit(self.point, known, self.frames, small, effects, rows, self.noise.least_mm, white)
 
     def _summed(self, together: NormalEquations) -> tuple[RowNoise, Array | None, SummedRows]:
@@ -254,9 +255,9 @@ class SelectionLoop:
         left = steady(self.problem, self.blocks, earned(self.problem, self.blocks, self.best), wander, of_rows)
         gears = FAMILIES.index(TRANSMISSION)
         waves = with_sizes_of_rows(self.problem, self.space, self.blocks, left, self.families[gears])
-        if left is not self.best or waves != self.families[gears]:
+        if self.summed or left is not self.best or waves != self.families[gears]:
             self.best, self.families[gears] = left, waves
-            self.fit = self._fitted()
+            self.fit = self._fitted(of_all=True)
             self.model = self.fit.model
         return self.selected()
 

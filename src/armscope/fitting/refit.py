@@ -75,7 +75,8 @@ def refit(
 
     Args:
         model: where to start from; its effects are replaced.
-        rows: a table, or recordings; or a long table with sums over all rows at the model.
+        rows: a table, or recordings; or a long table with sums over all rows at the model. On the way to its last fit
+            residuals and weights are of the rows that stand for it.
         frames: always free.
         backgrounds: per family (effects, share of their tolerances); families of size 0 are left out.
         effects: (effect, size at the tool, mm).
@@ -102,6 +103,8 @@ def refit(
     if isinstance(rows, SummedRows):
         some = SummedFit(parts, rows, rows.weigher(row_noise, least_noise, whitening), prior, least_noise)
         found = gauss_newton(some, start, STEPS.refit)
+        if rows.on_the_way:
+            return _ended(some, found.state, found.residual, some.weights)
         left = residuals(found.state, rows.table)
         if found.reason == SETTLED and some.holds_for(left, found.residual):
             return _ended(some, found.state, left, weigh(left))

@@ -40,6 +40,7 @@ class SummedRows:
         equations: the sums, mm per SI unit.
         some: (n,) numbers of the rows that tell what is not linear.
         standing_for: (n,) how many rows each of them stands for.
+        on_the_way: whether a fit is not the last one: what it leaves is then told of these rows alone.
     """
 
     table: LinearisedTable
@@ -48,6 +49,7 @@ class SummedRows:
     equations: NormalEquations
     some: Indices
     standing_for: Array
+    on_the_way: bool = False
     sample: LinearisedTable = field(init=False, repr=False)
     _linear: NormalEquations | None = field(default=None, init=False, repr=False)
 
