@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,7 +72,7 @@ class SelectionLoop:
         block_of_row: Indices,
         progress: Progress,
     ) -> None:
-        self.table = replace(linearised(rows), order=np.argsort(block_of_row, kind="stable"))
+        self.table = linearised(rows).in_order(np.argsort(block_of_row, kind="stable"))
         self.recordings = recordings = self.table.recordings
         self.frames, self.progress = frames, progress
         self.block_of_row = block_of_row
