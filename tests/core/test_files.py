@@ -8,7 +8,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from armscope.core import files
 from armscope.core.files import replacing, write_json, write_table
+from armscope.core.parallel import processes
 
 
 def test_a_failed_write_leaves_the_old_file_and_no_other(tmp_path):
@@ -59,3 +61,16 @@ def test_a_table_has_the_bytes_that_pandas_writes_number_by_number(tmp_path):
         write_table(tmp_path / "a.csv", some, digits=7)
         expected = some.to_csv(index=False, float_format="%.7g", lineterminator="\n")
         assert (tmp_path / "a.csv").read_bytes().decode() == expected
+
+
+@pytest.mark.parametrize("name", ["table.csv", "table.csv.gz"])
+def test_several_processes_write_the_same_bytes(tmp_path, monkeypatch, name):
+    monkeypatch.setattr(files, "ROWS_AT_A_TIME", 7)
+    table = pd.DataFrame({"a": np.linspace(0, 1, 50), "b": np.arange(50), "c": [f"n{k}" for k in range(50)]})
+    written = []
+    for count in (1, 2):
+        with processes(count):
+            files.write_table(tmp_path / name, table)
+        written.append((tmp_path / name).read_bytes())
+    assert written[0] == written[1]
+    pd.testing.assert_frame_equal(pd.read_csv(tmp_path / name), table)

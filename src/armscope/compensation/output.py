@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from armscope.compensation.rapid import write_rapid
-from armscope.core.files import rows_at_a_time, write_json, write_pieces
+from armscope.core.files import write_json, write_pieces
 from armscope.core.inputs import InputError
 from armscope.core.streams import is_stream
 
@@ -28,7 +28,7 @@ def write_commands(path: Path | str, result: Compensated) -> None:
     """
     name = str(path)
     if name.endswith((".csv", ".csv.gz")) or is_stream(path):
-        write_pieces(path, (result.to_table(rows) for rows in rows_at_a_time(len(result.reasons))))
+        write_pieces(path, len(result.reasons), result.to_table)
     elif name.endswith(".json"):
         write_json(path, to_dict(result))
     elif name.endswith(".mod"):

@@ -219,10 +219,14 @@ class PathTask:
         """
         outside, nearest = np.full(len(commands), np.nan), np.full(len(commands), np.nan)
         solved = np.flatnonzero(np.isfinite(commands.sum(axis=1)))
-        for rows in (solved[piece] for piece in row_pieces(len(solved))):
+        pieces = [solved[piece] for piece in row_pieces(len(solved))]
+
+        def looked_up(rows: NDArray[np.intp]) -> tuple[Array, NDArray[np.object_], Array]:
             inputs = self.domain_inputs(commands[rows], rows)
-            outside[rows], label = self.domain.outside(inputs)
-            nearest[rows] = self.domain.nearest(inputs)
+            return *self.domain.outside(inputs), self.domain.nearest(inputs)
+
+        for rows, found in zip(pieces, piece_by_piece(pieces, looked_up), strict=True):
+            outside[rows], label, nearest[rows] = found
             for at in np.flatnonzero(outside[rows] > self.options.allowed):
                 row = rows[at]
                 text = f"outside the identified range: {label[at]} by {outside[row]:.2g} standard deviations{doubt}"

@@ -13,7 +13,7 @@ import socket
 import sys
 import tempfile
 import zlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -23,6 +23,7 @@ import yaml
 from armscope.core import outputs
 from armscope.core.inputs import InputError, nearest, note_read
 from armscope.core.locks import alive
+from armscope.core.parallel import piece_by_piece
 from armscope.core.streams import copy_into, is_stream
 
 if TYPE_CHECKING:
@@ -229,31 +230,35 @@ def write_table(path: Path | str, table: pd.DataFrame, digits: int = 10) -> None
         table: what to write.
         digits: significant digits of its numbers.
     """
-    write_pieces(path, (table.iloc[rows] for rows in rows_at_a_time(len(table))), digits)
+    write_pieces(path, len(table), lambda rows: table.iloc[rows], digits)
 
 
-def rows_at_a_time(rows: int) -> list[slice]:
-    """Which rows of so many are written at a time; one piece without rows where there are none."""
-    return [slice(start, start + ROWS_AT_A_TIME) for start in range(0, max(rows, 1), ROWS_AT_A_TIME)]
-
-
-def write_pieces(path: Path | str, pieces: Iterable[pd.DataFrame], digits: int = 10) -> None:
+def write_pieces(path: Path | str, count: int, piece: Callable[[slice], pd.DataFrame], digits: int = 10) -> None:
     """As `write_table` a table that is never held as a whole.
 
     Args:
         path: where to; ``.gz`` compresses.
-        pieces: of the table, with the same columns, one below the other.
+        count: of its rows.
+        piece: some of its rows, always with the same columns; made and spelt by several processes where they are
+            allowed (`armscope.core.parallel`), to the same bytes.
         digits: significant digits of its numbers.
     """
+    # one piece without rows where there are none
+    pieces = [slice(start, start + ROWS_AT_A_TIME) for start in range(0, max(count, 1), ROWS_AT_A_TIME)]
     # no name and no time in gzip's header, so that the same table has the same bytes
     packer = zlib.compressobj(9, zlib.DEFLATED, 31) if str(path).endswith(".gz") else None
     with replacing(path) as beside, beside.open("wb") as stream:
-        for number, piece in enumerate(pieces):
-            some = _spelt(piece, digits)
-            text = some.to_csv(index=False, header=number == 0, float_format=f"%.{digits}g", lineterminator="\n")
-            stream.write(text.encode() if packer is None else packer.compress(text.encode()))
+        for text in piece_by_piece(pieces, lambda rows: _as_text(piece(rows), digits, rows.start == 0)):
+            stream.write(text if packer is None else packer.compress(text))
         if packer is not None:
             stream.write(packer.flush())
+
+
+def _as_text(table: pd.DataFrame, digits: int, header: bool) -> bytes:
+    """Some rows of a table as they stand in its file."""
+    spelt = _spelt(table, digits)
+    text = spelt.to_csv(index=False, header=header, float_format=f"%.{digits}g", lineterminator="\n")
+    return str(text).encode()
 
 
 def _spelt(table: pd.DataFrame, digits: int) -> pd.DataFrame:

@@ -33,8 +33,8 @@ def digest(*targets: str) -> str:
         for definition in _with_callees(_file(module), function):
             sha.update(definition.encode())
             files = files.union(*(sources(name) for name in _imports(definition)))
-    for file in sorted(files):
-        sha.update(file.relative_to(PACKAGE).as_posix().encode())
+    for place, file in sorted((_place(file), file) for file in files):
+        sha.update("/".join(place).encode())
         sha.update(_content(file))
     return sha.hexdigest()[:12]
 
@@ -49,29 +49,41 @@ def sources(module: str) -> frozenset[Path]:
         ModuleNotFoundError: there is no such module in the package.
     """
     found: set[Path] = set()
-    waiting = [module]
+    waiting = {_file(module)}
     while waiting:
-        file = _file(waiting.pop())
-        if file not in found:
-            found.add(file)
-            found.update(path for path in (file.parent / "data").glob("*") if path.is_file())
-            waiting.extend(_imports_of(file))
+        found |= waiting
+        waiting = {file for each in waiting for file in _followed_by(each)} - found
     return frozenset(found)
 
 
 def forget() -> None:
     """Look at the sources anew: each is read and parsed once, since forty rules follow much the same ones."""
-    for remembered in (sources, _file, _content, _parsed, _imports_of, _is_module):
+    for remembered in (sources, _modules, _place, _content, _parsed, _followed_by, _data_beside):
         remembered.cache_clear()
 
 
-@functools.cache
 def _file(module: str) -> Path:
-    path = PACKAGE.joinpath(*module.split(".")[1:])
-    for candidate in (path.with_suffix(".py"), path / "__init__.py"):
-        if candidate.is_file():
-            return candidate
-    raise ModuleNotFoundError(f"{module} is not a module of armscope")
+    file = _modules().get(module)
+    if file is None:
+        raise ModuleNotFoundError(f"{module} is not a module of armscope")
+    return file
+
+
+@functools.cache
+def _modules() -> dict[str, Path]:
+    """The package's modules by their names, from one look at its folders; of a folder and a file the file counts."""
+    files = sorted(PACKAGE.rglob("*.py"), key=lambda file: file.name != "__init__.py")
+    places = [file.relative_to(PACKAGE.parent).with_suffix("").parts for file in files]
+    return {
+        ".".join(["armscope", *place[1:]]).removesuffix(".__init__"): file
+        for place, file in zip(places, files, strict=True)
+    }
+
+
+@functools.cache
+def _place(file: Path) -> tuple[str, ...]:
+    """Folders and name in the package: several hundred files are sorted by it for each of forty rules."""
+    return file.relative_to(PACKAGE).parts
 
 
 @functools.cache
@@ -85,8 +97,16 @@ def _parsed(file: Path) -> ast.Module:
 
 
 @functools.cache
-def _imports_of(file: Path) -> tuple[str, ...]:
-    return tuple(_imports(_content(file).decode()))
+def _followed_by(file: Path) -> frozenset[Path]:
+    """The files that a module imports itself, and the data beside it; data bring nothing more."""
+    if file.suffix != ".py":
+        return frozenset()
+    return _data_beside(file.parent).union(_file(name) for name in _imports(_content(file).decode()))
+
+
+@functools.cache
+def _data_beside(folder: Path) -> frozenset[Path]:
+    return frozenset(path for path in (folder / "data").glob("*") if path.is_file())
 
 
 def _with_callees(file: Path, function: str) -> list[str]:
@@ -120,11 +140,5 @@ def _imports(source: str) -> list[str]:
         module, imported = statement["module"], statement["several"] or statement["few"] or ""
         words = [part.split()[0] for part in re.sub("#.*", "", imported).split(",") if part.strip()]
         submodules = [f"{module}.{word}" for word in words]
-        names += [name if _is_module(name) else module for name in submodules] or [module]
+        names += [name if name in _modules() else module for name in submodules] or [module]
     return names
-
-
-@functools.cache
-def _is_module(name: str) -> bool:
-    path = PACKAGE.joinpath(*name.split(".")[1:])
-    return name.startswith("armscope.") and (path.with_suffix(".py").is_file() or (path / "__init__.py").is_file())

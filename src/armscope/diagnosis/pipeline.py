@@ -11,12 +11,14 @@ import numpy as np
 from armscope.check.orientations import trusted_channels
 from armscope.check.preconditions import FEWEST_ROWS, as_notices, check_table, suspected, too_far
 from armscope.core.types import Progress, unheard
+from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.gravity_direction import estimate_gravity_direction
 from armscope.diagnosis.held_out import split_rows
 from armscope.diagnosis.judgement import judge
 from armscope.diagnosis.selection import select
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.undecided import undecided
+from armscope.fitting.constants import STEPS
 from armscope.fitting.exchanged_tool import exchanged_tool
 from armscope.fitting.linearisation import LinearisedTable, residuals
 from armscope.fitting.registration import fit_frames
@@ -29,6 +31,7 @@ from armscope.physics.frames import sharing_bases
 from armscope.physics.model import FittedModel
 from armscope.physics.set_ups import SetUps
 from armscope.recordings import Recordings
+from armscope.recordings.some_rows import some_rows
 from armscope.robot import Arm
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.schema import Notice
@@ -82,9 +85,12 @@ def diagnose(
     checked = check_table(arm, recordings)
     table = checked.recordings if settings.orientation else replace(checked.recordings, orientation=None)
     progress("fitting base and tool", 0.02)
-    start, tool_per_run, set_ups, told = _frames(arm, table, settings.tool_per_run)
-    first = residuals(start, LinearisedTable(table, supported(table, channels)))
+    start, tool_per_run, set_ups, told = _frames(arm, _telling(table), settings.tool_per_run)
+    rows = LinearisedTable(table, supported(table, channels))
+    first = residuals(start, rows)
     channels, table, doubts = trusted_channels(tuple(first.by_channel), table, first)
+    if table is not rows.recordings or channels != rows.channels:
+        rows = LinearisedTable(table, channels)
     noise = known_noise(arm, table)
     frames = sharing_bases(nuisances(channels, table, tool_per_run), set_ups)
     problems = suspected(arm, checked.recordings)
@@ -97,7 +103,7 @@ def diagnose(
         start, notices = replace(start, arm=arm), (*notices, *told)
     rng = np.random.default_rng(settings.seed)
     split = split_rows(table, rng)
-    found = select(start, LinearisedTable(table, channels), noise, frames, split.of_row, progress)
+    found = select(start, rows, noise, frames, split.of_row, progress)
     verdict = judge(
         DiagnosisState(
             **vars(found), start=start, recordings=table, first=first, noise=noise, notices=notices, split=split
@@ -117,6 +123,13 @@ def _of_type(arm: Arm) -> list[Notice]:
         return []
     text = f"What {arm.type.title} have shown says how large these are as a rule: {', '.join(sorted(arm.type.sizes))}."
     return [Notice("sizes of its type", text)]
+
+
+def _telling(table: Recordings) -> Recordings:
+    """The rows that tell where base and tool stand at first: of a long table some, from which all later fits start."""
+    if len(table) <= STEPS.kept_rows:
+        return table
+    return table.rows(some_rows(table, STEPS.telling_rows, LOOP.rows_of_a_group))
 
 
 def _frames(arm: Arm, table: Recordings, tool_per_run: bool) -> tuple[FittedModel, bool, SetUps, list[Notice]]:

@@ -9,7 +9,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from armscope.core.sampling import spread_evenly
 from armscope.core.types import Indices, Progress
 from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.selection_loop import SelectionLoop
@@ -21,7 +20,7 @@ from armscope.measurement.noise import Noise
 from armscope.physics.effect import Placed
 from armscope.physics.model import FittedModel
 from armscope.physics.payload import PAYLOAD_ERROR
-from armscope.recordings import Recordings
+from armscope.recordings.some_rows import some_rows
 
 
 def select(
@@ -47,7 +46,7 @@ def select(
     """
     if len(table) <= LOOP.sample_rows:
         return SelectionLoop(start, table, noise, frames, block_of_row, progress).run()
-    rows = _sample(table.recordings)
+    rows = some_rows(table.recordings, LOOP.sample_rows, LOOP.rows_of_a_group)
     small = SelectionLoop(start, table.rows(rows), noise, frames, block_of_row[rows], progress)
     found = small.run(of_a_sample=True)
     whole = SelectionLoop(start, table, noise, frames, block_of_row, progress)
@@ -55,14 +54,6 @@ def select(
     progress("weighing all rows", 0.45)
     whole.round((found.best.background,), last=True)
     return whole.earned()
-
-
-def _sample(recordings: Recordings) -> Indices:
-    """Rows spread evenly over the table, and some of every run and target."""
-    rows = [spread_evenly(len(recordings), LOOP.sample_rows)]
-    groups = np.char.add(np.char.add(recordings.run, "\n"), recordings.target)
-    rows += [np.flatnonzero(groups == group)[: LOOP.rows_of_a_group] for group in np.unique(groups)]
-    return np.unique(np.concatenate(rows))
 
 
 def _promising(found: Selected) -> list[Placed]:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.core.types import Indices, Progress
+from armscope.core.types import Array, Indices, Progress
 from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.earning import earned, steady
 from armscope.diagnosis.errors_of_loads import on_loads
@@ -21,8 +21,10 @@ from armscope.diagnosis.scans.new_candidates import scanned_candidates
 from armscope.diagnosis.sizes_of_waves import with_sizes_of_rows
 from armscope.diagnosis.state import Selected
 from armscope.fitting.block_sums import normal_equations_by_block
-from armscope.fitting.linearisation import LinearisedTable, Measured, linearised, residuals
+from armscope.fitting.constants import STEPS
+from armscope.fitting.linearisation import Measured, linearised, residuals
 from armscope.fitting.refit import Refit, refit
+from armscope.fitting.summed_rows import SummedRows
 from armscope.inference.edits import replaced
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import BackgroundSizes
@@ -31,6 +33,7 @@ from armscope.inference.problem import background_sizes, build_problem
 from armscope.inference.search import Search
 from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.noise import Noise
+from armscope.measurement.row_weights import RowNoise
 from armscope.physics.backgrounds import DRIFT, FAMILIES, TRANSMISSION, backgrounds, gear_waves
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.drift import base_shifts_of_runs
@@ -69,9 +72,8 @@ class SelectionLoop:
         block_of_row: Indices,
         progress: Progress,
     ) -> None:
-        recordings = linearised(rows).recordings
-        self.table = LinearisedTable(recordings, linearised(rows).channels, np.argsort(block_of_row, kind="stable"))
-        self.recordings = recordings
+        self.table = linearised(rows).in_order(np.argsort(block_of_row, kind="stable"))
+        self.recordings = recordings = self.table.recordings
         self.frames, self.progress = frames, progress
         self.block_of_row = block_of_row
         self.candidates: list[Placed] = []
@@ -82,6 +84,7 @@ class SelectionLoop:
         self.last: tuple[Hypothesis, EffectSpace] | None = None
         self.scans, self.scanned = 0, few_rows(recordings)
         self.by_block: list[NormalEquations] | None = None
+        self.summed: tuple[RowNoise, Array | None, SummedRows] | None = None
         self.fit: Refit
 
     def run(self, of_a_sample: bool = False) -> Selected:
@@ -186,14 +189,16 @@ class SelectionLoop:
         self.weights = self.noise.weights
         sums = self._sums(self.block_of_row if last else 0 * self.block_of_row)
         self.by_block = sums if last else None
-        self.problem = build_problem(self.space, total(sums), self.noise.least_mm)
+        self.problem = build_problem(self.space, together := total(sums), self.noise.least_mm)
+        self.summed = self._summed(together) if last and len(self.table) > STEPS.kept_rows else None
         search = Search.on(self.problem)
         self._take(search, search.best(starts, None if self.last is None else search.transferred(*self.last)))
         self.scans += scanning
         most = MESH_COUNTS[-1] if self.scans == SCANS.scan_of_fine_lines else SCANS.ordinary_lines
         new = self._scanned(search, most) if scanning else []
         self.model = self.fit.model
-        self.noise.weigh(self.fit.channel_residuals, self.fit.noise, self.fit.weights.whitening)
+        if not self.summed:  # else the last fit is still to come
+            self.noise.weigh(self.fit.channel_residuals, self.fit.noise, self.fit.weights.whitening)
         return new
 
     @property
@@ -210,13 +215,12 @@ class SelectionLoop:
         self.found = search.refined(told_by_laws(search, found))
         self.best, self.last = named(search, self.space, self.found), (found, self.space)
         self.fit = self._fitted()
-        against = self._against_their_load()
-        if against:
+        if against := self._against_their_load():
             self.best = search.without(self.best, against)
             self.fit = self._fitted()
 
-    def _fitted(self) -> Refit:
-        """The best hypothesis fitted with the exact model."""
+    def _fitted(self, of_all: bool = False) -> Refit:
+        """The best hypothesis fitted with the exact model; rows that were summed up count as they did in the sums."""
         effects = [
             (self.space.placed[c.candidate], float(self.problem.sizes[c.size]) * (LOOP.within if c.nested else 1.0))
             for c in self.best.chosen
@@ -224,8 +228,15 @@ class SelectionLoop:
         small = list(zip(self.families, background_sizes(self.problem, self.best.background), strict=True))
         (masses,) = self.space.companions
         small.append((self.loads, float(masses.joins(self.best.candidates, self.best.background))))
-        rows, white = self.noise.rows, self.noise.weights.whitening
-        return refit(self.point, self.table, self.frames, small, effects, rows, self.noise.least_mm, white)
+        rows, white, known = self.summed or (self.noise.rows, self.noise.weights.whitening, self.table)
+        if isinstance(known, SummedRows):
+            known.on_the_way = not of_all
+        return refit(self.point, known, self.frames, small, effects, rows, self.noise.least_mm, white)
+
+    def _summed(self, together: NormalEquations) -> tuple[RowNoise, Array | None, SummedRows]:
+        """How the rows of a long table counted in its sums, and the sums: exact fits then pass over its rows once."""
+        rows = SummedRows.of(self.table, self.space.layout, self.point, together, LOOP.rows_of_a_group)
+        return self.noise.rows, self.weights.whitening, rows
 
     def _against_their_load(self) -> list[int]:
         """Names whose fitted values turned out negative where they can't be: in a background, or about an axis."""
@@ -243,9 +254,9 @@ class SelectionLoop:
         left = steady(self.problem, self.blocks, earned(self.problem, self.blocks, self.best), wander, of_rows)
         gears = FAMILIES.index(TRANSMISSION)
         waves = with_sizes_of_rows(self.problem, self.space, self.blocks, left, self.families[gears])
-        if left is not self.best or waves != self.families[gears]:
+        if self.summed or left is not self.best or waves != self.families[gears]:
             self.best, self.families[gears] = left, waves
-            self.fit = self._fitted()
+            self.fit = self._fitted(of_all=True)
             self.model = self.fit.model
         return self.selected()
 

@@ -61,6 +61,11 @@ class LinearisedTable:
         """Some of the rows; nothing is kept of them."""
         return LinearisedTable(self.recordings.rows(rows), self.channels)
 
+    def in_order(self, order: Indices) -> LinearisedTable:
+        """The same rows taken in an order (N,); of a long table it stays known what the last model left."""
+        left = self._left if len(self) > STEPS.kept_rows else None  # in another order it is rounded otherwise
+        return LinearisedTable(self.recordings, self.channels, order, _left=left)
+
     def chunks(self, model: FittedModel, order: Indices | None = None, part: slice = slice(None)) -> Chunks:
         """(rows, posture) of the model, chunk by chunk.
 

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.constants import STEPS
-from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic, gauss_newton
-from armscope.fitting.linearisation import Measured, linearised, residuals
-from armscope.fitting.parameter_layout import ParameterLayout, current_parameters, parameter_layout
+from armscope.fitting.gauss_newton import SETTLED, gauss_newton
+from armscope.fitting.linearisation import Measured, residuals
+from armscope.fitting.model_fit import ModelFit
+from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
+from armscope.fitting.summed_rows import SummedFit, SummedRows
 from armscope.inference.constants import PRIORS
 from armscope.inference.normal_equations import NormalEquations, column_scales
-from armscope.measurement import robust
-from armscope.measurement.channel import ChannelResiduals, retracted
+from armscope.measurement.channel import ChannelResiduals
 from armscope.measurement.row_weights import RowNoise, RowWeights
 from armscope.physics.effect import Placed, Term
 from armscope.physics.model import FittedModel
@@ -60,93 +60,10 @@ class Refit:
         return np.asarray(self.covariance[np.ix_(at, at)])
 
 
-class ModelFit(NonlinearProblem[FittedModel, ChannelResiduals]):
-    """A model's frames, background and effects fitted to recordings with the exact model; noise found on the way.
-
-    Args:
-        parts: the columns that are fitted: all of the model's.
-        rows: a table, or recordings.
-        weigh: weights of the rows by what the model leaves.
-        precision: (p,) prior precisions, SI units, by the columns' sums.
-        least_noise: mm; 0 where nothing is known.
-        negligible: steps end when residuals (RMS) move by less than this share of what the noise leaves uncertain.
-    """
-
-    may_grow = 1.5
-
-    def __init__(
-        self,
-        parts: ParameterLayout,
-        rows: Measured,
-        weigh: Callable[[ChannelResiduals], RowWeights],
-        precision: Callable[[NormalEquations], Array],
-        least_noise: float,
-        negligible: float,
-    ) -> None:
-        self.parts, self.table = parts, linearised(rows)
-        self.weigh, self.prior = weigh, precision
-        self.noise, self.negligible = least_noise, negligible
-        self.steps_mm: list[float] = []
-        self.weights: RowWeights
-        self.equations: NormalEquations
-        self.precision: Array
-        self.inverse: Array
-        self.effective_dof: float
-
-    def residual(self, state: FittedModel) -> ChannelResiduals:
-        """What a model leaves of every row, mm and rad."""
-        return residuals(state, self.table)
-
-    def quadratic(self, state: FittedModel, residual: ChannelResiduals) -> Quadratic:
-        """Sums over weighted rows; with the noise that they leave once all is fitted."""
-        self.steps_mm.append(np.inf)
-        self.weights = self.weigh(residual)
-        blocks = np.zeros(len(self.table), dtype=np.intp)
-        self.equations = normal_equations_by_block(self.parts, state, self.table, self.weights, blocks)[0]
-        noise = self.noise or robust.scale_of(residual.points_mm)
-        self.precision = self.prior(self.equations)
-        solved = Quadratic(
-            self.equations.G + np.diag(noise**2 * self.precision),
-            self.equations.b,
-            current_parameters(self.parts, state),
-        )
-        self.inverse = solved.inverse
-        self.effective_dof = float(len(self.precision) - noise**2 * np.sum(np.diag(solved.inverse) * self.precision))
-        left = self.equations.rss(solved.values)
-        self.noise = max(float(np.sqrt(max(left, 0.0) / max(self.equations.n - self.effective_dof, 1.0))), 1e-9)
-        return solved
-
-    def misfit(self, state: FittedModel, residual: ChannelResiduals) -> float:
-        """The usual row's size, whatever its weight."""
-        return robust.scale_of(residual.points_mm)
-
-    def moved(self, state: FittedModel, step: Array) -> FittedModel:
-        """The model a step further; frame columns are increments where it stands."""
-        values = current_parameters(self.parts, state) + step
-        moved = retracted(self.table.channels, state, dict(zip(self.parts.terms, step, strict=True)))
-        background, parts = (
-            tuple(Part(part.placed, values[self.parts.of(part.placed)]) for part in some)
-            for some in (state.background, state.parts)
-        )
-        return replace(moved, background=background, parts=parts)
-
-    def settled(self, before: ChannelResiduals, after: ChannelResiduals) -> bool:
-        """Whether points move by next to nothing beside what noise leaves uncertain.
-
-        Of a long table it is enough that they will: each step is as much less than the last as that one was.
-        """
-        uncertain = self.noise * np.sqrt(self.effective_dof / max(self.equations.n, 1.0))
-        moved = self.steps_mm[-1] = float(np.sqrt(np.mean((after.points_mm - before.points_mm) ** 2)))
-        if len(self.table) > STEPS.kept_rows and len(self.steps_mm) > 1:
-            shrunk = moved / self.steps_mm[-2]
-            moved *= shrunk / (1 - shrunk) if shrunk < STEPS.steady else 1.0
-        return bool(moved < max(STEPS.converged_mm, self.negligible * uncertain))
-
-
 # so many parameters: what is fitted (four), to what (one), and how its rows count (three)
 def refit(
     model: FittedModel,
-    rows: Measured,
+    rows: Measured | SummedRows,
     frames: Sequence[Placed],
     backgrounds: Sequence[tuple[Sequence[Placed], float]],
     effects: Sequence[tuple[Placed, float]],
@@ -158,7 +75,8 @@ def refit(
 
     Args:
         model: where to start from; its effects are replaced.
-        rows: a table, or recordings.
+        rows: a table, or recordings; or a long table with sums over all rows at the model. On the way to its last fit
+            residuals and weights are of the rows that stand for it.
         frames: always free.
         backgrounds: per family (effects, share of their tolerances); families of size 0 are left out.
         effects: (effect, size at the tool, mm).
@@ -174,21 +92,41 @@ def refit(
     kept = [[b for placed in family if size and (b := _without(placed, named))] for family, size in backgrounds]
     background = [placed for family in kept for placed in family]
     parts = parameter_layout(frames, kept, [placed for placed, _ in effects])
-    problem = ModelFit(
-        parts,
-        rows,
-        lambda left: row_noise.weights(left, least_noise, whitening),
-        lambda equations: _precision(parts, equations, [size for _, size in backgrounds], effects),
-        least_noise,
-        STEPS.converged_share,
-    )
-    found = gauss_newton(problem, _start(model, background, effects), STEPS.refit)
-    # a lucky residual does not make the instrument better than it is known to be
-    covariance = max(problem.noise, least_noise) ** 2 * problem.inverse
+    start = _start(model, background, effects)
+
+    def weigh(left: ChannelResiduals) -> RowWeights:
+        return row_noise.weights(left, least_noise, whitening)
+
+    def prior(equations: NormalEquations) -> Array:
+        return _precision(parts, equations, [size for _, size in backgrounds], effects)
+
+    if isinstance(rows, SummedRows):
+        some = SummedFit(parts, rows, rows.weigher(row_noise, least_noise, whitening), prior, least_noise)
+        found = gauss_newton(some, start, STEPS.refit)
+        if rows.on_the_way:
+            return _ended(some, found.state, found.residual, some.weights)
+        left = residuals(found.state, rows.table)
+        if found.reason == SETTLED and some.holds_for(left, found.residual):
+            return _ended(some, found.state, left, weigh(left))
+    table = rows.table if isinstance(rows, SummedRows) else rows
+    problem = ModelFit(parts, table, weigh, prior, least_noise, STEPS.converged_share)
+    found = gauss_newton(problem, start, STEPS.refit)
+    return _ended(problem, found.state, found.residual, problem.weights)
+
+
+def _ended(problem: ModelFit, model: FittedModel, left: ChannelResiduals, weights: RowWeights) -> Refit:
+    """What a fit ended in; a lucky residual does not make the instrument better than it is known to be."""
     return Refit(
-        found.state, parts, problem.equations, problem.precision, covariance,
-        problem.noise, problem.effective_dof, problem.weights, found.residual,
-    )  # fmt: skip
+        model,
+        problem.parts,
+        problem.equations,
+        problem.precision,
+        max(problem.noise, problem.least_noise) ** 2 * problem.solved.inverse,
+        problem.noise,
+        problem.effective_dof,
+        weights,
+        left,
+    )
 
 
 def _without(placed: Placed, named: set[Term]) -> Placed | None:

@@ -101,6 +101,13 @@ class WhitenedPosture:
             total = total + self._product(product)
         return total
 
+    def fill(self, out: Array, term: Term) -> None:
+        """Write `column` into ``out`` (width, n), lying."""
+        first, *others = term.products
+        np.multiply(self.sensitivity(first.direction).T, first.factor * self.scene.driver(first.driver), out=out)
+        for product in others:
+            out += self._product(product).T
+
     def _product(self, product: Product) -> Array:
         amount = product.factor * self.scene.driver(product.driver)
         return np.asarray(self.sensitivity(product.direction) * amount[:, None])

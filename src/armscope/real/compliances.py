@@ -29,8 +29,8 @@ from armscope.core.types import Array
 from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.gauss_newton import Quadratic, gauss_newton
 from armscope.fitting.linearisation import residuals
+from armscope.fitting.model_fit import ModelFit
 from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
-from armscope.fitting.refit import ModelFit
 from armscope.fitting.registration import fit_frames
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.measurement.registry import supported

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from armscope.fitting.constants import STEPS
-from armscope.fitting.refit import ModelFit
+from armscope.fitting.model_fit import ModelFit
 
 
 def ends_after(moves: list[float], rows: int) -> int:

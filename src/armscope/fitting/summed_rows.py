@@ -1,0 +1,163 @@
+"""An exact fit to a long table of which the sums at a point nearby are known: one pass over all rows, at its end.
+
+Sums over all rows at a near point say where the fit ends but for what is not linear on the way there: how the
+model bends, and rows whose weights change. That is little, and a few thousand rows tell it (a control variate; near the
+surrogate likelihood of Jordan, Lee & Yang 2019, but with the curvature of all rows). Values then lie within a small
+part of their standard error of where passes over all rows lead.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from armscope.core.types import Array, Indices
+from armscope.fitting.block_sums import normal_equations_by_block
+from armscope.fitting.constants import STEPS
+from armscope.fitting.linearisation import LinearisedTable, residuals
+from armscope.fitting.model_fit import ModelFit
+from armscope.fitting.parameter_layout import ParameterLayout, current_parameters
+from armscope.inference.normal_equations import NormalEquations
+from armscope.measurement import robust
+from armscope.measurement.channel import ChannelResiduals
+from armscope.measurement.row_weights import RowNoise, RowWeights
+from armscope.physics.model import FittedModel
+from armscope.recordings.some_rows import some_rows, standing_for
+
+Weigher = Callable[[ChannelResiduals], RowWeights]
+
+
+@dataclass(eq=False)
+class SummedRows:
+    """The N rows of a long table, and sums over all of them.
+
+    Attributes:
+        table: the rows.
+        layout: of the p columns that were summed up.
+        point: where they were linearised.
+        equations: the sums, mm per SI unit.
+        some: (n,) numbers of the rows that tell what is not linear.
+        standing_for: (n,) how many rows each of them stands for.
+        on_the_way: whether a fit is not the last one: what it leaves is then told of these rows alone.
+    """
+
+    table: LinearisedTable
+    layout: ParameterLayout
+    point: FittedModel
+    equations: NormalEquations
+    some: Indices
+    standing_for: Array
+    on_the_way: bool = False
+    sample: LinearisedTable = field(init=False, repr=False)
+    _linear: NormalEquations | None = field(default=None, init=False, repr=False)
+
+    @classmethod
+    def of(
+        cls,
+        table: LinearisedTable,
+        layout: ParameterLayout,
+        point: FittedModel,
+        equations: NormalEquations,
+        of_each: int,
+    ) -> SummedRows:
+        """A table with its sums, and rows spread over it that tell what is not linear.
+
+        Args:
+            table: N rows.
+            layout: of the p columns that were summed up.
+            point: where they were linearised.
+            equations: the sums, mm per SI unit.
+            of_each: rows of every run and target among them at least.
+
+        Returns:
+            Both.
+        """
+        some = some_rows(table.recordings, STEPS.telling_rows, of_each)
+        return cls(table, layout, point, equations, some, standing_for(table.recordings, some))
+
+    def __post_init__(self) -> None:
+        rows = self.table.recordings.rows(self.some)
+        self.sample = LinearisedTable(rows, self.table.channels, np.arange(len(self.some)))
+
+    def weigher(self, noise: RowNoise, least_mm: float, whitening: Array | None) -> Weigher:
+        """Weights of the rows that stand for all, by what a model leaves of them.
+
+        Args:
+            noise: of all rows.
+            least_mm: below which noise is not taken to be.
+            whitening: (N, 3, 3) of all rows that scatter along known directions, or None.
+
+        Returns:
+            From residuals of n rows to their weights.
+        """
+        some = RowNoise(noise.uncertainty[self.some], noise.independence_weight[self.some] * self.standing_for)
+        white = None if whitening is None else whitening[self.some]
+        return lambda left: some.weights(left, least_mm, white)
+
+    def of_some(self, weigh: Weigher) -> NormalEquations:
+        """Sums over the rows that stand for all, linearised where all were."""
+        if self._linear is None:
+            weights = weigh(residuals(self.point, self.sample))
+            one = np.zeros(len(self.some), dtype=np.intp)
+            self._linear = normal_equations_by_block(self.layout, self.point, self.sample, weights, one)[0]
+        return self._linear
+
+
+class SummedFit(ModelFit):
+    """A model fitted to rows whose sums are known near by: some rows say what is not linear, all rows the rest.
+
+    Args:
+        parts: the columns that are fitted; the sums hold them all.
+        rows: with sums at the point where the fit starts.
+        weigh: weights of the rows that stand for all, by what the model leaves of them.
+        precision: (p,) prior precisions, SI units, by the columns' sums.
+        least_noise: mm; 0 where nothing is known.
+    """
+
+    def __init__(
+        self,
+        parts: ParameterLayout,
+        rows: SummedRows,
+        weigh: Weigher,
+        precision: Callable[[NormalEquations], Array],
+        least_noise: float,
+    ) -> None:
+        super().__init__(parts, rows.sample, weigh, precision, least_noise, STEPS.converged_share)
+        self.rows = rows
+        at = np.array([rows.layout.index[term] for term in parts.terms])
+        self.whole, self.linear = (_only(sums, at) for sums in (rows.equations, rows.of_some(weigh)))
+        self.gone: tuple[FittedModel | None, Array] = None, np.zeros(len(at))
+        self.values = np.zeros(len(at))
+
+    def moved(self, state: FittedModel, step: Array) -> FittedModel:
+        """The model a step further, and how far it has gone from the point."""
+        there = super().moved(state, step)
+        self.gone = there, self.values + step
+        return there
+
+    def sums(self, state: FittedModel) -> NormalEquations:
+        """Over all rows about a state: their sums at the point, and what some rows say is not linear since."""
+        here, at = super().sums(state), current_parameters(self.parts, state)
+        started = state is not self.gone[0]
+        # frames count from where they are, in their own axes; from the point they have gone the sum of their steps
+        self.values = at if started else self.gone[1]
+        left = self.whole.rss(at) if started else self.equations.rss(self.solved.values)
+        bent = _slope(here, at) - _slope(self.linear, self.values)
+        b = _slope(self.whole, self.values) + bent + self.whole.G @ at
+        return NormalEquations(self.whole.G, b, left + float((2 * b - self.whole.G @ at) @ at), self.whole.n)
+
+    def holds_for(self, everything: ChannelResiduals, some: ChannelResiduals) -> bool:
+        """Whether the model leaves as little of all rows as of those that stood for them."""
+        left, told = (robust.scale_of(each.points_mm) for each in (everything, some))
+        return left <= self.may_grow * told
+
+
+def _only(sums: NormalEquations, at: Indices) -> NormalEquations:
+    return NormalEquations(sums.G[np.ix_(at, at)], sums.b[at], sums.yy, sums.n)
+
+
+def _slope(sums: NormalEquations, values: Array) -> Array:
+    """(p,) half of what squares fall by per unit of each value."""
+    return np.asarray(sums.b - sums.G @ values)
