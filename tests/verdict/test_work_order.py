@@ -169,6 +169,20 @@ def test_what_a_vague_cause_could_be_is_told_by_its_rivals() -> None:
     assert told.startswith(f"First find out which it is: {wanted}")
 
 
+def test_what_scatters_is_looked_for_and_not_corrected_by_a_curve_that_it_lacks() -> None:
+    case = verdicts.case(effects=(verdicts.compliance("joint 2"),))
+    model, (cause,) = case.verdict.model, contributions(case.verdict).causes
+    loose = replace(
+        cause.effects[0],
+        effect="unknown",
+        cure="Find what the scatter follows.",
+        parameters=(Parameter("scatter", "rad", 1e-4, 1e-5),),
+    )
+    task = task_of(model.scene(case.recordings), cause, loose)
+    assert (task.change, task.cure) == ("", "Find what the scatter follows.")
+    assert "curve" not in task.instruction
+
+
 def test_a_task_says_nothing_twice() -> None:
     """Of the cure's words stands beside an instruction what it does not say itself."""
     for effect in EFFECTS:

@@ -183,7 +183,8 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
     Returns:
         The task.
     """
-    known = effect_named(effect.effect)
+    # what scatters has no curve to correct by
+    known = None if any(p.name == "scatter" for p in effect.parameters) else effect_named(effect.effect)
     words = {"location": effect.location, "zero": "–", "ratio": "–", "size": "", "jump": _jump(effect)}
     words["row"] = "; ".join(_row(effect)) or "its errors can't be told apart in these poses"
     words["opposite"] = _motion(scene, cause.parts, -1) or "its opposite"
