@@ -7,7 +7,7 @@ import signal
 import numpy as np
 import pytest
 
-from armscope.core.parallel import each_piece, piece_by_piece, processes
+from armscope.core.parallel import each_piece, piece_by_piece, processes, shared_array
 
 PIECES = [np.arange(k, k + 5.0) for k in range(7)]
 
@@ -37,6 +37,19 @@ def test_a_result_need_not_wait_for_those_after_it(count):
         assert np.array_equal(next(results)[1], PIECES[0] ** 2)
         results.close()
     assert not multiprocessing.active_children()
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_what_pieces_write_into_a_shared_array_is_there_afterwards(count):
+    with processes(count):
+        filled = shared_array((7, 5))
+        assert not filled.any()
+
+        def fill(number):
+            filled[number] = PIECES[number]
+
+        each_piece(range(7), fill)
+    assert np.array_equal(filled, PIECES)
 
 
 def test_outside_the_block_one_process_works():

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import csv
 import io
+from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
+from armscope.core.inputs import InputError
+from armscope.core.parallel import processes
 from armscope.recordings import textfile
 
 TABLES = {
@@ -22,27 +26,58 @@ TABLES = {
 }
 
 
+def shapes(path: Path, text: str) -> tuple[object, object] | None:
+    """Header and lengths of rows, by pieces and by the csv module; None where pieces leave them to that."""
+    path.write_text(text, encoding="utf-8", newline="")
+    header, counts, pieces = textfile._shape(path)
+    rows = csv.reader(io.StringIO(text, newline=""))
+    return ((header, counts), (next(rows), [len(row) for row in rows])) if pieces else None
+
+
 @pytest.mark.parametrize("text", TABLES.values(), ids=TABLES)
-@pytest.mark.parametrize("block", [1, 3, 1000])
-def test_it_is_as_csv_says(monkeypatch: pytest.MonkeyPatch, text: str, block: int) -> None:
-    monkeypatch.setattr(textfile, "BLOCK", block)
-    rows = csv.reader(io.StringIO(text))
-    assert textfile.plain_shape(io.StringIO(text)) == (next(rows), [len(row) for row in rows])
+@pytest.mark.parametrize("size", [1, 3, 1000])
+def test_it_is_as_csv_says(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, text: str, size: int) -> None:
+    monkeypatch.setattr(textfile, "PIECE_BYTES", size)
+    found = shapes(tmp_path / "table.csv", text)
+    assert found is not None
+    assert found[0] == found[1]
 
 
-@pytest.mark.parametrize("block", [1, 2, 7])
-def test_any_text_is_as_csv_says_or_left_to_it(monkeypatch: pytest.MonkeyPatch, block: int) -> None:
-    monkeypatch.setattr(textfile, "BLOCK", block)
+@pytest.mark.parametrize("size", [1, 2, 7])
+def test_any_text_is_as_csv_says_or_left_to_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, size: int) -> None:
+    monkeypatch.setattr(textfile, "PIECE_BYTES", size)
     rng, told = np.random.default_rng(1), 0
     for _ in range(300):
         text = "".join(rng.choice(list('ab,\n"\r'), rng.integers(1, 15), p=[0.3, 0.2, 0.2, 0.2, 0.05, 0.05]))
-        if (plain := textfile.plain_shape(io.StringIO(text, newline=""))) is None:
-            continue
-        rows, told = csv.reader(io.StringIO(text, newline="")), told + 1
-        assert plain == (next(rows), [len(row) for row in rows]), text
+        if found := shapes(tmp_path / "table.csv", text):
+            told += 1
+            assert found[0] == found[1], text
     assert told > 50
 
 
-@pytest.mark.parametrize("text", ["", 'a,b\n"1",2\n', "a,b\r\n1,2\r\n", "a\n" + 200_000 * "1" + "\n"])
-def test_the_rest_is_left_to_csv(text: str) -> None:
-    assert textfile.plain_shape(io.StringIO(text, newline="")) is None
+@pytest.mark.parametrize("text", ["", 'a,b\n"1",2\n', "a,b\r\n1,2\r\n"])
+def test_the_rest_is_left_to_csv(tmp_path: Path, text: str) -> None:
+    (tmp_path / "table.csv").write_text(text, encoding="utf-8", newline="")
+    *_, pieces = textfile._shape(tmp_path / "table.csv")
+    assert pieces == []
+
+
+def test_a_line_that_csv_refuses_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "table.csv").write_text("a\n" + 200_000 * "1" + "\n", encoding="utf-8")
+    with pytest.raises(InputError, match="field larger than field limit"):
+        textfile.read_text_table(tmp_path / "table.csv")
+
+
+@pytest.mark.parametrize("count", [1, 2])
+@pytest.mark.parametrize("mark", ["", "\ufeff"], ids=["plain", "byte-order mark"])
+def test_a_table_is_the_same_read_in_pieces_by_any_number_of_processes(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, count: int, mark: str
+) -> None:
+    lines = [f"r\u00fcn,{number},{number / 7},{'' if number % 3 else number}" for number in range(60)]
+    text = "\n".join([f"{mark}run,id,x_mm,", *lines])
+    (tmp_path / "table.csv").write_text(text, encoding="utf-8")
+    whole = textfile.read_text_table(tmp_path / "table.csv")
+    assert len(whole) == len(lines)
+    monkeypatch.setattr(textfile, "PIECE_BYTES", 100)
+    with processes(count):
+        pd.testing.assert_frame_equal(textfile.read_text_table(tmp_path / "table.csv"), whole)

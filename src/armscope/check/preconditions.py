@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from armscope.check.report import check
+from armscope.check.report import what_forbids
 from armscope.check.suspicion import Suspicion, refuse_problems
 from armscope.check.suspicions import explanation
 from armscope.core.inputs import InputError
@@ -59,12 +59,6 @@ def check_table(arm: Arm, recordings: Recordings) -> Checked:
     return Checked(table, tuple(notices))
 
 
-def suspected(arm: Arm, recordings: Recordings) -> tuple[Suspicion, ...]:
-    """What `armscope check` finds wrong with units, signs, orders, frames or the arm of the rows that are used."""
-    found = check(recordings, arm).suspicions
-    return tuple(each for each in found if each.weight == "problem" or each.kind == ANOTHER_MODEL)
-
-
 def refuse_unusable(arm: Arm, recordings: Recordings) -> None:
     """The one judgement of a table, `armscope check`'s: where something makes results meaningless, none are made.
 
@@ -73,7 +67,7 @@ def refuse_unusable(arm: Arm, recordings: Recordings) -> None:
     Raises:
         InputError: it holds a problem.
     """
-    suspicions = suspected(arm, replace(recordings, orientation=None))
+    suspicions = what_forbids(replace(recordings, orientation=None), arm)
     refuse_problems(suspicions, recordings.source)
 
 
@@ -157,7 +151,7 @@ def too_far(arm: Arm, recordings: Recordings, residuals: Array, problems: Sequen
         arm: the nominal arm.
         recordings: the rows.
         residuals: (N, 3) mm after the free frames.
-        problems: what looks wrong, see `suspected`.
+        problems: what looks wrong, see `what_forbids`.
 
     Returns:
         The problem that explains it, or that none does; None where residuals may be calibration errors.

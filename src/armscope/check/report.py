@@ -12,7 +12,9 @@ from armscope.check.quantities import of_quantities
 from armscope.check.suspicion import Suspicion, verdict_lines
 from armscope.check.suspicions import Consistency, against_arm
 from armscope.recordings import Recordings
+from armscope.recordings.motion import moving
 from armscope.robot import Arm
+from armscope.verdict.sentences import ANOTHER_MODEL
 
 ONE_POINT = 1e-3
 """Points within so many metres of each other are one point, measured again."""
@@ -75,8 +77,27 @@ def check(recordings: Recordings, arm: Arm | None = None) -> CheckReport:
     contents = contents_of(recordings)
     consistency = None if arm is None else against_arm(arm, recordings)
     fits = arm if arm is not None and arm.n_motors == recordings.n_motors else None
-    found = [*_of_table(contents), *of_quantities(recordings, fits), *([] if arm else _of_units(contents))]
-    return CheckReport(contents, consistency, (*(consistency.suspicions if consistency else ()), *found))
+    of_arm = consistency.suspicions if consistency else ()
+    found = [*_of_table(contents), *_still(recordings), *of_quantities(recordings, fits)]
+    return CheckReport(contents, consistency, (*of_arm, *found, *([] if arm else _of_units(contents))))
+
+
+def what_forbids(recordings: Recordings, arm: Arm) -> tuple[Suspicion, ...]:
+    """What `check` finds of the kinds that make results meaningless; nothing else in the table is counted for it.
+
+    Args:
+        recordings: the table, of as many motors as the arm has.
+        arm: the robot it should belong to.
+
+    Returns:
+        Its problems, and whether it is another model's.
+    """
+    found = (*against_arm(arm, recordings).suspicions, *_still(recordings), *of_quantities(recordings, arm))
+    return tuple(each for each in found if each.weight == "problem" or each.kind == ANOTHER_MODEL)
+
+
+def _still(recordings: Recordings) -> tuple[Suspicion, ...]:
+    return () if moving(recordings.motor_angles).any() else (Suspicion("problem", "no joint moves"),)
 
 
 def _of_table(contents: Contents) -> tuple[Suspicion, ...]:
@@ -88,8 +109,6 @@ def _of_table(contents: Contents) -> tuple[Suspicion, ...]:
     if contents.repeats.copies:
         statement = f"{contents.repeats.copies} rows are copies of other rows, to the last digit"
         found.append(Suspicion("hint", statement, "They count twice, and make the noise look smaller than it is."))
-    if not any(motor.moved for motor in contents.motors):
-        found.append(Suspicion("problem", "no joint moves"))
     for run in contents.runs:
         found += _of_extent(run)
     return tuple(found)

@@ -37,8 +37,8 @@ class Cost:
 
 
 # measured at 100,000 and a million rows (predict and compensate: 300,000) on a machine that did other work, too, which
-# makes CPU time longer; above what follows from them for ten million
-DIAGNOSE = Cost(start_s=20.0, row_us=460.0, start_mb=500.0, row_kb=0.9)
+# makes CPU time longer (an idle, newer one took a third); above what follows from them for ten million
+DIAGNOSE = Cost(start_s=20.0, row_us=140.0, start_mb=500.0, row_kb=0.9)
 PREDICT = Cost(start_s=3.0, row_us=30.0, start_mb=250.0, row_kb=0.5)
 COMPENSATE = Cost(start_s=3.0, row_us=130.0, start_mb=300.0, row_kb=0.9)
 

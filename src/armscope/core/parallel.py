@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import contextlib
+import math
+import mmap
 import multiprocessing
 import os
 import signal
 from collections.abc import Callable, Iterator, Sequence
 from contextvars import ContextVar
 from typing import Any, TypeVar
+
+import numpy as np
+
+from armscope.core.types import Array
 
 Piece = TypeVar("Piece")
 Result = TypeVar("Result")
@@ -26,12 +32,24 @@ def processes(count: int) -> Iterator[None]:
         _PROCESSES.reset(before)
 
 
+def shared_array(shape: tuple[int, ...]) -> Array:
+    """An array of zeros into which `each_piece` may write, a piece its own part: no process has to send it.
+
+    Args:
+        shape: of the array; at least one number.
+    """
+    if _PROCESSES.get() < 2:
+        return np.zeros(shape)
+    return np.frombuffer(mmap.mmap(-1, math.prod(shape) * np.dtype(float).itemsize)).reshape(shape)
+
+
 def each_piece(pieces: Sequence[Piece], work: Callable[[Piece], Result]) -> list[Result]:
     """What ``work`` makes of each piece, in the order of the pieces.
 
     Args:
         pieces: of the work; they must not depend on each other.
-        work: done in a process of its own, which starts with all that this one knows; what it changes is lost.
+        work: done in a process of its own, which starts with all that this one knows; what it changes is
+            lost, but what it writes into an array made by `shared_array`.
 
     Returns:
         One result per piece, the same for any number of processes.

@@ -9,7 +9,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from armscope.check.orientations import trusted_channels
-from armscope.check.preconditions import FEWEST_ROWS, as_notices, check_table, suspected, too_far
+from armscope.check.preconditions import FEWEST_ROWS, as_notices, check_table, too_far
+from armscope.check.report import what_forbids
 from armscope.core.types import Progress, unheard
 from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.gravity_direction import estimate_gravity_direction
@@ -93,7 +94,7 @@ def diagnose(
         rows = LinearisedTable(table, channels)
     noise = known_noise(arm, table)
     frames = sharing_bases(nuisances(channels, table, tool_per_run), set_ups)
-    problems = suspected(arm, checked.recordings)
+    problems = what_forbids(checked.recordings, arm)
     obstacle = too_far(arm, table, first.points_mm, problems) or _too_few(table, frames)
     notices = (*as_notices(problems, obstacle), *checked.notices, *told, *doubts, *_of_type(arm))
     if obstacle is not None:

@@ -11,7 +11,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from armscope.core.parallel import each_piece
+from armscope.core.parallel import each_piece, shared_array
 from armscope.core.types import Array, Indices
 from armscope.fitting.constants import STEPS
 from armscope.measurement.channel import Channel, ChannelResiduals
@@ -131,14 +131,14 @@ def residuals(model: FittedModel, rows: Measured) -> ChannelResiduals:
     if table._left is not None and table._left[0].moves_like(model):
         return table._left[1]
 
-    def of_part(chunks: Chunks) -> list[tuple[Indices, list[Array]]]:
-        return [(at, [channel.residual(model, posture) for channel in table.channels]) for at, posture in chunks]
+    left = {channel: shared_array((len(table), channel.width)) for channel in table.channels}
 
-    left = {channel: np.empty((len(table), channel.width)) for channel in table.channels}
-    for part in table.each_part(model, of_part):
-        for at, of_channels in part:
-            for values, residual in zip(left.values(), of_channels, strict=True):
-                values[at] = residual
+    def of_part(chunks: Chunks) -> None:
+        for at, posture in chunks:
+            for channel, values in left.items():
+                values[at] = channel.residual(model, posture)
+
+    table.each_part(model, of_part)
     table._left = model, ChannelResiduals(left)
     return table._left[1]
 

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import codecs
 import csv
+import io
 import re
 import zlib
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
-from typing import IO, TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from armscope.core.inputs import InputError
+from armscope.core.parallel import each_piece
 from armscope.core.plainyaml import CONTROL
-from armscope.recordings.opening import open_text, refuse_other_than_text, start_of, undecodable
+from armscope.recordings.opening import GZIP, open_text, refuse_other_than_text, start_of, undecodable
 
 if TYPE_CHECKING:
     import pandas as pd  # slow to import
@@ -20,8 +24,11 @@ WORDS = ("id", "run", "target")
 """Columns that are words, even where they look like numbers or like a name for no value."""
 
 ROWS_PER_PIECE = 50_000
-BLOCK = 1 << 20
-"""Characters that are looked at together."""
+PIECE_BYTES = 1 << 22
+"""How much of a file is taken at once, by one process where several share the work."""
+
+Piece = tuple[int, int]
+"""Where whole lines of a file start and end, bytes."""
 MOST_COLUMNS = 2000
 
 NO_VALUE = ("", "NaN", "nan", "NA", "N/A", "n/a", "#N/A", "null", "NULL", "None", "-nan", "-NaN", "<NA>")
@@ -39,14 +46,14 @@ def read_text_table(path: Path, check: Callable[[list[str]], object] = lambda he
         InputError: it is no such table.
     """
     refuse_other_than_text(path, start_of(path, "a recordings table (CSV)"), "utf-8", "Save it as UTF-8.")
-    header, counts = _shape(path)
+    header, counts, pieces = _shape(path)
     if not header:
         raise InputError(path, "line 1", "nothing", "the first line names the columns", "Is the file empty?")
     _check_header(path, header)
     _check_lengths(path, header, counts)
     check(header)
     try:
-        table = _read(path, header)
+        table = _read(path, header, pieces)
     except (ValueError, OverflowError) as error:  # pandas' words for it
         cure = "Was the file cut off while it was written, or is a quotation mark never closed?"
         raise InputError(path, "", str(error), "this must be a comma-separated table", cure) from error
@@ -56,21 +63,29 @@ def read_text_table(path: Path, check: Callable[[list[str]], object] = lambda he
     return table
 
 
-def _read(path: Path, header: list[str]) -> pd.DataFrame:
+def _read(path: Path, header: list[str], pieces: list[Piece]) -> pd.DataFrame:
+    """A table whose rows are as long as its header; in pieces, since text takes several times the memory of numbers."""
     import pandas as pd
 
+    how: dict[str, Any] = {
+        "index_col": False,
+        "skip_blank_lines": False,
+        "dtype": {name: str for name in header if _is_word(name)},
+        "keep_default_na": False,
+        "na_values": {name: list(NO_VALUE) for name in header if not _is_word(name)},
+        "low_memory": False,
+    }
+
+    def read_piece(piece: Piece) -> pd.DataFrame:
+        named = {} if piece[0] == 0 else {"header": None, "names": names}
+        table: pd.DataFrame = pd.read_csv(io.BytesIO(_lines(path, piece)), **how, **named)
+        return table
+
+    if pieces:
+        names = pd.read_csv(io.StringIO(",".join(header)), **how).columns  # one without a name gets one
+        return pd.concat(each_piece(pieces, read_piece), ignore_index=True)
     with open_text(path, "utf-8") as stream:
-        pieces = pd.read_csv(
-            stream,
-            chunksize=ROWS_PER_PIECE,
-            index_col=False,
-            skip_blank_lines=False,
-            dtype={name: str for name in header if _is_word(name)},
-            keep_default_na=False,
-            na_values={name: list(NO_VALUE) for name in header if not _is_word(name)},
-            low_memory=False,
-        )
-        return pd.concat(pieces, ignore_index=True)  # in pieces, since text takes several times the memory of numbers
+        return pd.concat(pd.read_csv(stream, chunksize=ROWS_PER_PIECE, **how), ignore_index=True)
 
 
 def _is_word(header: str) -> bool:
@@ -80,24 +95,26 @@ def _is_word(header: str) -> bool:
 def _check_words(path: Path, table: pd.DataFrame) -> None:
     """Names are shown on terminals and pages: none of their characters may be a command."""
     for name in filter(_is_word, table.columns):
-        wrong = table[name].str.contains(CONTROL.pattern, na=False).to_numpy()
-        if wrong.any():
-            row = int(wrong.argmax())
-            rule = "a name has no control characters"
-            raise InputError(path, f"row {row + 2}, column {name}", table[name].iloc[row], rule)
+        words = table[name].fillna("").tolist()
+        if CONTROL.search(" ".join(words)):
+            row, word = next((row, word) for row, word in enumerate(words) if CONTROL.search(word))
+            raise InputError(path, f"row {row + 2}, column {name}", word, "a name has no control characters")
 
 
-def _shape(path: Path) -> tuple[list[str] | None, list[int]]:
-    """The header, and how many values each row has."""
+def _shape(path: Path) -> tuple[list[str] | None, list[int], list[Piece]]:
+    """The header, how many values each row has, and the pieces that it can be read in, where there are such."""
     rows = None
     try:
-        with open_text(path, "utf-8") as stream:
-            plain = plain_shape(stream)
-        if plain is not None:
-            return plain
+        pieces = _pieces(path)
+        counts = each_piece(pieces, lambda piece: _values_of_lines(path, piece))
+        plain = [count for piece in counts if piece is not None for count in piece]
+        if pieces and None not in counts:
+            with open_text(path, "utf-8") as stream:
+                line = stream.readline().rstrip("\n")
+            return line.split(",") if line else [], plain[1:], pieces
         with open_text(path, "utf-8") as stream:
             rows = csv.reader(stream)
-            return next(rows, None), [len(row) for row in rows]
+            return next(rows, None), [len(row) for row in rows], []
     except UnicodeDecodeError as error:
         place, found = undecodable(path, "utf-8", error)
         raise InputError(path, place, found, "tables are UTF-8 text", "Save it as UTF-8.") from error
@@ -110,30 +127,46 @@ def _shape(path: Path) -> tuple[list[str] | None, list[int]]:
         raise InputError(path, place, str(error), "this must be a comma-separated table", cure) from error
 
 
-def plain_shape(stream: IO[str]) -> tuple[list[str], list[int]] | None:
-    """The header of a table without quotation marks, and how many values each row has: a third of csv's time.
+def _pieces(path: Path) -> list[Piece]:
+    """A file in pieces of whole lines; none of a gzipped one, which can only be read from its start."""
+    size, ends = path.stat().st_size, [0]
+    with path.open("rb") as stream:
+        if stream.read(len(GZIP)) == GZIP:
+            return []
+        while ends[-1] < size:
+            stream.seek(ends[-1] + PIECE_BYTES - 1)
+            stream.readline()
+            ends.append(min(stream.tell(), size))
+    return list(pairwise(ends))
+
+
+def _lines(path: Path, piece: Piece) -> bytes:
+    with path.open("rb") as stream:
+        stream.seek(piece[0])
+        lines = stream.read(piece[1] - piece[0])
+    return lines.removeprefix(codecs.BOM_UTF8) if piece[0] == 0 else lines
+
+
+def _values_of_lines(path: Path, piece: Piece) -> list[int] | None:
+    """How many values the lines of a piece have, in a third of csv's time.
 
     Args:
-        stream: the table.
+        path: of the table.
+        piece: of it.
 
     Returns:
-        What the csv module says; None where that has to be asked: quotation marks, other ends of lines than \\n, lines
-        longer than it takes, nothing at all.
+        What the csv module says, the header's among them; None where that has to be asked: quotation marks, other ends
+        of lines than \\n, lines longer than it takes.
     """
-    header, rest = "", ""
-    counts: list[int] = []
-    while block := stream.read(BLOCK):
-        if '"' in block or "\r" in block:
-            return None
-        *lines, rest = (rest + block).split("\n")
-        if max(map(len, (*lines, rest))) >= csv.field_size_limit():
-            return None
-        header = header if counts or not lines else lines[0]
-        counts += [line.count(",") + 1 if line else 0 for line in lines]
-    if rest:
-        header = header if counts else rest
-        counts.append(rest.count(",") + 1)
-    return (header.split(",") if header else [], counts[1:]) if counts else None
+    text = _lines(path, piece)
+    if not text.isascii():
+        text.decode("utf-8")  # what can't be is told by who asked
+    if b'"' in text or b"\r" in text:
+        return None
+    lines = text.removesuffix(b"\n").split(b"\n")
+    if max(map(len, lines)) >= csv.field_size_limit():
+        return None
+    return [line.count(b",") + 1 if line else 0 for line in lines]
 
 
 def _check_lengths(path: Path, header: list[str], counts: list[int]) -> None:
