@@ -58,7 +58,7 @@ def test_a_slow_wander_is_background_and_no_jump() -> None:
     verdict = diagnose(arm, wandering(table, 0.02), QUICK)
     assert verdict.effects == ()
     assert drift_of(verdict) == pytest.approx(0.02 / np.sqrt(3), rel=0.3)
-    assert "wander slowly" in verdict.headline
+    assert "slow drift of base and instrument" in verdict.headline
 
 
 def test_a_link_that_warms_up_is_background_and_no_jump_of_the_tool() -> None:

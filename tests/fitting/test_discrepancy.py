@@ -165,7 +165,7 @@ def test_a_verdict_says_so_and_widens_its_intervals() -> None:
     assert errors[1] > 1.5 * errors[0]
     assert [notice.kind for notice in clean.notices].count("model error") == 0
     (told,) = [notice.text for notice in wrong.notices if notice.kind == "model error"]
-    assert "from posture to posture" in told
+    assert "from pose to pose" in told
     assert "in the order of rows" not in told
 
 

@@ -208,7 +208,7 @@ def test_a_browser_shows_it_whole_at_desktop_and_narrow_width(five, tmp_path, wi
     assert f"MEASURED 0 too wide, 0 broken of {images}, true at {width}" in done.stdout, done.stderr[-500:]
 
 
-ABOVE_THE_FOLD = ("nats", "driver", "posture to posture", "everywhere")
+ABOVE_THE_FOLD = ("nats", "driver", "posture to posture", "pose to pose", "everywhere")
 
 
 def test_plain_words_stand_above_the_fold(written):

@@ -48,7 +48,7 @@ def test_small_errors_that_the_evidence_does_not_ask_for_are_told_with_their_sha
     """They are in the model, and so in what it explains, but in no cause: without them the shares would not add up."""
     held = (Background("geometric", True, 0.8, 0.04, 0.02), Background("transmission", False, 0.1, 0.3, 0.33))
     said = headline(replace(verdicts.single().verdict, background_families=held))
-    assert "possibly small errors of all drives: 33 %" in said
+    assert "possibly small errors in all drives (33 %)" in said
     assert "possibly" not in headline(verdicts.single().verdict)
 
 

@@ -165,7 +165,7 @@ def test_what_a_vague_cause_could_be_is_told_by_its_rivals() -> None:
     case = verdicts.case(effects=(vague,))
     model, (cause,) = case.verdict.model, contributions(case.verdict).causes
     told = task_of(model.scene(case.recordings), cause, vague, asked=True).instruction
-    wanted = "joint compliance, joint 2 or base compliance, base or link bending, link 2 (see what to measure next). If"
+    wanted = "joint compliance at joint 2, base compliance or link bending at link 2 (see What to measure next). If"
     assert told.startswith(f"First find out which it is: {wanted}")
 
 
@@ -192,7 +192,7 @@ def test_a_task_says_nothing_twice() -> None:
     model, (cause,) = case.verdict.model, contributions(case.verdict).causes
     task = task_of(model.scene(case.recordings), cause, cause.effects[0])
     assert "elastic model" in task.instruction
-    assert task.cure.startswith("Or command it away: commanded = wanted - compliance x load")
+    assert task.cure.startswith("Or compensate for it in the command: commanded = wanted - compliance x load")
 
 
 def test_the_card_and_the_work_order_say_the_same_of_every_effect() -> None:

@@ -175,7 +175,7 @@ def _sums(fit: Refit, recordings: Recordings, rows: Indices) -> _Sums:
 def _named(motors: Sequence[int]) -> list[str]:
     """The processes in words."""
     base = ["the base moves in the order of rows", "the base turns in the order of rows"]
-    return [*base, *(f"joint {j} errs from posture to posture" for j in motors)]
+    return [*base, *(f"joint {j} errs from pose to pose" for j in motors)]
 
 
 def _slow(recordings: Recordings, rows: Indices) -> Array:

@@ -36,7 +36,8 @@ class Cure:
     Attributes:
         mend: what to do, with the sign ("," or ";" or ".") after which `otherwise` goes on; what names a formula names
             it with its sign.
-        otherwise: what else can be done, as the same sentence or the next one goes on: "or command it away: ...".
+        otherwise: what else can be done, as the same sentence or the next one goes on: "or compensate for it in the
+            command: ...".
         change: what is changed, in two words, for a work order.
         instruction: how, as a work order says it: a template over {location} and what is known of the effect
             (`armscope.verdict.work_order`).

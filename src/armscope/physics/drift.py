@@ -129,7 +129,7 @@ BASE_DRIFT = Effect(
     "Measure fixed reference points on the base at the start and the end.",
     Cure(
         "Let the set-up settle and warm up; measure references in between and correct. Until then the base frame is, "
-        "at each time, stated frame + drift x time: command what the corrected model's inverse kinematics asks for.",
+        "at each time, stated frame + drift x time: let the corrected model's inverse kinematics compute the commands.",
         change="set-up",
         instruction="Fix base and instrument, and measure again.",
     ),
@@ -216,9 +216,9 @@ BASE_SHIFT = Effect(
     Cure(
         "Fasten the base and the instrument and register again;",
         otherwise="or move the base frame by the jump for all that comes after it (base = stated base + jump) and "
-        "command what the corrected model's inverse kinematics asks for.",
+        "let the corrected model's inverse kinematics compute the commands.",
         change="set-up",
-        instruction="Fasten base and instrument, and register the base anew from the jump on{jump}.",
+        instruction="Fasten base and instrument, and register the base again from the jump on{jump}.",
     ),
     clauses=(_jumped, "the {location} jumped"),
     jumps=True,
@@ -234,9 +234,9 @@ TOOL_SHIFT = Effect(
     Cure(
         "Fasten the tool and calibrate the tool point again;",
         otherwise="or move the tool point by the jump for all that comes after it (tool = stated tool + jump) and "
-        "command what the corrected model's inverse kinematics asks for.",
+        "let the corrected model's inverse kinematics compute the commands.",
         change="fastening",
-        instruction="Fasten the tool, and measure its tool point anew from the jump on{jump}.",
+        instruction="Fasten the tool, and measure its tool point again from the jump on{jump}.",
     ),
     clauses=(_jumped, "the {location} jumped"),
     jumps=True,

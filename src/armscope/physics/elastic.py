@@ -123,8 +123,8 @@ JOINT_COMPLIANCE = Effect(
     "Hang a known weight on the tool in the same pose and measure how far this joint turns.",
     command(
         "Let the controller's elastic model hold against it,",
-        otherwise="or command it away: commanded = wanted - compliance x load (load: gravity's torque on this motor, "
-        "positive along its pull).",
+        otherwise="or compensate for it in the command: commanded = wanted - compliance x load (load: gravity's "
+        "torque on this motor, positive along its pull).",
         change="elastic model",
         instruction="Add to the command what gravity takes, so that {opposite}{size}; or let the controller's elastic "
         "model do so.",
@@ -171,8 +171,8 @@ BEARING_COMPLIANCE = Effect(
     "Hang a known weight on the outstretched arm and measure the tilt on both sides of the bearing.",
     Cure(
         "Preload or replace the bearing.",
-        otherwise="No motor turns across its axis: otherwise command what the inverse kinematics of the corrected "
-        "model asks for (axis tilted by + compliance x moment; `armscope compensate`).",
+        otherwise="No motor turns across its axis: otherwise let the corrected model's inverse kinematics compute the "
+        "commands (axis tilted by + compliance x moment; `armscope compensate`).",
         change="bearing",
         instruction="Preload or replace the bearing of {location}.",
     ),
@@ -230,8 +230,8 @@ BASE_COMPLIANCE = Effect(
     "Put a reflector or an inclinometer on the base and swing the outstretched arm around.",
     Cure(
         "Stiffen the mounting.",
-        otherwise="No motor turns the base: otherwise command what the inverse kinematics of the corrected model asks "
-        "for (base tilted by + compliance x moment; `armscope compensate`).",
+        otherwise="No motor turns the base: otherwise let the corrected model's inverse kinematics compute the "
+        "commands (base tilted by + compliance x moment; `armscope compensate`).",
         change="mounting",
         instruction="Tighten and stiffen the mounting of the base.",
     ),
@@ -271,8 +271,8 @@ LINK_BENDING = Effect(
     "Put reflectors on both ends of the link and load the arm.",
     Cure(
         "Stiffen the link.",
-        otherwise="No motor bends it back: otherwise command what the inverse kinematics of the corrected model asks "
-        "for (link's end moved by + flexibility x the beam's shape; `armscope compensate`).",
+        otherwise="No motor bends it back: otherwise let the corrected model's inverse kinematics compute the commands "
+        "(link's end moved by + flexibility x the beam's shape; `armscope compensate`).",
         change="elastic model",
         instruction="Put the bending of {location} into the model, or stiffen it.",
     ),

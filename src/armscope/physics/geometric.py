@@ -59,14 +59,14 @@ JOINT_OFFSET = Effect(
     "joint_offset",
     "geometric",
     _place_offsets,
-    "The encoder's zero is off, so the joint always stands at an angle other than the commanded one.",
+    "The encoder's zero is off, so the joint is always at an angle other than the commanded one.",
     "Bring the joint to its calibration mark or level its link with an inclinometer at zero and read the angle.",
     command(
         "Correct the encoder's zero (mastering) by the angle found,",
-        otherwise="or command it away: commanded = wanted - offset. "
+        otherwise="or compensate for it in the command: commanded = wanted - offset. "
         "In the controller's model: theta = stated theta + offset.",
         change="mastering",
-        instruction="Set the zero of {location} anew: {zero}.",
+        instruction="Reset the zero of {location}: {zero}.",
     ),
     clauses=("the zero of {location} is off by {offset:+}",),
     labels={"offset": "zero is off by"},
@@ -177,8 +177,8 @@ AXIS_WOBBLE = Effect(
     "Turn the joint alone through a full turn with a dial gauge against a ground surface near its bearing.",
     Cure(
         "Replace or re-seat the bearing.",
-        otherwise="No motor turns across its axis: until then command what the inverse kinematics of the corrected "
-        "model asks for (nominal axis + fitted tilt; `armscope compensate`).",
+        otherwise="No motor turns across its axis: until then let the corrected model's inverse kinematics compute the "
+        "commands (nominal axis + fitted tilt; `armscope compensate`).",
         change="bearing",
         instruction="Re-seat or replace the bearing of {location}.",
     ),

@@ -108,8 +108,8 @@ PAYLOAD_ERROR = Effect(
     "The payload's mass or centre of mass is other than stated, so everything that gives way is loaded differently.",
     "Weigh the tool and its load, and find its centre of mass by hanging it from two points.",
     Cure(
-        "Correct the payload's data in the controller: mass = stated mass + mass, centre = stated centre + com. What "
-        "gives way is then commanded away with the right load.",
+        "Correct the payload's data in the controller: mass = stated mass + mass, centre = stated centre + com. The "
+        "deflection is then compensated with the right load.",
         statement=_restated,
         change="payload data",
         instruction="Weigh the load and correct mass and centre of mass in the controller.",

@@ -29,8 +29,8 @@ HARDENING = replace(
     JOINT_COMPLIANCE,
     cure=replace(
         JOINT_COMPLIANCE.cure,
-        otherwise=f"or command it away: commanded = wanted - soft_turn x {TURNED} (load: gravity's torque on this "
-        "motor, positive along its pull; where it hardens is assumed).",
+        otherwise=f"or compensate for it in the command: commanded = wanted - soft_turn x {TURNED} (load: gravity's "
+        "torque on this motor, positive along its pull; where it hardens is assumed).",
     ),
 )
 """The same effect, with a rule of its own by which it is commanded away."""

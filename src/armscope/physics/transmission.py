@@ -53,7 +53,7 @@ GEAR_RATIO = Effect(
     "Turn the joint alone by a large angle and back and measure the angle turned with the tracker.",
     command(
         "Correct the gear ratio (or the belt's or encoder's scale) in the controller,",
-        otherwise="or command it away: commanded = wanted - ratio x wanted.",
+        otherwise="or compensate for it in the command: commanded = wanted - ratio x wanted.",
         change="gear ratio",
         instruction="Multiply the stated ratio (motor turns per joint turn) of {location} by {ratio}.",
     ),
@@ -96,7 +96,7 @@ GEAR_ECCENTRICITY = Effect(
         otherwise="or store the wave as a correction table: "
         "commanded = wanted - amplitude x cos(per_turn x wanted - phase).",
         change="encoder or gear",
-        instruction="Re-centre the encoder disc or gear of {location}, or command the wave away: {opposite}.",
+        instruction="Re-centre the encoder disc or gear of {location}, or compensate for the wave: {opposite}.",
     ),
     clauses=(swings("the angle of {location} swings"),),
     atlas=waves_column,
@@ -163,9 +163,9 @@ BACKLASH = Effect(
     "Approach one pose from both sides of this joint and compare.",
     command(
         "Adjust or preload the gear; until then approach from one side,",
-        otherwise="or command the play away: where the motion decides, commanded = wanted + approach x gap / 2 "
-        "(approach: +1 after a positive motion); where gravity does, commanded = wanted - side x gap / 2 (side: sign "
-        "of the load along gravity's pull).",
+        otherwise="or compensate for the play in the command: where the motion decides, commanded = wanted + "
+        "approach x gap / 2 (approach: +1 after a positive motion); where gravity does, commanded = wanted - side x "
+        "gap / 2 (side: sign of the load along gravity's pull).",
         change="gear play",
         instruction="Adjust or preload the gear of {location}.",
     ),

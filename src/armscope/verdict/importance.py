@@ -23,8 +23,9 @@ from armscope.core.types import Array
 from armscope.verdict.contributions import SEEN, Contributions, ground_of, parts_of
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause, FoundEffect
+from armscope.verdict.family_cures import cure_of_family
 from armscope.verdict.schema import Background
-from armscope.verdict.sentences import cause_in_words, cure_of_family, headline
+from armscope.verdict.sentences import cause_in_words, headline
 
 Weigh = Callable[[FoundEffect, Sequence[Background]], FoundEffect]
 """An effect and the small errors everywhere, with their shares: the effect, minor where it is one of them."""

@@ -14,6 +14,8 @@ from armscope.verdict.wording import (
     SMALL,
     also_out,
     capitalised,
+    effect_in_words,
+    enumerated,
     implausible,
     main_and_minor,
     millimetres,
@@ -28,40 +30,28 @@ ANOTHER_MODEL = "another model"
 
 MOST_TOLD = 3
 """More causes than this are counted, not told."""
-_KINDS = {"geometric": "shape", "elastic": "stiffness", "transmission": "drives"}
-_EVERYWHERE = {
-    "geometric": "the geometry is off a little in all joints and links, and none stands out",
-    "elastic": "all joints and links give way a little, and none stands out",
-    "transmission": "all drives err a little, and none stands out",
-    "drift": "base and instrument wander slowly",
+_KINDS = {"geometric": "geometry", "elastic": "stiffness", "transmission": "drives"}
+_SPREAD = {
+    "geometric": "small errors of geometry in all joints and links",
+    "elastic": "all joints and links give way a little",
+    "transmission": "small errors in all drives",
+    "drift": "a slow drift of base and instrument",
 }
+"""Causes of which no member stands out."""
 _ALL = {
     "geometric": "the geometry is off in all joints and links",
     "elastic": "all joints and links give way",
-    "transmission": "all drives err",
-    "drift": "base and instrument wander",
+    "transmission": "all drives are off",
+    "drift": "base and instrument drift",
 }
 """The same where one stands out, but most of the error is everywhere."""
-_BESIDE = {"transmission": "all drives a little", "drift": "and a slow wander"}
+_BESIDE = {"transmission": "all drives a little", "drift": "a slow drift"}
 """Small errors of a family beside one that stands out; of others: `_OTHERS`."""
 _OTHERS = "all others a little"
-_CURES = {
-    "geometric": "Calibrate the geometry: measure once more, and put the zeros and D-H rows that `armscope calibrate` "
-    "finds into the controller; or command what the fitted model's inverse kinematics asks for "
-    "(`armscope compensate`).",
-    "elastic": "Give the controller the fitted compliances and the true loads, or command what gives way away "
-    "(`armscope compensate`).",
-    "transmission": "Store the fitted waves, ratios and play as corrections of the joints, or command them away "
-    "(`armscope compensate`); replace the gear that is worst.",
-    "drift": "Fasten the instrument, the base and the tool, let them settle, and measure again; what is fitted here "
-    "describes this recording, not the arm.",
-    "unknown": "Measure the joints named here alone and finely; until the cause is found, command the fitted curves "
-    "away (`armscope compensate`).",
-}
-"""What mends a family where it has several members or small errors everywhere."""
-
 TOLD = 0.05
 """Share of the squared error from which a cause is told; smaller ones are counted, unless a member stands out."""
+SPREAD_TOLD = 0.15
+"""The same for a cause of which no member stands out: below it, it is one of the rest."""
 UNSURE = 0.01
 """Share from which small errors are told that the evidence does not ask for."""
 FAINT = 0.7
@@ -74,13 +64,13 @@ def headline(verdict: Diagnosis) -> str:
     if verdict.answer == "cannot tell" and not main:
         return _cannot_tell(verdict)
     if other := another_model(verdict):
-        return f"{other} What stands below only describes the difference between the two."
+        return f"{other} All that follows only describes the difference between the two."
     doubt = unusable(verdict)
     if doubt:
-        return f"These recordings cannot be relied on, and nothing below should be acted on: {_small(doubt)}."
+        return f"These recordings cannot be relied on; do not act on anything below: {_small(doubt)}."
     if verdict.answer == "nothing missing":
         return (
-            f"Nothing is missing: once base and tool are placed, the model meets the recordings to "
+            f"Nothing is missing: once base and tool are placed, the model matches the recordings to "
             f"{millimetres(verdict.residual_after_mm)} per axis, which is noise."
         )
     if not main and not verdict.causes:
@@ -88,15 +78,21 @@ def headline(verdict: Diagnosis) -> str:
     told, rest = _told_and_rest(verdict.causes or _one_by_one(verdict))
     of_what = [" of the squared error", *("" for _ in told)]
     causes = "; ".join(f"{c.text} – {percent(c.share)}{of}" for c, of in zip(told, of_what, strict=False))
-    rest_told = [*_others(rest), *_unsure(verdict), _remainder(verdict)]
+    rest_told = [*_smaller(rest), *_unsure(verdict), _remainder(verdict)]
     return f"{capitalised(causes)}. {capitalised('; '.join(rest_told))}."
 
 
 def _told_and_rest(causes: Sequence[Cause]) -> tuple[list[Cause], list[Cause]]:
     """The causes that a headline tells, and those that it counts."""
-    named = [c for c in causes if c.members and not c.minor and c.share > UNSURE]
-    first = [c for c in causes if c.share > TOLD or c in named][:MOST_TOLD] or list(causes[:1])
-    return first, [cause for cause in causes if cause not in first]
+    named = [c for c in causes if c.members and not c.minor and c.share > UNSURE and not _spread(c)]
+    first = [c for c in causes if c.share > (SPREAD_TOLD if _spread(c) else TOLD) or c in named]
+    told = first[:MOST_TOLD] or list(causes[:1])
+    return told, [cause for cause in causes if cause not in told]
+
+
+def _spread(cause: Cause) -> bool:
+    """Whether a cause is small errors in the whole arm of which none stands out."""
+    return cause.everywhere and cause.text == _SPREAD.get(cause.family)
 
 
 def cause_in_words(family: str, members: Sequence[FoundEffect], small: Background | None = None) -> str:
@@ -111,7 +107,7 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], small: Backgroun
         The clause.
     """
     told = [effect for effect in members if not effect.minor][:1] or ([] if small else list(members[:1]))
-    none_stands_out = _EVERYWHERE.get(family, f"small {family} errors in all joints and links, as in any arm")
+    none_stands_out = _SPREAD.get(family, f"small {family} errors in all joints and links")
     if not told or (small and _is_next_to_nothing(told[0], small)):
         return none_stands_out
     beside = also_out(family, told[0], members)
@@ -122,32 +118,13 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], small: Backgroun
 
 
 def _with_others(clause: str, beside: Sequence[str]) -> str:
-    """A clause, and in its brackets what is beside."""
-    if not beside:
-        return clause
-    opened = f"{clause[:-1]}; " if clause.endswith(")") else f"{clause} ("
-    return f"{opened}{'; '.join(beside)})"
+    """A clause, and in brackets what is beside."""
+    return f"{clause} ({', and '.join(beside)})" if beside else clause
 
 
 def _is_next_to_nothing(effect: FoundEffect, small: Background) -> bool:
     """Whether a member is less than a twentieth of the small errors of its family, in share and (hidden) in size."""
     return effect.share < TOLD * small.share and effect.rms_at_tool_mm**2 < TOLD * small.rms_at_tool_mm**2
-
-
-def cure_of_family(family: str, members: Sequence[FoundEffect], everywhere: bool) -> str:
-    """What to do about a cause: its only effect's cure, or what mends the whole family.
-
-    Args:
-        family: of the cause.
-        members: its effects.
-        everywhere: whether small errors of the family in the whole arm belong to it.
-
-    Returns:
-        A sentence or two.
-    """
-    if len(members) == 1 and not everywhere:
-        return members[0].cure
-    return _CURES.get(family, members[0].cure if members else "")
 
 
 def unusable(verdict: Diagnosis) -> str:
@@ -166,15 +143,13 @@ def more_than_noise(verdict: Verdict) -> bool:
 
 
 def background_in_words(verdict: Verdict) -> str:
-    """ "small errors of shape and stiffness in all its joints and links, as any arm has"."""
+    """ "small errors of geometry and stiffness in all its joints and links, as any arm has"."""
     families = [family.family for family in verdict.background_families if family.present] or ["geometric"]
     wander = SMALL["drift"] if "drift" in families else ""
     of_arm = [_KINDS.get(family, family) for family in families if family != "drift"]
     if not of_arm:
         return wander
-    *first, last = of_arm
-    listed = f"{', '.join(first)} and {last}" if first else last
-    small = f"small errors of {listed} in all its joints and links, as any arm has"
+    small = f"small errors of {enumerated(of_arm)} in all joints and links, as any arm has"
     return f"{wander} and {small}" if wander else small
 
 
@@ -201,36 +176,37 @@ def _one_by_one(verdict: Diagnosis) -> list[Cause]:
     return [*alone, *small]
 
 
-def _others(rest: Sequence[Cause]) -> Iterator[str]:
-    """What else the model took in, together."""
-    count = sum(bool(cause.members) for cause in rest)
-    parts = [f"{spelled(count)} smaller cause{'s' if count > 1 else ''}"] if count else []
-    small = [_KINDS[cause.family] for cause in rest if not cause.members and cause.family in _KINDS]
-    if small:
-        *first, last = small
-        kinds = f"{', '.join(first)} and {last}" if first else last
-        parts.append(f"small errors of {kinds} in all its joints and links, as any arm has")
-    if any(cause.family == "drift" and not cause.members for cause in rest):
-        parts.append(SMALL["drift"])
-    if parts:
-        share, told = sum(cause.share for cause in rest), ", and ".join(parts)
-        yield f"{told}: {percent(share)}" if share > 0 else f"{told}, for which the others must be cured first"
+def _smaller(rest: Sequence[Cause]) -> Iterator[str]:
+    """What else the model took in: causes that are counted, and small errors of the whole arm; each with its share."""
+    spread = [cause for cause in rest if _spread(cause)]
+    counted = [cause for cause in rest if cause not in spread]
+    if counted:
+        share, several = sum(cause.share for cause in counted), len(counted) > 1
+        told = f"{spelled(len(counted))} smaller cause{'s' if several else ''}"
+        later = f"which pay{'' if several else 's'} only once the others are cured"
+        yield f"{told} ({percent(share)})" if share > 0 else f"{told}, {later}"
+    kinds = [_KINDS[cause.family] for cause in spread if cause.family in _KINDS]
+    share = sum(cause.share for cause in spread)
+    of_arm = [f"small errors of {enumerated(kinds)} in the whole arm"] if kinds else []
+    told = " and ".join([*of_arm, *(_SPREAD["drift"] for cause in spread if cause.family == "drift")])
+    if told:
+        yield f"{told} ({percent(share)})" if share > 0 else told
 
 
 def _unsure(verdict: Diagnosis) -> Iterator[str]:
     """Small errors that the model holds though the evidence does not ask for them, and so are in no cause."""
     told = [each for each in verdict.background_families if not each.present and each.share > UNSURE]
     if told:
-        kinds = " and ".join(SMALL[each.family] for each in told if each.family in SMALL)
-        yield f"possibly {kinds}: {percent(sum(each.share for each in told))}"
+        kinds = enumerated([SMALL[each.family] for each in told if each.family in SMALL])
+        yield f"possibly {kinds} ({percent(sum(each.share for each in told))})"
 
 
 def _remainder(verdict: Diagnosis) -> str:
     """What the model leaves."""
     left = millimetres(verdict.residual_after_mm)
     if more_than_noise(verdict):
-        return f"the {left} left are in part more than noise, still without a cause"
-    return f"the {left} left are noise"
+        return f"{left} remain, more than noise and not yet explained"
+    return f"the {left} that remain are noise"
 
 
 def phrase(effect: FoundEffect) -> str:
@@ -269,7 +245,7 @@ def _cannot_tell(verdict: Diagnosis) -> str:
     if verdict.mismatch:
         remains = millimetres(after)
         return (
-            f"Cannot tell what is missing: {remains} per axis remain, more than the noise, "
+            f"Cannot tell what is missing: {remains} per axis remain, more than noise, "
             "but they follow nothing that was recorded."
         )
     why = verdict.notices[-1].text.rstrip(".") if verdict.notices else "the recordings do not say"
@@ -284,17 +260,17 @@ def _small(text: str) -> str:
 
 
 def _vague(effect: FoundEffect) -> str:
-    """A region or a family, with the best single reading in brackets."""
+    """A region or a family, with the best single reading."""
     if " or " in effect.title:
         return f"either {plain(effect.title)}"
     kinds = {
         "elastic": "something gives way under load",
-        "geometric": "something has another shape than stated",
-        "transmission": "a drive turns otherwise than commanded",
+        "geometric": "the geometry differs from what was stated",
+        "transmission": "a drive does not turn as commanded",
         "thermal": "something grows with temperature",
         "drift": "something moves during the recording",
         "unknown": "something follows no known physics",
     }
     _, _, where = effect.title.partition(", ")
     what = kinds.get(effect.family, f"something {effect.family}")
-    return f"{what} {where or 'in the arm'} (best single reading: {exact_phrase(effect)})"
+    return f"{what} {where or 'in the arm'}, most likely {effect_in_words(effect.effect, effect.location)}"

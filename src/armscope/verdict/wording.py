@@ -24,17 +24,17 @@ LABELS = {
 """What parameters of several effects are called; an effect has labels of its own (`armscope.physics.effect`)."""
 
 SMALL = {
-    "geometric": "small errors of shape in all joints and links",
+    "geometric": "small errors of geometry in all joints and links",
     "elastic": "a little give in all joints and links",
-    "transmission": "small errors of all drives",
-    "drift": "a slow wander of the set-up",
+    "transmission": "small errors in all drives",
+    "drift": "a slow drift of the set-up",
 }
 """What every arm and set-up has a little of, by family."""
 
 _ALSO = {
     "geometric": "also off",
     "elastic": "also giving way",
-    "transmission": "also erring",
+    "transmission": "also off",
     "thermal": "also growing",
     "drift": "also moving",
 }
@@ -91,8 +91,8 @@ def also_out(family: str, told: FoundEffect, members: Sequence[FoundEffect]) -> 
     places = list(dict.fromkeys(effect.location for effect in others if effect.location != told.location))
     if not places:
         return [f"{spelled(len(others))} more at the same place"] if others else []
-    listed = places_in_words(places) if len(places) <= MOST_PLACES else f"{spelled(len(places))} more places"
-    return [f"{_ALSO.get(family, 'also')}: {listed}"]
+    where = places_in_words(places) if len(places) <= MOST_PLACES else f"{spelled(len(places))} more places"
+    return [f"{_ALSO.get(family, 'also')}: {where}"]
 
 
 def places_in_words(places: Sequence[str]) -> str:
@@ -103,14 +103,14 @@ def places_in_words(places: Sequence[str]) -> str:
         kinds.setdefault(kind if number.isdigit() else place, []).append(number if number.isdigit() else "")
     phrases = []
     for kind, numbers in kinds.items():
-        listed = _and([number for number in sorted(numbers, key=lambda each: int(each or 0)) if number])
-        phrases.append(f"{kind}{'s' * (len(numbers) > 1)} {listed}".strip())
-    return _and(phrases)
+        which = enumerated([number for number in sorted(numbers, key=lambda each: int(each or 0)) if number])
+        phrases.append(f"{kind}{'s' * (len(numbers) > 1)} {which}".strip())
+    return enumerated(phrases)
 
 
-def _and(words: Sequence[str]) -> str:
+def enumerated(words: Sequence[str], last: str = "and") -> str:
     """ "one, two and three"."""
-    return " and ".join([", ".join(words[:-1]), words[-1]]) if len(words) > 1 else "".join(words)
+    return f" {last} ".join([", ".join(words[:-1]), words[-1]]) if len(words) > 1 else "".join(words)
 
 
 def capitalised(text: str) -> str:
@@ -222,8 +222,8 @@ def implausible(parameter: Parameter, effect: FoundEffect) -> bool:
 
 
 def effect_in_words(effect: str, location: str) -> str:
-    """ "joint_compliance" at "joint 2" as "joint compliance, joint 2"."""
-    return f"{plain(effect)}, {location}"
+    """ "joint_compliance" at "joint 2" as "joint compliance at joint 2"; "base_shift" at "base" as "base shift"."""
+    return plain(effect if effect.startswith(location) else f"{effect} at {location}")
 
 
 def main_and_minor(effects: Sequence[FoundEffect]) -> tuple[list[FoundEffect], list[FoundEffect]]:

@@ -19,16 +19,17 @@ from armscope.physics.soft_start import TURNED
 from armscope.verdict.contributions import Contributions, Repair
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import FoundEffect
-from armscope.verdict.sentences import cure_of_family, exact_phrase, phrase
-from armscope.verdict.wording import SMALL, capitalised, effect_in_words, implausible, plain, read_parameter
+from armscope.verdict.family_cures import cure_of_family
+from armscope.verdict.sentences import exact_phrase, phrase
+from armscope.verdict.wording import SMALL, capitalised, effect_in_words, enumerated, implausible, plain, read_parameter
 
 ALL_AT_ONCE = {
     GEOMETRIC: "calibration", ELASTIC: "elastic model", TRANSMISSION: "correction table", DRIFT: "fastening"
 }  # fmt: skip
 """What is changed for the small errors of a family in all joints and links."""
 OWN_FIT = (
-    " The error expected is that of the model fitted here; armscope calibrate fits zeros and rows anew, and tells its "
-    "own on held-out rows."
+    " The expected error is that of the model fitted here; armscope calibrate fits zeros and rows afresh, and reports "
+    "its own error on held-out rows."
 )
 """On two public sets, by 70 % of the rows: 0.24 mm expected and 0.17 mm on the rest by `armscope calibrate`; 0.69 and
 1.05 mm, where it leaves what no zero and no row can say."""
@@ -38,7 +39,7 @@ WORTH_TOGETHER = 0.1
 """Share of the error from which all that is left in the fitted model is commanded away together."""
 WORTH_OF_MINOR = 0.25
 """The same from which a minor effect is a task of its own in its turn: judgement, with two real arms in view."""
-NO_GAIN = "To cure it does not lower the error in its turn: confirm it before anything is changed."
+NO_GAIN = "Curing it does not lower the error at this point: confirm it before you change anything."
 RIVALS = 2
 """What else a cause could be, as told in a task: the nearest."""
 LEAST_TURN = 5e-5
@@ -125,13 +126,13 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
 
 def _together(names: Sequence[str], left_mm: float) -> Task:
     """What pays only with all the rest: causes that work against each other, and those too small for a repair."""
-    of_it = f" One by one these do not pay: {'; '.join(names)}." if names else ""
+    of_it = f" Cured one by one, these do not pay: {'; '.join(names)}." if names else ""
     return Task(
         what="What is left: causes that work against each other, or are small",
         place="whole arm",
         change="corrected commands",
         motion="",
-        instruction=f"Command the whole fitted model away (armscope compensate).{of_it}",
+        instruction=f"Compensate for the whole fitted model in the commands (armscope compensate).{of_it}",
         cure="",
         confirm="Measure a few poses under corrected commands.",
         alone_mm=left_mm,
@@ -186,7 +187,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
     # what scatters has no curve to correct by
     known = None if any(p.name == "scatter" for p in effect.parameters) else effect_named(effect.effect)
     words = {"location": effect.location, "zero": "–", "ratio": "–", "size": "", "jump": _jump(effect)}
-    words["row"] = "; ".join(_row(effect)) or "its errors can't be told apart in these poses"
+    words["row"] = "; ".join(_row(effect)) or "these poses do not separate its errors"
     words["opposite"] = _motion(scene, cause.parts, -1) or "its opposite"
     told = {p.name: p for p in effect.parameters if not implausible(p, effect)}
     if "offset" in told:
@@ -229,8 +230,8 @@ def _settled(effect: FoundEffect, asked: bool) -> str:
     which = plain(effect.title)
     if " or " not in which:  # kind and region: what they stand for is the best reading and the rivals nearest to it
         near = [effect_in_words(each.effect, each.location) for each in effect.alternatives[:RIVALS]]
-        which = " or ".join([effect_in_words(effect.effect, effect.location), *near])
-    how = " (see what to measure next)" if asked else ""
+        which = enumerated([effect_in_words(effect.effect, effect.location), *near], "or")
+    how = " (see What to measure next)" if asked else ""
     return f"First find out which it is: {which}{how}. If {exact_phrase(effect)}: "
 
 

@@ -23,6 +23,7 @@ from armscope.inference.normal_equations import weighted_total
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS, Alternative, Specific
+from armscope.verdict.wording import effect_in_words, places_in_words
 
 
 class Rival(NamedTuple):
@@ -238,12 +239,12 @@ def specific_name(effect: Candidate, rivals: Sequence[Candidate]) -> tuple[Speci
     if not rivals and effect.is_curve:
         return "effect", f"an unknown error at {effect.location} that follows the {effect.driver}"
     if not rivals:
-        return "effect", f"{_words(effect.kind)} at {effect.location}"
+        return "effect", effect_in_words(effect.kind, effect.location)
     together = [effect, *rivals]
     regions = sorted({c.region for c in together})
     families = sorted({c.family for c in together})
     if len(families) > 1:
-        return "region", " or ".join(f"{_words(c.kind)} at {c.location}" for c in together[:3])
+        return "region", " or ".join(effect_in_words(c.kind, c.location) for c in together[:3])
     if len(regions) == 1 or _adjacent(regions):
         return "region", f"{families[0]}, around {_places(regions)}"
     return "family", f"{families[0]}, somewhere around {_places(regions)}"
@@ -256,11 +257,7 @@ def _adjacent(regions: Sequence[str]) -> bool:
 
 
 def _places(regions: Sequence[str]) -> str:
-    return ", ".join(f"joint {r}" if r.isdigit() else r for r in regions)
-
-
-def _words(effect: str) -> str:
-    return effect.replace("_", " ")
+    return places_in_words([f"joint {r}" if r.isdigit() else r for r in regions])
 
 
 def inclusion_frequency(state: DiagnosisState, draws: int, rng: np.random.Generator) -> dict[int, float]:

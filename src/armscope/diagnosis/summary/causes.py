@@ -16,8 +16,9 @@ from armscope.diagnosis.state import DiagnosisState
 from armscope.inference.search import Search
 from armscope.physics.backgrounds import FAMILIES, MENDED
 from armscope.verdict.effects import Cause, CauseLevel, FoundEffect
+from armscope.verdict.family_cures import cure_of_family
 from armscope.verdict.schema import Background
-from armscope.verdict.sentences import cause_in_words, cure_of_family
+from armscope.verdict.sentences import cause_in_words
 
 PAYLOAD = "payload"
 EVERYWHERE = "arm"

@@ -59,13 +59,13 @@ def assumptions(verdict: Verdict, arm: Arm, recordings: Recordings) -> list[str]
         "The base's place in the measurement frame is free for each run, the tool point for each target; what they "
         "can absorb is not part of the mismatch.",
         "Every link, drive and bearing may have small errors, as in any real arm (assumed: of tolerance size, about 1 "
-        "mm and 1 mrad, for the geometry); one of them is named only when the recordings ask for it by itself.",
+        "mm and 1 mrad, for the geometry); one of them is named only when the recordings call for it by itself.",
         loads,
         f"The noise per axis, {millimetres(verdict.noise_mm)}, is {verdict.noise_source}."
         if math.isfinite(verdict.noise_mm)
         else "The noise is not known.",
-        "Joint angles are the commanded ones, lengths hold at 20 °C, the arm stands still or moves slowly, and each "
-        "effect is small: it is found in a linear picture and then fitted exactly.",
+        "Joint angles are the commanded ones, lengths hold at 20 °C, the arm is at rest or moves slowly, and each "
+        "effect is small: it is found in a linear model and then fitted exactly.",
     ]
     if verdict.orientations is not None:
         seen = verdict.orientations
@@ -73,7 +73,7 @@ def assumptions(verdict: Verdict, arm: Arm, recordings: Recordings) -> list[str]
             f"Measured orientations ({seen.rows} rows) take part: a turn of the tool counts as much as a shift at a "
             f"lever of {seen.lever_mm:.0f} mm, the ratio of what the model leaves of points and of orientations "
             f"({rounded(seen.noise_mrad)} mrad per axis). How the tool is turned on the flange is free. Sizes in mm, "
-            "the atlas and the waterfall speak of the tool point alone."
+            "the atlas and the waterfall are about the tool point alone."
         )
     if missing:
         sentences.append(f"Not recorded, so nothing that follows it can be seen: {', '.join(missing)}.")

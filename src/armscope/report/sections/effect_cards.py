@@ -141,16 +141,16 @@ def reading_of(parameter: Parameter, effect: FoundEffect) -> Reading:
         also = f"+{reading.also}" if reading.also else ""
         reading = replace(reading, value=f"+{reading.value}", also=also)
     if implausible(parameter, effect):
-        return Reading(reading.label, "undetermined", "beyond what arms have: it stands in for others")
+        return Reading(reading.label, "undetermined", "larger than real arms show: it absorbs other errors")
     if parameter.name in HALF_A_PERIOD:
         if INTERVAL * parameter.stderr < HALF_A_PERIOD[parameter.name]:
             return reading
-        return Reading(reading.label, "undetermined", "these poses leave it open")
+        return Reading(reading.label, "undetermined", "not determined by these poses")
     lever_mm = {"mm": 1.0, "rad": 1e3}.get(parameter.unit)  # an angle acts at about a metre
     open_mm = parameter.stderr * lever_mm if lever_mm is not None and math.isfinite(parameter.stderr) else 0.0
     if len(effect.parameters) < 2 or open_mm < LEFT_OPEN * effect.rms_at_tool_mm or effect.nameless:
         return reading
-    return Reading(reading.label, "undetermined", "in these poses others take its place")
+    return Reading(reading.label, "undetermined", "in these poses other parameters absorb it")
 
 
 def what_kind(effect: FoundEffect) -> str:
@@ -158,7 +158,7 @@ def what_kind(effect: FoundEffect) -> str:
     if effect.nameless:
         return "no known physics"
     name = effect_in_words(effect.effect, effect.location)
-    return effect.family if title_of(effect).replace(" at ", ", ") == name else f"{name} · {effect.family}"
+    return effect.family if title_of(effect) == name else f"{name} · {effect.family}"
 
 
 def told_parameters(effect: FoundEffect) -> Sequence[Parameter]:
@@ -176,13 +176,13 @@ def remark_on(effect: FoundEffect, shown: int) -> str:
     names = [p.name for p in effect.parameters]
     if any(name.startswith(UNKNOWN_MASSES) for name in names):
         if "compliance" in names:
-            return "The links' masses are not known; the payloads, which are, fix the scale of the compliance."
+            return "The links' masses are not known; the known payloads fix the scale of the compliance."
         return (
             "The links' masses are not known, so only products of the compliance with mass moments are (model.yaml has "
             "them). Recordings with a known weight at the tool would give the compliance itself."
         )
     left_out = len(told_parameters(effect)) - shown
-    return f"{left_out} further numbers stand in model.yaml." if left_out > 0 else ""
+    return f"{left_out} further numbers are in model.yaml." if left_out > 0 else ""
 
 
 def chosen_how_often(inclusion: float | None) -> str:
@@ -193,8 +193,8 @@ def chosen_how_often(inclusion: float | None) -> str:
     if inclusion >= RELIABLE:
         return often
     return (
-        f"{often}: in the others, other effects or the small errors everywhere took its place. Take it as one way to "
-        "say what happens, not as the cause"
+        f"{often}: in the others, other effects or small errors of the whole arm took its place. Take it as one "
+        "possible description, not as the cause"
     )
 
 
@@ -202,15 +202,13 @@ def how_specific(effect: FoundEffect) -> str:
     """Why a name is not more specific than it is; empty for one that is as specific as it can be."""
     if effect.named_as == "effect":
         return ""
-    if effect.named_as == "region":
-        return (
-            "These recordings show the kind of physics and the neighbourhood, not the exact part. "
-            f"The single best reading is {effect_in_words(effect.effect, effect.location)}; its rivals stand below."
-        )
-    return (
-        "These recordings show the kind of physics, not where it sits. "
-        f"The single best reading is {effect_in_words(effect.effect, effect.location)}; its rivals stand below."
+    shown = (
+        "These recordings show the kind of physics and the region, not the exact part."
+        if effect.named_as == "region"
+        else "These recordings show the kind of physics, not where it is."
     )
+    best = effect_in_words(effect.effect, effect.location)
+    return f"{shown} The best single explanation is {best}; its rivals are listed below."
 
 
 def gap_in_words(other: Alternative) -> str:
@@ -219,8 +217,8 @@ def gap_in_words(other: Alternative) -> str:
     if gap < 0:
         return f"{-gap:.1f} nats better"
     alike = other.discriminability_nats < INDISTINGUISHABLE_NATS <= gap
-    told = f"{gap:.1f} nats worse{', but only because of what its name costs' if alike else ''}"
-    return f"{told}; other rows do not exclude it" if other.excluded is False else told
+    told = f"{gap:.1f} nats worse{', but only because of its prior' if alike else ''}"
+    return f"{told}; held-out rows do not exclude it" if other.excluded is False else told
 
 
 def _followed(other: Alternative) -> str:

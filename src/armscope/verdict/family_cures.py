@@ -1,0 +1,38 @@
+"""What mends a family of causes: several of its effects, or its small errors in the whole arm."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from armscope.verdict.effects import FoundEffect
+
+_CURES = {
+    "geometric": "Calibrate the geometry: measure once more, and put the zeros and D-H rows that `armscope calibrate` "
+    "finds into the controller; or let the fitted model's inverse kinematics compute "
+    "the commands (`armscope compensate`).",
+    "elastic": "Give the controller the fitted compliances and the true loads, or compensate for the "
+    "deflection in the commands (`armscope compensate`).",
+    "transmission": "Store the fitted waves, ratios and play as corrections of the joints, or compensate for them in "
+    "the commands (`armscope compensate`); replace the worst gear.",
+    "drift": "Fasten the instrument, the base and the tool, let them settle, and measure again: what is fitted here "
+    "describes this recording, not the arm.",
+    "unknown": "Measure each joint named here by itself, in fine steps; until the cause is found, compensate for the "
+    "fitted curves in the commands (`armscope compensate`).",
+}
+"""What mends a family where it has several members or small errors everywhere."""
+
+
+def cure_of_family(family: str, members: Sequence[FoundEffect], everywhere: bool) -> str:
+    """What to do about a cause: its only effect's cure, or what mends the whole family.
+
+    Args:
+        family: of the cause.
+        members: its effects.
+        everywhere: whether small errors of the family in the whole arm belong to it.
+
+    Returns:
+        A sentence or two.
+    """
+    if len(members) == 1 and not everywhere:
+        return members[0].cure
+    return _CURES.get(family, members[0].cure if members else "")

@@ -1,0 +1,28 @@
+"""What mends several effects of a family at once, or its small errors in the whole arm."""
+
+import pytest
+
+from armscope.verdict.family_cures import cure_of_family
+from tests.report import verdicts
+
+
+def test_a_single_effect_has_its_own_cure() -> None:
+    alone = verdicts.compliance("joint 2")
+    assert cure_of_family("elastic", [alone], everywhere=False) == alone.cure
+
+
+def test_several_places_or_the_whole_arm_are_mended_as_a_family() -> None:
+    first, second = verdicts.compliance("joint 2"), verdicts.compliance("joint 3")
+    together = cure_of_family("elastic", [first, second], everywhere=False)
+    assert together == cure_of_family("elastic", [first], everywhere=True) == cure_of_family("elastic", (), True)
+    assert together != first.cure
+
+
+@pytest.mark.parametrize("family", ["geometric", "elastic", "transmission", "drift", "unknown"])
+def test_small_errors_of_every_family_have_words(family: str) -> None:
+    assert cure_of_family(family, (), everywhere=True).endswith(".")
+
+
+def test_a_family_without_words_of_its_own_is_mended_as_its_largest_effect() -> None:
+    thermal = verdicts.found("thermal_expansion", "link 2")
+    assert cure_of_family("thermal", [thermal, thermal], everywhere=False) == thermal.cure
