@@ -10,6 +10,7 @@ import pytest
 from armscope.core.averages import rms
 from armscope.fitting.registration import fit_frames
 from armscope.physics.registry import EFFECTS
+from armscope.physics.scene import Scene
 from armscope.physics.soft_start import HARDENING
 from armscope.report.pages.diagnosis import write_report
 from armscope.report.sections import work_order as section
@@ -21,9 +22,11 @@ from armscope.verdict.filenames import FILES
 from armscope.verdict.files import write_verdict
 from armscope.verdict.importance import expected
 from armscope.verdict.schema import HeldOut
-from armscope.verdict.work_order import angle, task_of, work_order
+from armscope.verdict.tasks import angle, task_of
+from armscope.verdict.work_order import work_order
 from tests.physics.test_cure import World
 from tests.report import verdicts
+from tests.robot.test_urdf import build as build_urdf
 from tests.verdict.test_contributions import missed, verdict, world  # noqa: F401  (fixtures)
 
 
@@ -165,8 +168,8 @@ def test_what_a_vague_cause_could_be_is_told_by_its_rivals() -> None:
     case = verdicts.case(effects=(vague,))
     model, (cause,) = case.verdict.model, contributions(case.verdict).causes
     told = task_of(model.scene(case.recordings), cause, vague, asked=True).instruction
-    wanted = "joint compliance at joint 2, base compliance or link bending at link 2 (see What to measure next). If"
-    assert told.startswith(f"First find out which it is: {wanted}")
+    rivals = "joint compliance at joint 2, base compliance or link bending at link 2"
+    assert told.startswith(f"First find out which it is: {rivals} (measure the poses in next_poses.csv). If")
 
 
 def test_what_scatters_is_looked_for_and_not_corrected_by_a_curve_that_it_lacks() -> None:
@@ -193,6 +196,32 @@ def test_a_task_says_nothing_twice() -> None:
     task = task_of(model.scene(case.recordings), cause, cause.effects[0])
     assert "elastic model" in task.instruction
     assert task.cure.startswith("Or compensate for it in the command: commanded = wanted - compliance x load")
+
+
+def test_the_formula_of_a_rule_has_its_numbers_behind_it() -> None:
+    """Who stores a wave needs where it is largest, too; the number of waves has no unit in a formula."""
+    wave = verdicts.found(
+        "gear_eccentricity", "joint 2", Parameter("amplitude", "rad", 6e-4, 1e-6),
+        Parameter("phase", "rad", -0.7, 2e-3), Parameter("per_turn", "1/turn", 2.0, 0.0),
+    )  # fmt: skip
+    case = verdicts.case(effects=(wave,))
+    model, (cause,) = case.verdict.model, contributions(case.verdict).causes
+    rule = task_of(model.scene(case.recordings), cause, wave).cure
+    formula, _, numbers = rule.partition("commanded = wanted - ")[2].partition(". Here ")
+    assert formula == "amplitude x cos(per_turn x wanted - phase)"
+    assert numbers == "amplitude = +0.0344° (+0.600 mrad), per_turn = 2, phase = −40.11°."
+
+
+def test_a_urdf_is_corrected_at_the_joint_that_its_file_names() -> None:
+    longer = verdicts.found("link_geometry", "link 3", Parameter("tx", "mm", 0.7, 0.01))
+    case = verdicts.case(effects=(verdicts.compliance("joint 2"),))
+    (cause,) = contributions(case.verdict).causes
+    arm = build_urdf()
+    table = replace(case.recordings, motor_angles=case.recordings.motor_angles[:, : arm.n_motors])
+    task = task_of(Scene(arm, table), replace(cause, parts=()), longer)
+    assert task.change == "joint origin"
+    assert f"joint {arm.joint_names[2]}'s origin" in task.instruction
+    assert '<origin xyz="' in task.instruction
 
 
 def test_the_card_and_the_work_order_say_the_same_of_every_effect() -> None:

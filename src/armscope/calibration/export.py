@@ -21,6 +21,7 @@ from armscope.robot.urdf_writing import (
     origin_of,
     placement_of,
     set_inertial,
+    turns_of_file,
     urdf_text,
 )
 
@@ -145,11 +146,7 @@ def _corrected_urdf(calibration: Calibration, folder: Path) -> str:
     robot = ET.parse(file).getroot()
     keep_meshes(robot, file, folder)
     elements = {element.get("name"): element for element in robot.findall("joint")}
-    turn = np.eye(4)
-    for joint in range(arm.n_joints):
-        placement = nominal.model.jointPlacements[joint + 1].homogeneous
-        # from the joint's own axes, as in the file, to axes with z along its axis
-        turn = np.linalg.inv(placement) @ turn @ nominal.before[joint]
+    for joint, turn in enumerate(turns_of_file(nominal)):
         correction = turn @ np.linalg.inv(nominal.before[joint]) @ arm.before[joint] @ np.linalg.inv(turn)
         element = elements[nominal.model.names[joint + 1]]
         origin = element.find("origin")

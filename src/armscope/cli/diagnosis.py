@@ -19,7 +19,10 @@ if TYPE_CHECKING:
 
 app = Commands()
 
-PAGES = ("report.html", "work-order.html", "zero_offsets.csv", "corrected_dh.csv")
+PAGES = (
+    "report.html", "work-order.html", "zero_offsets.csv", "corrected_dh.csv", "corrected_origins.csv",
+    "ur_kinematics.yaml",
+)  # fmt: skip
 
 
 @app.command()

@@ -82,7 +82,11 @@ def _place_links(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
         yield Placed(LINK_GEOMETRY, f"link {j}", terms, (1.0,) * len(terms), "constant")
 
 
-_ROW = {"a": "length a", "d": "length d", "alpha": "twist α", "theta": "turn θ", "beta": "twist β"}
+_ROW = {
+    "a": "length a", "d": "length d", "alpha": "twist α", "theta": "turn θ", "beta": "twist β",
+    "tx": "shift along x", "ty": "shift along y", "tz": "shift along z", "rx": "tilt about x", "ry": "tilt about y",
+}  # fmt: skip
+"""Numbers of a D-H row, or of a URDF's joint in axes whose z is the joint's own."""
 
 
 def _differs(told: Told) -> str:
@@ -102,10 +106,11 @@ LINK_GEOMETRY = Effect(
     "The link is longer, shorter or more twisted than its D-H row says.",
     "Measure the two neighbouring joint axes with the tracker by turning one joint at a time (circle-point analysis).",
     Cure(
-        "No command of one joint undoes it: put the corrected D-H row into the controller's model (a = stated a + a, "
-        "and so on for every number told), whose inverse kinematics then reaches the wanted point.",
+        "No command of one joint undoes it: put the corrected D-H row (in a URDF: the joint's origin) into the "
+        "controller's model (a = stated a + a, and so on for every number here), whose inverse kinematics then reaches "
+        "the wanted point.",
         change="D-H row",
-        instruction="Enter the corrected row of {location} in the controller's model: {row}.",
+        instruction="Correct {location} in the controller's model: {row}.",
     ),
     clauses=(_differs,),
     labels=_ROW,

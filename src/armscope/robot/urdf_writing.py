@@ -6,12 +6,15 @@ import os
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from armscope.core.types import Array
+
+if TYPE_CHECKING:
+    from armscope.robot.arm import Arm
 
 BASE = "base"
 
@@ -100,6 +103,24 @@ def placement_of(origin: ET.Element) -> Array:
     placement[:3, 3] = _numbers(origin.get("xyz", "0 0 0"))
     placement[:3, :3] = Rotation.from_euler("xyz", _numbers(origin.get("rpy", "0 0 0"))).as_matrix()
     return placement
+
+
+def turns_of_file(arm: Arm) -> Array:
+    """(n, 4, 4) for each joint of a URDF's chain, the turn from the file's axes of it to axes with z along its axis."""
+    turns, turn = np.empty((arm.n_joints, 4, 4)), np.eye(4)
+    for joint in range(arm.n_joints):
+        placement = arm.model.jointPlacements[joint + 1].homogeneous
+        turn = turns[joint] = np.linalg.inv(placement) @ turn @ arm.before[joint]
+    return turns
+
+
+def origins_of_file(arm: Arm) -> Array:
+    """(n, 4, 4) the origins of the chain's joints as their URDF states them."""
+    elements = {
+        element.get("name"): element for element in ET.parse(str(arm.description.urdf)).getroot().findall("joint")
+    }
+    found = (elements[name].find("origin") for name in arm.joint_names)
+    return np.array([np.eye(4) if origin is None else placement_of(origin) for origin in found])
 
 
 def keep_meshes(robot: ET.Element, source: Path, folder: Path) -> None:

@@ -1,18 +1,26 @@
-"""What a verdict puts right in a controller's model, as tables: zeros of the motors, and D-H rows."""
+"""What a verdict puts right in a controller's model, as tables: zeros of the motors, and D-H rows or URDF origins."""
 
 from __future__ import annotations
 
 import math
 
+import numpy as np
 import pandas as pd
+from scipy.spatial.transform import Rotation
 
+from armscope.core.types import Array
+from armscope.physics.effect import AXES
 from armscope.physics.geometric import JOINT_OFFSET, LINK_GEOMETRY
+from armscope.robot import Arm
+from armscope.robot.urdf_writing import origins_of_file, turns_of_file
 from armscope.verdict.diagnosis import Diagnosis
-from armscope.verdict.effects import INTERVAL
+from armscope.verdict.effects import INTERVAL, FoundEffect
 from armscope.verdict.wording import implausible
 
 NUMBERS = ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg")
 """Of a D-H row, as robot.yaml calls them."""
+LEAST_TURN = 1e-5
+"""A joint's origin that turns by less (rad) keeps its stated angles: at a metre this is 0.01 mm."""
 
 
 def zero_offsets(verdict: Diagnosis) -> pd.DataFrame:
@@ -47,3 +55,49 @@ def corrected_rows(verdict: Diagnosis) -> pd.DataFrame | None:
             row |= {f"stated_{name}": value, f"correction_{name}": step, f"corrected_{name}": value + step}
         rows.append(row)
     return pd.DataFrame(rows)
+
+
+def corrected_origins(verdict: Diagnosis) -> pd.DataFrame | None:
+    """The origins of the chain's joints in the URDF as stated and as found, without the zeros; None for D-H rows."""
+    arm = verdict.model.arm
+    if arm.description.dh is not None:
+        return None
+    found = {e.location: e for e in verdict.effects if e.effect == LINK_GEOMETRY.name}
+    rows = []
+    for j, (name, stated) in enumerate(zip(arm.joint_names, origins_of_file(arm), strict=True), start=1):
+        effect = found.get(f"link {j}")
+        origins = {"stated": stated, "corrected": stated if effect is None else corrected_origin(arm, effect, j)}
+        row: dict[str, object] = {"joint": name, "changed": effect is not None}
+        for which, origin in origins.items():
+            xyz, rpy = place_and_angles(origin)
+            row |= {f"{which}_{axis}_m": value for axis, value in zip("xyz", xyz, strict=True)}
+            row |= {f"{which}_{axis}_rad": value for axis, value in zip(("roll", "pitch", "yaw"), rpy, strict=True)}
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def corrected_origin(arm: Arm, effect: FoundEffect, joint: int) -> Array:
+    """(4, 4) the origin of a URDF's joint once the errors of its link are put right.
+
+    Args:
+        arm: of the URDF.
+        effect: a link's geometry: tx, ty, tz (mm), rx, ry (rad) along and about the joint's axes, z being its own.
+        joint: its number, from 1.
+
+    Returns:
+        The origin as the file states it, moved by the errors.
+    """
+    told = {p.name: p.value for p in effect.parameters if not implausible(p, effect)}
+    errors = np.array([told.get(axis, 0.0) for axis in AXES]) * np.array([1e-3, 1e-3, 1e-3, 1, 1, 1])
+    turned = errors[3:] if np.abs(errors[3:]).max() > LEAST_TURN else np.zeros(3)
+    moved = np.eye(4)
+    moved[:3, 3], moved[:3, :3] = errors[:3], Rotation.from_rotvec(turned).as_matrix()
+    stated, turn = origins_of_file(arm)[joint - 1], turns_of_file(arm)[joint - 1]
+    corrected: Array = stated @ turn @ moved @ np.linalg.inv(turn)
+    return corrected
+
+
+def place_and_angles(origin: Array) -> tuple[Array, Array]:
+    """xyz (m) and roll, pitch, yaw (rad) of a placement (4, 4), as a URDF writes them."""
+    angles = Rotation.from_matrix(origin[:3, :3]).as_euler("xyz", suppress_warnings=True)
+    return origin[:3, 3] + 0.0, angles + 0.0  # no minus before a zero

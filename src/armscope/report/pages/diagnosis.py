@@ -10,14 +10,15 @@ from typing import Any
 from markupsafe import Markup
 
 from armscope.core.averages import rms
-from armscope.core.files import write_table, write_text
+from armscope.core.files import write_table, write_text, write_yaml
 from armscope.report.colours import page_variables
 from armscope.report.html import render_page
 from armscope.report.sectioning import write_sections
 from armscope.report.sections.effects import findings
 from armscope.report.sections.registry import SECTIONS
 from armscope.report.subject import Subject
-from armscope.verdict.corrections import corrected_rows, zero_offsets
+from armscope.verdict.controllers import ur_kinematics
+from armscope.verdict.corrections import corrected_origins, corrected_rows, zero_offsets
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.schema import Notice
 from armscope.verdict.sentences import another_model, more_than_noise, unusable
@@ -32,7 +33,7 @@ ANSWERS = {
 WARNINGS = ("check", "stated noise", "fewer rows than parameters", "too few rows")
 """Kinds of notices that stand above everything; what the headline says already does not, others lie folded."""
 REPORT, ORDER = "report.html", "work-order.html"
-ZEROS, ROWS = "zero_offsets.csv", "corrected_dh.csv"
+ZEROS, ROWS, ORIGINS, UR = "zero_offsets.csv", "corrected_dh.csv", "corrected_origins.csv", "ur_kinematics.yaml"
 
 
 def write_report(verdict: Diagnosis, folder: Path | str) -> Path:
@@ -48,9 +49,13 @@ def write_report(verdict: Diagnosis, folder: Path | str) -> Path:
 def _write_work_order(subject: Subject, folder: Path) -> None:
     """The work order as a page, and its numbers as tables."""
     verdict, zeros, rows = subject.verdict, zero_offsets(subject.verdict), corrected_rows(subject.verdict)
+    kinematics = ur_kinematics(verdict)
     write_table(folder / ZEROS, zeros)
-    if rows is not None:
-        write_table(folder / ROWS, rows)
+    for name, table in ((ROWS, rows), (ORIGINS, corrected_origins(verdict))):
+        if table is not None:
+            write_table(folder / name, table)
+    if kinematics is not None:
+        write_yaml(folder / UR, kinematics)
     dh = verdict.model.arm.description.dh
     content = {
         **_about(verdict),
@@ -64,6 +69,7 @@ def _write_work_order(subject: Subject, folder: Path) -> None:
         "rows_change": rows is not None and bool(rows.filter(like="correction_").any(axis=None)),
         "convention": "" if dh is None else dh.convention,
         "zeros": zeros[zeros["cause"] == "named"].to_dict("records"),
+        "tables": [ZEROS, *([ORIGINS] if rows is None else [ROWS]), *([UR] if kinematics else [])],
     }
     write_text(folder / ORDER, render_page("work_order.html.j2", **content))
 

@@ -1,0 +1,200 @@
+"""One line of a work order: what is done about a cause, where, by how much, with signs."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from armscope.core.location import Location
+from armscope.core.types import Array
+from armscope.physics.geometric import LINK_GEOMETRY
+from armscope.physics.registry import effect_named
+from armscope.physics.scene import Part, Scene
+from armscope.physics.soft_start import TURNED
+from armscope.robot import Arm
+from armscope.verdict.contributions import Repair
+from armscope.verdict.corrections import corrected_origin, place_and_angles
+from armscope.verdict.effects import FoundEffect, Parameter
+from armscope.verdict.sentences import exact_phrase, phrase
+from armscope.verdict.wording import capitalised, effect_in_words, enumerated, implausible, plain, read_parameter
+
+RIVALS = 2
+"""What else a cause could be, as told in a task: the nearest."""
+LEAST_TURN = 5e-5
+"""Smaller turns of a jump (rad) are not told: at a metre they are less than what jumps are measured by."""
+STEADY = 0.02
+"""A motion whose range is below this share of its size is told as one number."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """One line of a work order, in words.
+
+    Attributes:
+        what: who does what, by how much.
+        place, change: where, and what is changed there, in two words.
+        motion: how far and which way it goes in these recordings: mm, mrad and degrees, with signs.
+        instruction, cure: what to do; and the rule by which it is commanded away.
+        confirm: how to confirm it first.
+        alone_mm, then_mm: RMS per axis on the recorded rows once this alone, or this and all before it, is cured.
+        only_after: it pays only once all before it is done: alone it would make the error larger.
+    """
+
+    what: str
+    place: str
+    change: str
+    motion: str
+    instruction: str
+    cure: str
+    confirm: str
+    alone_mm: float = math.nan
+    then_mm: float = math.nan
+    only_after: bool = False
+
+
+def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = False) -> Task:
+    """What is done about a cause; what it is worth stands open.
+
+    Args:
+        scene: the fitted model's, of the recorded rows.
+        cause: with its parts of the fitted model.
+        effect: the effect that it is cured as.
+        asked: whether the verdict asks for further measurements.
+
+    Returns:
+        The task.
+    """
+    # what scatters has no curve to correct by
+    known = None if any(p.name == "scatter" for p in effect.parameters) else effect_named(effect.effect)
+    words = {"location": effect.location, "zero": "–", "ratio": "–", "size": "", "jump": _jump(effect)}
+    words["row"] = "; ".join(_row(effect)) or "these poses do not separate its errors"
+    in_urdf = effect.effect == LINK_GEOMETRY.name and scene.arm.description.dh is None
+    if in_urdf:
+        words["location"], words["row"] = _origin(scene.arm, effect)
+    words["opposite"] = _motion(scene, cause.parts, -1) or "its opposite"
+    told = {p.name: p for p in effect.parameters if not implausible(p, effect)}
+    if "offset" in told:
+        words["zero"] = f"where the controller shows 0°, the joint stands at {angle(told['offset'].value)}"
+    if "compliance" in told:
+        size = read_parameter(told["compliance"], effect.effect)
+        words["size"] = f" (minus {size.value} × load)"
+    if "soft_turn" in told:
+        size = read_parameter(told["soft_turn"], effect.effect)
+        words["size"] = f" (minus {size.value} × {TURNED.replace(' x ', ' × ')})"
+    if "ratio" in told:
+        words["ratio"] = f"{1 / (1 + told['ratio'].value):.6f}"
+    return Task(
+        what=capitalised(phrase(effect)),
+        place=effect.location,
+        change="joint origin" if in_urdf else known.cure.change if known else "",
+        motion="" if "offset" in told or words["jump"] else _motion(scene, cause.parts),  # the instruction has it
+        instruction=_settled(effect, asked) + (known.cure.instruction.format(**words) if known else ""),
+        cure=_with_numbers((known.cure.rule if known else effect.cure).replace("`", ""), effect),
+        confirm=effect.confirm,
+    )
+
+
+def _origin(arm: Arm, effect: FoundEffect) -> tuple[str, str]:
+    """Which origin of a URDF is put right for a link's geometry, and what it becomes, as the file writes it."""
+    joint = Location.of(effect.location).number
+    xyz, rpy = place_and_angles(corrected_origin(arm, effect, joint))
+    numbers = (" ".join(f"{value:.6f}" for value in np.round(each, 6) + 0.0) for each in (xyz, rpy))
+    return f"joint {arm.joint_names[joint - 1]}'s origin", '<origin xyz="{}" rpy="{}"/>'.format(*numbers)
+
+
+FORMULA = "commanded = "
+
+
+def _with_numbers(rule: str, effect: FoundEffect) -> str:
+    """A rule, and behind it the numbers that its formula names: "Here offset = −0.1778° (−3.103 mrad)."."""
+    formula = rule.partition(FORMULA)[2]
+    known = {p.name: p for p in effect.parameters if not implausible(p, effect)}
+    named = [known[name] for name in dict.fromkeys(re.findall(r"\w+", formula)) if name in known]
+    return f"{rule} Here {', '.join(f'{p.name} = {_number(p, effect)}' for p in named)}." if named else rule
+
+
+def _number(parameter: Parameter, effect: FoundEffect) -> str:
+    if parameter.name == "per_turn":
+        return f"{parameter.value:g}"
+    if parameter.unit == "rad" and parameter.name != "phase":
+        return angle(parameter.value)
+    return read_parameter(parameter, effect.effect).value
+
+
+def _jump(effect: FoundEffect) -> str:
+    """How far and which way, in the axes of what jumped."""
+    named = {"rx": "about x", "ry": "about y", "rz": "about z"}
+    told = [
+        f"{named[p.name]} {angle(p.value)}" if p.name in named else f"{p.name} {_signed(p.value, 3)} mm"
+        for p in effect.parameters
+        if p.name in ("x", "y", "z") or (p.name in named and abs(p.value) > LEAST_TURN)
+    ]
+    axes = "the last D-H frame" if effect.location == "tool" else "the base frame"
+    return f" (it jumped by {', '.join(told)} in {axes})" if told else ""
+
+
+def _settled(effect: FoundEffect, asked: bool) -> str:
+    """What comes before the cure of a cause that these rows don't tell from others."""
+    if effect.named_as == "effect":
+        return ""
+    which = plain(effect.title)
+    if " or " not in which:  # kind and region: what they stand for is the best reading and the rivals nearest to it
+        near = [effect_in_words(each.effect, each.location) for each in effect.alternatives[:RIVALS]]
+        which = enumerated([effect_in_words(effect.effect, effect.location), *near], "or")
+    how = " (measure the poses in next_poses.csv)" if asked else ""
+    return f"First find out which it is: {which}{how}. If {exact_phrase(effect)}: "
+
+
+def angle(radians: float) -> str:
+    """An angle with its sign, in degrees and mrad."""
+    return f"{_signed(math.degrees(radians), 4)}° ({_signed(1e3 * radians, 3)} mrad)"
+
+
+def _row(effect: FoundEffect) -> Iterator[str]:
+    for p in effect.parameters:
+        if implausible(p, effect):
+            continue
+        size = f"{_signed(p.value, 3)} mm" if p.unit == "mm" else angle(p.value)
+        yield f"{p.name} = stated {p.name} {size}"
+
+
+def _motion(scene: Scene, parts: tuple[Part, ...], sign: int = 1) -> str:
+    """The largest turn and shift of parts over the recorded rows, in words, with signs; sign -1: to undo them."""
+    amounts: dict[str, list[tuple[str, Array]]] = {"turns": [], "moves": []}
+    for direction, amount in scene.amounts(parts).items():
+        place = Location.of(direction.location)
+        if place.kind in ("instrument", "payload"):
+            continue
+        turning = direction.axis == "turn" or direction.axis.startswith("r")
+        about = "" if direction.axis == "turn" else f" {'about' if turning else 'along'} {direction.axis[1:]}"
+        name = f"joint {place.number}" if place.kind == "motor" else direction.location
+        amounts["turns" if turning else "moves"].append((f"{name}{about}", sign * np.asarray(amount)))
+    told = []
+    for verb, found in amounts.items():
+        if found:
+            name, amount = max(found, key=lambda pair: float(np.abs(pair[1]).max()))
+            if np.abs(amount).max() > 0:
+                told.append(f"{name} {verb} by {_range(amount, verb == 'turns')}")
+    return "; ".join(told)
+
+
+def _range(amount: Array, turning: bool) -> str:
+    low, high = float(amount.min()), float(amount.max())
+    if high - low < STEADY * max(abs(low), abs(high)):
+        low = high = float(amount.mean())
+    ends = [low] if low == high else [low, high]
+
+    small = " … ".join(_signed(1e3 * end, 3) for end in ends)
+    if not turning:
+        return f"{small} mm"
+    degrees = " … ".join(_signed(math.degrees(end), 4) for end in ends)
+    return f"{small} mrad ({degrees}°)"
+
+
+def _signed(value: float, decimals: int) -> str:
+    text = f"{value:+.{decimals}f}"
+    return (text if float(text) else text[1:]).replace("-", "−")
