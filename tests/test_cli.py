@@ -126,6 +126,17 @@ def test_bad_input_is_one_line_and_exit_code_2(tmp_path):
     assert done.stderr.count("\n") == 1
 
 
+def test_a_robot_may_be_named(tmp_path):
+    for name, code, words in (("puma560", 0, "the library's"), ("puma561", 2, "a name (armscope init --list)")):
+        line = ["poses", "-r", name, "-n", "12", "-o", "poses.csv"]
+        done = subprocess.run(
+            [sys.executable, "-c", "from armscope.cli import main; main()", *line],
+            capture_output=True, text=True, cwd=tmp_path, check=False,
+        )  # fmt: skip
+        assert done.returncode == code, done.stderr
+        assert words in done.stderr
+
+
 def test_help_says_how_to_start():
     text = CliRunner().invoke(app, ["--help"]).output
     assert "armscope diagnose recordings.csv --robot robot.yaml" in text

@@ -7,6 +7,7 @@ import yaml
 from armscope.core.inputs import InputError
 from armscope.robot import forward_kinematics, load_arm
 from armscope.robot.description_file import describe_urdf, guesses, load_description
+from armscope.robot.library import nominal_description
 from tests.robot.test_urdf import TORSO_ARM, build
 
 UR5_MM = [(0, 90, 89.2), (-425, 0, 0), (-392, 0, 0), (0, 90, 109.3), (0, -90, 94.75), (0, 0, 82.5)]
@@ -68,3 +69,12 @@ def test_a_stated_tip_is_no_guess():
 def test_a_file_that_is_not_there_is_one_error(tmp_path):
     with pytest.raises(InputError, match="readable"):
         load_description(tmp_path / "arm.urdf")
+
+
+def test_an_arm_of_the_library_is_asked_for_by_its_name_where_no_file_has_that_name(tmp_path, monkeypatch):
+    assert load_description("UR-5e") == nominal_description("ur5e")
+    monkeypatch.chdir(tmp_path)
+    write(tmp_path, UR5_MM).rename("ur5e")
+    assert load_description("ur5e").name == "arm"
+    with pytest.raises(InputError, match="readable"):
+        load_description("ur5x")

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from armscope.cli.commands import Commands
+from armscope.cli.commands import Commands, NominalArm
 from armscope.core.inputs import InputError
 
 app = Commands()
@@ -60,7 +60,7 @@ def check(
 @app.command()
 def calibrate(
     recordings: Annotated[Path, typer.Argument(help="recordings.csv")],
-    robot: Annotated[Path, typer.Option("--robot", "-r", help="robot.yaml: the nominal arm")],
+    robot: NominalArm,
     output: Annotated[Path, typer.Option("--output", "-o", help="folder for robot.yaml, URDF and frames")],
     level: Annotated[
         Literal["nominal", "offsets", "geometric", "compliance"], typer.Option(help="what is free beyond the frames")

@@ -26,6 +26,9 @@ OUTPUTS = ("output", "figure", "points", "visible", "sealed")
 WRITTEN = object()
 
 Output = Annotated[Path, typer.Option("--output", "-o", help="where to write")]
+NominalArm = Annotated[
+    Path, typer.Option("--robot", "-r", help="the nominal arm: robot.yaml, a URDF, or a name (armscope init --list)")
+]
 Force = Annotated[bool, typer.Option("--force", help="overwrite files that armscope did not write (never an input)")]
 Threads = Annotated[int, typer.Option(min=1, help="processes that share the rows of a long table; the same result")]
 """As a parameter ``threads`` of a command: its work is shared by so many processes."""
@@ -87,7 +90,8 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
     def deliver(force: bool, values: dict[str, Any]) -> None:
         reads = _paths(value for name, value in values.items() if name not in outputs)
         for name, value in values.items():
-            _refuse_absent(_paths([value] if name not in outputs else []), hints[name])
+            absent = [path for path in _paths([value] if name not in outputs else []) if _is_absent(path)]
+            _refuse_absent([path for path in absent if not (name == "robot" and _in_library(path))], hints[name])
         writes = _paths(value for name, value in values.items() if name in outputs)
         delivery = Delivery(command, reads, writes, force)
         with processes(values.get("threads", 1)), told_to_end(), _stdout_kept_for_data(writes), delivery.running():
@@ -133,12 +137,22 @@ def _refuse_absent(paths: list[Path], hint: Any) -> None:
         InputError: it is not.
     """
     for path in paths:
-        if not (path.exists() or is_stream(path)):
-            needed = next((each.help for each in getattr(hint, "__metadata__", ()) if hasattr(each, "help")), None)
-            beside = [each.name for each in path.parent.glob(f"*{path.suffix}")]
-            alike = nearest(path.name, beside)
-            cure = alike if alike.startswith("Did") else "No such file or directory."
-            raise InputError(path, "", "no readable file", f"needed here: {needed or 'a file'}", cure)
+        needed = next((each.help for each in getattr(hint, "__metadata__", ()) if hasattr(each, "help")), None)
+        beside = [each.name for each in path.parent.glob(f"*{path.suffix}")]
+        alike = nearest(path.name, beside)
+        cure = alike if alike.startswith("Did") else "No such file or directory."
+        raise InputError(path, "", "no readable file", f"needed here: {needed or 'a file'}", cure)
+
+
+def _is_absent(path: Path) -> bool:
+    return not (path.exists() or is_stream(path))
+
+
+def _in_library(robot: Path) -> bool:
+    """Whether an arm is asked for by its name."""
+    from armscope.robot.library import is_nominal
+
+    return is_nominal(str(robot))
 
 
 @contextlib.contextmanager

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from armscope.cli.commands import Commands, Threads
+from armscope.cli.commands import Commands, NominalArm, Threads
 from armscope.cli.studies import model_named
 from armscope.core.inputs import InputError
 
@@ -88,7 +88,7 @@ def compensate(
 @app.command("fit-error-model")
 def fit_error_model(
     recordings: Annotated[Path, typer.Argument(help="recordings.csv: commanded angles and measured positions")],
-    robot: Annotated[Path, typer.Option("--robot", "-r", help="robot.yaml: the nominal arm")],
+    robot: NominalArm,
     output: Annotated[Path, typer.Option("--output", "-o", help="errormodel.json")],
     model: Annotated[str, typer.Option("--model", "-m", help="FDP(CI), SDP(AI), 'Fourier 2 (AI)', ...")] = "SDP(CI)",
     method: Annotated[str, typer.Option(help="least-squares or swarm")] = "least-squares",

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from armscope.cli.commands import Commands, Threads
+from armscope.cli.commands import Commands, NominalArm, Threads
 from armscope.cli.endings import exit_code_of
 from armscope.core.types import unheard
 
@@ -28,7 +28,7 @@ PAGES = (
 @app.command()
 def diagnose(
     recordings: Annotated[Path, typer.Argument(help="recordings.csv: commanded angles and measured positions")],
-    robot: Annotated[Path, typer.Option("--robot", "-r", help="robot.yaml: the nominal arm")],
+    robot: NominalArm,
     output: Annotated[Path, typer.Option("--output", "-o", help="folder for report, verdict, model and figures")],
     run: Annotated[list[str] | None, typer.Option(help="only these runs (may be given several times)")] = None,
     first_id: Annotated[int | None, typer.Option(help="leave out rows with a smaller id")] = None,

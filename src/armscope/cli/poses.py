@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from armscope.cli.commands import Commands
+from armscope.cli.commands import Commands, NominalArm
 from armscope.core.inputs import InputError
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ ASSUMED_NOISE_MM = 0.05
 
 @app.command()
 def poses(
-    robot: Annotated[Path, typer.Option("--robot", "-r", help="robot.yaml: the nominal arm")],
+    robot: NominalArm,
     count: Annotated[int, typer.Option("--poses", "-n", min=1, help="how many to measure")] = 85,
     output: Annotated[Path, typer.Option("--output", "-o", help="poses to measure; .json and .png beside it")] = Path(
         "poses.csv"

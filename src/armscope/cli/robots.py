@@ -27,7 +27,7 @@ def arm_and_tables(
     """The arm and recordings of it; tables are read before kinematics are imported, so that a bad one is told at once.
 
     Args:
-        robot: robot.yaml or a URDF, whose guesses are said.
+        robot: robot.yaml, a URDF, whose guesses are said, or a name of the library.
         paths: of the tables.
         priors: priors.yaml of a fleet, and
         arm_type: which of its types the arm is.
@@ -45,6 +45,9 @@ def arm_and_tables(
     description = load_description(robot)
     for guess in guesses(description) if is_xml(robot) else ():
         print(f"note: {robot}: {guess}; `armscope init {robot}` writes a robot.yaml to mend it", file=sys.stderr)
+    if not robot.exists():
+        words = f"the library's {description.name}, nothing at its flange"
+        print(f"note: {robot}: {words}; `armscope init {robot} -o robot.yaml` writes it to a file", file=sys.stderr)
     if priors is None and arm_type is not None:
         raise InputError("--arm-type", "", arm_type, "a type of --priors, which is not given")
     motors = None if description.dh is None else description.n_motors(len(description.dh.joints))

@@ -12,7 +12,7 @@ import yaml
 
 from armscope.core.inputs import InputError, load
 from armscope.robot.description import RobotDescription
-from armscope.robot.library import is_nominal
+from armscope.robot.library import is_nominal, nominal_description
 from armscope.robot.urdf_file import guess_chain, is_xml, root_of
 
 SHORTEST_ARM_MM = 10.0
@@ -25,14 +25,15 @@ AS_WRITTEN_RAD = 2e-3
 def load_description(path: Path | str) -> RobotDescription:
     """Read robot.yaml, or a URDF: its tip is then the last link of its one arm, and `source` says that it is a guess.
 
+    Where there is no such file, a name of the library's arms stands for the arm's own (`armscope init --list`).
+
     Raises:
         InputError: a key, value, unit or number of rows that can't be; it names the place and the rule.
     """
     if is_xml(path):
         return describe_urdf(path)
     if not Path(path).exists() and is_nominal(str(path)):
-        cure = f"`armscope init {path} -o robot.yaml` writes the library's arm of this name."
-        raise InputError(path, "", "no readable file", "a robot.yaml or a URDF is needed here", cure)
+        return nominal_description(str(path))
     description = load(RobotDescription, path)
     _refuse_other_units(description, path)
     if description.urdf is not None:
