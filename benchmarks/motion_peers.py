@@ -23,7 +23,8 @@ from benchmarks.diagnosis import ONE_THREAD
 
 from armscope.motion.layout import TorqueLayout
 from armscope.motion.preparation import Preparation, parts, preparation
-from armscope.motion.rows import MotionRows, build_rows, stated_model
+from armscope.motion.rows import MotionRows, build_rows
+from armscope.motion.so_far import stated_model
 from armscope.motion.timing import Stretch
 from armscope.motion.verdict import relative
 from armscope.motion.weights import fitted_together

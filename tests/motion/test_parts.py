@@ -26,9 +26,10 @@ from armscope.motion.masses import place_masses
 from armscope.motion.pipeline import diagnose_motion
 from armscope.motion.preparation import parts, preparation
 from armscope.motion.recorded_ranges import seen_in
-from armscope.motion.rows import build_rows, stated_model
+from armscope.motion.rows import build_rows
 from armscope.motion.sampling_constants import CUTOFF, FILTER
 from armscope.motion.selection import select_causes
+from armscope.motion.so_far import stated_model
 from armscope.motion.space import build_space
 from armscope.motion.timing import Stretch, mended, stretches
 from armscope.motion.verdict import FoundCause, UnexplainedTorque, relative
@@ -216,7 +217,7 @@ def test_one_run_in_turn_is_held_out() -> None:
     assert held[0].problem.n + held[1].problem.n == pytest.approx(selected.problem.n, rel=0.2)
     for number, fold in enumerate(held):
         (other,) = (k for k in range(2) if k != number)
-        as_all = weighed(selected.rows.layout, selected.by_joint[other], selected.weights)
+        as_all = weighed(selected.rows, selected.by_joint[other], selected.weights)
         assert as_all.n == pytest.approx(selected.blocks[other].n)
         own, common = (np.diag(p.equations.G) for p in (fold.problem, fold.problem.with_equations(as_all)))
         ratio = common[own > 0] / own[own > 0]

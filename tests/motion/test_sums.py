@@ -10,7 +10,8 @@ from armscope.motion.cutoff import chosen_cutoff
 from armscope.motion.layout import TorqueLayout
 from armscope.motion.library import place_causes
 from armscope.motion.recorded_ranges import seen_in
-from armscope.motion.rows import MotionRows, build_rows, stated_model
+from armscope.motion.rows import MotionRows, build_rows
+from armscope.motion.so_far import stated_model
 from armscope.motion.sums import Earlier, sums_by_joint
 from armscope.motion.timing import stretches
 from tests.motion.moving import moved, robot

@@ -11,7 +11,8 @@ from scipy.signal import lfilter
 from armscope.core.types import Array
 from armscope.motion.layout import TorqueLayout
 from armscope.motion.preparation import preparation
-from armscope.motion.rows import MotionRows, build_rows, stated_model
+from armscope.motion.rows import MotionRows, build_rows
+from armscope.motion.so_far import stated_model
 from armscope.motion.timing import stretches
 from armscope.motion.weights import autocorrelation_time, noise_of
 from tests.motion.moving import moved, robot

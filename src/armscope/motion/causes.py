@@ -70,7 +70,11 @@ class Moment:
         rate: samples per second.
         bodies: what asks for torque on other motions than the samples'; None where no law has any.
         dry: the dry friction that is in ``predicted``; None where that holds none.
-        bare: (N, m) what is predicted without laws that may still go; None: all of it.
+        stated: (N, m) torque that the stated masses ask for; None where that is ``rigid``. Of a fitted torque a gain,
+            or a curve that holds one, would be the whole model once more, at the price of one number, and put an end
+            to friction and masses.
+        bare: (N, m) the same with friction and rotors as they are so far; None where that is ``predicted``.
+        read: (N, m) torque that a gain is of; None where that is ``predicted``.
     """
 
     signals: Signals
@@ -80,7 +84,9 @@ class Moment:
     rate: float
     bodies: Bodies | None = None
     dry: DryFriction | None = None
+    stated: Array | None = None
     bare: Array | None = None
+    read: Array | None = None
 
     @functools.cached_property
     def slopes(self) -> tuple[Array, Array, Array]:
@@ -89,9 +95,9 @@ class Moment:
         return self.bodies.slopes(*self.motion)
 
     @property
-    def scaled(self) -> Array:
-        """(N, m) torque that a gain is of."""
-        return self.predicted if self.bare is None else self.bare
+    def load(self) -> Array:
+        """(N, m) torque that the stated masses ask for."""
+        return self.rigid if self.stated is None else self.stated
 
     @property
     def motion(self) -> tuple[Array, Array, Array]:

@@ -134,13 +134,19 @@ class PriorRules(Constants):
     )
     unsure_gain: float = constant(
         0.3,
-        "by which gains may be off where they stand in the place of a load",
+        "by which gains may be off where they have a name, or stand in the place of a load",
         "measured: the middle of what two published sets of the UR10e's gains differ by",
     )
     level_of_gains: float = constant(
         0.2,
         "by which the gains of all drives may be off alike where no uncertainty is stated",
         "measured: two published sets of the UR10e's gains differ by 25 % in the mean, 0.7 of which is each one's own",
+    )
+    largest_gain: float = constant(
+        5.0,
+        "times too large or too small that a torque may be recorded",
+        "judgement: beyond it units are wrong, or another motor is stated",
+        unit="1",
     )
     unit: float = constant(
         0.01,
@@ -179,6 +185,9 @@ class RowNoiseRules(Constants):
     )
     settled: float = constant(
         0.3, "standard errors within which a number that is refined rests", "judgement: its interval hardly moves"
+    )
+    same_gain: float = constant(
+        1e-4, "by which a gain may lie beside what its columns have", "judgement: no gain is known as well", unit="1"
     )
     parts: int = constant(
         20, "of the motion, every fifth of which is fitted by the rest to see its noise", "judgement: longer than noise"

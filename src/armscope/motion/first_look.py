@@ -10,8 +10,9 @@ from armscope.core.types import Array
 from armscope.motion.constants import LIBRARY
 from armscope.motion.layout import TorqueLayout
 from armscope.motion.preparation import Preparation, parts
-from armscope.motion.rows import SoFar, build_rows, stated_model
+from armscope.motion.rows import build_rows
 from armscope.motion.selection import model_so_far
+from armscope.motion.so_far import SoFar, stated_model
 from armscope.motion.timing import Stretch
 from armscope.motion.weights import fitted_together
 from armscope.robot.dynamics import MovingArm

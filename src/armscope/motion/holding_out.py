@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from armscope.inference.search import Search
 from armscope.motion.constants import NOISE
 from armscope.motion.layout import CAUSES_OF_OWN, OWN
 from armscope.motion.rows import MotionRows
-from armscope.motion.selection import SelectedCauses, coefficients_of
+from armscope.motion.selection import SelectedCauses, coefficients_of, gain_of
 from armscope.motion.verdict import HeldOutMotion, Step, relative
 from armscope.motion.weights import noise_of, weighed
 
@@ -62,7 +62,7 @@ def _of_the_rest(selected: SelectedCauses, held: tuple[int, ...]) -> Problem:
     left = rows.torque - rows.nominal - rows.modelled(coefficients_of(problem, fitted))
     among = selected.weights.row * np.isin(selected.block, rest)[:, None]
     parts = [part for number in rest for part in selected.by_joint[number]]
-    return problem.with_equations(weighed(rows.layout, parts, noise_of(rows, left, among)))
+    return problem.with_equations(weighed(rows, parts, noise_of(rows, left, among)))
 
 
 def own_fold(selected: SelectedCauses, rows: MotionRows) -> Fold:
@@ -212,7 +212,8 @@ def as_entered(selected: SelectedCauses, parts: Sequence[Fold], order: Sequence[
         for columns, found in zip(states, missed, strict=True):
             entered = np.zeros_like(fitted)
             entered[columns] = fitted[columns]
-            said = fold.rows.nominal[fold.which] + fold.rows.modelled(entered, fold.which)
+            rows = replace(fold.rows, gain=gain_of(layout, entered))
+            said = rows.nominal[fold.which] + rows.modelled(entered, fold.which)
             found.append(moving * (torque - said))
     return tuple(relative(np.concatenate(found), np.concatenate(torques)) for found in missed)
 

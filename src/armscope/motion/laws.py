@@ -140,9 +140,14 @@ def taken_along(values: Array, ways: tuple[float, ...]) -> Array:
 
 
 def _powers_of_torque(m: Moment, joints: tuple[int, ...], usual: float) -> Array:
-    torque = m.scaled[:, joints[0]]
+    torque = (m.predicted if m.bare is None else m.bare)[:, joints[0]]
     share = torque / usual
-    return np.column_stack([torque, torque * np.abs(share), torque * share**2])
+    return np.column_stack([_read(m, joints), torque * np.abs(share), torque * share**2])
+
+
+def _read(m: Moment, joints: tuple[int, ...]) -> Array:
+    """What a gain is of."""
+    return (m.predicted if m.read is None else m.read)[:, joints[0]]
 
 
 def _behind(m: Moment, joints: tuple[int, ...], cutoff: float, compliance: float = 0.0) -> Array:
@@ -192,21 +197,27 @@ def _uneven_side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
     return _side(m, joints, width)[:, None] * _wave(m, joints, 1)
 
 
-FOLLOWS_MODEL = frozenset(
-    {"load friction", "torque", "delayed torque", "powers of torque", "clinging over torques", "curve over load"}
-)
-"""Laws of what the model says so far; the others depend on the motion alone."""
+FOLLOWS_MODEL = frozenset({"load friction", "delayed torque", "powers of torque", "clinging over torques"})
+"""Laws of what the model says so far; the others depend on the motion, or on what is stated, alone."""
+OF_A_GAIN = ("torque", "powers of torque")
+"""Laws that scale a joint's torque, by one more than their first number."""
+
+
+def is_of_a_gain(columns: object) -> bool:
+    """Whether columns are of the torque as it is recorded; all others are true torque."""
+    return isinstance(columns, Law) and columns.kind in OF_A_GAIN
 
 
 def follows_motion(columns: object, joints: tuple[int, ...]) -> bool:
     """Whether columns are a law of one joint's own motion, which nothing of the model changes."""
-    return isinstance(columns, Law) and columns.kind not in FOLLOWS_MODEL and len(joints) == 1
+    of_motion = isinstance(columns, Law) and columns.kind not in FOLLOWS_MODEL and not is_of_a_gain(columns)
+    return of_motion and len(joints) == 1
 
 
 DRIVERS: dict[str, Callable[[Moment, int], Array]] = {
     "joint angle": lambda m, j: m.signals.q[:, j],
     "speed": lambda m, j: m.signals.dq[:, j],
-    "load": lambda m, j: m.rigid[:, j],
+    "load": lambda m, j: m.load[:, j],
     "time": lambda m, j: m.signals.time,
     "temperature": warmth,
 }
@@ -269,7 +280,7 @@ LAWS: dict[str, Callable[..., Array]] = {
     "powers of speed": _powers,
     "warm speed": _warm_speed,
     "warm side": _warm_side,
-    "torque": lambda m, joints: m.scaled[:, joints[0]],
+    "torque": _read,
     "delayed torque": _delayed,
     "powers of torque": _powers_of_torque,
     "clinging over ways": lambda m, joints, *ways: taken_along(m.signals.q[:, joints[0]], ways),

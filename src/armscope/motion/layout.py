@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from armscope.core.types import Array, Indices
 from armscope.motion.causes import PlacedCause
 from armscope.motion.constants import PRIOR
+from armscope.motion.laws import Law, is_of_a_gain
 from armscope.robot.dynamics import MovingArm
 
 NAMED_OF_OWN = ("offset", "coulomb", "viscous", "inertia")
@@ -73,6 +75,19 @@ class TorqueLayout:
     def gains(self) -> Indices:
         """(m,) or none: shares of each joint's torque."""
         return len(self.own) + len(self.inertial) + np.arange(self.arm.n_motors if self.with_gains else 0)
+
+    @functools.cached_property
+    def scaling(self) -> list[tuple[int, int]]:
+        """(joint, column) of all that says by which share more of a joint's torque is recorded than there is."""
+        found = [(j, int(column)) for j, column in enumerate(self.gains)]
+        laws = ((cause.columns, index) for cause, index in zip(self.placed, self.columns, strict=True))
+        return found + [(law.joints[0], int(at[0])) for law, at in laws if isinstance(law, Law) and is_of_a_gain(law)]
+
+    @functools.cached_property
+    def of_readings(self) -> Indices:
+        """Columns of the torque as it is recorded: gains, and what bends their curve; all others are true torque."""
+        laws = [is_of_a_gain(cause.columns) for cause in self.placed]
+        return np.concatenate([self.gains, *itertools.compress(self.columns, laws)]).astype(np.intp)
 
     @functools.cached_property
     def columns(self) -> list[Indices]:

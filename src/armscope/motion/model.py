@@ -13,11 +13,11 @@ from armscope.motion import catalogue
 from armscope.motion.causes import Moment, PlacedCause
 from armscope.motion.constants import PRIOR
 from armscope.motion.dry_friction import DryFriction, own_columns
-from armscope.motion.laws import follows_motion
+from armscope.motion.laws import follows_motion, is_of_a_gain
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.preparation import Preparation, Signals, parts
-from armscope.motion.rows import SoFar
 from armscope.motion.sampling_constants import FILTER
+from armscope.motion.so_far import SoFar
 from armscope.motion.timing import Stretch
 from armscope.motion.twist_motion import beside_motor, following, moment_of_links
 from armscope.robot.bodies import Bodies
@@ -106,18 +106,20 @@ class MotionModel:
         joints, turning = self._turning()
         own = own_columns(self.arm, signals, followed.delay, turning, FILTER.sharper_at_rest)
         rigid = regressor @ followed.inertial_in(signals.run) + carried
-        predicted = rigid + np.einsum("nmk,mk->nm", own[:, :, :CAUSES_OF_OWN], followed.background)
+        friction = np.einsum("nmk,mk->nm", own[:, :, :CAUSES_OF_OWN], followed.background)
         bodies = Bodies(self.arm, followed.inertial_in(signals.run), signals.payload)
         dry = DryFriction.of(self.arm, followed.background[:, 1], turning, FILTER.sharper_at_rest)
-        moment = Moment(signals, rigid, predicted, self._gravity(signals.of_links[0]), rate, bodies, dry)
+        gravity, stated = self._gravity(signals.of_links[0]), regressor @ self.arm.inertial + carried
+        moment = Moment(signals, rigid, rigid + friction, gravity, rate, bodies, dry, stated, stated + friction)
         moment = followed.with_laws(moment)
-        predicted = moment.predicted
         total = regressor @ (self.inertial + self._added(signals.run)) + carried
-        total += np.einsum("nmk,mk->nm", own, joints) + self.gains * predicted
-        total += self.response * dry.rounded(signals, predicted, followed.delay, rate)
-        for cause in self.causes:
-            if cause.placed.columns is not None:
-                total[:, list(cause.placed.joints)] += cause.placed.columns(moment) @ cause.values
+        total += np.einsum("nmk,mk->nm", own, joints)
+        total += self.response * dry.rounded(signals, moment.predicted, followed.delay, rate)
+        true = [cause for cause in self.causes if not is_of_a_gain(cause.placed.columns)]
+        _add(total, true, moment)
+        moment = replace(moment, read=total.copy())
+        total *= 1 + self.gains
+        _add(total, [cause for cause in self.causes if is_of_a_gain(cause.placed.columns)], moment)
         return np.asarray(total)
 
     def with_links(self, signals: Signals) -> Signals:
@@ -148,6 +150,12 @@ class MotionModel:
         if not any(each.placed.cause.name == "gravity_direction" for each in self.causes):
             return None
         return np.stack([self.arm.gravity_torques(q, axis) for axis in np.eye(3)], axis=2)
+
+
+def _add(total: Array, causes: Sequence[FittedCause], moment: Moment) -> None:
+    for cause in causes:
+        if cause.placed.columns is not None:
+            total[:, list(cause.placed.joints)] += cause.placed.columns(moment) @ cause.values
 
 
 def fitted_model(

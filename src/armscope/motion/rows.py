@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices, Progress, unheard
-from armscope.motion.causes import Moment, PlacedCause
+from armscope.motion.causes import Moment
 from armscope.motion.dry_friction import DryFriction, own_columns
 from armscope.motion.laws import FOLLOWS_MODEL, Law
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.preparation import Preparation, Signals, parts
 from armscope.motion.sampling_constants import FILTER
+from armscope.motion.so_far import SoFar
 from armscope.motion.timing import Stretch
 from armscope.robot.bodies import Bodies
 from armscope.robot.dynamics import MovingArm
@@ -31,6 +32,9 @@ class MotionRows:
         torque, nominal: (K, m) measured, as motors' torque, low-passed; and what the stated masses ask for.
         still: (K, m) where a joint stands, and its friction may be anything.
         columns, at: of each joint (K, p_j), and (p_j,) where these columns stand.
+        gain: (m,) by which recorded torque exceeds the true one, as far as known: times as much of every column that
+            is true torque is recorded. A gain's own column is the stated torque, so that
+            (1 + gain) (stated + added) = stated + gain * stated + (1 + gain) added is linear but for that factor.
     """
 
     layout: TorqueLayout
@@ -44,6 +48,7 @@ class MotionRows:
     still: NDArray[np.bool_]
     columns: tuple[NDArray[np.float32], ...]
     at: tuple[Indices, ...]
+    gain: Array
 
     def __len__(self) -> int:
         return len(self.time)
@@ -70,50 +75,12 @@ class MotionRows:
         """(K,) of one joint; ``whole``: coefficients (p,) with combinations of masses counted in."""
         at = self.at[joint]
         used = np.flatnonzero(whole[at])
-        return (self.columns[joint][which][:, used] @ whole[at[used]].astype(np.float32)).astype(np.float64)
+        recorded = (self.gain_of_columns(joint) * whole[at])[used].astype(np.float32)
+        return (self.columns[joint][which][:, used] @ recorded).astype(np.float64)
 
-
-@dataclass(frozen=True, eq=False)
-class SoFar:
-    """The model so far, of which further columns are functions.
-
-    Attributes:
-        inertial: (10 n,) inertial parameters.
-        background: (m, 4) offset, dry and viscous friction, rotor inertia, with what is stated.
-        delay: (m,) s by which torques are late: where friction changes sides is then seen later, too.
-        of_runs: (10 n,) inertial parameters that are added in some runs: a load that only these carry.
-        of_bodies: whether masses were held near the stated ones; else they are whatever the motion tells of them.
-        laws: causes of one joint that follow the motion alone, with their numbers: a gain, a delay is theirs, too.
-        laws_stay: whether these laws are in the model for good. While causes compete a gain is of the torque without
-            them: of all of it, it would be the laws in another form, and put an end to them.
-    """
-
-    inertial: Array
-    background: Array
-    delay: Array
-    of_runs: Mapping[str, Array] = field(default_factory=dict)
-    of_bodies: bool = True
-    laws: tuple[tuple[PlacedCause, Array], ...] = ()
-    laws_stay: bool = True
-
-    def inertial_in(self, run: str) -> Array:
-        """(10 n,) inertial parameters in a run."""
-        return self.inertial + self.of_runs.get(run, 0.0)
-
-    def with_laws(self, moment: Moment) -> Moment:
-        """What is predicted, with the torque of the laws."""
-        if not self.laws:
-            return moment
-        predicted = moment.predicted.copy()
-        for placed, values in self.laws:
-            assert placed.columns is not None
-            predicted[:, list(placed.joints)] += placed.columns(moment) @ values
-        return replace(moment, predicted=predicted, bare=None if self.laws_stay else moment.predicted)
-
-
-def stated_model(arm: MovingArm) -> SoFar:
-    """What robot.yaml states."""
-    return SoFar(arm.inertial, np.nan_to_num(arm.stated_background), np.zeros(arm.n_motors))
+    def gain_of_columns(self, joint: int) -> Array:
+        """(p_j,) by which each column of a joint is recorded: 1 of what is no true torque."""
+        return np.where(np.isin(self.at[joint], self.layout.of_readings), 1.0, self.gain[joint])
 
 
 def torque_of(arm: MovingArm, stretch_effort: Array, kind: str) -> Array:
@@ -179,7 +146,7 @@ def _joined(layout: TorqueLayout, pieces: list[MotionRows]) -> MotionRows:
     at, columns = pieces[0].at, []
     for j in range(len(at)):
         columns.append(np.concatenate([piece.columns[j] for piece in pieces]))
-    return MotionRows(layout, columns=tuple(columns), at=at, **whole)
+    return MotionRows(layout, columns=tuple(columns), at=at, gain=pieces[0].gain, **whole)
 
 
 def _renewed(layout: TorqueLayout, before: MotionRows, pieces: list[MotionRows]) -> MotionRows:
@@ -188,7 +155,7 @@ def _renewed(layout: TorqueLayout, before: MotionRows, pieces: list[MotionRows])
         fresh, where = old.copy(), np.searchsorted(at, pieces[0].at[j])
         fresh[:, where] = np.concatenate([piece.columns[j] for piece in pieces])
         columns.append(fresh)
-    return replace(before, layout=layout, columns=tuple(columns))
+    return replace(before, layout=layout, columns=tuple(columns), gain=pieces[0].gain)
 
 
 class _Piece:
@@ -196,27 +163,50 @@ class _Piece:
 
     def __init__(self, layout: TorqueLayout, signals: Signals, how: Preparation, model: SoFar, first: bool) -> None:
         self.layout, self.signals, self.how = layout, signals, how
+        self.gain = np.ones(layout.arm.n_motors) if model.gain is None else model.gain
         arm = self.arm = layout.arm
         motion = signals.of_links
         self.regressor = arm.regressor(*motion) if first else None
         self.background = own_columns(arm, signals, model.delay)
         inertial = model.inertial_in(signals.run)
-        rigid = arm.torques(*motion, inertial) if self.regressor is None else self.regressor @ inertial
+        rigid = self._rigid(inertial)
         self.carried: Array | float = 0.0
         if signals.payload is not None:
             load = arm.point_load()
             of_load = arm.torques(*motion, inertial + load) - rigid if self.regressor is None else self.regressor @ load
             self.carried = signals.payload[:, None] * of_load
         rigid = rigid + self.carried
-        predicted = rigid + np.einsum("nmk,mk->nm", self.background[:, :, :CAUSES_OF_OWN], model.background)
+        friction, stated = self._friction(model.background), self._rigid(arm.inertial) + self.carried
         gravity = None
         if first and any(cause.cause.name == "gravity_direction" for cause in layout.placed):
             gravity = np.stack([arm.gravity_torques(motion[0], axis) for axis in np.eye(3)], axis=2)
         bodies = Bodies(arm, inertial if model.of_bodies else arm.inertial, signals.payload)
         dry = DryFriction.of(arm, model.background[:, 1])
         rate = how.rate / signals.stride
-        self.moment = model.with_laws(Moment(signals, rigid, predicted, gravity, rate, bodies, dry))
+        moment = Moment(
+            signals=signals,
+            rigid=rigid,
+            predicted=rigid + friction,
+            gravity=gravity,
+            rate=rate,
+            bodies=bodies,
+            dry=dry,
+            stated=stated,
+            bare=stated + friction,
+            read=stated + self._friction(np.nan_to_num(arm.stated_background)),
+        )
+        self.moment = model.with_laws(moment)
         self.rounded = dry.rounded(signals, self.moment.predicted, model.delay, rate)
+
+    def _friction(self, numbers: Array) -> Array:
+        """(N, m) torque of offset, friction and rotor (m, 4) of each joint."""
+        return np.asarray(np.einsum("nmk,mk->nm", self.background[:, :, :CAUSES_OF_OWN], numbers))
+
+    def _rigid(self, inertial: Array) -> Array:
+        """(N, m) torque that inertial parameters ask for."""
+        if self.regressor is not None:
+            return np.asarray(self.regressor @ inertial)
+        return self.arm.torques(*self.signals.of_links, inertial)
 
     def low(self, values: Array) -> Array:
         """The rows of samples."""
@@ -230,7 +220,7 @@ class _Piece:
         regressor = None if self.regressor is None else self.low(self.regressor)
         for j in range(m):
             of_joint, where = own[j]
-            gain = [self.moment.predicted[:, j]] if layout.with_gains else []
+            gain = [self.moment.read[:, j]] if layout.with_gains and self.moment.read is not None else []
             made = [self.low(np.column_stack([self.background[:, j], *of_joint, *gain, self.rounded[:, j]]))]
             index = [OWN * j + np.arange(OWN), *where, layout.gains[j : j + 1] if gain else layout.gains]
             index.append(layout.response)
@@ -252,6 +242,7 @@ class _Piece:
             still=_still(layout.arm, signals, self.moment.rate)[kept],
             columns=tuple(columns),
             at=tuple(at),
+            gain=self.gain,
         )
 
     def _nominal(self, regressor: Array) -> Array:

@@ -18,19 +18,17 @@ from armscope.inference.search import Search
 from armscope.motion import catalogue
 from armscope.motion.causes import PlacedCause
 from armscope.motion.constants import NOISE, PRIOR
-from armscope.motion.laws import Law, follows_motion
+from armscope.motion.laws import follows_motion
 from armscope.motion.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.preparation import Preparation
 from armscope.motion.refining import refined
-from armscope.motion.rows import MotionRows, SoFar, build_rows, stated_model
+from armscope.motion.rows import MotionRows, build_rows
+from armscope.motion.so_far import SoFar, stated_model
 from armscope.motion.space import build_space
 from armscope.motion.sums import Earlier, JointSums, sums_by_joint
 from armscope.motion.timing import Stretch
 from armscope.motion.torque_delay import Between
 from armscope.motion.weights import TorqueWeights, estimate_weights, left_apart, left_elsewhere, weighed
-
-OF_A_GAIN = ("torque", "powers of torque")
-"""Laws that scale a joint's torque, by one more than their first number."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +90,15 @@ def model_so_far(layout: TorqueLayout, coefficients: Array) -> SoFar:
             delay[cause.joints[0]] += coefficients[columns[0]]
     own = coefficients[layout.own].reshape(-1, OWN)[:, :CAUSES_OF_OWN]
     background = np.nan_to_num(layout.arm.stated_background) + own
-    return SoFar(inertial, background, delay, of_runs, laws=tuple(laws))
+    return SoFar(inertial, background, delay, of_runs, laws=tuple(laws), gain=gain_of(layout, coefficients))
+
+
+def gain_of(layout: TorqueLayout, coefficients: Array) -> Array:
+    """(m,) times the true torque that is recorded of each joint."""
+    gain = np.ones(layout.arm.n_motors)
+    for joint, column in layout.scaling:
+        gain[joint] += coefficients[column]
+    return np.clip(gain, 1 / PRIOR.largest_gain, PRIOR.largest_gain)
 
 
 def select_causes(
@@ -133,28 +139,25 @@ def select_causes(
         else:
             found, last = selected.best.candidates, (selected.best, selected.best.chosen)
             weights = selected.noise
-        selected = chosen(rows, weights, block, space, last, selected)
+        selected = at_own_gain(chosen(rows, weights, block, space, last, selected))
         finer = refined(selected, between)
         if finer is None and (selected.best.candidates == found or number + 1 >= NOISE.rounds):
             break
-        model = replace(model_so_far(layout, selected.coefficients), laws_stay=False)
+        model = model_so_far(layout, selected.coefficients)
         layout = finer or layout
     assert selected is not None
-    return _with_laws_scaled(selected, stretches, how)
+    return selected
 
 
-def _with_laws_scaled(selected: SelectedCauses, stretches: Sequence[Stretch], how: Preparation) -> SelectedCauses:
-    """The same causes, with gains that are of the laws beside them, too: their sizes are then of true torque."""
-    layout, coefficients = selected.rows.layout, selected.coefficients
-    model, gains = model_so_far(layout, coefficients), dict[tuple[int, ...], float]()
-    for number in selected.best.candidates:
-        law = layout.placed[number].columns
-        if isinstance(law, Law) and law.kind in OF_A_GAIN:
-            gains[law.joints] = 1.0 + float(coefficients[layout.columns[number][0]])
-    if not any(placed.joints in gains for placed, _ in model.laws):
-        return selected
-    laws = tuple((placed, values / gains.get(placed.joints, 1.0)) for placed, values in model.laws)
-    return weighed_anew(build_rows(layout, stretches, how, replace(model, laws=laws), before=selected.rows), selected)
+def at_own_gain(selected: SelectedCauses) -> SelectedCauses:
+    """The same causes, with what is true torque recorded by the gains that are fitted."""
+    for _ in range(NOISE.refinings):
+        rows = selected.rows
+        gain = gain_of(rows.layout, selected.coefficients)
+        if np.allclose(gain, rows.gain, rtol=0.0, atol=NOISE.same_gain):
+            break
+        selected = weighed_anew(replace(rows, gain=gain), selected)
+    return selected
 
 
 def _within(progress: Progress, start: float, text: str, done: float) -> None:
@@ -205,7 +208,7 @@ def _summed(
 ) -> tuple[list[list[JointSums]], list[NormalEquations], Problem]:
     known = None if earlier is None else Earlier(earlier.rows, earlier.weights.row, earlier.by_joint)
     by_joint = sums_by_joint(rows, weights.row, block, known)
-    blocks = [weighed(rows.layout, parts, weights) for parts in by_joint]
+    blocks = [weighed(rows, parts, weights) for parts in by_joint]
     return by_joint, blocks, build_problem(space, total(blocks), least_noise=0.5 * PRIOR.unit)
 
 

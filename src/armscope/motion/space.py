@@ -9,6 +9,7 @@ from armscope.inference.model_space import BackgroundFamily, Candidate, ModelSpa
 from armscope.motion import catalogue
 from armscope.motion.causes import Cause, PlacedCause
 from armscope.motion.constants import PRIOR
+from armscope.motion.laws import is_of_a_gain
 from armscope.motion.layout import TorqueLayout
 
 
@@ -65,6 +66,7 @@ def _candidates(layout: TorqueLayout, barred: frozenset[int]) -> tuple[Candidate
                 label=str(cause),
                 family=cause.cause.family,
                 region=region_of(cause),
+                plausible=_plausible(cause),
                 multiplicity=cause.multiplicity,
                 nonnegative=cause.cause.nonnegative and cause.width == 1,
                 is_curve=cause.is_curve,
@@ -75,6 +77,16 @@ def _candidates(layout: TorqueLayout, barred: frozenset[int]) -> tuple[Candidate
             )
         )
     return tuple(candidates)
+
+
+def _plausible(cause: PlacedCause) -> Array | None:
+    """How far a gain may be off; of other causes anything is plausible.
+
+    Where masses are far off and a joint carries little, a gain of thirty would be one more column of these masses.
+    """
+    if not is_of_a_gain(cause.columns):
+        return None
+    return np.array([PRIOR.unsure_gain, *[np.inf] * (cause.width - 1)])
 
 
 def region_of(cause: PlacedCause) -> str:

@@ -17,10 +17,11 @@ from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, SelectedEffect
 from armscope.motion import catalogue
 from armscope.motion.consistency import Weighed, agreement
-from armscope.motion.constants import CONSISTENCY
+from armscope.motion.constants import CONSISTENCY, PRIOR
 from armscope.motion.doubts import motion_hz, swing_hz
+from armscope.motion.laws import is_of_a_gain
 from armscope.motion.layout import OWN
-from armscope.motion.selection import SelectedCauses, chosen
+from armscope.motion.selection import SelectedCauses, at_own_gain, chosen
 from armscope.motion.space import build_space
 
 
@@ -43,16 +44,19 @@ def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
         barred |= wrong
         space = build_space(selected.rows.layout, torque, rate, barred)
         kept = [effect for effect in selected.best.chosen if effect.candidate not in barred]
-        selected = chosen(selected.rows, selected.weights, selected.block, space, (selected.best, kept), selected)
+        again = chosen(selected.rows, selected.weights, selected.block, space, (selected.best, kept), selected)
+        selected = at_own_gain(again)
     return selected
 
 
 def _impossible(selected: SelectedCauses) -> Iterator[int]:
-    """Friction or rotors below zero, the stated part counted in, by more than two standard errors; links that swing.
+    """Friction or rotors below zero, the stated part counted in, by more than two standard errors; links that swing;
+    gains that no drive has.
 
     A link that swings on its drive more slowly than its motor moves is not where motor and torque put it.
     """
     layout, stated = selected.rows.layout, np.nan_to_num(selected.rows.layout.arm.stated_background)
+    most = PRIOR.largest_gain
     for number in selected.best.candidates:
         placed, columns = layout.placed[number], layout.columns[number]
         least = np.full(len(columns), -np.inf)
@@ -62,6 +66,8 @@ def _impossible(selected: SelectedCauses) -> Iterator[int]:
             least[:] = 0.0
         elif placed.cause is catalogue.STRIBECK:
             least[0] = 0.0
+        elif is_of_a_gain(placed.columns) and not 1 / most < 1 + selected.coefficients[columns[0]] < most:
+            yield number
         error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
         if np.any(selected.coefficients[columns] < least - CONSISTENCY.below * error):
             yield number

@@ -134,7 +134,7 @@ def _columns(selected: SelectedCauses, joint: int, columns: Indices) -> Array:
     """(K, C) some columns of a joint, zero where it has none of them; combinations of masses among them."""
     rows = selected.rows
     made, shares = rows.layout.made_of_masses
-    own, at = rows.columns[joint], rows.at[joint]
+    own, at = rows.columns[joint] * rows.gain_of_columns(joint), rows.at[joint]
     found = np.zeros((len(rows), len(columns)))
     there = np.flatnonzero(np.isin(columns, at))
     found[:, there] = own[:, np.searchsorted(at, columns[there])]

@@ -25,8 +25,8 @@ from armscope.motion.causes import Moment, PlacedCause, Seen
 from armscope.motion.consistency import agreement_of
 from armscope.motion.constants import PRIOR
 from armscope.motion.preparation import Preparation, Signals, parts
-from armscope.motion.rows import SoFar
 from armscope.motion.selection import blocks_of, coefficients_of
+from armscope.motion.so_far import SoFar
 from armscope.motion.tenable import held_out_gains
 from armscope.motion.timing import Stretch
 from armscope.motion.twist_catalogue import clash, place_twists

@@ -12,7 +12,7 @@ from armscope.core.types import Array
 from armscope.motion.causes import Moment
 from armscope.motion.laws import derived
 from armscope.motion.preparation import Signals
-from armscope.motion.rows import SoFar
+from armscope.motion.so_far import SoFar
 from armscope.motion.twist_catalogue import ENCODER_OFFSET
 from armscope.motion.twist_constants import TWIST
 from armscope.robot.bodies import Bodies

@@ -138,17 +138,18 @@ def autocorrelation_time(stretches: Indices, left: Array, other: Array | None = 
     return float(max(times[enough[0]] if len(enough) else times[-1] if len(times) else 1.0, 1.0))
 
 
-def weighed(layout: TorqueLayout, parts: Iterable[JointSums], weights: TorqueWeights) -> NormalEquations:
+def weighed(rows: MotionRows, parts: Iterable[JointSums], weights: TorqueWeights) -> NormalEquations:
     """Sums of all joints together, in units of `PRIOR.unit` of the noise, as many rows as are independent.
 
     Args:
-        layout: of the columns.
+        rows: that they are sums over.
         parts: of the joints.
         weights: their noise.
 
     Returns:
         The sums, with the columns that are combinations of inertial ones.
     """
+    layout = rows.layout
     by_run: dict[str, NormalEquations] = {}
     counts = 1 / weights.correlated
     unit = counts * (PRIOR.unit / weights.sigma) ** 2
@@ -156,8 +157,9 @@ def weighed(layout: TorqueLayout, parts: Iterable[JointSums], weights: TorqueWei
         if part.run not in by_run:
             by_run[part.run] = NormalEquations(np.zeros((layout.width,) * 2), np.zeros(layout.width), 0.0, 0.0)
         so_far, own, j = by_run[part.run], part.sums, part.joint
-        so_far.G[np.ix_(part.at, part.at)] += unit[j] * own.G
-        so_far.b[part.at] += unit[j] * own.b
+        gain = rows.gain_of_columns(j)
+        so_far.G[np.ix_(part.at, part.at)] += unit[j] * own.G * np.outer(gain, gain)
+        so_far.b[part.at] += unit[j] * own.b * gain
         by_run[part.run] = NormalEquations(
             so_far.G, so_far.b, so_far.yy + unit[j] * own.yy, so_far.n + counts[j] * own.n
         )
@@ -179,7 +181,7 @@ def fitted_together(rows: MotionRows, among: Indices) -> Array:
     """(p,) coefficients of some columns at once, each as free as the others, joints in units of their own torque."""
     plain = _plain(rows)
     parts = sums_by_joint(rows, plain.row, np.zeros(len(rows), dtype=np.intp))[0]
-    return _solved(weighed(rows.layout, parts, plain), among)
+    return _solved(weighed(rows, parts, plain), among)
 
 
 def left_apart(rows: MotionRows, choices: Sequence[Indices]) -> Array:
@@ -193,7 +195,7 @@ def left_apart(rows: MotionRows, choices: Sequence[Indices]) -> Array:
         (choices, K, m) N m.
     """
     part, plain = np.arange(len(rows)) * NOISE.parts // len(rows) % NOISE.blocks_of_time, _plain(rows)
-    sums = [weighed(rows.layout, parts, plain) for parts in sums_by_joint(rows, plain.row, part)]
+    sums = [weighed(rows, parts, plain) for parts in sums_by_joint(rows, plain.row, part)]
     left = np.empty((len(choices), *rows.torque.shape))
     for number in range(len(sums)):
         rest = total([other for k, other in enumerate(sums) if k != number])
