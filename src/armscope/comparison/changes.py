@@ -113,18 +113,24 @@ def _change(
         at = place + q * np.arange(len(names))
         difference = float(contrast @ values[at])
         error = float(np.sqrt(contrast @ covariance[np.ix_(at, at)] @ contrast))
-        parameters.append(_valued(term, values[at], np.sqrt(np.diag(covariance)[at]), difference, error, free))
+        half = float(stdtrit(free, 0.975)) * error
+        parameters.append(_valued(term, values[at], covariance[np.ix_(at, at)], (difference, half)))
     rms = model.moved_mm(found, contrast @ values.reshape(len(names), q))
     title, where = plain(str(found.placed)), tuple(names[k] for k in found.sets)
     kind = _kind(parameters, inside, outside)
     return Change(found.placed.name, found.placed.location, title, where, kind, rms, p, tuple(parameters), others)
 
 
-def _valued(term: Term, values: Array, stderrs: Array, difference: float, error: float, free: float) -> Valued:
-    half = float(stdtrit(free, 0.975)) * error / term.si
-    told, errors = tuple((values / term.si).tolist()), tuple((stderrs / term.si).tolist())
-    change = difference / term.si
-    return Valued(term.name, term.unit, told, errors, change, (change - half, change + half))
+def _valued(term: Term, values: Array, covariance: Array, change: tuple[float, float]) -> Valued:
+    """A number in all recordings, in its file unit; the change with half its interval comes in SI units."""
+    since = np.eye(len(values)) - np.eye(len(values))[0]
+    errors, since_errors = (np.sqrt(np.diag(each)) for each in (covariance, since @ covariance @ since.T))
+    value, error, change_since, error_since = (
+        tuple((numbers / term.si).tolist()) for numbers in (values, errors, since @ values, since_errors)
+    )
+    difference, half = change[0] / term.si, change[1] / term.si
+    interval = (difference - half, difference + half)
+    return Valued(term.name, term.unit, value, error, change_since, error_since, difference, interval)
 
 
 def _kind(parameters: Sequence[Valued], inside: NDArray[np.bool_], outside: NDArray[np.bool_]) -> Kind:
@@ -136,6 +142,6 @@ def _kind(parameters: Sequence[Valued], inside: NDArray[np.bool_], outside: NDAr
     is_now = abs(after) > 1.96 * np.sqrt(np.mean(errors[inside] ** 2))
     if was != is_now:
         return "came" if is_now else "went"
-    if before * after < 0:
+    if not was or before * after < 0:  # how large it is in all of them may be open where its change is not
         return "changed"
     return "grew" if abs(after) > abs(before) else "shrank"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
-from armscope.core.numerals import rounded, shown_unit
+from armscope.core.numerals import rounded, shown_unit, size_of
 
 Kind = Literal["came", "went", "grew", "shrank", "changed"]
 
@@ -17,6 +17,8 @@ class Valued:
     Attributes:
         name, unit: of the parameter.
         values, stderrs: one per recording.
+        since_first, since_first_stderrs: the same of its difference from the first recording, which is known far better
+            where all share what these poses leave open.
         difference: with the change less without it.
         interval_95: of the difference.
     """
@@ -25,6 +27,8 @@ class Valued:
     unit: str
     values: tuple[float, ...]
     stderrs: tuple[float, ...]
+    since_first: tuple[float, ...]
+    since_first_stderrs: tuple[float, ...]
     difference: float
     interval_95: tuple[float, float]
 
@@ -88,7 +92,7 @@ class Comparison:
     @property
     def headline(self) -> str:
         """The answer in one sentence."""
-        told = "; ".join(f"{each.title} {each.kind} in {', '.join(each.where)}" for each in self.changes)
+        told = "; ".join(f"{each.title} {each.kind}{_by(each)} in {', '.join(each.where)}" for each in self.changes)
         among = "; ".join(", ".join(family) for family in self.same_poses or (self.names,) if len(family) > 1)
         said = ""
         if self.changes:
@@ -109,15 +113,25 @@ class Comparison:
             lines.append(f"{each.title}, {', '.join(each.where)}: {each.kind}, moves the tool by {each.rms_mm:.3g} mm")
             lines += [f"  {_number_line(number)}" for number in each.parameters]
             if each.alternatives:
-                lines.append(f"  not told apart from: {', '.join(each.alternatives)}")
+                lines.append(f"  these recordings do not distinguish it from: {', '.join(each.alternatives)}")
         return "\n".join(lines)
+
+
+def _by(change: Change) -> str:
+    """By how much, where one number says it."""
+    if change.kind != "changed" or len(change.parameters) != 1:
+        return ""
+    return f" by {size_of(change.parameters[0].difference, change.parameters[0].unit, sign=True)}"
 
 
 def _number_line(number: Valued) -> str:
     factor, unit = shown_unit(number.unit, max(map(abs, (*number.values, number.difference))))
-    values = " -> ".join(_signed(factor * value) for value in number.values)
     low, high = (_signed(factor * end) for end in number.interval_95)
-    return f"{number.name}: {values} {unit}; change {_signed(factor * number.difference)} ({low} ... {high}) {unit}"
+    change = f"change {_signed(factor * number.difference)} ({low} ... {high}) {unit}"
+    if max(map(abs, number.values)) < 1.96 * min(number.stderrs):
+        return f"{number.name}: {change}; how large it is in all of them, these poses leave open"
+    values = " -> ".join(_signed(factor * value) for value in number.values)
+    return f"{number.name}: {values} {unit}; {change}"
 
 
 def _signed(value: float) -> str:

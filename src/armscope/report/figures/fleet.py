@@ -9,6 +9,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from armscope.report.style import styled
+from armscope.verdict.wording import plain
 
 MOST_CAUSES, MOST_LABELS = 30, 60
 
@@ -30,7 +31,7 @@ def fleet_figure(causes: pd.DataFrame) -> Figure:
         shown = sizes.to_numpy(dtype=float)
         low, high = (np.nanmin(shown), np.nanmax(shown)) if np.isfinite(shown).any() else (0.01, 1.0)
         picture = axes.imshow(shown, aspect="auto", cmap="cividis_r", norm=LogNorm(low, max(high, 1.01 * low)))
-        axes.set_xticks(range(len(often)), list(often), rotation=60, ha="right", fontsize=7)
+        axes.set_xticks(range(len(often)), [plain(cause) for cause in often], rotation=60, ha="right", fontsize=7)
         step = max(1, -(-len(sizes) // MOST_LABELS))
         axes.set_yticks(range(0, len(sizes), step), list(sizes.index[::step]), fontsize=6)
         axes.grid(visible=False)

@@ -1,4 +1,4 @@
-"""How the causes that changed stood in every recording."""
+"""How the causes that changed did so from recording to recording."""
 
 from __future__ import annotations
 
@@ -11,37 +11,44 @@ from armscope.comparison import Comparison
 from armscope.core.numerals import shown_unit
 
 MOST_PANELS = 8
+COLUMNS = [
+    "recording", "effect", "location", "parameter", "unit", "value", "stderr", "since_first", "since_first_stderr",
+]  # fmt: skip
 
 
 def history_table(found: Comparison) -> pd.DataFrame:
     """One row per recording and number of every cause that changed."""
     rows = [
-        (name, each.effect, each.location, number.name, number.unit, value, error)
+        (name, each.effect, each.location, number.name, number.unit, *numbers)
         for each in found.changes
         for number in each.parameters
-        for name, value, error in zip(found.names, number.values, number.stderrs, strict=True)
+        for name, *numbers in zip(
+            found.names, number.values, number.stderrs, number.since_first, number.since_first_stderrs, strict=True
+        )
     ]
-    return pd.DataFrame(rows, columns=["recording", "effect", "location", "parameter", "unit", "value", "stderr"])
+    return pd.DataFrame(rows, columns=COLUMNS)
 
 
 def history_figure(found: Comparison) -> Figure:
-    """A panel per number: its value in every recording with a 95 % interval, those that differ filled."""
+    """A panel per number: how far it is from the first recording, with a 95 % interval; those that differ filled."""
     numbers = [(each, number) for each in found.changes for number in each.parameters][:MOST_PANELS]
     figure, panels = plt.subplots(
         len(numbers), 1, figsize=(6.4, 1.6 + 1.4 * len(numbers)), sharex=True, squeeze=False, layout="constrained"
     )
     at = np.arange(len(found.names))
     for (each, number), axes in zip(numbers, panels[:, 0], strict=True):
-        factor, unit = shown_unit(number.unit, float(np.max(np.abs(number.values))))
-        values, errors = factor * np.array(number.values), factor * 1.96 * np.array(number.stderrs)
+        factor, unit = shown_unit(number.unit, float(np.max(np.abs(number.since_first))))
+        values, errors = factor * np.array(number.since_first), factor * 1.96 * np.array(number.since_first_stderrs)
         differs = np.isin(found.names, each.where)
         axes.errorbar(at, values, errors, fmt="none", ecolor="0.5", capsize=3)
         axes.plot(at, values, color="0.8", zorder=0)
         axes.plot(at[~differs], values[~differs], "o", markerfacecolor="white", color="#0072B2")
         axes.plot(at[differs], values[differs], "o", color="#D55E00")
-        axes.set_ylabel(f"{number.name}\n({unit})")
+        axes.set_ylabel(f"change of\n{number.name}\n({unit})")
         axes.set_title(f"{each.title}: {each.kind} in {', '.join(each.where)}", loc="left", fontsize="medium")
         axes.margins(x=0.1, y=0.2)
     panels[-1, 0].set_xticks(at, found.names)
-    figure.supxlabel("recording (bars: 95 %; filled: where it differs)", fontsize="small")
+    figure.supxlabel(
+        f"recording (change since {found.names[0]}; bars: 95 %; filled: where it differs)", fontsize="small"
+    )
     return figure

@@ -22,8 +22,21 @@ from armscope.fleet.summary import (
 from armscope.report.figures.fleet import fleet_figure
 from armscope.report.html import write_page
 from armscope.report.style import save_figure
+from armscope.verdict.wording import plain, spelled
 
 TABLE = ["arm", "type", "date", "run", "answer", "before_mm", "after_mm", "headline"]
+IN_WORDS = {
+    "before_mm": "error (mm)", "after_mm": "with the fitted model (mm)", "apart": "robust sigmas from its type",
+    "arms": "arms with it", "of": "of", "median_mm": "median (mm)", "most_mm": "largest (mm)",
+    "expected_share": "expected share",
+}  # fmt: skip
+"""What columns are called on the page; the CSV files keep their names."""
+
+
+def _in_words(table: pd.DataFrame) -> pd.DataFrame:
+    """A table for people: columns and causes in words."""
+    told = table.assign(cause=table["cause"].map(plain)) if "cause" in table else table
+    return told.rename(columns=IN_WORDS)
 
 
 def write_fleet_page(members: list[Member], folders: list[Path], output: Path) -> None:
@@ -46,13 +59,13 @@ def write_fleet_page(members: list[Member], folders: list[Path], output: Path) -
     write_page(
         output / "report.html",
         "fleet.html.j2",
-        arms=of_arms[TABLE],
-        outliers=outliers(of_arms)[["arm", "type", "date", "before_mm", "after_mm", "apart", "headline"]],
-        common=often[(often["expected_share"] > COMMON) & (often["arms"] > 1)],
-        repeated=often,
+        arms=_in_words(of_arms[TABLE]),
+        outliers=_in_words(outliers(of_arms)[["arm", "type", "date", "before_mm", "after_mm", "apart", "headline"]]),
+        common=_in_words(often[(often["expected_share"] > COMMON) & (often["arms"] > 1)]),
+        repeated=_in_words(often),
         failed=pd.DataFrame(failed.items(), columns=["diagnosis", "why"]),
         figure=output / "causes.svg" if drawn else None,
-        types=int(of_arms["type"].nunique()),
+        types=spelled(int(of_arms["type"].nunique())),
         limit=OUTLIER,
         share=COMMON,
     )
