@@ -63,21 +63,31 @@ def calibrate(
     robot: NominalArm,
     output: Annotated[Path, typer.Option("--output", "-o", help="folder for robot.yaml, URDF and frames")],
     level: Annotated[
-        Literal["nominal", "offsets", "geometric", "compliance"], typer.Option(help="what is free beyond the frames")
+        Literal["nominal", "offsets", "geometric", "compliance"],
+        typer.Option(help="what is fitted beside base and tool"),
     ] = "geometric",
-    robust: Annotated[bool, typer.Option(help="bad shots weigh less")] = False,
+    robust: Annotated[bool, typer.Option(help="give bad shots less weight")] = False,
     one_base: Annotated[bool, typer.Option(help="all runs share one base frame")] = False,
     tool_per_run: Annotated[
-        bool | None, typer.Option(help="the tool was taken off between runs; else: decided by the recordings")
+        bool | None,
+        typer.Option(help="fit the tool anew in every run, or one for all; the recordings decide if left out"),
     ] = None,
     orientation: Annotated[
-        bool | None, typer.Option(help="use measured orientations; else: where held-out positions gain")
+        bool | None,
+        typer.Option(
+            help="use measured orientations, or not; if left out, they are used unless held-out positions get worse"
+        ),
     ] = None,
     splits: Annotated[
-        int, typer.Option(min=0, help="for the held-out error: 70 % to learn from, the rest to test")
+        int,
+        typer.Option(
+            min=0, help="how many random splits measure the held-out error (70 % to learn from, the rest to test)"
+        ),
     ] = 5,
-    target: Annotated[str | None, typer.Option(help="whose tool stands in robot.yaml; else the first's")] = None,
-    anyway: Annotated[bool, typer.Option(help="write a result that should not be used")] = False,
+    target: Annotated[
+        str | None, typer.Option(help="the target whose tool goes into robot.yaml; the first one if left out")
+    ] = None,
+    anyway: Annotated[bool, typer.Option(help="write the result even where it should not be used")] = False,
 ) -> None:
     """Calibrate the arm's geometry and export it as robot.yaml and URDF."""
     from dataclasses import replace

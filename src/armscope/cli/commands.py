@@ -25,12 +25,14 @@ OUTPUTS = ("output", "figure", "points", "visible", "sealed")
 """Parameters of this name are files or folders to write, and those marked `WRITTEN`; all other paths are read."""
 WRITTEN = object()
 
-Output = Annotated[Path, typer.Option("--output", "-o", help="where to write")]
+Output = Annotated[Path, typer.Option("--output", "-o", help="file or folder to write")]
 NominalArm = Annotated[
     Path, typer.Option("--robot", "-r", help="the nominal arm: robot.yaml, a URDF, or a name (armscope init --list)")
 ]
 Force = Annotated[bool, typer.Option("--force", help="overwrite files that armscope did not write (never an input)")]
-Threads = Annotated[int, typer.Option(min=1, help="processes that share the rows of a long table; the same result")]
+Threads = Annotated[
+    int, typer.Option(min=1, help="processes that share the rows of a long table; the result is the same")
+]
 """As a parameter ``threads`` of a command: its work is shared by so many processes."""
 
 

@@ -20,13 +20,13 @@ def compare(
         list[Path], typer.Argument(help=f"two or more tables, or folders with {RECORDINGS}, in the order of time")
     ],
     robot: Annotated[
-        Path | None, typer.Option("--robot", "-r", help=f"the nominal arm; else {ROBOT} in the first folder")
+        Path | None, typer.Option("--robot", "-r", help=f"the nominal arm; {ROBOT} in the first folder if left out")
     ] = None,
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="folder for comparison.json, history.csv and history.png")
     ] = None,
     arms: Annotated[
-        bool, typer.Option("--arms", help="of several arms of one type: which is unlike the others")
+        bool, typer.Option("--arms", help="the tables are of several arms of one type: say which is unlike the others")
     ] = False,
     json: Annotated[bool, typer.Option("--json", help="print comparison.json in place of words")] = False,
 ) -> None:

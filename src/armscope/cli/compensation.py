@@ -35,17 +35,24 @@ def compensate(
     model: Annotated[Path, typer.Argument(help="model.yaml of a diagnosis, or errormodel.json of fit-error-model")],
     path: Annotated[Path, typer.Argument(help="wanted points (x_mm, y_mm, z_mm) or joint path (q1_rad, ...)")],
     output: Annotated[Path, typer.Option("--output", "-o", help="commands: .csv, .json, or .mod (ABB RAPID)")],
-    robot: Annotated[Path | None, typer.Option("--robot", "-r", help="robot.yaml that the model must be of")] = None,
-    recordings: Annotated[
-        Path | None, typer.Option(help="what model.yaml was diagnosed on; else domain.json beside it")
+    robot: Annotated[
+        Path | None, typer.Option("--robot", "-r", help="robot.yaml: stop if the model is of another arm")
     ] = None,
-    frame: Annotated[Literal["base", "measurement"], typer.Option(help="where the wanted points stand")] = "base",
+    recordings: Annotated[
+        Path | None, typer.Option(help="the table that model.yaml was diagnosed on; domain.json beside it if left out")
+    ] = None,
+    frame: Annotated[Literal["base", "measurement"], typer.Option(help="the frame of the wanted points")] = "base",
     pose: Annotated[bool, typer.Option(help="correct the orientation, too")] = False,
-    start_rad: Annotated[str | None, typer.Option(help="q1,q2,...: where the arm comes from (rad)")] = None,
+    start_rad: Annotated[
+        str | None, typer.Option(help="q1,q2,... in rad: the posture from which the arm starts")
+    ] = None,
     allowed_outside: Annotated[
-        float, typer.Option(min=0, help="standard deviations that a command may leave the identified range")
+        float,
+        typer.Option(min=0, help="how far a command may lie outside the identified range, in standard deviations"),
     ] = 0.2,
-    separate_points: Annotated[bool, typer.Option(help="no path: the arm may turn far between points")] = False,
+    separate_points: Annotated[
+        bool, typer.Option(help="single points, no path: the arm may turn far between them")
+    ] = False,
     threads: Threads = 1,
 ) -> None:
     """Commands that make the real arm reach the wanted points; exit code 3 where some rows have none."""
@@ -92,7 +99,7 @@ def fit_error_model(
     output: Annotated[Path, typer.Option("--output", "-o", help="errormodel.json")],
     model: Annotated[str, typer.Option("--model", "-m", help="FDP(CI), SDP(AI), 'Fourier 2 (AI)', ...")] = "SDP(CI)",
     method: Annotated[str, typer.Option(help="least-squares or swarm")] = "least-squares",
-    seed: Annotated[int, typer.Option(min=0, help="of the swarm")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="seed of the swarm")] = 0,
     run: Annotated[str | None, typer.Option(help="only this run")] = None,
     target: Annotated[str | None, typer.Option(help="only this target")] = None,
     register: Annotated[bool, typer.Option(help="fit measurement frame and tool offset with the nominal arm")] = False,

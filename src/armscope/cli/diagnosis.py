@@ -27,30 +27,45 @@ PAGES = (
 
 @app.command()
 def diagnose(
-    recordings: Annotated[Path, typer.Argument(help="recordings.csv: commanded angles and measured positions")],
+    recordings: Annotated[
+        Path, typer.Argument(help="recordings.csv: commanded angles and measured positions; or motions.csv")
+    ],
     robot: NominalArm,
     output: Annotated[Path, typer.Option("--output", "-o", help="folder for report, verdict, model and figures")],
     run: Annotated[list[str] | None, typer.Option(help="only these runs (may be given several times)")] = None,
     first_id: Annotated[int | None, typer.Option(help="leave out rows with a smaller id")] = None,
-    seed: Annotated[int, typer.Option(min=0, help="of folds and resampling")] = 0,
-    resamples: Annotated[int, typer.Option(min=0, help="how often rows are resampled; 0 saves time")] = 10,
-    cross_validation: Annotated[bool, typer.Option(help="repeat the whole diagnosis on held-out folds")] = True,
-    tool_per_run: Annotated[bool, typer.Option(help="the tool was taken off between runs")] = False,
+    seed: Annotated[int, typer.Option(min=0, help="seed of the random folds and resampling")] = 0,
+    resamples: Annotated[
+        int, typer.Option(min=0, help="how often rows are resampled to see which causes stay; 0 saves time")
+    ] = 10,
+    cross_validation: Annotated[
+        bool,
+        typer.Option(help="repeat the whole diagnosis without a part of the rows, to test it on these (slower)"),
+    ] = True,
+    tool_per_run: Annotated[
+        bool, typer.Option(help="fit the tool anew in every run: it was taken off in between")
+    ] = False,
     estimate_gravity: Annotated[
-        bool, typer.Option(help="gravity's direction in the base frame is not known (an arm on a wedge)")
+        bool, typer.Option(help="estimate gravity's direction: the arm is on a wedge whose lean nobody measured")
     ] = False,
     orientation: Annotated[bool, typer.Option(help="use measured orientations (qw, qx, qy, qz), too")] = True,
     report: Annotated[bool, typer.Option(help="write report.html, work-order.html and their figures")] = True,
     anyway: Annotated[bool, typer.Option("--anyway", help="go on though the check says the table is unusable")] = False,
     exit_code: Annotated[
-        bool, typer.Option("--exit-code", help="end with 0: nothing missing, 10: a mismatch, 2: cannot tell")
+        bool,
+        typer.Option(
+            "--exit-code", help="make the exit code the answer. 0: nothing missing, 10: a mismatch, 2: cannot tell"
+        ),
     ] = False,
     cutoff: Annotated[
-        float | None, typer.Option(min=0.01, help="motions: of the low-pass, Hz; chosen if left out")
+        float | None, typer.Option(min=0.01, help="motions: cut-off of the low-pass filter in Hz; chosen if left out")
     ] = None,
-    held_out: Annotated[list[str] | None, typer.Option(help="motions: a run that takes no part in the fit")] = None,
+    held_out: Annotated[
+        list[str] | None,
+        typer.Option(help="motions: keep this run out of the fit, to test on it (may be given several times)"),
+    ] = None,
     priors: Annotated[
-        Path | None, typer.Option(help="priors.yaml of a fleet: how large errors of such arms are")
+        Path | None, typer.Option(help="priors.yaml of a fleet: expect errors as large as its arms had")
     ] = None,
     arm_type: Annotated[str | None, typer.Option(help="which type in --priors, where it has several")] = None,
     json: Annotated[bool, typer.Option("--json", help="print verdict.json in place of words")] = False,
@@ -149,15 +164,13 @@ def _progress(title: str) -> Iterator[Callable[[str, float], None]]:
 def predict(
     model: Annotated[
         Path,
-        typer.Argument(
-            help="model.yaml of `armscope diagnose`, errormodel.json, or a robot.yaml: the arm as it states"
-        ),
+        typer.Argument(help="model.yaml of `armscope diagnose`, errormodel.json, or a robot.yaml (the nominal arm)"),
     ],
     poses: Annotated[Path, typer.Argument(help="a table of motor angles and whatever context the model follows")],
     output: Annotated[
-        Path, typer.Option("--output", "-o", help="table to write: id, run, x_mm, y_mm, z_mm; of a motion tau1_nm ...")
+        Path, typer.Option("--output", "-o", help="table to write: id, run, x_mm, y_mm, z_mm; for a motion tau1_nm ...")
     ],
-    pose: Annotated[bool, typer.Option(help="orientations qw, qx, qy, qz, too")] = False,
+    pose: Annotated[bool, typer.Option(help="write orientations (qw, qx, qy, qz), too")] = False,
     threads: Threads = 1,
 ) -> None:
     """Predict where the tool point will be, in the measurement frame (by a robot.yaml: in the base frame).

@@ -27,17 +27,20 @@ def excite(
         "trajectory.csv"
     ),
     separate: Annotated[
-        Path | None, typer.Option(help="verdict.json: tell its causes from their alternatives, instead of everything")
+        Path | None, typer.Option(help="verdict.json: plan a motion that tells its causes from their alternatives")
     ] = None,
     period_s: Annotated[float, typer.Option(min=0.5, help="the motion repeats after this time")] = 20.0,
-    harmonics: Annotated[int, typer.Option(min=2, max=50, help="highest frequency: harmonics / period")] = 5,
+    harmonics: Annotated[
+        int, typer.Option(min=2, max=50, help="number of harmonics; the highest frequency is harmonics / period")
+    ] = 5,
     rate_hz: Annotated[float, typer.Option(min=1, help="samples per second of the table")] = 100.0,
     floor_mm: Annotated[float | None, typer.Option(help="height of the floor in the base frame")] = None,
     radius_mm: Annotated[
-        float | None, typer.Option(min=0, help="of the links; else the URDF's shapes, or 4 % of reach")
+        float | None,
+        typer.Option(min=0, help="radius of the links; if left out, the URDF's shapes, or 4 % of the reach"),
     ] = None,
-    rounds: Annotated[int, typer.Option(min=0, help="of bettering the best of 24 random motions")] = 600,
-    seed: Annotated[int, typer.Option(min=0, help="of the search")] = 0,
+    rounds: Annotated[int, typer.Option(min=0, help="how many rounds improve the best of 24 random motions")] = 600,
+    seed: Annotated[int, typer.Option(min=0, help="seed of the search")] = 0,
 ) -> None:
     """Plan a motion that shows masses and friction best, inside all limits and clear of floor and arm."""
     from armscope.core.streams import is_stream

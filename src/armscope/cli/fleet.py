@@ -20,7 +20,7 @@ Output = Annotated[Path, typer.Option("--output", "-o", help="folder to write")]
 def diagnose(
     fleet: Fleet,
     output: Output,
-    part: Annotated[str, typer.Option(help="which part of how many, as in 0/4")] = "0/1",
+    part: Annotated[str, typer.Option(help="part of the arms to diagnose: 0/4 is the first of four parts")] = "0/1",
 ) -> None:
     """Diagnose every arm of a fleet, or every n-th of them."""
     from armscope.diagnosis import Settings
@@ -49,7 +49,7 @@ def simulate(
     robots: Annotated[Path, typer.Argument(help="folder of the arms' descriptions")],
     output: Output,
     arms: Annotated[int, typer.Option(min=1, help="how many")] = 200,
-    seed: Annotated[int, typer.Option(min=0, help="of everything random")] = 2006,
+    seed: Annotated[int, typer.Option(min=0, help="seed of everything random")] = 2006,
 ) -> None:
     """Make recordings of simulated arms of three types, with weaknesses that repeat, and their fleet.csv."""
     from armscope.fleet.simulation import simulate as simulated

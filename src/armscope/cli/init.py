@@ -22,9 +22,11 @@ WHAT = "a URDF, `-` for a D-H table on standard input, the name of an arm (--lis
 def init(
     what: Annotated[str, typer.Argument(help=WHAT, metavar="WHAT")] = "",
     output: Annotated[Path, typer.Option("--output", "-o", help="robot.yaml or mapping.yaml to write")] = Path("-"),
-    tip: Annotated[str | None, typer.Option(help="of a URDF: the frame that carries the tool; else guessed")] = None,
-    name: Annotated[str, typer.Option(help="of a D-H table's arm")] = "my arm",
-    modified: Annotated[bool, typer.Option("--modified", help="the D-H table is Craig's (modified)")] = False,
+    tip: Annotated[str | None, typer.Option(help="URDF: the frame that carries the tool; guessed if left out")] = None,
+    name: Annotated[str, typer.Option(help="D-H table: what to call the arm")] = "my arm",
+    modified: Annotated[
+        bool, typer.Option("--modified", help="D-H table: it is in Craig's convention (modified)")
+    ] = False,
     list_: Annotated[bool, typer.Option("--list", help="show the nominal arms of the library")] = False,
 ) -> None:
     """Write robot.yaml from a URDF, a D-H table or an arm's name; or a draft mapping.yaml from a foreign table.

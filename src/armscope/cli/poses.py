@@ -29,23 +29,28 @@ def poses(
         "poses.csv"
     ),
     effects: Annotated[
-        str, typer.Option(help="what they shall show: geometry, or names such as joint_compliance,backlash")
+        str, typer.Option(help="what they must show: geometry, or causes such as joint_compliance,backlash")
     ] = "geometry",
-    criterion: Annotated[str, typer.Option(help="O1 (D-optimal), O2, O3, O4 or O5")] = "O1",
-    tracker: Annotated[str | None, typer.Option(help="x,y,z in mm, base frame: poses must be in its sight")] = None,
+    criterion: Annotated[str, typer.Option(help="how poses are judged: O1 (D-optimal), O2, O3, O4 or O5")] = "O1",
+    tracker: Annotated[str | None, typer.Option(help="x,y,z in mm, base frame: the tracker must see the tool")] = None,
     floor_mm: Annotated[float | None, typer.Option(help="height of the floor in the base frame")] = None,
     radius_mm: Annotated[
-        float | None, typer.Option(min=0, help="of the links; else the URDF's shapes, or 4 % of reach")
+        float | None,
+        typer.Option(min=0, help="radius of the links; if left out, the URDF's shapes, or 4 % of the reach"),
     ] = None,
-    payload_kg: Annotated[float, typer.Option(min=0, help="half of the poses may carry it")] = 0.0,
+    payload_kg: Annotated[float, typer.Option(min=0, help="payload that half of the poses may carry")] = 0.0,
     candidates: Annotated[int, typer.Option(min=1, help="possible poses to choose from")] = 5000,
-    starts: Annotated[int, typer.Option(min=1, help="of the exchange")] = 3,
-    noise_mm: Annotated[float | None, typer.Option(min=0, help="1-sigma per axis; else robot.yaml's")] = None,
-    seeds: Annotated[int, typer.Option(min=0, help="arms in the comparison with random poses and a grid")] = 40,
+    starts: Annotated[int, typer.Option(min=1, help="how many starts the search makes")] = 3,
+    noise_mm: Annotated[
+        float | None, typer.Option(min=0, help="noise, 1-sigma per axis; robot.yaml's if left out")
+    ] = None,
+    seeds: Annotated[
+        int, typer.Option(min=0, help="simulated arms in the comparison with random poses and a grid")
+    ] = 40,
     all_criteria: Annotated[
         bool, typer.Option(help="compare with the choices by the other four criteria, too")
     ] = False,
-    seed: Annotated[int, typer.Option(min=0, help="of candidates, starts and comparison")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="seed of candidates, starts and comparison")] = 0,
 ) -> None:
     """Choose the poses that show a set of effects best, and say what they are worth beside random ones and a grid."""
     from armscope.cli.robots import robot_of

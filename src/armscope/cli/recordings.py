@@ -33,7 +33,9 @@ def import_(
 def fetch(
     source: Annotated[Path, typer.Argument(help="source.yaml of a public data set")],
     output: Annotated[Path, typer.Option("--output", "-o", help="folder for the raw files")],
-    recordings_dir: Annotated[Path | None, typer.Option(help="a local copy that stands in for the network")] = None,
+    recordings_dir: Annotated[
+        Path | None, typer.Option(help="take the files from this local folder, not from the network")
+    ] = None,
 ) -> None:
     """Fetch the raw files of a public data set and check their checksums."""
     from armscope.recordings.importing.fetching import fetch_recordings
