@@ -140,7 +140,7 @@ def test_still_joints_and_dropped_terms_are_named_in_the_result():
     angles, _, errors = identification(still_wrist=True)
     angles[:, 5] = np.where(angles[:, 5] > 0, 0.5, -0.25)
     (fitted,) = fit_swarms([FitProblem(SDP_AI, angles, errors)], [1], SHORT)
-    assert fitted.features.still_inputs == ("theta4", "theta5")
+    assert fitted.features.moving == (True, True, True, False, False, True)
     assert fitted.dropped == ("theta6^2",)
     dropped = fitted.features.term_names.index("theta6^2")
     assert (fitted.coefficients[..., dropped] == 0).all()

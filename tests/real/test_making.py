@@ -14,8 +14,9 @@ from armscope.core.provenance import sources
 from armscope.proof.reading import ALLOWED
 from armscope.proof.truth import unsealed
 from armscope.real.making import Places, make_altered, make_original, make_withheld
-from armscope.real.staging import AXES_MM, QUATERNION, stage, with_payload
+from armscope.real.staging import stage, with_payload
 from armscope.recordings import as_recordings
+from armscope.recordings.columns import AXES_MM, QUATERNION
 from tests.real.recorded import ROBOT, arm, table
 
 RULES = (Path(__file__).parents[2] / "workflow" / "rules" / "proof_real.smk").read_text(encoding="utf-8")

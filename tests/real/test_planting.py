@@ -11,8 +11,9 @@ from scipy.spatial.transform import Rotation
 from armscope.core.averages import rms
 from armscope.core.inputs import InputError
 from armscope.real.planting import CannotPlantError, NotPlanted, Planted, plant, truth_of
-from armscope.real.staging import AXES_MM, stage
+from armscope.real.staging import stage
 from armscope.real.theatre import Theatre
+from armscope.recordings.columns import AXES_MM
 from armscope.robot import chain, forward_kinematics
 from armscope.robot.arm import build_arm
 from armscope.robot.denavit_hartenberg import as_dh

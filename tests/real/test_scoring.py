@@ -9,10 +9,10 @@ import pandas as pd
 import pytest
 
 from armscope.proof.answers import Answer
-from armscope.proof.definitions import AXES_MM
 from armscope.real.making import LEFT_MM
 from armscope.real.rates import tables
 from armscope.real.scoring import Sealed, score
+from armscope.recordings.columns import AXES_MM
 from tests.proof.cases import claim
 
 SPRING = {"compliance": (2e-6, 1e-7, "rad/(N m)")}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.design.independence import independent_columns
 
 SMALLEST_TRACE = 1e-3
@@ -13,7 +13,7 @@ SMALLEST_TRACE = 1e-3
 reach) at the tool, beyond what the others can imitate. At a thousandth, 1 mm shows as 1 micrometre: no less helps."""
 
 
-def identifiable(jacobian: Array, tiers: NDArray[np.intp], scales: Array) -> NDArray[np.bool_]:
+def identifiable(jacobian: Array, tiers: Indices, scales: Array) -> NDArray[np.bool_]:
     """The columns that can be told apart, a lower tier first (`armscope.design.independence`).
 
     Args:

@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 from armscope.calibration.geometry import Constant, constant_columns, constants_of, corrected, turn_columns
 from armscope.calibration.state import Posed, State
 from armscope.core.grouping import by_label
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.fitting.placement import frame_columns
 from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain, position_jacobian
@@ -44,8 +44,8 @@ class SetUp:
     arm: Arm
     angles: Array
     measured: Array
-    base: NDArray[np.intp]
-    tool: NDArray[np.intp]
+    base: Indices
+    tool: Indices
     base_names: tuple[str, ...]
     tool_names: tuple[str, ...]
     constants: tuple[Constant, ...]
@@ -78,7 +78,7 @@ class SetUp:
         return (*(base * len(self.base_names)), *tools, *constants, *compliances, *turns)
 
     @property
-    def tiers(self) -> NDArray[np.intp]:
+    def tiers(self) -> Indices:
         """Order of preference where parameters imitate each other.
 
         Frames, compliances, joint zeros, the rest of the arm, turns about y: what a user can act upon comes first.
@@ -98,7 +98,7 @@ class SetUp:
         turns = [self.orientations is not None] * 3 * len(self.tool_names)
         return np.array([True] * n_frames + arm + compliances + turns)
 
-    def rows(self, which: NDArray[np.bool_] | NDArray[np.intp]) -> SetUp:
+    def rows(self, which: NDArray[np.bool_] | Indices) -> SetUp:
         """The set-up with some of its rows; frames and names stay."""
         loads = None if self.loads is None else self.loads[which]
         return replace(

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from armscope.calibration.model import SetUp
 from armscope.core.grouping import by_label
+from armscope.core.types import Indices
 from armscope.recordings import Recordings
 
 TRAIN_SHARE = 0.7
 
 
-def random_split(recordings: Recordings, seed: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def random_split(recordings: Recordings, seed: int) -> tuple[Indices, Indices]:
     """Rows to train on and rows to test on: `default_rng(seed).permutation` of the configurations, 70 % to train on.
 
     A configuration is an id within its run; all its targets stay together.
@@ -23,7 +23,7 @@ def random_split(recordings: Recordings, seed: int) -> tuple[NDArray[np.intp], N
     return np.flatnonzero(in_train), np.flatnonzero(~in_train)
 
 
-def foretold(rows: SetUp, train: NDArray[np.intp], test: NDArray[np.intp]) -> NDArray[np.intp]:
+def foretold(rows: SetUp, train: Indices, test: Indices) -> Indices:
     """The rows of a test part whose base and tool the training part tells: without, nobody could foretell them.
 
     Args:

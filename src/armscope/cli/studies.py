@@ -94,10 +94,12 @@ def tell(line: str) -> None:
 
 def read_measurements(poses: Path, *errors: Path) -> Measurements:
     """The measurements of a study; several tables of errors follow each other."""
+    from armscope.compensation.closed_loop import ERROR_COLUMNS
     from armscope.core.files import read_table
-    from armscope.paper.measurements import ERROR_COLUMNS, POSITION_COLUMNS, Measurements
+    from armscope.paper.measurements import Measurements
+    from armscope.recordings.columns import AXES_MM
 
-    at = read_table(poses, ["trajectory", "point", "q1_rad", *POSITION_COLUMNS], "the table poses.csv of a study")
+    at = read_table(poses, ["trajectory", "point", "q1_rad", *AXES_MM], "the table poses.csv of a study")
     left = read_tables(errors, ["robot", "trajectory", "point", *ERROR_COLUMNS], "the table errors.csv of a study")
     robots = left["robot"].nunique()
     if not len(at) or len(left) != robots * len(at):

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from armscope.compensation.forward import Forward
 from armscope.compensation.newton import POLE, Solution, Wanted, lever, solve_commands, weakest
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,9 +24,7 @@ class Corrected:
     pole: NDArray[np.bool_]
 
 
-def correct(
-    real: Forward, wanted: Wanted, nominal: Array, free: NDArray[np.bool_], rows: NDArray[np.intp]
-) -> Corrected:
+def correct(real: Forward, wanted: Wanted, nominal: Array, free: NDArray[np.bool_], rows: Indices) -> Corrected:
     """Some rows of a path: where the real arm would be at the nominal posture, and the commands that put it right.
 
     Args:

@@ -6,17 +6,16 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.compensation.black_box import ErrorModel
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain
 from armscope.robot.kinematics import joint_jacobian
 
-Rows = NDArray[np.intp]
+Rows = Indices
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 
 from armscope.compensation.forward import Forward, Rows, ToolPose
 from armscope.core.parallel import each_piece
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.robot.newton_steps import PATIENCE, damping, least_turns, shortened, smallest_singular_value
 
 TOLERANCE_M = 1e-9
@@ -80,7 +80,7 @@ class Solution:
 
     angles: Array
     converged: NDArray[np.bool_]
-    limit: NDArray[np.intp]
+    limit: Indices
     singular: Array
     iterations: int
 
@@ -134,7 +134,7 @@ def solve_commands(
     )
 
 
-def row_pieces(count: int) -> list[NDArray[np.intp]]:
+def row_pieces(count: int) -> list[Indices]:
     """Numbers of all rows, some at a time; one empty piece where there are none."""
     return np.array_split(np.arange(count), max(1, -(-count // ROWS_AT_A_TIME)))
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from armscope.compensation.forward import NominalArm
 from armscope.compensation.newton import POLE, Wanted, solve_commands
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.robot import Arm
 from armscope.robot.inverse import BEYOND_REACH, LARGEST_STEP_RAD, PathSolution, follow_path
 
@@ -61,9 +61,7 @@ def _point_by_point(
     return _follow_poses(arm, wanted, start, held, largest_step)
 
 
-def _between(
-    arm: Arm, wanted: Wanted, knots: NDArray[np.intp], at_knots: Array, held: Mapping[int, float]
-) -> Array | None:
+def _between(arm: Arm, wanted: Wanted, knots: Indices, at_knots: Array, held: Mapping[int, float]) -> Array | None:
     """All rows' angles from those at the knots; None where a row does not converge."""
     rows = np.arange(len(wanted))
     start = np.column_stack([np.interp(rows, knots, column) for column in at_knots.T])

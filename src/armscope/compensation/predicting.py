@@ -13,6 +13,7 @@ from armscope.physics.model import FittedModel, predict_orientation
 from armscope.physics.model import predict as predicted_points
 from armscope.physics.model_file import load_model
 from armscope.recordings import Recordings, read_recordings
+from armscope.recordings.columns import AXES_MM, QUATERNION
 from armscope.robot import load_arm, tool_frames
 from armscope.robot.urdf_file import is_xml
 
@@ -62,10 +63,10 @@ def points_table(points: Array, rotations: Array | None, rows: Recordings) -> pd
     from scipy.spatial.transform import Rotation
 
     table = pd.DataFrame({"id": rows.id, "run": rows.run})
-    table[["x_mm", "y_mm", "z_mm"]] = points * 1e3
+    table[AXES_MM] = points * 1e3
     if rotations is not None:
         table[["qx", "qy", "qz", "qw"]] = Rotation.from_matrix(rotations).as_quat(canonical=True)
-        table = table[["id", "run", "x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz"]]
+        table = table[["id", "run", *AXES_MM, *QUATERNION]]
     return table
 
 

@@ -18,7 +18,7 @@ from armscope.compensation.path import Frame, WantedPath, unit_doubt
 from armscope.compensation.result import Compensated
 from armscope.core.inputs import InputError
 from armscope.core.parallel import piece_by_piece
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.robot import Arm, tool_frames
 from armscope.robot.inverse import LARGEST_STEP_RAD
 
@@ -64,7 +64,7 @@ class PathTask:
     options: Options
     domain: Domain
     forward: Callable[[Array], tuple[Forward, str]]
-    domain_inputs: Callable[[Array, NDArray[np.intp]], Array]
+    domain_inputs: Callable[[Array, Indices], Array]
     to_base: Callable[[Array], Array]
     to_frame: Callable[[Array], Array]
     turn: Array
@@ -197,7 +197,7 @@ class PathTask:
     def _refuse_unsolved(
         self,
         refused: NDArray[np.object_],
-        known: NDArray[np.intp],
+        known: Indices,
         solution: Solution,
         moved: Array,
         pole: NDArray[np.bool_],
@@ -221,7 +221,7 @@ class PathTask:
         solved = np.flatnonzero(np.isfinite(commands.sum(axis=1)))
         pieces = [solved[piece] for piece in row_pieces(len(solved))]
 
-        def looked_up(rows: NDArray[np.intp]) -> tuple[Array, NDArray[np.object_], Array]:
+        def looked_up(rows: Indices) -> tuple[Array, NDArray[np.object_], Array]:
             inputs = self.domain_inputs(commands[rows], rows)
             return *self.domain.outside(inputs), self.domain.nearest(inputs)
 
@@ -239,7 +239,7 @@ def _given(points: Array | None) -> Array:
     return points
 
 
-def refuse(refused: NDArray[np.object_], rows: NDArray[np.bool_] | NDArray[np.intp], reason: str) -> None:
+def refuse(refused: NDArray[np.object_], rows: NDArray[np.bool_] | Indices, reason: str) -> None:
     """Refuse rows that are not refused yet: the first reason of a row stays.
 
     Args:
@@ -252,7 +252,7 @@ def refuse(refused: NDArray[np.object_], rows: NDArray[np.bool_] | NDArray[np.in
     refused[np.flatnonzero(which & np.equal(refused, ""))] = reason
 
 
-def _refuse_at_limits(refused: NDArray[np.object_], rows: NDArray[np.intp], solution: Solution) -> None:
+def _refuse_at_limits(refused: NDArray[np.object_], rows: Indices, solution: Solution) -> None:
     """The rows whose solution ends at a joint's limit."""
     for motor in np.unique(solution.limit[solution.limit > 0]):
         refuse(refused, rows[solution.limit == motor], f"limit of joint {motor}")

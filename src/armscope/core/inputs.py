@@ -151,10 +151,19 @@ def validate(model: type[Model], content: Any, file: object) -> Model:
 
 def load(model: type[Model], path: Path | str) -> Model:
     """Read a YAML file and validate it against ``model``."""
+    return validate(model, read_keys(path), path)
+
+
+def read_keys(path: Path | str) -> dict[Any, Any]:
+    """The content of a YAML file that has keys.
+
+    Raises:
+        InputError: it can't be read, or has none.
+    """
     content = read_yaml(path)
     if not isinstance(content, dict):
         raise InputError(path, "", content or "nothing", "this file has lines of the form `key: value`")
-    return validate(model, content, path)
+    return content
 
 
 def mapping(content: Any, file: object, what: str) -> dict[str, Any]:

@@ -16,12 +16,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.design.indices import observability, observability_slopes
 
-Rows = NDArray[np.intp]
+Rows = Indices
 
 WORTHWHILE = 1e-6
 """A swap that gains less than this share is not made: it would only follow rounding."""

@@ -6,10 +6,10 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 
 
-def independent_columns(columns: Array, tiers: NDArray[np.intp], least: float) -> NDArray[np.bool_]:
+def independent_columns(columns: Array, tiers: Indices, least: float) -> NDArray[np.bool_]:
     """The columns that can be told apart, by QR with column pivoting (Golub 1965).
 
     Within a tier the column with the largest part beyond those chosen enters next, until what is left of every column

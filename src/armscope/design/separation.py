@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 
 
-def separating(
-    jacobian: Array, apart: Array, covariance: Array, noise: float, count: int
-) -> tuple[NDArray[np.intp], Array]:
+def separating(jacobian: Array, apart: Array, covariance: Array, noise: float, count: int) -> tuple[Indices, Array]:
     """The poses where two predictions differ most, each chosen after the rival has adapted to those before.
 
     Args:

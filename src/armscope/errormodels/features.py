@@ -64,7 +64,7 @@ class ModelSpec:
     def features(self, inputs: ArrayLike) -> FeatureSet:
         """The terms of this model for the identification rows ``inputs`` (N x k, mm or rad).
 
-        Inputs that do not move there get no terms (see `FeatureSet.still_inputs`). A Fourier series in millimetres
+        Inputs that do not move there get no terms. A Fourier series in millimetres
         needs a wavelength, of which the paper says nothing: twice the range of the input, so that both ends of the
         workspace need not have equal errors (`assumed`).
 
@@ -105,11 +105,6 @@ class FeatureSet:
     inputs: tuple[str, ...]
     moving: tuple[bool, ...]
     wavelengths_mm: tuple[float, ...] | None = None
-
-    @property
-    def still_inputs(self) -> tuple[str, ...]:
-        """The inputs that were left out because they do not move."""
-        return tuple(name for name, moves in zip(self.inputs, self.moving, strict=True) if not moves)
 
     @property
     def term_names(self) -> tuple[str, ...]:

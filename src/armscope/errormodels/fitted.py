@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.errormodels.basis import BasisKind
 from armscope.errormodels.features import FeatureSet
 from armscope.swarm.result import StopReason
@@ -98,7 +98,7 @@ class SwarmFit:
         return np.where(self.excess_mm == 0, 0.0, percent)
 
     @property
-    def best_seeds(self) -> NDArray[np.intp]:
+    def best_seeds(self) -> Indices:
         """For each axis, the index of the seed with the smallest residual on the identification rows, A."""
         return np.asarray(np.argmin(self.fitness_mm, axis=0))
 

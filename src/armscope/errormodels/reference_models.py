@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from armscope.core.averages import rms
 from armscope.core.grouping import random_parts, same_configuration
 from armscope.core.sampling import spread_evenly
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.errormodels.features import PAPER_MODELS, ModelSpec
 from armscope.errormodels.folds import FOLDS
 from armscope.errormodels.least_squares import fit_least_squares
@@ -42,7 +41,7 @@ def held_out_rms(arm: Arm, recordings: Recordings, residual: Array) -> list[tupl
     return found
 
 
-def _cross_validated(spec: ModelSpec, inputs: Array, residual: Array, folds: NDArray[np.intp]) -> float | None:
+def _cross_validated(spec: ModelSpec, inputs: Array, residual: Array, folds: Indices) -> float | None:
     """None where a fold has fewer rows than the model has terms."""
     left = np.empty_like(residual)
     for fold in range(FOLDS):

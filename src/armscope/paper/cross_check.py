@@ -16,8 +16,8 @@ from armscope.core.types import Array
 from armscope.errormodels.fitted import SwarmFit
 from armscope.paper.printed import AXES, EQUATIONS, printed_features, printed_matrix, printed_table2
 from armscope.paper.residuals import typical
+from armscope.paper.table2 import ENSEMBLE_RANGE
 
-RANGE = (5, 95)
 UNTOLD_MODELS = ("FDP(AI)", "SDP(CI)", "SDP(AI)")
 
 
@@ -71,7 +71,7 @@ def _errors(residuals: pd.DataFrame) -> pd.DataFrame:
 def _row(kind: str, name: str, unit: str, printed: float, values: Array) -> dict[str, object]:
     """``values``: of the anchored robot first, then of its ensemble."""
     ensemble = values[1:] if len(values) > 1 else np.array([np.nan])
-    low, median, high = np.quantile(ensemble, [RANGE[0] / 100, 0.5, RANGE[1] / 100])
+    low, median, high = np.quantile(ensemble, [ENSEMBLE_RANGE[0] / 100, 0.5, ENSEMBLE_RANGE[1] / 100])
     return {
         "kind": kind,
         "number": name,

@@ -14,9 +14,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 
 IDENTIFIABLE = 1e-6
 """A combination of parameters counts as identifiable above this share of the largest singular value."""
@@ -35,7 +35,7 @@ class ChosenPoses:
         n_parameters: p, identifiable combinations of parameters.
     """
 
-    rows: NDArray[np.intp]
+    rows: Indices
     index: float
     random_index: float
     n_parameters: int
@@ -109,7 +109,7 @@ def _identifiable(jacobian: Array) -> Array:
     return np.asarray(jacobian @ kept.T)
 
 
-def _index(reduced: Array, rows: NDArray[np.intp]) -> float:
+def _index(reduced: Array, rows: Indices) -> float:
     """O1 of some rows."""
     stacked = reduced[rows].reshape(-1, reduced.shape[2])
     sign, log_determinant = np.linalg.slogdet(stacked.T @ stacked)
@@ -124,7 +124,7 @@ def _gains(reduced: Array, information: Array) -> Array:
     return np.asarray(np.linalg.det(gram))
 
 
-def _grown(reduced: Array, count: int) -> NDArray[np.intp]:
+def _grown(reduced: Array, count: int) -> Indices:
     """Greedy: at each step the candidate that multiplies the determinant most."""
     scale = np.einsum("nij,nij->", reduced, reduced) / len(reduced) / reduced.shape[2]
     information = 1e-6 * scale * np.eye(reduced.shape[2])  # lets the first poses be compared; without weight later
@@ -139,7 +139,7 @@ def _grown(reduced: Array, count: int) -> NDArray[np.intp]:
     return np.array(chosen)
 
 
-def _exchanged(reduced: Array, chosen: NDArray[np.intp]) -> NDArray[np.intp]:
+def _exchanged(reduced: Array, chosen: Indices) -> Indices:
     """Fedorov's exchange, one pose at a time: the pose that is missed least makes room for the one that adds most."""
     chosen = chosen.copy()
     for _ in range(EXCHANGES):

@@ -11,14 +11,12 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
+from armscope.compensation.closed_loop import ERROR_COLUMNS
 from armscope.core.types import Array
 from armscope.errormodels.features import ModelSpec
 from armscope.errormodels.swarm_fit import FitProblem
 from armscope.paper.printed import IDENTIFICATION
-from armscope.recordings.columns import angle_columns
-
-ERROR_COLUMNS = ["dx_mm", "dy_mm", "dz_mm"]
-POSITION_COLUMNS = ["x_mm", "y_mm", "z_mm"]
+from armscope.recordings.columns import AXES_MM, angle_columns
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +104,7 @@ def pose_table(name: str, motor_angles: Array, nominal_mm: Array) -> pd.DataFram
     Returns:
         The table.
     """
-    columns = angle_columns(motor_angles) | dict(zip(POSITION_COLUMNS, nominal_mm.T, strict=True))
+    columns = angle_columns(motor_angles) | dict(zip(AXES_MM, nominal_mm.T, strict=True))
     return pd.DataFrame({"trajectory": name, "point": np.arange(1, len(motor_angles) + 1), **columns})
 
 
@@ -114,4 +112,4 @@ def pose_arrays(poses: pd.DataFrame) -> tuple[Array, Array]:
     """(motor angles (N, m) rad, nominal positions (N, 3) mm) of a pose table."""
     motors = sum(name.startswith("q") and name.endswith("_rad") for name in poses.columns)
     angles = poses[[f"q{motor}_rad" for motor in range(1, motors + 1)]].to_numpy(dtype=float)
-    return angles, poses[POSITION_COLUMNS].to_numpy(dtype=float)
+    return angles, poses[AXES_MM].to_numpy(dtype=float)

@@ -23,6 +23,7 @@ from armscope.paper.claims.evidence import Evidence
 from armscope.paper.claims.judges import CLOSE_PER_CENT, arrival, cost_ratio
 from armscope.paper.claims.table import missing_models
 from armscope.paper.claims.verdicts import interval
+from armscope.paper.convergence import RANDOM_SEARCH
 from armscope.paper.measurements import Measurements
 from armscope.swarm.settings import SwarmSettings
 
@@ -34,7 +35,6 @@ JUDGED = ("alternative", "iterations", "fourier", "same_outcome")
 
 CLAIM_COLUMNS = ["basis", "layout", "update", "key", "true", "robots", "share", "share_low", "share_high"]
 PRINTED_BASIS, PRINTED_LAYOUT, PRINTED_UPDATE = BASES[0], LAYOUTS[0], UPDATES[0]
-RANDOM_SEARCH = "random search"
 
 
 def as_printed(settings: SwarmSettings) -> SwarmSettings:

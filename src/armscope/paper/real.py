@@ -10,10 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.fitting.constants import STEPS
 from armscope.fitting.placement import FlangePoses, all_alike, place_frames
 from armscope.paper.identification_poses import ChosenPoses, choose_identification_poses
@@ -104,7 +103,7 @@ def real_measurements(arm: Arm, recordings: Recordings, seed: int, count: int = 
     return RealStudy(Measurements((arm.name,), sets), choice, position, rotation, by_target)
 
 
-def _configurations(recordings: Recordings) -> NDArray[np.intp]:
+def _configurations(recordings: Recordings) -> Indices:
     """(N,) number of each row's configuration: rows of one run and id with equal angles are targets of one."""
     keys = np.column_stack([recordings.run, recordings.id, recordings.motor_angles.astype(str)])
     return np.asarray(np.unique(keys, axis=0, return_inverse=True)[1]).ravel()

@@ -8,9 +8,9 @@ from typing import Any
 
 import pandas as pd
 
+from armscope.core.config import Point
 from armscope.core.inputs import InputError
 from armscope.paper.study import Sizes, StudyPlan
-from armscope.paper.virtual import Point
 from armscope.robot import Arm
 
 Corners = tuple[Point, Point, Point, Point]

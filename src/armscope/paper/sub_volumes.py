@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.errormodels.features import FDP_CI, SDP_CI, ModelSpec
 from armscope.paper.measurements import Measurements
 
@@ -76,7 +75,7 @@ def _fit(terms: Array, errors: Array) -> Array:
 Tree = tuple[int, float, "Tree", "Tree"] | None
 
 
-def _split(points: Array, rows: NDArray[np.intp], n_splits: int, depth: int) -> Tree:
+def _split(points: Array, rows: Indices, n_splits: int, depth: int) -> Tree:
     """Median cuts of a k-d tree over the identification positions."""
     if depth == n_splits:
         return None
@@ -91,7 +90,7 @@ def _split(points: Array, rows: NDArray[np.intp], n_splits: int, depth: int) -> 
     )
 
 
-def _region(tree: Tree, points: Array) -> NDArray[np.intp]:
+def _region(tree: Tree, points: Array) -> Indices:
     """(N,) the number of the region that each point lies in."""
     if tree is None:
         return np.zeros(len(points), dtype=np.intp)

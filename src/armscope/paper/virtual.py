@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
+from armscope.core.config import Point
 from armscope.core.types import Array
 from armscope.paper.anchoring import AnchoredRobots, anchor
 from armscope.paper.identification_poses import ChosenPoses, candidate_poses, choose_identification_poses, joint_ranges
@@ -18,8 +19,6 @@ from armscope.robot.inverse import follow_path
 from armscope.world.tolerances import GeometricErrors
 from armscope.world.tracker import Tracker
 from armscope.world.trajectories import archimedes_spiral, rectangle
-
-Point = tuple[float, float, float]
 
 HELD = {4: 0.0, 5: 0.0}
 """theta4 = theta5 = 0 throughout (below Eq. 14)."""

@@ -6,10 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.poses.obstacles import REASONS, Surroundings, ranges, refusals
 from armscope.recordings import Recordings
 from armscope.recordings.table import unmeasured
@@ -117,6 +116,6 @@ def grid(arm: Arm, count: int, around: Surroundings, rng: np.random.Generator, p
     raise InputError("--poses", "", count, f"a grid of {levels - 1} steps per joint has fewer possible poses")
 
 
-def subset(table: Recordings, rows: NDArray[np.intp]) -> Recordings:
+def subset(table: Recordings, rows: Indices) -> Recordings:
     """Some rows, numbered anew from 1."""
     return replace(table.rows(rows), id=np.arange(1, len(rows) + 1).astype(str))

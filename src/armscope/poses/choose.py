@@ -6,10 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.design.exchange import optimal
 from armscope.design.indices import SOURCES, all_indices
 from armscope.poses.candidates import Candidates, candidates, grid, subset
@@ -35,7 +34,7 @@ class Choice:
 
     effects: tuple[str, ...]
     index: str
-    rows: NDArray[np.intp]
+    rows: Indices
     candidates: Candidates
     targets: TargetParameters
     jacobian: Array
@@ -140,7 +139,7 @@ def grid_choice(choice: Choice, rng: np.random.Generator, payload_kg: float = 0.
     return grid(choice.targets.arm, len(choice.rows), choice.around, rng, payload_kg)
 
 
-def short_way(motor_angles: Array, rows: NDArray[np.intp]) -> NDArray[np.intp]:
+def short_way(motor_angles: Array, rows: Indices) -> Indices:
     """The rows in an order with short ways: nearest neighbours, then 2-opt (Croes 1958).
 
     A way counts as the largest turn of any motor, as all move at once.

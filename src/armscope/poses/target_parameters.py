@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError, nearest
 from armscope.core.location import Location
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.design.independence import independent_columns
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import AXES, ONE, Placed, Term
@@ -139,7 +139,7 @@ def _tier(placed: Placed) -> int:
     return 1 if placed.family == "geometric" and Location.of(placed.location).kind == "joint" else 2
 
 
-def _told_apart(columns: Array, tiers: NDArray[np.intp]) -> NDArray[np.bool_]:
+def _told_apart(columns: Array, tiers: Indices) -> NDArray[np.bool_]:
     """Columns of which enough is left beyond those of lower tiers, whatever their size."""
     triangular = np.linalg.qr(columns, mode="r")
     unit = triangular / np.maximum(np.linalg.norm(triangular, axis=0), 1e-300)

@@ -87,7 +87,6 @@ RELIABLE = 0.9
 RIGHT_INPUTS = ("single", "multiple", "bad_shots", "faint", "inseparable", "real")
 """Categories in which what the diagnosis is told about the arm is right (as far as it is told)."""
 FEWEST_CASES = 10
-AXES_MM = ["x_mm", "y_mm", "z_mm"]
 SEEDS = ("fixed", "fresh", "all")
 
 

@@ -17,8 +17,8 @@ from armscope.core.files import new_folder, write_table, write_text
 from armscope.diagnosis import Settings, diagnose, write_verdict
 from armscope.physics.model import predict
 from armscope.proof.answers import FAILURE, PREDICTED
-from armscope.proof.definitions import AXES_MM
 from armscope.recordings import read_recordings
+from armscope.recordings.columns import AXES_MM
 from armscope.robot import load_arm
 
 

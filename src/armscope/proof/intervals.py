@@ -10,8 +10,8 @@ import pandas as pd
 
 from armscope.proof.answers import NamedEffect
 from armscope.proof.truth import Concealed
+from armscope.verdict.effects import INTERVAL
 
-NORMAL_95 = 1.959964
 SCANNED = ("per_turn", "time")
 
 
@@ -52,7 +52,7 @@ def compare_numbers(truth: Concealed, claims: Sequence[NamedEffect], times: pd.S
         if name in SCANNED:
             right = _between(times, true[name], value) if name == "time" else value == true[name]
         else:
-            covered = bool(abs(value - true[name]) <= NORMAL_95 * stderr)
+            covered = bool(abs(value - true[name]) <= INTERVAL * stderr)
         found.append(Compared(name, unit, true[name], value, stderr, covered, right))
     return found
 

@@ -9,8 +9,8 @@ from typing import Literal
 import pandas as pd
 
 from armscope.core.files import copy_file, new_folder, write_table
-from armscope.proof.definitions import AXES_MM
 from armscope.proof.truth import seal
+from armscope.recordings.columns import AXES_MM
 from armscope.world.catalogue import catalogue
 from armscope.world.folder import build
 from armscope.world.spec import WorldSpec

@@ -11,8 +11,8 @@ from scipy.optimize import linear_sum_assignment
 from armscope.proof.answers import NamedEffect
 from armscope.proof.definitions import Name, place
 from armscope.proof.truth import Concealed
+from armscope.verdict.effects import UNKNOWN
 
-UNKNOWN = "unknown"
 _OWN, _ALTERNATIVE, _BACKGROUND, _NEVER = 0.0, 1.0, 2.0, 1e6
 
 

@@ -19,10 +19,10 @@ from armscope.proof.definitions import (
     SEEDS,
     THRESHOLD_AIM,
 )
-from armscope.proof.matching import UNKNOWN
 from armscope.proof.oracle import Threshold, threshold
 from armscope.proof.rough_rates import rough_table
 from armscope.proof.scoring import Cases
+from armscope.verdict.effects import UNKNOWN
 
 THRESHOLD_TEXT = "detection threshold (90 %) in multiples of the oracle's"
 POWER_BINS = (0.0, 0.6, 0.9, 1.15, 1.45, 1.9, 2.6, 5.0, 12.0, 40.0, np.inf)

@@ -13,8 +13,9 @@ from armscope.proof.definitions import (
     Name,
     place,
 )
-from armscope.proof.matching import UNKNOWN, Match, distinct
+from armscope.proof.matching import Match, distinct
 from armscope.proof.truth import Concealed, Truth
+from armscope.verdict.effects import UNKNOWN
 
 CONSTANT = ("joint_offset", "link_geometry")
 OWN_SIZE = ("compliance", "amplitude", "flexibility", "gap")

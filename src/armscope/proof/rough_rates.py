@@ -9,7 +9,7 @@ import pandas as pd
 from armscope.physics.registry import EFFECTS
 from armscope.proof.binomial import RATE, Row, of_seeds, rate
 from armscope.proof.definitions import MOST_MAJOR, ROUGH, SEEDS
-from armscope.proof.matching import UNKNOWN
+from armscope.verdict.effects import UNKNOWN
 
 FAMILY_OF = {effect.name: effect.family for effect in EFFECTS}
 BY_CAUSES: dict[str, Callable[[pd.DataFrame], pd.Series]] = {

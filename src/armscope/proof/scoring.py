@@ -9,12 +9,14 @@ import numpy as np
 import pandas as pd
 
 from armscope.proof.answers import Answer, NamedEffect
-from armscope.proof.definitions import AXES_MM, HELD_OUT_TOLERANCE, NEAR_ORACLE, ROUGH, Name, place
+from armscope.proof.definitions import HELD_OUT_TOLERANCE, NEAR_ORACLE, ROUGH, Name, place
 from armscope.proof.intervals import compare_numbers
-from armscope.proof.matching import UNKNOWN, Match, distinct, effect_row, match, name_row, outside_outcome
+from armscope.proof.matching import Match, distinct, effect_row, match, name_row, outside_outcome
 from armscope.proof.oracle import power, size_in_thresholds
 from armscope.proof.rough import rough_scores
 from armscope.proof.truth import Concealed, Truth
+from armscope.recordings.columns import AXES_MM
+from armscope.verdict.effects import UNKNOWN
 
 CANNOT_TELL, NOTHING = "cannot tell", "nothing"
 _COMMON = ("world", "category", "fresh", "weakest")
@@ -118,8 +120,8 @@ def _world(
         "noise": truth.noise,
         "left_out": " ".join(truth.left_out),
         "shape": " ".join(effect.shape for effect in truth.story if effect.shape),
-        "concealed": _listed([(e.effect, e.location) for e in truth.story]),
-        "said": _listed([claim.name for claim in claims]),
+        "concealed": names_in_a_cell([(e.effect, e.location) for e in truth.story]),
+        "said": names_in_a_cell([claim.name for claim in claims]),
         "answer": answer.answer,
         "mismatch": answer.mismatch,
         "silent": not answer.failed and not claims and not answer.mismatch,
@@ -140,7 +142,8 @@ def _world(
     }
 
 
-def _listed(names: Sequence[Name]) -> str:
+def names_in_a_cell(names: Sequence[Name]) -> str:
+    """Names in one cell of a table."""
     return "; ".join(f"{effect} {location}" for effect, location in names)
 
 

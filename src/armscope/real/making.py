@@ -23,8 +23,9 @@ from armscope.core.files import copy_file, new_folder, write_table, write_yaml
 from armscope.proof.making import TEST_POSES
 from armscope.proof.truth import seal
 from armscope.real.planting import CannotPlantError, NotPlanted, Planted, plant, truth_of
-from armscope.real.staging import AXES_MM, QUATERNION, Stage
+from armscope.real.staging import Stage
 from armscope.real.theatre import Theatre
+from armscope.recordings.columns import AXES_MM, QUATERNION
 
 
 @dataclass(frozen=True)

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Literal
 
 from pydantic import Field
 
+from armscope.core.config import Count, Positive
 from armscope.core.inputs import Strict, load
-
-Millimetres = Annotated[float, Field(gt=0)]
-Count = Annotated[int, Field(ge=1)]
 
 
 class Best(Strict):
     """The best figure known for a run, or what was aimed at, and by what it was reached."""
 
-    mm: Millimetres
+    mm: Positive
     what: str
 
 
@@ -37,7 +35,7 @@ class ReferenceRun(Strict):
     first_id: int | None = None
     splits: Count = 5
     most_rows: Count | None = None
-    figures_mm: dict[Literal["nominal", "offsets", "geometric", "compliance"], tuple[Millimetres, Millimetres]]
+    figures_mm: dict[Literal["nominal", "offsets", "geometric", "compliance"], tuple[Positive, Positive]]
     best: Best | None = None
 
     def figure(self, model: str) -> tuple[float, float] | None:
@@ -63,7 +61,7 @@ class ReferenceTransfer(Strict):
     learned: str
     applied: str
     refitted: tuple[Literal["base", "tool"], ...]
-    figures_mm: dict[str, Millimetres] = Field(default_factory=dict)
+    figures_mm: dict[str, Positive] = Field(default_factory=dict)
 
     @property
     def lowest(self) -> float | None:
@@ -84,7 +82,7 @@ class ReferenceCompliances(Strict):
     runs: tuple[str, ...] = Field(min_length=2)
     together: dict[str, tuple[str, ...]] = Field(default_factory=dict)
     learned_on: str
-    microrad_per_nm: dict[int, Annotated[float, Field(gt=0)]] = Field(min_length=1)
+    microrad_per_nm: dict[int, Positive] = Field(min_length=1)
 
 
 class Reference(Strict):

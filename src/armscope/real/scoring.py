@@ -40,12 +40,14 @@ from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.physics.elastic import JOINT_COMPLIANCE
 from armscope.proof.answers import Answer, NamedEffect, read_answer
-from armscope.proof.definitions import AXES_MM, Name, place
+from armscope.proof.definitions import place
 from armscope.proof.intervals import Compared, compare_numbers
-from armscope.proof.matching import UNKNOWN
 from armscope.proof.reading import check_seal
+from armscope.proof.scoring import names_in_a_cell
 from armscope.proof.truth import Concealed, unsealed
 from armscope.real.making import LEFT_MM
+from armscope.recordings.columns import AXES_MM
+from armscope.verdict.effects import UNKNOWN
 
 JUMP, ROW = "jump_between_ids", "row"
 CHANGED_SHARE = 0.5
@@ -140,7 +142,7 @@ def _case(world: Sealed, original: Sealed) -> tuple[dict[str, Any], list[Compare
         "size": truth.strength,
         "planted_mm": world.truth["rms_mm"],
         "level_mm": world.truth["level_mm"],
-        "alternatives": _listed(truth.alternatives),
+        "alternatives": names_in_a_cell(truth.alternatives),
         "outcome": outcome,
         "found": outcome in ("named", "acceptable"),
         "right_place": outcome != "missed",
@@ -149,9 +151,9 @@ def _case(world: Sealed, original: Sealed) -> tuple[dict[str, Any], list[Compare
         "row_right": _row_right(truth, world.truth, now) if JUMP in world.truth and outcome == "named" else None,
         "had_it_before": truth.name in had,
         "new_names": len({each.name for each in new}),
-        "new": _listed(sorted({each.name for each in new})),
+        "new": names_in_a_cell(sorted({each.name for each in new})),
         "unheard_of": len({each.name for each in new} - heard_of),
-        "lost": _listed(sorted(had - {each.name for each in now})),
+        "lost": names_in_a_cell(sorted(had - {each.name for each in now})),
         "failed": world.answer.failed,
     }
     return case | _held_out(world, original), compared
@@ -264,10 +266,6 @@ def _missed(world: Sealed) -> Array:
     return np.asarray(world.readings[AXES_MM].to_numpy() - world.answer.predicted[AXES_MM].to_numpy())
 
 
-def _listed(names: Sequence[Name]) -> str:
-    return "; ".join(f"{effect} {location}" for effect, location in names)
-
-
 def _withheld(world: Sealed) -> dict[str, Any]:
     """What is still said about giving way under load where columns are missing."""
     loaded = [c for c in world.answer.claims if any(word in c.driver for word in LOAD_WORDS)]
@@ -279,8 +277,8 @@ def _withheld(world: Sealed) -> dict[str, Any]:
         "orientations": world.truth["orientations"],
         "load_found": bool(loaded),
         "compliance_found": bool(compliant),
-        "follows_load": _listed([c.name for c in loaded]),
-        "all_names": _listed([c.name for c in world.answer.claims]),
+        "follows_load": names_in_a_cell([c.name for c in loaded]),
+        "all_names": names_in_a_cell([c.name for c in world.answer.claims]),
         "background_mm": world.answer.background_mm,
         "load_rms_mm": float(np.sqrt(sum(c.rms_mm**2 for c in loaded))),
         "held_out_mm": rms_distance(_missed(world)) if world.answer.predicted is not None else float("nan"),

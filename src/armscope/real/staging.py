@@ -19,7 +19,7 @@ from armscope.calibration import calibrate
 from armscope.calibration.splits import random_split
 from armscope.core.grouping import by_label
 from armscope.core.inputs import InputError
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.recordings import Recordings, as_recordings
 from armscope.robot import Arm
 
@@ -28,8 +28,6 @@ SWING_K = 8.0
 TURNS_OF_SWING = 1.3
 STILL_RAD = 1e-6
 KEPT = r"id|run|target|q\d+_rad|[xyz]_mm|q[wxyz]|tau\d+_nm|payload_kg|sigma_[xyz]_mm|approach\d+|temperature_c"
-AXES_MM = ["x_mm", "y_mm", "z_mm"]
-QUATERNION = ["qw", "qx", "qy", "qz"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,11 +48,11 @@ class Stage:
     arm: Arm
     table: pd.DataFrame
     recordings: Recordings
-    train: NDArray[np.intp]
-    test: NDArray[np.intp]
-    configuration: NDArray[np.intp]
+    train: Indices
+    test: Indices
+    configuration: Indices
     targets: tuple[str, ...]
-    target: NDArray[np.intp]
+    target: Indices
     tools: Array
     rotations: Array
 
@@ -124,13 +122,13 @@ def stage(arm: Arm, table: pd.DataFrame, most_rows: int, source: str = "table") 
     )  # fmt: skip
 
 
-def _configurations(table: pd.DataFrame) -> NDArray[np.intp]:
+def _configurations(table: pd.DataFrame) -> Indices:
     """(N,) number of each row's run and id, in the order of their first row."""
     keys = table["id"].astype(str) if "run" not in table else table["run"].astype(str) + "\n" + table["id"].astype(str)
     return by_label(keys.to_numpy(str))[1]
 
 
-def _approach(angles: Array, configuration: NDArray[np.intp]) -> NDArray[np.int64]:
+def _approach(angles: Array, configuration: Indices) -> NDArray[np.int64]:
     """(N, m) sign of each joint's step from the configuration before; a joint that stood still keeps its side."""
     first = np.unique(configuration, return_index=True)[1]
     steps = np.diff(angles[first], axis=0, prepend=angles[first][:1])
@@ -141,7 +139,7 @@ def _approach(angles: Array, configuration: NDArray[np.intp]) -> NDArray[np.int6
     return np.asarray(side[configuration], dtype=np.int64)
 
 
-def _thinned(table: pd.DataFrame, configuration: NDArray[np.intp], most_rows: int) -> pd.DataFrame:
+def _thinned(table: pd.DataFrame, configuration: Indices, most_rows: int) -> pd.DataFrame:
     """Whole configurations drawn at random, in their order."""
     count = int(configuration.max()) + 1
     wanted = int(most_rows * count / len(table))
@@ -151,7 +149,7 @@ def _thinned(table: pd.DataFrame, configuration: NDArray[np.intp], most_rows: in
     return table[np.isin(configuration, kept)].reset_index(drop=True)
 
 
-def _temperature(configuration: NDArray[np.intp]) -> Array:
+def _temperature(configuration: Indices) -> Array:
     """A slow swing over the recording, deg C."""
     phase = 2 * np.pi * TURNS_OF_SWING * configuration / max(int(configuration.max()), 1)
     return np.asarray((20.0 + SWING_K / 2 * (1 + np.sin(phase))).round(2))

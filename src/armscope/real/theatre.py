@@ -11,9 +11,8 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.real.staging import Stage
 from armscope.robot import chain
 from armscope.world.kinds import Concealed, number
@@ -109,7 +108,7 @@ class Theatre:
         of_first = np.isin(self.rows[0], self.stage.train)
         return Judge(self.scenes[0].rows(np.flatnonzero(of_first)), self.nominal[self.rows[0][of_first]])
 
-    def first_training(self) -> NDArray[np.intp]:
+    def first_training(self) -> Indices:
         """The rows that `judge` sees."""
         return self.rows[0][np.isin(self.rows[0], self.stage.train)]
 

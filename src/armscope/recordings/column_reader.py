@@ -14,6 +14,7 @@ from armscope.recordings.columns import (
     LARGEST_ANGLE_RAD,
     LARGEST_NUMBER,
     LARGEST_POSITION_M,
+    QUATERNION,
     SMALLEST_SIGMA_M,
     UNITS,
     Names,
@@ -148,7 +149,7 @@ class ColumnReader:
 
     def orientation(self) -> Array | None:
         """(N, 4) unit quaternions (w, x, y, z), or None."""
-        quaternion = self.optional(["qw", "qx", "qy", "qz"], 1.0)
+        quaternion = self.optional(QUATERNION, 1.0)
         if quaternion is None:
             return None
         known = np.isfinite(quaternion).sum(axis=1)

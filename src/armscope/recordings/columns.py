@@ -27,6 +27,9 @@ LARGEST_NUMBER = 1e15
 
 ABSOLUTE_ZERO_C = -273.15
 
+AXES_MM = ["x_mm", "y_mm", "z_mm"]
+QUATERNION = ["qw", "qx", "qy", "qz"]
+
 UNITS: dict[str, float] = {"rad": 1.0, "deg": np.pi / 180, "mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254}
 """SI of one. Tables of raw files may be in centimetres and inches; those of armscope are not."""
 

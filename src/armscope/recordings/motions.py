@@ -12,7 +12,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError, nearest
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.recordings.column_reader import ColumnReader
 from armscope.recordings.first_lines import DRIVE_COLUMN
 from armscope.recordings.textfile import read_text_table
@@ -76,7 +76,7 @@ class Motions:
         names, first = np.unique(self.run, return_index=True)
         return tuple(str(names[k]) for k in np.argsort(first))
 
-    def rows(self, which: NDArray[np.bool_] | NDArray[np.intp] | slice) -> Motions:
+    def rows(self, which: NDArray[np.bool_] | Indices | slice) -> Motions:
         """The samples of some rows, in that order."""
         per_row: dict[str, Any] = {
             name: value[which]

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError, nearest
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.recordings.column_reader import ColumnReader
 from armscope.recordings.columns import Names, as_in_contract, column_named
 from armscope.recordings.textfile import read_text_table
@@ -92,7 +92,7 @@ class Recordings:
             cure = "Is this the right robot for the table?"
             raise InputError(self.source, "line 1", f"{self.n_motors} motor angles", rule, cure)
 
-    def rows(self, which: NDArray[np.bool_] | NDArray[np.intp] | slice) -> Recordings:
+    def rows(self, which: NDArray[np.bool_] | Indices | slice) -> Recordings:
         """The recordings of some rows, in that order."""
         per_row: dict[str, Any] = {
             name: value[which]

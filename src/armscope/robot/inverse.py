@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import cKDTree
 
 from armscope.core.inputs import InputError
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.robot.arm import Arm
 from armscope.robot.kinematics import chain, position_jacobian
 from armscope.robot.model import TIP
@@ -181,7 +181,7 @@ class _Newton:
 
 
 def _reasons(
-    arm: Arm, targets: Array, solutions: Array, missed: NDArray[np.intp], held: Mapping[int, float]
+    arm: Arm, targets: Array, solutions: Array, missed: Indices, held: Mapping[int, float]
 ) -> NDArray[np.str_]:
     """Why the rows ``missed`` have no solution: each is tried again from many starts, with and without limits."""
     reasons = np.full(len(missed), BEYOND_REACH, dtype="<U24")
@@ -203,7 +203,7 @@ def _jump(solution: Array, previous: Array) -> str:
     return f"jump of joint {int(np.argmax(np.abs(solution - previous))) + 1}"
 
 
-def _last_reached(solutions: Array, rows: NDArray[np.intp], start: Array) -> Array:
+def _last_reached(solutions: Array, rows: Indices, start: Array) -> Array:
     good = np.flatnonzero(~np.isnan(solutions).any(axis=1))
     if not len(good):
         return np.tile(start, (len(rows), 1))

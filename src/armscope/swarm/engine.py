@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.swarm.neighbourhoods import NEIGHBOURHOODS
 from armscope.swarm.result import StopReason, SwarmResult, final_reason
 from armscope.swarm.settings import SwarmSettings
@@ -21,7 +21,7 @@ CACHED_VALUES = 20000  # coordinates of a chunk's particles: its ten arrays then
 class Objective(Protocol):
     """What a swarm minimises."""
 
-    def __call__(self, positions: Array, swarms: NDArray[np.intp], /) -> Array:
+    def __call__(self, positions: Array, swarms: Indices, /) -> Array:
         """The fitness, n x particles, of ``positions`` (n x particles x D) of the swarms numbered ``swarms`` (n)."""
 
 
@@ -117,7 +117,7 @@ class _Chunk:
         lower: Array,
         upper: Array,
         generators: Sequence[np.random.Generator],
-        swarms: NDArray[np.intp],
+        swarms: Indices,
         settings: SwarmSettings,
     ) -> None:
         count, dimensions = lower.shape

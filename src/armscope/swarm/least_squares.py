@@ -16,9 +16,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.swarm.engine import checked_box, minimise
 from armscope.swarm.result import SwarmResult
 from armscope.swarm.settings import SwarmSettings
@@ -39,7 +39,7 @@ class LeastSquares:
     """
 
     factors: Array
-    factor_of: NDArray[np.intp]
+    factor_of: Indices
     targets: Array
     rests: Array
 
@@ -59,11 +59,11 @@ class LeastSquares:
         """Whether every factor is the identity, as on an orthonormal (QR) basis."""
         return bool(np.array_equal(self.factors, np.broadcast_to(np.eye(self.factors.shape[1]), self.factors.shape)))
 
-    def __call__(self, positions: Array, swarms: NDArray[np.intp], /) -> Array:
+    def __call__(self, positions: Array, swarms: Indices, /) -> Array:
         """The fitness of ``positions`` (n x particles x D) for the swarms numbered ``swarms``."""
         return np.sqrt(self.mean_squares(positions, swarms))
 
-    def mean_squares(self, positions: Array, swarms: NDArray[np.intp], /) -> Array:
+    def mean_squares(self, positions: Array, swarms: Indices, /) -> Array:
         """The squares of the fitness; for a swarm, which only compares, as good as the fitness and cheaper."""
         if self.is_orthonormal:
             gaps = positions - self.targets[swarms, None, :]

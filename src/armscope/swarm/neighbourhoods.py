@@ -7,8 +7,10 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.types import Indices
 
-def global_best(best_fitness: NDArray[np.float64]) -> NDArray[np.intp]:
+
+def global_best(best_fitness: NDArray[np.float64]) -> Indices:
     """The one best particle of each swarm.
 
     Args:
@@ -20,7 +22,7 @@ def global_best(best_fitness: NDArray[np.float64]) -> NDArray[np.intp]:
     return np.asarray(np.argmin(best_fitness, axis=1)[:, None])
 
 
-def ring_best(best_fitness: NDArray[np.float64]) -> NDArray[np.intp]:
+def ring_best(best_fitness: NDArray[np.float64]) -> Indices:
     """The best of each particle, its left and its right neighbour on a ring.
 
     Args:
@@ -36,7 +38,7 @@ def ring_best(best_fitness: NDArray[np.float64]) -> NDArray[np.intp]:
     return np.asarray(candidates[chosen, itself])
 
 
-NEIGHBOURHOODS: dict[str, Callable[[NDArray[np.float64]], NDArray[np.intp]]] = {
+NEIGHBOURHOODS: dict[str, Callable[[NDArray[np.float64]], Indices]] = {
     "gbest": global_best,
     "ring": ring_best,
 }

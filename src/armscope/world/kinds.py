@@ -6,10 +6,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from armscope.core.location import Location
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.robot.description import RobotDescription
 from armscope.world.layout import Geometry
 from armscope.world.statics import Hidden, Session
@@ -53,7 +52,7 @@ class Scene:
         """Whether gravity turns a motor (0-based) by more than a trace."""
         return bool(self.torque_scale[motor] > LEAST_TORQUE * self.torque_scale.max())
 
-    def rows(self, which: NDArray[np.intp]) -> Scene:
+    def rows(self, which: Indices) -> Scene:
         """The scene's rows ``which``; the torque scale stays that of the whole session."""
         return replace(
             self, session=self.session.rows(which), torque=self.torque[which], tool_turn=self.tool_turn[which]

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.world.layout import Geometry, Layout, segment_hinges
 from armscope.world.mechanism import Mechanism
 
@@ -49,7 +49,7 @@ class Session:
     def __len__(self) -> int:
         return len(self.commanded)
 
-    def rows(self, which: NDArray[np.intp]) -> Session:
+    def rows(self, which: Indices) -> Session:
         """The session's rows ``which``, in that order."""
         return Session(*(getattr(self, name)[which] for name in self.__dataclass_fields__))
 

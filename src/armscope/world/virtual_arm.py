@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.robot.description_file import load_description
 from armscope.world.constants import ROUGH
 from armscope.world.effect_placement import choose, visibilities, visibilities_in_runs
@@ -44,8 +44,8 @@ class VirtualArm:
     spec: WorldSpec
     scene: Scene
     nominal: Array
-    recorded: NDArray[np.intp]
-    held_out: NDArray[np.intp]
+    recorded: Indices
+    held_out: Indices
     chosen: tuple[Sized, ...]
     seen: tuple[Visibility, ...]
     judge: Judge

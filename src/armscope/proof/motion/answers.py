@@ -11,7 +11,7 @@ from armscope.core.files import read_table
 from armscope.motion.verdict import MotionVerdict, read_motion_verdict
 from armscope.proof.answers import FAILURE, NamedEffect, Numbers, numbers_of
 from armscope.proof.definitions import Name
-from armscope.proof.matching import UNKNOWN
+from armscope.verdict.effects import UNKNOWN
 
 VERDICT, PREDICTED = "verdict.json", "test_predicted.csv"
 NOT_PREDICTED = "not_predicted.txt"

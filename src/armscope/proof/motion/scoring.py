@@ -20,10 +20,10 @@ import pandas as pd
 from armscope.core.location import Location
 from armscope.proof.answers import NamedEffect
 from armscope.proof.definitions import Aim, category, clear, place
-from armscope.proof.intervals import NORMAL_95
-from armscope.proof.matching import UNKNOWN, Match, effect_row, match, name_row, outside_outcome
+from armscope.proof.matching import Match, effect_row, match, name_row, outside_outcome
 from armscope.proof.motion.answers import MotionAnswer
 from armscope.proof.motion.truth import MotionTruth
+from armscope.verdict.effects import INTERVAL, UNKNOWN
 
 Row = dict[str, object]
 COMMON = ("world", "category", "arm", "fresh", "weakest")
@@ -153,7 +153,7 @@ def _zeros(world: MotionWorld) -> Iterator[Row]:
 
 def _covered(name: str, unit: str, true: float, fitted: tuple[float, float, str]) -> Row:
     value, stderr, _ = fitted
-    covered = bool(abs(value - true) <= NORMAL_95 * stderr)
+    covered = bool(abs(value - true) <= INTERVAL * stderr)
     return {
         "parameter": name, "unit": unit, "true": true, "fitted": value, "stderr": stderr, "covered": covered,
     }  # fmt: skip

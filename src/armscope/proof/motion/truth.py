@@ -10,8 +10,8 @@ import numpy as np
 import pandas as pd
 
 from armscope.core.types import Array
-from armscope.proof.matching import UNKNOWN
 from armscope.proof.truth import Concealed, concealed, unsealed
+from armscope.verdict.effects import UNKNOWN
 
 COMPARED = {
     "coulomb_friction": ("coulomb",), "viscous_friction": ("viscous",), "asymmetric_friction": ("viscous_difference",),

@@ -10,7 +10,14 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
-from armscope.recordings.columns import ABSOLUTE_ZERO_C, LARGEST_ANGLE_RAD, LARGEST_POSITION_M, UNITS
+from armscope.recordings.columns import (
+    ABSOLUTE_ZERO_C,
+    AXES_MM,
+    LARGEST_ANGLE_RAD,
+    LARGEST_POSITION_M,
+    QUATERNION,
+    UNITS,
+)
 from armscope.recordings.importing.formats import Column, Time
 from armscope.recordings.importing.mapping import Columns, Label, Orientation, Scalar
 from armscope.recordings.importing.pieces import Piece
@@ -142,8 +149,8 @@ class Converter:
             position = required(piece, columns.position.columns) * UNITS[columns.position.unit]
             self._check_lengths(piece, columns.position.columns, position, columns.position.unit)
             orientation = None if columns.orientation is None else self._orientation(piece, columns.orientation)
-        measured = as_columns(["x_mm", "y_mm", "z_mm"], position * 1e3)
-        return measured if orientation is None else measured | as_columns(["qw", "qx", "qy", "qz"], orientation)
+        measured = as_columns(AXES_MM, position * 1e3)
+        return measured if orientation is None else measured | as_columns(QUATERNION, orientation)
 
     def _check_lengths(self, piece: Piece, columns: tuple[Column, ...], lengths: Array, unit: str) -> None:
         rule = f"a measured point lies within {LARGEST_POSITION_M / 1e3:g} km of its frame's origin"

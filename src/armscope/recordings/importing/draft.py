@@ -11,6 +11,7 @@ import yaml
 
 from armscope.core.inputs import InputError, validate
 from armscope.core.types import Array
+from armscope.recordings.columns import QUATERNION
 from armscope.recordings.importing.first_table import ForeignTable, first_table
 from armscope.recordings.importing.formats import TextFormat
 from armscope.recordings.importing.mapping import Mapping
@@ -254,8 +255,8 @@ def _further(table: ForeignTable, n_motors: int, taken: set[int]) -> Iterator[st
         say = {"torque": "N m, positive along gravity's pull: check the sign", "speed": "unit guessed: rad/s"}
         yield f"  {group}: {{columns: {_listed(table, columns)}{unit}}}   # guessed by name; {say.get(group, '-1, +1')}"
     small = {name.strip().lower(): column for column, name in enumerate(table.names) if column not in taken}
-    if all(part in small for part in ("qw", "qx", "qy", "qz")):
-        listed = _listed(table, [small[part] for part in ("qw", "qx", "qy", "qz")])
+    if all(part in small for part in QUATERNION):
+        listed = _listed(table, [small[part] for part in QUATERNION])
         yield f"  orientation: {{quaternion: {listed}, order: wxyz}}   # guessed by name"
     singles = {
         "temperature": (r"temp(erature)?([\s_.\[(]*(°?c|degc))?[\])]?", "temperature: {{column: {}}}"),

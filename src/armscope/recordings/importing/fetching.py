@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import gzip
-import hashlib
 import shutil
 import urllib.error
 import urllib.parse
@@ -17,6 +16,7 @@ from pydantic import Field
 
 from armscope.core.files import replacing
 from armscope.core.inputs import InputError, Strict, load
+from armscope.core.records import digest_of
 
 BLOCK = 1 << 20
 TIMEOUT_S = 60
@@ -127,7 +127,7 @@ def fetch_recordings(
     for file in source.files:
         target = Path(folder) / file.name
         paths.append(target)
-        if target.exists() and _sha256(target) == file.sha256:
+        if target.exists() and digest_of(target) == file.sha256:
             how.append("kept")
             continue
         if target.exists():
@@ -139,11 +139,6 @@ def fetch_recordings(
             _download(url_of(source, file, server), file, target)
             how.append("downloaded")
     return Fetched(tuple(paths), tuple(how))
-
-
-def _sha256(path: Path) -> str:
-    with path.open("rb") as stream:
-        return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
 def _set_aside(path: Path, target: Path) -> Path:
@@ -163,7 +158,7 @@ def _copy(stand_in: Path, file: SourceFile, target: Path) -> None:
         packed = found.suffix == ".gz" and not file.name.endswith(".gz")
         with gzip.open(found) if packed else found.open("rb") as stream, beside.open("wb") as copy:
             shutil.copyfileobj(stream, copy)
-        actual = _sha256(beside)
+        actual = digest_of(beside)
         if actual != file.sha256:
             rule = f"its sha256 must be {file.sha256}"
             raise InputError(found, "sha256", actual, rule, "It was left where it is and not used.")
@@ -172,7 +167,7 @@ def _copy(stand_in: Path, file: SourceFile, target: Path) -> None:
 def _download(url: str, file: SourceFile, target: Path) -> None:
     with replacing(target, at_once=True) as beside:
         _receive(url, file, beside)
-        actual = _sha256(beside)
+        actual = digest_of(beside)
         if actual != file.sha256:
             aside = _set_aside(beside, target)
             cure = f"What came was kept aside as {aside}. Fetch again; if it stays so, the source has changed."

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 import pydantic
 
-from armscope.core.inputs import InputError, Strict, read_yaml, validate
+from armscope.core.inputs import Strict, read_keys, validate
 from armscope.core.types import Array
 from armscope.recordings.columns import ABSOLUTE_ZERO_C
 from armscope.recordings.importing.conversion import Clock, as_columns, required, scalar
@@ -161,7 +161,5 @@ def load_any_mapping(path: Path | str) -> Mapping | MotionMapping:
     Raises:
         InputError: a key, unit or group that can't be; it names the place, the rule and the nearest known key.
     """
-    content = read_yaml(path)
-    if not isinstance(content, dict):
-        raise InputError(path, "", content or "nothing", "this file has lines of the form `key: value`")
+    content = read_keys(path)
     return validate(MotionMapping, content, path) if "table" in content else validate(Mapping, content, path)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError, nearest
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.recordings.importing.formats import Column, Format, RowFilter
 from armscope.recordings.importing.mapping import Beside, RunFiles
 from armscope.recordings.importing.rawfiles import read_pieces
@@ -37,14 +37,14 @@ class BesideFile:
         self.held: list[RawRows] = []
         self.rows_read = 0
 
-    def row_numbers(self, main_rows: NDArray[np.intp]) -> NDArray[np.intp]:
+    def row_numbers(self, main_rows: Indices) -> Indices:
         """Rows (from 1) that belong to ``main_rows`` (from 1) of the first file; they are there."""
         rows = (main_rows - 1) // self.other.repeat_each + 1
         if not self._read_to(rows.max()):
             self._unequal(f"row {main_rows.max()} of the first file")
         return rows
 
-    def take(self, main_rows: NDArray[np.intp]) -> RawRows:
+    def take(self, main_rows: Indices) -> RawRows:
         """The rows that belong to ``main_rows``."""
         rows = self.row_numbers(main_rows)
         self.held = [joined(self.held)]

@@ -6,10 +6,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError, nearest
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.recordings.columns import LARGEST_NUMBER
 from armscope.recordings.importing.formats import Column, TextFormat
 
@@ -33,8 +32,8 @@ class TextRows:
 
     source: Path
     names: tuple[str, ...]
-    numbers_of_rows: NDArray[np.intp]
-    lines: NDArray[np.intp]
+    numbers_of_rows: Indices
+    lines: Indices
     cells: list[list[str]]
     format: TextFormat
 
@@ -84,7 +83,7 @@ class TextRows:
         place = f"line {self.lines[row]}, column {column}"
         raise InputError(self.source, place, word, rule, cure)
 
-    def take(self, which: NDArray[np.intp]) -> TextRows:
+    def take(self, which: Indices) -> TextRows:
         """Some of the rows, in that order."""
         cells = [self.cells[row] for row in which]
         return replace(self, cells=cells, lines=self.lines[which], numbers_of_rows=self.numbers_of_rows[which])
@@ -109,11 +108,11 @@ class MatrixRows:
     """Some rows of a MATLAB matrix; attributes as in `TextRows`, with ``values`` (N, columns)."""
 
     source: Path
-    numbers_of_rows: NDArray[np.intp]
+    numbers_of_rows: Indices
     values: Array
 
     @property
-    def lines(self) -> NDArray[np.intp]:
+    def lines(self) -> Indices:
         """A matrix has rows where text has lines."""
         return self.numbers_of_rows
 
@@ -134,7 +133,7 @@ class MatrixRows:
         """The numbers of a column as words: whole numbers without a point."""
         return ["" if np.isnan(value) else f"{value:.12g}" for value in self.numbers(column)]
 
-    def take(self, which: NDArray[np.intp]) -> MatrixRows:
+    def take(self, which: Indices) -> MatrixRows:
         """Some of the rows, in that order."""
         return replace(self, values=self.values[which], numbers_of_rows=self.numbers_of_rows[which])
 

@@ -15,6 +15,7 @@ import pandas as pd
 
 from armscope.core.files import replacing
 from armscope.core.inputs import InputError, nearest
+from armscope.recordings.columns import AXES_MM, QUATERNION
 from armscope.recordings.importing.conversion import Converter
 from armscope.recordings.importing.mapping import Mapping, Run
 from armscope.recordings.importing.motions import MotionConverter, MotionMapping, MotionRun, load_any_mapping
@@ -170,8 +171,8 @@ def _table_columns(mapping: Mapping, runs: Sequence[AnyRun]) -> list[str]:
     def any_has(*groups: str) -> bool:
         return any(getattr(columns, group) is not None for columns in stated for group in groups)
 
-    names = ["id", "run"] + ["target"] * any_has("target") + [f"q{j}_rad" for j in motors] + ["x_mm", "y_mm", "z_mm"]
-    names += ["qw", "qx", "qy", "qz"] * any_has("orientation", "pose")
+    names = ["id", "run"] + ["target"] * any_has("target") + [f"q{j}_rad" for j in motors] + AXES_MM
+    names += QUATERNION * any_has("orientation", "pose")
     names += [f"tau{j}_nm" for j in motors] * any_has("torque") + [f"dq{j}_rad_s" for j in motors] * any_has("speed")
     names += [f"approach{j}" for j in motors] * any_has("approach")
     names += ["payload_kg"] * any_has("payload") + ["time_s"] * any_has("time")

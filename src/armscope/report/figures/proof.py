@@ -15,7 +15,6 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import LogFormatter
 
-from armscope.proof.matching import UNKNOWN
 from armscope.proof.scoring import NOTHING
 from armscope.report.style import (
     BLACK,
@@ -30,6 +29,7 @@ from armscope.report.style import (
     legend_above,
     styled,
 )
+from armscope.verdict.effects import UNKNOWN
 
 HALVES = {"fixed": (GREY, "s"), "fresh": (BLUE, "o")}
 """Colour and marker of worlds with fixed and with fresh seeds."""

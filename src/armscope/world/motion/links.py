@@ -8,10 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.signal import lfilter
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.robot.description import RobotDescription
 from armscope.world.motion.drives import behind_its_drive, wound_up
 from armscope.world.motion.kinds import Kind, Numbers, Stage, joints, loaded_joints
@@ -30,9 +29,7 @@ WAVES = (1, 2)
 """Per turn: a disc off its centre, an oval or tilted one."""
 
 
-def read_links(
-    session: Session, rows: NDArray[np.intp], beside: Array, rng: np.random.Generator
-) -> tuple[Array, Array]:
+def read_links(session: Session, rows: Indices, beside: Array, rng: np.random.Generator) -> tuple[Array, Array]:
     """What the links' encoders say.
 
     Args:

@@ -6,10 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.signal import butter, lfilter, sosfiltfilt
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.world.motion.session import GRID_HZ, Session
 
 ENCODER_STEPS = 2**19
@@ -36,7 +35,7 @@ class Recorded:
         links: (N, n) rad, of the links' own encoders; None where they have none.
     """
 
-    rows: NDArray[np.intp]
+    rows: Indices
     torque: Array
     noise: Array
     left: Array

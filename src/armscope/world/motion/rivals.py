@@ -11,9 +11,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.world.layout import Geometry
 from armscope.world.motion.kinds import Stage, joints, sign
 from armscope.world.motion.links import NOISE_RAD, link_rivals
@@ -57,7 +56,7 @@ def alternatives(arm: VirtualArm, concealed: list[Sized], rate: int, plain: Arra
     return found
 
 
-def _of_link(arm: VirtualArm, one: Sized, rows: NDArray[np.intp], worth: float) -> list[Alternative]:
+def _of_link(arm: VirtualArm, one: Sized, rows: Indices, worth: float) -> list[Alternative]:
     """What else would lay a link beside its motor so, whatever their zeros."""
     stage = stage_of(Geometry(arm.description), arm.dynamics, arm.session.taken(rows))
     weights = np.full(len(rows), np.sqrt(worth) / NOISE_RAD)
@@ -66,7 +65,7 @@ def _of_link(arm: VirtualArm, one: Sized, rows: NDArray[np.intp], worth: float) 
 
 
 def _equal(
-    one: Sized, rest: list[Sized], others: list[Rival], rows: NDArray[np.intp], weights: Array, free: Array
+    one: Sized, rest: list[Sized], others: list[Rival], rows: Indices, weights: Array, free: Array
 ) -> list[Alternative]:
     target = weights * one.change[rows].reshape(-1)
     fixed = [free] + [each.change[rows].reshape(-1, 1) for each in rest]
@@ -99,7 +98,7 @@ def _orthonormal(columns: Array) -> Array:
     return left[:, singular > 1e-9]
 
 
-def _background(arm: VirtualArm, rows: NDArray[np.intp]) -> Array:
+def _background(arm: VirtualArm, rows: Indices) -> Array:
     n = len(arm.sigma)
     blocks = [_at(arm.background(j)[rows], j, n) for j in range(n)]
     return np.hstack(blocks)
@@ -112,7 +111,7 @@ def _at(values: Array, joint: int, count: int) -> Array:
     return found.reshape(len(values) * count, values.shape[1])
 
 
-def rivals(arm: VirtualArm, torque: Array, rows: NDArray[np.intp]) -> Iterator[Rival]:
+def rivals(arm: VirtualArm, torque: Array, rows: Indices) -> Iterator[Rival]:
     """Every cause of the vocabulary at every place (ripples of many waves are left out).
 
     Args:
@@ -155,7 +154,7 @@ def _joint_patterns(stage: Stage, j: int, torque: Array, slope: Array) -> Iterat
     yield "cable_torque", np.polynomial.chebyshev.chebvander((angle - middle) / half, CURVE_DEGREE)
 
 
-def _drive_rivals(arm: VirtualArm, links: MovingArm, rows: NDArray[np.intp]) -> Iterator[Rival]:
+def _drive_rivals(arm: VirtualArm, links: MovingArm, rows: Indices) -> Iterator[Rival]:
     """Each drive gives way by a little: torques of all joints where its link lags behind."""
 
     def torques(motion: Session) -> Array:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.design.fourier import Limits, random_path
 from armscope.robot.description import RobotDescription
 
@@ -72,7 +72,7 @@ class Session:
             self, angle=self.angle + shift, speed=self.speed + speed, acceleration=self.acceleration + acceleration
         )
 
-    def taken(self, rows: NDArray[np.intp] | slice) -> Session:
+    def taken(self, rows: Indices | slice) -> Session:
         """Some of the samples."""
         return Session(**{name: values[rows] for name, values in vars(self).items()})
 
