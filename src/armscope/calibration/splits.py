@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from armscope.calibration.model import SetUp
-from armscope.core.grouping import by_label
+from armscope.core.grouping import named_configuration
 from armscope.core.types import Indices
 from armscope.recordings import Recordings
 
@@ -17,8 +17,9 @@ def random_split(recordings: Recordings, seed: int) -> tuple[Indices, Indices]:
 
     A configuration is an id within its run; all its targets stay together.
     """
-    names, configuration = by_label(np.char.add(np.char.add(recordings.run, "\n"), recordings.id))
-    train = np.random.default_rng(seed).permutation(len(names))[: int(TRAIN_SHARE * len(names))]
+    configuration = named_configuration(recordings.run, recordings.id)
+    count = int(configuration.max(initial=-1)) + 1
+    train = np.random.default_rng(seed).permutation(count)[: int(TRAIN_SHARE * count)]
     in_train = np.isin(configuration, train)
     return np.flatnonzero(in_train), np.flatnonzero(~in_train)
 

@@ -42,6 +42,11 @@ def by_label(labels: NDArray[np.str_]) -> tuple[tuple[str, ...], Indices]:
     return tuple(str(name) for name in names[order]), rank[number]
 
 
+def named_configuration(run: NDArray[np.str_], name: NDArray[np.str_]) -> Indices:
+    """(N,) number of each row's configuration where ids say which it is: an id within its run, by its first row."""
+    return by_label(np.char.add(np.char.add(run, "\n"), name))[1]
+
+
 def random_parts(group: Indices, count: int, rng: np.random.Generator) -> Indices:
     """Rows dealt into parts as evenly as whole groups allow.
 

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from armscope.core.grouping import same_configuration
 from armscope.core.inputs import InputError
-from armscope.core.types import Array, Indices
+from armscope.core.types import Array
 from armscope.fitting.constants import STEPS
 from armscope.fitting.placement import FlangePoses, all_alike, place_frames
 from armscope.paper.identification_poses import ChosenPoses, choose_identification_poses
@@ -62,8 +63,8 @@ def real_measurements(arm: Arm, recordings: Recordings, seed: int, count: int = 
         InputError: an arm with another number of motors, or too few rows to fit frames and models.
     """
     recordings.check_motors(arm.name, arm.n_motors)
-    configuration = _configurations(recordings)
-    first_rows = np.unique(configuration, return_index=True)[1]
+    configuration = same_configuration(recordings.motor_angles, recordings.run, recordings.id)
+    first_rows = np.sort(np.unique(configuration, return_index=True)[1])
     rows_each = len(recordings) / len(first_rows)
     n_chosen = int(min(count / rows_each, LARGEST_SHARE * len(first_rows)))
     targets, target = np.unique(recordings.target, return_inverse=True)
@@ -101,9 +102,3 @@ def real_measurements(arm: Arm, recordings: Recordings, seed: int, count: int = 
     )
     by_target = {str(name): tools[k] for k, name in enumerate(targets)}
     return RealStudy(Measurements((arm.name,), sets), choice, position, rotation, by_target)
-
-
-def _configurations(recordings: Recordings) -> Indices:
-    """(N,) number of each row's configuration: rows of one run and id with equal angles are targets of one."""
-    keys = np.column_stack([recordings.run, recordings.id, recordings.motor_angles.astype(str)])
-    return np.asarray(np.unique(keys, axis=0, return_inverse=True)[1]).ravel()

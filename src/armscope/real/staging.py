@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from armscope.calibration import calibrate
 from armscope.calibration.splits import random_split
-from armscope.core.grouping import by_label
+from armscope.core.grouping import named_configuration
 from armscope.core.inputs import InputError
 from armscope.core.types import Array, Indices
 from armscope.recordings import Recordings, as_recordings
@@ -123,9 +123,8 @@ def stage(arm: Arm, table: pd.DataFrame, most_rows: int, source: str = "table") 
 
 
 def _configurations(table: pd.DataFrame) -> Indices:
-    """(N,) number of each row's run and id, in the order of their first row."""
-    keys = table["id"].astype(str) if "run" not in table else table["run"].astype(str) + "\n" + table["id"].astype(str)
-    return by_label(keys.to_numpy(str))[1]
+    run = table["run"] if "run" in table else pd.Series("", index=table.index)
+    return named_configuration(run.to_numpy(str), table["id"].to_numpy(str))
 
 
 def _approach(angles: Array, configuration: Indices) -> NDArray[np.int64]:
