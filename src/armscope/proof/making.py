@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Literal
 
@@ -41,12 +43,24 @@ def make(specs: list[WorldSpec], robots: Path, visible: Path, sealed: Path) -> N
         visible: new folder for robot.yaml, recordings.csv and test_poses.csv (poses without readings) of each world.
         sealed: archive for the truth.
     """
-    new_folder(visible)
-    with tempfile.TemporaryDirectory() as made:
+    with sealing(visible, sealed) as made:
         for spec in specs:
-            home = build(spec, Path(made), robots)
+            home = build(spec, made, robots)
             test = pd.read_csv(home / "sealed" / "test.csv", dtype=str, keep_default_na=False)
             write_table(home / "visible" / TEST_POSES, test.drop(columns=AXES_MM))
-            for file in sorted((home / "visible").iterdir()):
-                copy_file(file, visible / spec.id / file.name)
+            show(home, visible)
+
+
+@contextlib.contextmanager
+def sealing(visible: Path, sealed: Path) -> Iterator[Path]:
+    """A folder for worlds, whose sealed files go into the archive in the end; the visible tree starts empty."""
+    new_folder(visible)
+    with tempfile.TemporaryDirectory() as made:
+        yield Path(made)
         seal(Path(made), sealed)
+
+
+def show(home: Path, visible: Path) -> None:
+    """Put what may be seen of a world into the visible tree."""
+    for file in sorted((home / "visible").iterdir()):
+        copy_file(file, visible / home.name / file.name)

@@ -28,15 +28,25 @@ def read_worlds(folder: Path) -> Iterator[World]:
     Raises:
         InputError: a diagnosing job could see more than it may.
     """
-    for archive in sorted((folder / "sealed").glob("*.tar.gz")):
-        batch = archive.name.removesuffix(".tar.gz")
-        check_seal(folder / "seen" / f"{batch}.txt")
+    for batch, archive in sealed_batches(folder):
         verdicts = folder / "verdicts" / batch
         for world, truth in unseal(archive).items():
             recorded = pd.read_csv(folder / "visible" / batch / world / "recordings.csv")
             times = recorded.get("time_s")
             runs = int(recorded["run"].nunique()) if "run" in recorded else 1
             yield World(truth, read_answer(verdicts / world), times, runs)
+
+
+def sealed_batches(folder: Path) -> Iterator[tuple[str, Path]]:
+    """Name and archive of every batch of worlds, once it is sure that its diagnosing job saw what it may and no more.
+
+    Raises:
+        InputError: one could see more.
+    """
+    for archive in sorted((folder / "sealed").glob("*.tar.gz")):
+        batch = archive.name.removesuffix(".tar.gz")
+        check_seal(folder / "seen" / f"{batch}.txt")
+        yield batch, archive
 
 
 def check_seal(seen: Path, allowed: Collection[str] = ALLOWED) -> None:

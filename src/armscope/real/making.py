@@ -7,10 +7,8 @@ names say nothing about what is inside.
 
 from __future__ import annotations
 
-import contextlib
 import itertools
-import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,9 +17,8 @@ import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation
 
-from armscope.core.files import copy_file, new_folder, write_table, write_yaml
-from armscope.proof.making import TEST_POSES
-from armscope.proof.truth import seal
+from armscope.core.files import copy_file, write_table, write_yaml
+from armscope.proof.making import TEST_POSES, sealing
 from armscope.real.planting import CannotPlantError, NotPlanted, Planted, plant, truth_of
 from armscope.real.staging import Stage
 from armscope.real.theatre import Theatre
@@ -61,18 +58,9 @@ def _write_world(
     write_yaml(home / "sealed" / "truth.yaml", truth)
 
 
-@contextlib.contextmanager
-def _sealing(places: Places) -> Iterator[Path]:
-    """A folder whose sealed files go into the archive; the visible tree starts empty."""
-    new_folder(places.visible)
-    with tempfile.TemporaryDirectory() as made:
-        yield Path(made)
-        seal(Path(made), places.sealed)
-
-
 def make_original(stage: Stage, places: Places) -> None:
     """The recordings as they are, with the columns that all altered ones have, too."""
-    with _sealing(places) as made:
+    with sealing(places.visible, places.sealed) as made:
         _write_world(made / "original", places, stage, stage.table, {"kind": "original"})
 
 
@@ -108,7 +96,7 @@ def make_altered(
                     made.append((truth_of(theatre, each), each))
         except CannotPlantError as error:
             skipped += [{"effect": name, "size": size, "reason": str(error)} for size in sizes]
-    with _sealing(places) as folder:
+    with sealing(places.visible, places.sealed) as folder:
         order = np.random.default_rng([*seed, len(effects)]).permutation(len(made))
         for place, (truth, planted) in zip(order.tolist(), made, strict=True):
             content = {"kind": "altered", **truth, "level_mm": level * 1e3, "skipped": skipped}
@@ -135,7 +123,7 @@ def make_withheld(stages: Mapping[str, Stage], places: Places) -> None:
 
     Where orientations were measured, each case is made without these, too.
     """
-    with _sealing(places) as folder:
+    with sealing(places.visible, places.sealed) as folder:
         for name, stage in stages.items():
             turns = _measured_turns(stage.table)
             cases = itertools.product((False, True) if turns else (False,), WITHHELD.items())

@@ -42,7 +42,7 @@ from armscope.physics.elastic import JOINT_COMPLIANCE
 from armscope.proof.answers import Answer, NamedEffect, read_answer
 from armscope.proof.definitions import place
 from armscope.proof.intervals import Compared, compare_numbers
-from armscope.proof.reading import check_seal
+from armscope.proof.reading import sealed_batches
 from armscope.proof.scoring import names_in_a_cell
 from armscope.proof.truth import Concealed, unsealed
 from armscope.real.making import LEFT_MM
@@ -81,9 +81,7 @@ def read_sealed(folder: Path) -> Iterator[Sealed]:
     Raises:
         InputError: a diagnosing job could see more than it may.
     """
-    for archive in sorted((folder / "sealed").glob("*.tar.gz")):
-        batch = archive.name.removesuffix(".tar.gz")
-        check_seal(folder / "seen" / f"{batch}.txt")
+    for batch, archive in sealed_batches(folder):
         name, _, part = batch.rpartition("-")
         for world, (truth, readings) in sorted(unsealed(archive).items()):
             yield Sealed(name, part, truth, readings, read_answer(folder / "verdicts" / batch / world))

@@ -16,7 +16,7 @@ from armscope.world.kinds import (
     Scene,
     Values,
     compliance_for,
-    joints,
+    links,
     links_longer_than,
     number,
 )
@@ -91,15 +91,11 @@ def _linkages(description: RobotDescription) -> list[str]:
     return ["parallelogram"] if description.parallelogram is not None else []
 
 
-def _links(description: RobotDescription) -> list[str]:
-    return [place.replace("joint", "link") for place in joints(description)]
-
-
 LINKS: tuple[Kind, ...] = (
     Kind(
         "link_geometry", "", CONSTANT,
         (Parameter("alpha", "rad"), Parameter("a", "mm", 1e-3), Parameter("d", "mm", 1e-3)), (),
-        _links, _draw_link_geometry, _hide_link_geometry,
+        links, _draw_link_geometry, _hide_link_geometry,
     ),
     Kind(
         "link_bending", "", LOAD, (Parameter("flexibility", "1/(N m^2)"),), ("payload_kg",), links_longer_than(0.1),

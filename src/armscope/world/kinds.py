@@ -162,6 +162,11 @@ def joints(description: RobotDescription) -> list[str]:
     return [f"joint {j + 1}" for j in range(len(description.dh.joints))]
 
 
+def links(description: RobotDescription) -> list[str]:
+    """The link behind every joint."""
+    return [place.replace("joint", "link") for place in joints(description)]
+
+
 def links_longer_than(metres: float) -> Callable[[RobotDescription], list[str]]:
     """The D-H rows whose straight length exceeds ``metres``."""
 

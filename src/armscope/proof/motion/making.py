@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import tempfile
 from pathlib import Path
 
-from armscope.core.files import copy_file, new_folder
-from armscope.proof.truth import seal
+from armscope.proof.making import sealing, show
 from armscope.world.motion.catalogue import Size, catalogue
 from armscope.world.motion.folder import build
 
@@ -21,11 +19,7 @@ def make(proof_seed: int, size: Size, robots: Path, visible: Path, sealed: Path)
         visible: new folder for robot.yaml, motions.csv and test_motions.csv (no torques) of each world.
         sealed: archive for the truth.
     """
-    new_folder(visible)
-    with tempfile.TemporaryDirectory() as made:
+    with sealing(visible, sealed) as made:
         for spec in catalogue(proof_seed, size):
-            home = build(spec, Path(made), robots)
-            for file in sorted((home / "visible").iterdir()):
-                copy_file(file, visible / spec.id / file.name)
+            show(build(spec, made, robots), visible)
             print(spec.id, flush=True)  # progress; what is inside stays sealed
-        seal(Path(made), sealed)

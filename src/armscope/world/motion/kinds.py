@@ -18,8 +18,10 @@ import numpy as np
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.robot.description import RobotDescription
+from armscope.world.kinds import joints, links
 from armscope.world.motion.drives import behind_its_drive
 from armscope.world.motion.limits import (
+    Numbers,
     centre_may_be,
     holds_its_link,
     mass_may_be,
@@ -32,7 +34,6 @@ from armscope.world.motion.session import COLD_C, GRID_HZ, Session
 if TYPE_CHECKING:
     from armscope.world.motion.virtual_arm import VirtualArm
 
-Numbers = Mapping[str, float]
 STANDSTILL = 2e-3
 """rad/s: below it the sign of a speed counts as a share only, as in `STIFF_FRICTION`."""
 Changes = Callable[[Dynamics, Location, Numbers], Dynamics]
@@ -128,20 +129,10 @@ class Concealed:
         return any(abs(self.numbers[name]) > most for name, most in self.kind.largest.items())
 
 
-def joints(description: RobotDescription) -> list[str]:
-    """All joints."""
-    assert description.dh is not None
-    return [f"joint {j + 1}" for j in range(len(description.dh.joints))]
-
-
 def loaded_joints(description: RobotDescription) -> list[str]:
     """Joints that gravity loads; joint 1 of a standing arm is not."""
     standing = abs(description.gravity_m_s2[2]) > 0
     return joints(description)[1:4] if standing else joints(description)
-
-
-def _links(description: RobotDescription) -> list[str]:
-    return [place.replace("joint", "link") for place in joints(description)]
 
 
 def _wrist(description: RobotDescription) -> list[str]:
@@ -266,11 +257,11 @@ LIBRARY: tuple[Kind, ...] = (
          driver="time"),
     Kind("joint_compliance", loaded_joints, _more("compliance"), {"compliance": "rad/(N m)"}, ("compliance",), {},
          pulls=behind_its_drive, driver="load", possible=holds_its_link),
-    Kind("link_mass", _links, _either("mass"), {"mass": "kg"}, ("mass",), {}, changes=_heavier, driver="load",
+    Kind("link_mass", links, _either("mass"), {"mass": "kg"}, ("mass",), {}, changes=_heavier, driver="load",
          possible=mass_may_be),
-    Kind("link_first_moment", _links, _direction("mx", "my", "mz"), dict.fromkeys(("mx", "my", "mz"), "kg m"),
+    Kind("link_first_moment", links, _direction("mx", "my", "mz"), dict.fromkeys(("mx", "my", "mz"), "kg m"),
          ("mx", "my", "mz"), {}, changes=_off_centre, driver="load", possible=centre_may_be),
-    Kind("link_inertia", _links, _more("inertia"), {"inertia": "kg m^2"}, ("inertia",), {}, changes=_thicker,
+    Kind("link_inertia", links, _more("inertia"), {"inertia": "kg m^2"}, ("inertia",), {}, changes=_thicker,
          driver="acceleration"),
     Kind("payload_error", lambda _: ["payload"], _more("mass"), {"mass": "kg"}, ("mass",), {}, changes=_carries,
          driver="load"),

@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.world.motion.kinds import Kind, Numbers, Stage, joints, sign
+from armscope.world.kinds import joints
+from armscope.world.motion.kinds import Kind, Stage, sign
+from armscope.world.motion.limits import Numbers
 from armscope.world.motion.session import GRID_HZ, Session
 
 

@@ -13,8 +13,9 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array, Indices
+from armscope.world.kinds import joints
 from armscope.world.layout import Geometry
-from armscope.world.motion.kinds import Stage, joints, sign
+from armscope.world.motion.kinds import Stage, sign
 from armscope.world.motion.links import NOISE_RAD, link_rivals
 from armscope.world.motion.mechanism import Dynamics, MovingArm
 from armscope.world.motion.recording import independent_share
