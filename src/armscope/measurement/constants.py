@@ -22,6 +22,11 @@ class NoiseRules(Constants):
         "judgement: fewer give a scale that is wrong by a third; twice and half change no golden verdict",
         unit="visits",
     )
+    repeats_trusted: float = constant(
+        0.8,
+        "part of the scatter between repeats that is taken as the noise's lower bound",
+        "derived: the scatter of six repeats, 18 numbers, is known to a sixth; as much lower",
+    )
     sure_nats: float = constant(
         3.0,
         "evidence that noise grows with the distance, or stays with the pose, beyond what one number more costs",

@@ -33,7 +33,7 @@ def known_noise(arm: Arm, recordings: Recordings) -> Noise:
         return Noise(stated, 0.0, "estimated; the instrument's stated uncertainty is its lower bound")
     repeats = _from_repeats(recordings)
     if repeats is not None:
-        return Noise(0.8 * repeats * 1e3, 0.0, "estimated; repeated poses are its lower bound")
+        return Noise(NOISE.repeats_trusted * repeats * 1e3, 0.0, "estimated; repeated poses are its lower bound")
     return Noise(0.0, 0.0, "estimated from the residuals")
 
 
