@@ -1,5 +1,6 @@
 """Files are written whole or not at all."""
 
+import gzip
 import json
 import subprocess
 import sys
@@ -9,7 +10,8 @@ import pandas as pd
 import pytest
 
 from armscope.core import files
-from armscope.core.files import replacing, write_json, write_table
+from armscope.core.files import read_json, replacing, write_json, write_table
+from armscope.core.inputs import InputError
 from armscope.core.parallel import processes
 
 
@@ -39,6 +41,29 @@ def test_the_same_table_has_the_same_bytes_even_compressed(tmp_path):
 def test_json_has_plain_numbers_and_null_for_what_is_not_one(tmp_path):
     write_json(tmp_path / "a.json", {"a": np.float64(1.5), "b": np.array([1, 2]), "c": float("nan")})
     assert json.loads((tmp_path / "a.json").read_text()) == {"a": 1.5, "b": [1, 2], "c": None}
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        (b'{"a": NaN}', "NaN is no number of JSON"),
+        (b'{"a": 1e999}', "1e999 is too large a number"),
+        (b'{"a": 12345678901234567890}', "a whole number of 20 digits"),
+        (b"[" * 100_000, "nested too deeply"),
+        (b'{"a": 1', "Expecting"),
+        (gzip.compress(b"[" + b" " * 10_000_000 + b"]"), "No table or model packs so well"),
+    ],
+)
+def test_json_that_no_program_here_wrote_is_refused_with_the_reason(tmp_path, text, why):
+    (tmp_path / "a.json").write_bytes(text)
+    with pytest.raises(InputError, match=why):
+        read_json(tmp_path / "a.json", "a model")
+
+
+def test_json_is_read_packed_or_not(tmp_path):
+    for name, pack in (("a.json", bytes), ("a.json.gz", gzip.compress)):
+        (tmp_path / name).write_bytes(pack(b'{"a": [1, 2.5, 123456789012345678]}'))
+        assert read_json(tmp_path / name, "a model") == {"a": [1, 2.5, 123456789012345678]}
 
 
 def test_what_a_killed_process_leaves_is_no_table_to_anybody(tmp_path):

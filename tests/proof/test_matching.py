@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 
-from armscope.proof.matching import among_all, distinct, match
+from armscope.proof.matching import among_all, distinct, match, name_row
 from tests.proof.cases import claim, concealed
 
 OFFSET = concealed("joint_offset", "joint 2")
@@ -31,6 +31,11 @@ def test_a_sealed_alternative_is_acceptable_but_one_that_only_the_verdict_lists_
     assert outcomes([OFFSET], [listing]) == (["listed"], [("gear_ratio", "joint 5")])
     assert among_all(OFFSET, [listing])
     assert not among_all(COMPLIANCE, [listing])
+
+
+def test_a_name_that_would_do_elsewhere_has_the_right_effect_whether_it_is_the_own_or_an_alternative():
+    said = [claim(effect, "joint 5") for effect in ("joint_compliance", "gear_eccentricity", "joint_offset")]
+    assert [name_row([COMPLIANCE], each, False)["effect_right"] for each in said] == [True, True, False]
 
 
 def test_own_names_go_before_alternatives_in_whatever_order_they_stand():

@@ -28,6 +28,13 @@ def test_an_exact_set_holds_every_effect_and_nothing_else():
     assert not only(world([OFFSET], [right, claim("unknown", "joint 1")]))["exact"]
 
 
+def test_a_world_is_as_clear_as_the_weakest_effect_of_its_story():
+    faint, strong = replace(OFFSET, strength=2.0), concealed("gear_ratio", "joint 3", strength=9.0)
+    cases = score([world([strong, faint, BACKGROUND], [claim("gear_ratio", "joint 3")])])
+    for table in (cases.worlds, cases.effects, cases.names):
+        assert set(table["weakest"]) == {2.0}
+
+
 def test_a_wrong_minor_name_spoils_the_set_but_not_the_story():
     row = only(world([OFFSET], [claim("joint_offset", "joint 2"), claim("gear_ratio", "joint 1", minor=True)]))
     assert not row["exact"]

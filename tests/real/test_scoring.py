@@ -163,6 +163,17 @@ def test_rates_count_both_halves_and_each():
     assert shown["right"].to_dict() == {"fixed": 1, "fresh": 0, "both": 1}
 
 
+def test_what_was_won_back_is_the_middle_of_the_cases_of_each_arm_and_size():
+    worlds = [original()]
+    for number, factor in enumerate((1.0, 1.2, 9.0)):
+        value = [{"name": "compliance", "value": (1 + number) * 1e-6, "unit": "rad/(N m)"}]
+        worlds.append(altered(spring(factor * (1 + number) * 1e-6), off=0.1 * factor, truth={"parameters": value}))
+    middle = tables(score(worlds))["held_out"]
+    assert middle["cases"].tolist() == [3]
+    assert middle["size_ratio"].iloc[0] == pytest.approx(1.2)
+    assert middle["with_mm"].iloc[0] == pytest.approx(0.12)
+
+
 def test_the_same_recordings_in_both_halves_count_once():
     rates = tables(score([original(), altered(spring()), altered(spring(), part="fresh")]))["rates"]
     shown = rates[(rates["by"] == "all") & (rates["score"] == "found")].set_index("half")

@@ -117,6 +117,17 @@ def test_masses_are_stated_10_to_30_percent_wrong_each_its_own_way_and_bars_are_
     assert "parallelogram" not in stated
 
 
+def test_an_offset_stated_on_the_next_row_is_missing_from_its_own_and_too_much_there():
+    scene, _ = scene_of("six-axis")
+    sizes = []
+    for seed in range(20):
+        own, following = BLEMISHES["row"][1](np.random.default_rng(seed), scene)
+        assert int(following.location.split()[1]) == int(own.location.split()[1]) + 1
+        assert following.values["a"] == -own.values["a"]
+        sizes.append(own.values["a"])
+    assert ROUGH.row_m[0] <= min(sizes) < max(sizes) <= ROUGH.row_m[1]
+
+
 def test_each_assumption_is_broken_on_its_own_as_often_as_stated():
     draws = [draw_broken(np.random.default_rng(seed)) for seed in range(1000)]
     counts = Counter(name for broken in draws for name in broken)

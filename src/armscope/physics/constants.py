@@ -23,10 +23,7 @@ class PlausibleSizes(Constants):
         unit="m",
     )
     twist_rad: float = constant(
-        10e-3,
-        "error of a link's twist",
-        "judgement: ten times a millimetre per metre, which makers keep",
-        unit="rad",
+        10e-3, "error of a link's twist", "judgement: ten times a millimetre per metre, which makers keep", unit="rad"
     )
     zero_rad: float = constant(
         20e-3,
@@ -34,12 +31,7 @@ class PlausibleSizes(Constants):
         "judgement: a joint mastered by eye is off by a degree, by gauge by a tenth of it",
         unit="rad",
     )
-    bar_m: float = constant(
-        3e-3,
-        "error of a parallelogram's bar",
-        "judgement: as of a link's length",
-        unit="m",
-    )
+    bar_m: float = constant(3e-3, "error of a parallelogram's bar", "judgement: as of a link's length", unit="m")
     bar_share: float = constant(
         0.01,
         "the same as a share of the rocker, where the bars are not stated",
@@ -76,16 +68,10 @@ class PlausibleSizes(Constants):
         unit="rad",
     )
     play_rad: float = constant(
-        3e-3,
-        "backlash",
-        "convention: makers state one to three minutes of arc; worn gears have ten",
-        unit="rad",
+        3e-3, "backlash", "convention: makers state one to three minutes of arc; worn gears have ten", unit="rad"
     )
     wobble_rad: float = constant(
-        3e-3,
-        "tilt of an axis while it turns",
-        "judgement: 0.1 mm run-out at 33 mm",
-        unit="rad",
+        3e-3, "tilt of an axis while it turns", "judgement: 0.1 mm run-out at 33 mm", unit="rad"
     )
     drive_rad: float = constant(
         5e-3,
@@ -111,22 +97,11 @@ class PlausibleSizes(Constants):
         unit="rad",
     )
     beam_rad: float = constant(
-        2e-3,
-        "turn of a link's end under its largest load",
-        "judgement: as a bearing",
-        unit="rad",
+        2e-3, "turn of a link's end under its largest load", "judgement: as a bearing", unit="rad"
     )
-    delay_s: float = constant(
-        0.05,
-        "between command and motion",
-        "judgement: some cycles of a controller",
-        unit="s",
-    )
+    delay_s: float = constant(0.05, "between command and motion", "judgement: some cycles of a controller", unit="s")
     expansion_per_k: float = constant(
-        30e-6,
-        "growth of a link",
-        "convention: steel 11-12, aluminium 23-24 millionths per kelvin",
-        unit="1/K",
+        30e-6, "growth of a link", "convention: steel 11-12, aluminium 23-24 millionths per kelvin", unit="1/K"
     )
     growth: float = constant(
         1.0e-4,
@@ -157,10 +132,7 @@ class PlausibleSizes(Constants):
         0.5, "error of a payload's mass as a share of the largest stated", "judgement: a gripper that was forgotten"
     )
     payload_centre_m: float = constant(
-        0.1,
-        "error of a payload's centre of mass",
-        "judgement: a hand's width",
-        unit="m",
+        0.1, "error of a payload's centre of mass", "judgement: a hand's width", unit="m"
     )
     learned_within: float = constant(
         3.0,
@@ -178,12 +150,7 @@ class PlausibleSizes(Constants):
         "derived: 3 m of steel or stone, 12 millionths per K, some 8 K between morning and noon",
         unit="m",
     )
-    wander_rad: float = constant(
-        1e-4,
-        "by which they lean meanwhile",
-        "derived: that over 3 m",
-        unit="rad",
-    )
+    wander_rad: float = constant(1e-4, "by which they lean meanwhile", "derived: that over 3 m", unit="rad")
 
 
 PLAUSIBLE = PlausibleSizes()

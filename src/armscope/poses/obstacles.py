@@ -134,6 +134,8 @@ def _hidden(body: list[Capsule], tool: Array, tracker: Array, radius: float) -> 
 def segment_distance(start: Array, end: Array, other_start: Array, other_end: Array) -> Array:
     """(N,) shortest distance of N segments from N others, all ends (N, 3); after Ericson (2005), section 5.1.9.
 
+    coal, which comes with pinocchio, measures one pair at a time; here each pair of links stands in thousands of poses.
+
     Args:
         start, end: (N, 3) ends of the segments.
         other_start, other_end: (N, 3) ends of the others.

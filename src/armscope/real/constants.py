@@ -28,10 +28,7 @@ class LargestErrors(Constants):
         unit="rad",
     )
     play_rad: float = constant(
-        1e-2,
-        "play of a drive",
-        "judgement: a worn gear's half a degree; one could shake the arm by hand",
-        unit="rad",
+        1e-2, "play of a drive", "judgement: a worn gear's half a degree; one could shake the arm by hand", unit="rad"
     )
     scale: float = constant(
         3e-3,

@@ -58,9 +58,7 @@ class RoughSizes(Constants):
         "judgement: columns are as broad as long, machine beds and wall brackets are not",
     )
     rocker_share: tuple[float, float] = constant(
-        (0.26, 0.4),
-        "length of crank and rocker over the upper arm's",
-        "convention: as on palletising arms",
+        (0.26, 0.4), "length of crank and rocker over the upper arm's", "convention: as on palletising arms"
     )
     bar_m: tuple[float, float] = constant(
         (5e-5, 4e-4), "error of a bar's length", "judgement: bored to a tenth of a millimetre, and worn", unit="m"
