@@ -12,8 +12,6 @@ SAME_OF_MANY = {"schema", "draw_all"}
 """Of each file format its schema, of each set of figures all of it."""
 OF_THEIR_OWN = {"cli", "notebook", "world"}
 """Commands, also as functions, are named as what they call; worlds share the field's words, and no code."""
-STILL_TWICE = {"Orientations", "evaluate"}
-"""The list only gets shorter."""
 
 
 def homes() -> dict[str, list[Path]]:
@@ -39,7 +37,6 @@ def test_names_are_unique_or_parallel() -> None:
     twice = {
         name: [str(path) for path in paths]
         for name, paths in homes().items()
-        if name not in SAME_OF_MANY | STILL_TWICE
-        and any(not parallel(one, other) for one, other in combinations(paths, 2))
+        if name not in SAME_OF_MANY and any(not parallel(one, other) for one, other in combinations(paths, 2))
     }
     assert not twice

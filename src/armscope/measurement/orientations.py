@@ -23,7 +23,7 @@ NOT_THE_TOOLS_RAD = np.radians(5)
 off leave less."""
 
 
-class Orientations(Channel):
+class OrientationChannel(Channel):
     """Rotation vectors from modelled to measured orientations in base axes, rad: the tool's turn is free."""
 
     name, unit, width = "orientation", "rad", 3
@@ -90,4 +90,4 @@ class Orientations(Channel):
         return float((rotations[0].inv() * rotations).magnitude().max())
 
 
-ORIENTATIONS = Orientations()
+ORIENTATIONS = OrientationChannel()

@@ -19,7 +19,7 @@ from armscope.physics.scene import Part
 from armscope.recordings import Recordings
 
 
-class Positions(Channel):
+class PositionChannel(Channel):
     """Tool points in base axes, m: base and tool are free."""
 
     name, unit, width, floor = "position", "m", 3, 0.0
@@ -67,4 +67,4 @@ def moved_base(base: Base, twist: Array) -> Base:
     return Base(base.rotation @ turn, base.translation + base.rotation @ twist[:3])
 
 
-POSITIONS = Positions()
+POSITIONS = PositionChannel()

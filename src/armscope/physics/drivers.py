@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from armscope.physics.scene import Scene
 
 
-def evaluate(scene: Scene, driver: Driver) -> Array:
+def driver_values(scene: Scene, driver: Driver) -> Array:
     """Values (N,) of a driver at the scene's rows, in SI units (time in hours).
 
     Raises:

@@ -56,7 +56,7 @@ class Scene(LoadedArm):
         """Values (N,) of a driver."""
         if self._rigid is not None and not drivers.follows("load", driver):
             return self._rigid.driver(driver)
-        values: Array = self.remember(driver, lambda: drivers.evaluate(self, driver))
+        values: Array = self.remember(driver, lambda: drivers.driver_values(self, driver))
         return values
 
     def _bent(self, frames: Chain) -> Scene:
