@@ -27,6 +27,11 @@ def test_the_full_proof_has_over_300_worlds_of_every_category_on_every_arm():
     assert len({world.id for world in worlds}) == len(worlds)
 
 
+def test_the_noise_is_stated_in_some_six_of_ten_worlds():
+    stated = [world.noise_stated for world in catalogue(1, "full")]
+    assert 0.5 < sum(stated) / len(stated) < 0.7
+
+
 def test_the_small_proof_has_24_worlds_the_roughest_among_them():
     worlds = catalogue(1)
     assert len(worlds) == 24
