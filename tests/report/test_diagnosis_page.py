@@ -226,6 +226,18 @@ def test_explained_never_stands_beside_more_than_noise(tmp_path):
     assert 'class="tag holds"' not in source.split("<body>")[1]
 
 
+def test_errors_are_promised_for_other_rows_only_where_these_confirm_the_model(tmp_path):
+    for after, confirmed in ((0.1, True), (6.8, False)):
+        case = verdicts.case(effects=(verdicts.compliance(),), held_out=verdicts.HeldOut(1.3, after))
+        report = write_report(case.verdict, tmp_path / str(confirmed))
+        for page in (report, report.with_name("work-order.html")):
+            source = page.read_text()
+            assert ("predicted worse with this model" in source) != confirmed
+        assert ("Errors are those to expect on new poses" in report.read_text()) == confirmed
+        assert ("on poses that took no part in the fit" in report.with_name("work-order.html").read_text()) == confirmed
+        assert ('class="tag holds"' in report.read_text().split("<body>")[1]) == confirmed
+
+
 def test_a_value_beyond_what_arms_have_is_not_printed(tmp_path):
     numbers = verdicts.Parameter("a", "mm", 844.0, 65.0), verdicts.Parameter("alpha", "rad", 7e-4, 1e-5)
     case = verdicts.case(effects=(verdicts.found("link_geometry", "link 2", *numbers),))

@@ -10,7 +10,7 @@ from armscope.report.html import unbroken
 from armscope.report.sections.effect_cards import card, chosen_how_often, title_of, told_parameters
 from armscope.robot import forward_kinematics
 from armscope.verdict.effects import Alternative, Curve, Parameter
-from armscope.verdict.schema import Background, Notice, Unexplained
+from armscope.verdict.schema import Background, HeldOut, Notice, Unexplained
 from armscope.verdict.sentences import ANOTHER_MODEL, cause_in_words, exact_phrase, headline
 from armscope.verdict.wording import main_and_minor, reach
 from tests.report import verdicts
@@ -123,6 +123,14 @@ def test_what_is_left_is_called_noise_only_where_it_is():
         said = headline(verdicts.case(effects=(compliance(),), **doubtful).verdict)
         assert "are noise" not in said
         assert "more than noise" in said
+
+
+def test_a_model_that_makes_other_rows_worse_says_so_before_anybody_acts_on_it():
+    """Seen on a real arm: 0.17 mm promised on poses that took no part, which got worse from 1.3 to 6.8 mm."""
+    said = headline(verdicts.case(effects=(compliance(),), held_out=HeldOut(1.32, 6.82)).verdict)
+    assert said.endswith("took no part in the fit get worse by it, from 1.32 mm to 6.82 mm: do not act on it yet.")
+    for fine in (HeldOut(1.32, 0.2), HeldOut(float("nan"), float("nan")), HeldOut(0.0301, 0.0302)):
+        assert "get worse" not in headline(verdicts.case(effects=(compliance(),), held_out=fine).verdict)
 
 
 def test_the_headline_never_says_more_than_the_tables_own_warning_allows():

@@ -212,6 +212,15 @@ def test_the_formula_of_a_rule_has_its_numbers_behind_it() -> None:
     assert numbers == "amplitude = +0.0344° (+0.600 mrad), per_turn = 2, phase = −40.11°."
 
 
+def test_a_compliance_without_masses_has_no_number_to_enter_and_says_who_has_it() -> None:
+    products = [Parameter(f"compliance_times_moment_{n}", "rad/(m/s^2)", 1e-5, 1e-6) for n in (1, 2)]
+    soft = verdicts.found("joint_compliance", "joint 2", *products)
+    case = verdicts.case(effects=(verdicts.compliance("joint 2"),))
+    model, (cause,) = case.verdict.model, contributions(case.verdict).causes
+    assert "armscope compensate" in task_of(model.scene(case.recordings), cause, soft).cure
+    assert "armscope compensate" not in task_of(model.scene(case.recordings), cause, cause.effects[0]).cure
+
+
 def test_a_urdf_is_corrected_at_the_joint_that_its_file_names() -> None:
     longer = verdicts.found("link_geometry", "link 3", Parameter("tx", "mm", 0.7, 0.01))
     case = verdicts.case(effects=(verdicts.compliance("joint 2"),))

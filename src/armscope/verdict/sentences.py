@@ -54,6 +54,8 @@ SPREAD_TOLD = 0.15
 """The same for a cause of which no member stands out: below it, it is one of the rest."""
 UNSURE = 0.01
 """Share from which small errors are told that the evidence does not ask for."""
+CLEARLY = 1.1
+"""Times the error without a model from which one with it is said to be worse on rows that took no part."""
 FAINT = 0.7
 """Something unexplained of a smaller share of the residual is hidden in the noise."""
 
@@ -142,6 +144,16 @@ def more_than_noise(verdict: Verdict) -> bool:
     return verdict.unexplained.present or any(notice.kind == "model error" for notice in verdict.notices)
 
 
+def holds(verdict: Verdict) -> bool:
+    """Whether rows that took no part in the fit are met better with the model than without, as far as was tested."""
+    return not verdict.held_out.after >= verdict.held_out.before  # NaN: not tested
+
+
+def makes_worse(verdict: Verdict) -> bool:
+    """Whether such rows are clearly worse with the model."""
+    return verdict.held_out.after > CLEARLY * verdict.held_out.before
+
+
 def background_in_words(verdict: Verdict) -> str:
     """ "small errors of geometry and stiffness in all its joints and links, as any arm has"."""
     families = [family.family for family in verdict.background_families if family.present] or ["geometric"]
@@ -204,6 +216,9 @@ def _unsure(verdict: Diagnosis) -> Iterator[str]:
 def _remainder(verdict: Diagnosis) -> str:
     """What the model leaves."""
     left = millimetres(verdict.residual_after_mm)
+    if makes_worse(verdict):
+        before, after = millimetres(verdict.held_out.before), millimetres(verdict.held_out.after)
+        return f"but rows that took no part in the fit get worse by it, from {before} to {after}: do not act on it yet"
     if more_than_noise(verdict):
         return f"{left} remain, more than noise and not yet explained"
     return f"the {left} that remain are noise"

@@ -107,6 +107,8 @@ def _origin(arm: Arm, effect: FoundEffect) -> tuple[str, str]:
 
 
 FORMULA = "commanded = "
+NO_NUMBER = "These recordings do not determine its number: let armscope compensate compute the commands."
+"""Without masses, what gives way is known by the product with them, which the model file has."""
 
 
 def _with_numbers(rule: str, effect: FoundEffect) -> str:
@@ -114,7 +116,9 @@ def _with_numbers(rule: str, effect: FoundEffect) -> str:
     formula = rule.partition(FORMULA)[2]
     known = {p.name: p for p in effect.parameters if not implausible(p, effect)}
     named = [known[name] for name in dict.fromkeys(re.findall(r"\w+", formula)) if name in known]
-    return f"{rule} Here {', '.join(f'{p.name} = {_number(p, effect)}' for p in named)}." if named else rule
+    if named:
+        return f"{rule} Here {', '.join(f'{p.name} = {_number(p, effect)}' for p in named)}."
+    return f"{rule} {NO_NUMBER}" if "compliance" in formula else rule
 
 
 def _number(parameter: Parameter, effect: FoundEffect) -> str:

@@ -21,7 +21,7 @@ from armscope.verdict.controllers import ur_kinematics
 from armscope.verdict.corrections import corrected_origins, corrected_rows, zero_offsets
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.schema import Notice
-from armscope.verdict.sentences import another_model, more_than_noise, unusable
+from armscope.verdict.sentences import another_model, holds, makes_worse, more_than_noise, unusable
 from armscope.verdict.wording import millimetres, percent
 
 ANSWERS = {
@@ -32,6 +32,10 @@ ANSWERS = {
 }
 WARNINGS = ("check", "stated noise", "fewer rows than parameters", "too few rows")
 """Kinds of notices that stand above everything; what the headline says already does not, others lie folded."""
+WORSE = (
+    "Rows that took no part in the fit are predicted worse with this model than without it. The errors expected below "
+    "are those of the fitted rows: confirm each cause, or measure more rows, before anything is changed."
+)
 REPORT, ORDER = "report.html", "work-order.html"
 ZEROS, ROWS, ORIGINS, UR = "zero_offsets.csv", "corrected_dh.csv", "corrected_origins.csv", "ur_kinematics.yaml"
 
@@ -63,7 +67,7 @@ def _write_work_order(subject: Subject, folder: Path) -> None:
         "before": rms(subject.worth.before),
         "left": min((task.then_mm for task in subject.order.tasks), default=rms(subject.worth.before)),
         "mm": lambda mm: millimetres(subject.expected(mm)),
-        "held_out": math.isfinite(verdict.held_out.after),
+        "held_out": math.isfinite(verdict.held_out.after) and holds(verdict),
         "background": percent(verdict.background.share),
         "dh": None if rows is None else rows.to_dict("records"),
         "rows_change": rows is not None and bool(rows.filter(like="correction_").any(axis=None)),
@@ -82,6 +86,7 @@ def _about(verdict: Diagnosis) -> dict[str, Any]:
         "verdict": verdict,
         "source": Path(verdict.source).name,
         "warnings": [notice for notice in verdict.notices if _warns(notice, verdict)],
+        "worse": WORSE if makes_worse(verdict) else "",
     }
 
 
@@ -107,7 +112,7 @@ def _answer(verdict: Diagnosis) -> tuple[str, str]:
         return "fails", "another model?"
     if unusable(verdict):
         return "fails", "not to be relied on"
-    if verdict.answer == "explained" and more_than_noise(verdict):
+    if verdict.answer == "explained" and (more_than_noise(verdict) or makes_worse(verdict)):
         return ANSWERS["partly explained"]
     return ANSWERS[verdict.answer]
 

@@ -16,6 +16,7 @@ from armscope.report.figures.arm import location_shares
 from armscope.report.figures.error_field import ErrorField, turnable
 from armscope.report.sectioning import Section
 from armscope.report.subject import Subject
+from armscope.verdict.sentences import holds
 from armscope.verdict.wording import capitalised, millimetres, plain
 
 FINEST = 32_767
@@ -32,7 +33,7 @@ def _context(subject: Subject) -> dict[str, Any]:
     return {
         "field": turnable(subject.arm, _field(subject)),
         "cures": Markup(json.dumps(_data(subject), separators=(",", ":"))),
-        "held_out": math.isfinite(verdict.held_out.after),
+        "held_out": math.isfinite(verdict.held_out.after) and holds(verdict),
         "switches": [
             (capitalised(plain(name)), f"alone: {told(before)} → {told(rms(worth.before - moved))}")
             for name, moved in worth.switches
