@@ -10,7 +10,7 @@ import pytest
 
 from armscope.motion import catalogue
 from armscope.motion.causes import PlacedCause
-from armscope.motion.clauses import amount
+from armscope.motion.clauses import amount, rms_of
 from armscope.motion.constants import LIBRARY
 from armscope.motion.laws import Law
 from armscope.motion.library import place_causes
@@ -29,6 +29,11 @@ def cause(
     return FoundCause(
         effect, location, "x", driver, title or effect, False, parameters, 0.5, "N m", "joint 4", 0.3, 9.0
     )
+
+
+@pytest.mark.parametrize(("size", "told"), [(243.4, "243 N m"), (24.34, "24 N m"), (0.0243, "0.024 N m")])
+def test_a_size_is_written_as_people_read_it(size: float, told: str) -> None:
+    assert rms_of(replace(cause("load_friction"), rms=size)) == f"{told} RMS"
 
 
 def test_a_number_stands_with_half_its_interval_in_a_readable_unit() -> None:

@@ -63,12 +63,12 @@ def score(
 
 @app.command()
 def page(
-    page: Annotated[Path, typer.Argument(help="docs/motion.md")],
+    docs: Annotated[Path, typer.Argument(help="folder of motion-causes.md and motion-measured.md: docs")],
     of: Annotated[str, typer.Option(help="what the results are of: 'commit ..., the small proof'")],
     proof: Annotated[Path | None, typer.Option(help="folder of the scores: summary.csv, proof.csv")] = None,
     real: Annotated[Path | None, typer.Option(help="folder with verdict.json of each real set in its folder")] = None,
 ) -> None:
-    """Fill the tables of docs/motion.md from the library and from results."""
-    from armscope.report.pages.motion_docs import fill_motion_page
+    """Fill the tables of docs/motion-causes.md and motion-measured.md from the library and from results."""
+    from armscope.report.pages.motion_docs import fill_motion_pages
 
-    fill_motion_page(page, proof, real, of)
+    fill_motion_pages(docs, proof, real, of)

@@ -10,7 +10,7 @@ import math
 import re
 from collections.abc import Callable
 
-from armscope.core.numerals import shown_unit, size_of
+from armscope.core.numerals import rounded, shown_unit, size_of
 from armscope.motion.verdict import FoundCause
 from armscope.verdict.effects import INTERVAL, Parameter
 from armscope.verdict.wording import decimals_for
@@ -44,7 +44,7 @@ def rms_of(cause: FoundCause) -> str:
     """Its size, as the joint where it is largest has it: of a torque, or of a link's place beside its motor."""
     if cause.unit in ("rad", "m"):
         return f"{size_of(cause.rms, cause.unit)} RMS"
-    return f"{cause.rms:.2g} {cause.unit} RMS"
+    return f"{rounded(cause.rms)} {cause.unit} RMS"
 
 
 def _open(parameter: Parameter) -> bool:
@@ -152,21 +152,21 @@ def body_clause(cause: FoundCause, numbers: Numbers) -> str:
 
 def moment_clause(cause: FoundCause, numbers: Numbers) -> str:
     """A centre of mass that lies elsewhere."""
-    size = math.hypot(*(parameter.value for parameter in cause.parameters))
-    return f"{cause.location} has its centre of mass elsewhere than stated: its first moment is {size:.2g} kg m off"
+    size = rounded(math.hypot(*(parameter.value for parameter in cause.parameters)))
+    return f"{cause.location} has its centre of mass elsewhere than stated: its first moment is {size} kg m off"
 
 
 def tilt_clause(cause: FoundCause, numbers: Numbers) -> str:
     """A base that is tilted."""
     size = math.hypot(*(parameter.value for parameter in cause.parameters))
-    return f"the base is tilted by {math.degrees(size):.2g}° ({1e3 * size:.2g} mrad)"
+    return f"the base is tilted by {rounded(math.degrees(size))}° ({rounded(1e3 * size)} mrad)"
 
 
 def ripple_clause(cause: FoundCause, numbers: Numbers) -> str:
     """Waves of torque."""
     size = math.hypot(*(numbers[name].value for name in ("sine", "cosine")))
     count = numbers["per_turn"].value
-    return f"the torque of {cause.location} ripples {count:.0f} times per turn, by ± {size:.2g} {cause.unit}"
+    return f"the torque of {cause.location} ripples {count:.0f} times per turn, by ± {rounded(size)} {cause.unit}"
 
 
 def nameless_clause(cause: FoundCause, numbers: Numbers) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from armscope.core.numerals import rounded
 from armscope.core.types import Array
 from armscope.motion import catalogue
 from armscope.motion.constants import CHECK, LIBRARY
@@ -28,7 +29,8 @@ def little_excited(selected: SelectedCauses) -> list[Notice]:
     told, condition = [], identifiable(selected)["condition"]
     if condition > CHECK.well_excited:
         told.append(
-            f"The path excites little: condition number {condition:.2g}, where {CHECK.well_excited:g} at most is good. "
+            f"The path excites little: condition number {rounded(condition)}, "
+            f"where {CHECK.well_excited:g} at most is good. "
             f"Masses and inertias are known as stated, and not by this motion, {_weakest(selected)} least of all."
         )
     seen = {cause.joints[0] for cause in selected.rows.layout.placed if cause.cause is catalogue.ASYMMETRY}

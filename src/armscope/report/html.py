@@ -15,6 +15,7 @@ from markupsafe import Markup, escape
 
 from armscope.core.files import write_text
 from armscope.core.inputs import spelt_out
+from armscope.core.numerals import rounded
 from armscope.core.outputs import readable
 from armscope.report.compiled import BesideTemplates
 from armscope.verdict.wording import plain
@@ -37,6 +38,7 @@ def unbroken(text: str) -> str:
 
 _TEMPLATES.filters["unbroken"] = unbroken
 _TEMPLATES.filters["plain"] = plain
+_TEMPLATES.filters["rounded"] = rounded
 
 
 def render_page(template: str, **content: Any) -> str:

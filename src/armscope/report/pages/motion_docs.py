@@ -1,4 +1,4 @@
-"""docs/motion.md: its tables, filled from the library and from results so that they can't go stale unnoticed."""
+"""docs/motion-causes.md, docs/motion-measured.md: tables filled from the library and from results, never by hand."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ MEDIAN = "median"
 """In the name of the one aim that is no rate."""
 
 
-def fill_motion_page(page: Path, proof: Path | None, real: Path | None, of: str) -> None:
-    """Replace what stands between the page's marks.
+def fill_motion_pages(docs: Path, proof: Path | None, real: Path | None, of: str) -> None:
+    """Replace what stands between the pages' marks.
 
     Args:
-        page: docs/motion.md; it keeps everything outside the marks.
+        docs: folder of the pages; they keep everything outside the marks.
         proof: folder with a motion proof's summary.csv and proof.csv; None keeps the rates that stand there.
         real: folder with a folder per real set, each with verdict.json; None keeps what stands there.
         of: what the results are of: a commit, and which proof.
@@ -31,13 +31,16 @@ def fill_motion_page(page: Path, proof: Path | None, real: Path | None, of: str)
     Raises:
         InputError: marks are missing, or a file of the results.
     """
-    text = filled(page.read_text(encoding="utf-8"), "causes", cause_lines(), page)
+    causes, measured = docs / "motion-causes.md", docs / "motion-measured.md"
+    listed, text = (page.read_text(encoding="utf-8") for page in (causes, measured))
+    listed = filled(listed, "causes", cause_lines(), causes)
     if proof is not None:
         summary, worlds = read_table(proof / "summary.csv"), read_table(proof / "proof.csv")
-        text = filled(text, "rates", rate_lines(summary, len(worlds), of), page)
+        text = filled(text, "rates", rate_lines(summary, len(worlds), of), measured)
     if real is not None:
-        text = filled(text, "real", real_lines(real, of), page)
-    write_text(page, text)
+        text = filled(text, "real", real_lines(real, of), measured)
+    write_text(causes, listed)
+    write_text(measured, text)
 
 
 def cause_lines() -> list[str]:
