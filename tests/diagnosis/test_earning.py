@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from armscope.diagnosis.earning import earned, foretold_better, held_out_gains
+from armscope.diagnosis.earning import earned, held_out_gains, predicted_better
 from armscope.inference.evidence import evaluate
 from armscope.inference.model_space import Candidate, ModelSpace, ToleranceFamily
 from armscope.inference.normal_equations import NormalEquations, total
@@ -90,10 +90,10 @@ def rows_that_wander(wander: float, in_order: float) -> tuple[list[NormalEquatio
 
 
 @pytest.mark.parametrize(("wander", "in_order", "better"), [(1.0, 0.0, True), (0.0, 1.0, False)])
-def test_a_wander_of_rows_stays_where_other_rows_are_foretold_better(
+def test_a_wander_of_rows_stays_where_other_rows_are_predicted_better(
     wander: float, in_order: float, better: bool
 ) -> None:
     """It clears the view of what follows the posture; or there is none, and it takes a part of what does."""
     blocks, problem = rows_that_wander(wander, in_order)
     hypothesis = evaluate(problem, (SelectedEffect(0, LARGE),), (1,), NOISE)
-    assert foretold_better(problem, blocks, hypothesis, 0, np.array([2])) is better
+    assert predicted_better(problem, blocks, hypothesis, 0, np.array([2])) is better

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from armscope.core.types import Array
-from armscope.diagnosis.free_curves import foretold_without_curves, told_by_laws
+from armscope.diagnosis.free_curves import predicted_without_curves, told_by_laws
 from armscope.inference.constants import PRIORS
 from armscope.inference.edits import by_posterior
 from armscope.inference.evidence import evaluate
@@ -48,7 +48,7 @@ def table(configurations: int, response: str) -> tuple[list[NormalEquations], Pr
 
 def test_a_curve_that_foretells_no_other_rows_gives_way_to_what_does() -> None:
     blocks, problem = table(25, "two")
-    found = foretold_without_curves(problem, blocks, evaluate(problem, (SelectedEffect(CURVE, LARGE),), (), NOISE))
+    found = predicted_without_curves(problem, blocks, evaluate(problem, (SelectedEffect(CURVE, LARGE),), (), NOISE))
     assert found is not None
     assert found.candidates == {STEADY, OTHER}
 
@@ -57,14 +57,15 @@ def test_a_curve_that_foretells_no_other_rows_gives_way_to_what_does() -> None:
 def test_a_curve_that_is_one_stays(configurations: int) -> None:
     blocks, problem = table(configurations, "curve")
     curve = evaluate(problem, (SelectedEffect(CURVE, LARGE),), (), NOISE)
-    assert foretold_without_curves(problem, blocks, curve) is None
+    assert predicted_without_curves(problem, blocks, curve) is None
 
 
 def test_where_there_is_no_curve_nothing_is_asked() -> None:
     """However badly a hypothesis foretells the rows."""
     blocks, problem = table(25, "two")
     assert (
-        foretold_without_curves(problem, blocks, evaluate(problem, (SelectedEffect(STEADY, LARGE),), (), NOISE)) is None
+        predicted_without_curves(problem, blocks, evaluate(problem, (SelectedEffect(STEADY, LARGE),), (), NOISE))
+        is None
     )
 
 

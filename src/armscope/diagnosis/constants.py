@@ -77,7 +77,7 @@ class LoopBudget(Constants):
     )
     surely_wanders: float = constant(
         20.0,
-        "that a wander in the order of rows must gain not to be asked whether it foretells other rows better",
+        "that a wander in the order of rows must gain not to be asked whether it predicts other rows better",
         "judgement: well above the price of a name; one real arm, whose poses came in order, was in view",
         unit="nats",
     )
@@ -130,7 +130,7 @@ class FoldRules(Constants):
     )
     overfitted: float = constant(
         1.5,
-        "times the noise that held-out errors exceed where free curves are asked whether they foretell rows",
+        "times the noise that held-out errors exceed where free curves are asked whether they predict rows",
         "derived: as where a fit's free values are four tenths of its numbers, sqrt((1 + 0.4) / (1 - 0.4))",
         unit="times",
     )

@@ -69,18 +69,18 @@ def steady(
         return hypothesis
     without = Search.on(problem).with_background(hypothesis, wander, 0)
     sure = hypothesis.log_posterior - without.log_posterior > LOOP.surely_wanders
-    if sure or foretold_better(problem, blocks, hypothesis, wander, np.concatenate(of_rows)):
+    if sure or predicted_better(problem, blocks, hypothesis, wander, np.concatenate(of_rows)):
         return hypothesis
     return without
 
 
-def foretold_better(
+def predicted_better(
     problem: Problem, blocks: Sequence[NormalEquations], hypothesis: Hypothesis, family: int, untold: Indices
 ) -> bool:
-    """Whether held-out rows are foretold better where a background took part in the fit that says nothing of them.
+    """Whether held-out rows are predicted better where a background took part in the fit that says nothing of them.
 
     A wander by the order of rows is no other rows'. Where poses came in order it takes what follows the posture, and
-    what is left foretells worse.
+    what is left predicts worse.
 
     Args:
         problem: the sums of all rows, priors and costs.

@@ -1,4 +1,4 @@
-"""Free curves are the last resort: a law that does as well comes first, and rows that took no part must be foretold.
+"""Free curves are the last resort: a law that does as well comes first, and rows that took no part must be predicted.
 
 In a short table some joint's curve follows nearly anything. It has a value for every stretch of its joint, and rows of
 one configuration lie on the same stretch: of 25 configurations it can take most of what is left, at high evidence, and
@@ -22,10 +22,10 @@ from armscope.inference.problem import Problem
 from armscope.inference.search import Search
 
 
-def foretold_without_curves(
+def predicted_without_curves(
     problem: Problem, blocks: Sequence[NormalEquations], hypothesis: Hypothesis
 ) -> Hypothesis | None:
-    """The best hypothesis without free curves, where it foretells held-out rows better than one with some.
+    """The best hypothesis without free curves, where it predicts held-out rows better than one with some.
 
     Better is by more than a standard error over the blocks; by anything where the evidence is for it, too.
 
@@ -35,7 +35,7 @@ def foretold_without_curves(
         hypothesis: that the search found.
 
     Returns:
-        The hypothesis; None where there is no curve, or where the curves foretell the rows.
+        The hypothesis; None where there is no curve, or where the curves predict the rows.
     """
     space = problem.space
     if not any(space.candidates[c].is_curve for c in hypothesis.candidates):

@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices, Progress
+from armscope.diagnosis.against_their_load import against_their_load
 from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.earning import earned, steady
 from armscope.diagnosis.errors_of_loads import on_loads
-from armscope.diagnosis.free_curves import foretold_without_curves, told_by_laws
+from armscope.diagnosis.free_curves import predicted_without_curves, told_by_laws
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.diagnosis.promotion import named
+from armscope.diagnosis.round_state import RoundState
 from armscope.diagnosis.row_noise import NoiseOfRows
 from armscope.diagnosis.scans.constants import SCANS
 from armscope.diagnosis.scans.context import ScanContext, few_rows
 from armscope.diagnosis.scans.new_candidates import scanned_candidates
-from armscope.diagnosis.sizes_of_waves import with_sizes_of_rows
+from armscope.diagnosis.sizes_of_waves import GEARS, freedom_of_waves, with_sizes_of_rows
 from armscope.diagnosis.state import Selected
 from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.constants import STEPS
@@ -26,29 +28,24 @@ from armscope.fitting.linearisation import Measured, linearised, residuals
 from armscope.fitting.refit import Refit, refit
 from armscope.fitting.summed_rows import SummedRows
 from armscope.inference.edits import replaced
-from armscope.inference.evidence import Hypothesis
+from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.normal_equations import NormalEquations, total
-from armscope.inference.problem import background_sizes, build_problem
+from armscope.inference.problem import Problem, background_sizes, build_problem
 from armscope.inference.search import Search
-from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.noise import Noise
 from armscope.measurement.row_weights import RowNoise
-from armscope.physics.backgrounds import DRIFT, FAMILIES, TRANSMISSION, backgrounds, gear_waves
+from armscope.physics.backgrounds import DRIFT, FAMILIES, backgrounds, gear_waves
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.drift import base_shifts_of_runs
 from armscope.physics.effect import Placed
-from armscope.physics.elastic import TWO_AXES, stiffest_of_two
 from armscope.physics.frames import set_ups_of
 from armscope.physics.freeform import refined
 from armscope.physics.model import FittedModel
 from armscope.physics.registry import library
-from armscope.physics.scene import Part
 from armscope.physics.soft_start import soft_starts
 from armscope.physics.transmission import MESH_COUNTS
 from armscope.physics.wander import is_of_rows
-
-State = tuple[frozenset[str], NDArray[np.bool_]]
 
 
 class SelectionLoop:
@@ -88,12 +85,12 @@ class SelectionLoop:
         self.fit: Refit
 
     def run(self, of_a_sample: bool = False) -> Selected:
-        """Rounds until nothing changes, without free curves if that foretells more.
+        """Rounds until nothing changes, without free curves if that predicts more.
 
         Those on all rows still follow where these are a sample.
         """
         self._settle()
-        plainer = foretold_without_curves(self.problem, self.blocks, self.found)
+        plainer = predicted_without_curves(self.problem, self.blocks, self.found)
         if plainer is not None:
             self._take(Search.on(self.problem), plainer)
             self.model = self.fit.model
@@ -103,11 +100,11 @@ class SelectionLoop:
         if of_a_sample:
             return self.selected()
         self._look_for_lines_again()
-        return self.earned()
+        return self.earned(finer=True)
 
     def _settle(self) -> None:
         """Rounds until nothing changes."""
-        previous: State | None = None
+        previous: RoundState | None = None
         settled = False
         for number in range(LOOP.rounds):
             self.progress("looking for effects", 0.05 + 0.05 * number)
@@ -115,7 +112,7 @@ class SelectionLoop:
                 None if number < LOOP.full_rounds else self._where_it_ended(), number < LOOP.scanning_rounds
             )
             state = self._state()
-            same = previous is not None and self._alike(state, previous)
+            same = previous is not None and state.is_like(previous)
             may_end = not new and same and (settled or not self._depends())
             if may_end and not self.noise.has_changed(self.model, self.fit.noise):
                 break
@@ -126,15 +123,14 @@ class SelectionLoop:
     def _refine(self, of_a_sample: bool) -> None:
         """Finer forms of the curves and gears that were chosen; what they can't follow may be scatter."""
         fine = [refined(self.model.arm, self.recordings, self.space.placed[c]) for c in self.best.candidates]
-        gears = FAMILIES.index(TRANSMISSION)
-        if not self.best.background[gears] and not any(fine):
+        if not self.best.background[GEARS] and not any(fine):
             return
         self.candidates = [*self.candidates, *[placed for placed in fine if placed is not None]]
         starts = self._where_it_ended() or []
         if not of_a_sample:  # a long table tells every joint's curve
-            self.families[gears] = gear_waves(self.recordings, PLAUSIBLE.fine_waves)
+            self.families[GEARS] = gear_waves(self.recordings, PLAUSIBLE.fine_waves)
             # several curves of several joints may be what all gears have a little of
-            starts += [replaced(start, gears, LOOP.size_of_gears) for start in starts if not start[gears]]
+            starts += [replaced(start, GEARS, LOOP.size_of_gears) for start in starts if not start[GEARS]]
         self.round(starts)
         # what looked like scatter may have been what the coarse curves could not follow
         self.noise.look_for_scatter()
@@ -150,7 +146,7 @@ class SelectionLoop:
             known = self._state()
             self.candidates = [*self.candidates, *new]
             self.round(self._where_it_ended())
-            if self._alike(self._state(), known):
+            if self._state().is_like(known):
                 break
             self.noise.look_for_scatter()  # what looked like it may have been the line
             self.round(self._where_it_ended())
@@ -215,7 +211,7 @@ class SelectionLoop:
         self.found = search.refined(told_by_laws(search, found))
         self.best, self.last = named(search, self.space, self.found), (found, self.space)
         self.fit = self._fitted()
-        if against := self._against_their_load():
+        if against := against_their_load(self.space, self.best, self.fit):
             self.best = search.without(self.best, against)
             self.fit = self._fitted()
 
@@ -238,32 +234,42 @@ class SelectionLoop:
         rows = SummedRows.of(self.table, self.space.layout, self.point, together, LOOP.rows_of_a_group)
         return self.noise.rows, self.weights.whitening, rows
 
-    def _against_their_load(self) -> list[int]:
-        """Names whose fitted values turned out negative where they can't be: in a background, or about an axis."""
-        return [
-            c.candidate
-            for c, part in zip(self.best.chosen, self.fit.model.parts, strict=True)
-            if (c.nested and self.space.nonnegative[c.candidate] and part.values[0] < 0)
-            or (part.placed.variant == TWO_AXES and self._pushes(part))
-        ]
+    def earned(self, finer: bool = False) -> Selected:
+        """Where the rounds stand, without what makes held-out rows worse, gears' waves as the rows say.
 
-    def earned(self) -> Selected:
-        """Where the rounds stand, without what makes held-out rows worse, gears' waves as the rows say."""
+        Args:
+            finer: whether gears have finer waves in the last fit, which no search could afford.
+        """
         wander = FAMILIES.index(DRIFT)
         of_rows = [self.space.layout.of(placed) for placed in self.families[wander] if is_of_rows(placed)]
         left = steady(self.problem, self.blocks, earned(self.problem, self.blocks, self.best), wander, of_rows)
-        gears = FAMILIES.index(TRANSMISSION)
-        waves = with_sizes_of_rows(self.problem, self.space, self.blocks, left, self.families[gears])
-        if self.summed or left is not self.best or waves != self.families[gears]:
-            self.best, self.families[gears] = left, waves
+        waves = self._waves(left, finer)
+        if self.summed or left is not self.best or waves != self.families[GEARS]:
+            self.best, self.families[GEARS] = left, waves
             self.fit = self._fitted(of_all=True)
             self.model = self.fit.model
         return self.selected()
 
-    def _pushes(self, part: Part) -> bool:
-        """Whether a compliance about two axes is surely negative about one of them."""
-        pushing, stderr = stiffest_of_two(part.values, self.fit.covariance_of(part.placed))
-        return pushing < -LOOP.surely_negative * stderr
+    def _waves(self, left: Hypothesis, finer: bool) -> list[Placed]:
+        """Gears' waves in the last fit, as large as the rows say."""
+        waves, settled = self.families[GEARS], (self.problem, self.space, left)
+        freedom = freedom_of_waves(*settled, self.blocks, waves)
+        if finer and left.background[GEARS]:
+            waves = gear_waves(self.recordings, PLAUSIBLE.finest_waves)
+        if freedom is None:
+            return waves
+        return with_sizes_of_rows(*(self._beside(left, waves) if finer else settled), waves, freedom)
+
+    def _beside(self, left: Hypothesis, waves: Sequence[Placed]) -> tuple[Problem, EffectSpace, Hypothesis]:
+        """The sums of what was chosen alone, beside other waves of gears."""
+        families = [*self.families[:GEARS], waves, *self.families[GEARS + 1 :]]
+        chosen = [self.space.placed[c.candidate] for c in left.chosen]
+        fitted = [part.placed for part in self.point.parts]
+        space = build_model_space(self.frames, families, [*chosen, *fitted], self.loads)
+        (sums,) = normal_equations_by_block(space.layout, self.point, self.table, self.weights, 0 * self.block_of_row)
+        problem = build_problem(space, sums, self.noise.least_mm)
+        same = [replace(c, candidate=number) for number, c in enumerate(left.chosen)]
+        return problem, space, evaluate(problem, same, left.background, left.noise)
 
     def selected(self) -> Selected:
         """Where the rounds stand."""
@@ -279,15 +285,9 @@ class SelectionLoop:
             growth=self.noise.growth,
         )
 
-    def _state(self) -> State:
-        """What must not change any more: the effects and the rows that do not count."""
+    def _state(self) -> RoundState:
         chosen = [self.space.candidates[c] for c in self.best.candidates]
-        return frozenset(c.label + c.variant for c in chosen), self.noise.weights.robust_weight < WEIGHTS.inlier_weight
-
-    def _alike(self, state: State, previous: State) -> bool:
-        """Whether two rounds ended alike: the same effects, and the same rows count but for a few of very many."""
-        changed = np.count_nonzero(state[1] != previous[1])
-        return state[0] == previous[0] and bool(changed <= LOOP.flickering * len(self.recordings))
+        return RoundState.of(chosen, self.noise.weights)
 
     def _depends(self) -> bool:
         """Whether some effect requires others, whose values then must settle, too."""

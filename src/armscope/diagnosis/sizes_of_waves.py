@@ -20,27 +20,27 @@ from armscope.physics.effect import Placed
 GEARS = FAMILIES.index(TRANSMISSION)
 
 
-def with_sizes_of_rows(
+def freedom_of_waves(
     problem: Problem,
     space: EffectSpace,
-    blocks: Sequence[NormalEquations],
     hypothesis: Hypothesis,
+    blocks: Sequence[NormalEquations],
     waves: Sequence[Placed],
-) -> list[Placed]:
-    """The background of gears' waves with the sizes that the rows give them.
+) -> float | None:
+    """How differently large the waves of gears are, by what held-out rows say.
 
     Args:
         problem: the sums of all rows, priors and costs.
         space: its columns.
-        blocks: sums of blocks of rows.
         hypothesis: what was chosen.
+        blocks: sums of blocks of rows.
         waves: the background as stated.
 
     Returns:
-        The same waves; as they are where the hypothesis has none, or held-out rows gain nothing.
+        The freedom of Student's t; None where the hypothesis has no such background, or held-out rows gain nothing.
     """
     if not hypothesis.background[GEARS]:
-        return list(waves)
+        return None
     groups = _groups(space, hypothesis, waves)
 
     def fit(trained: Problem) -> list[Hypothesis]:
@@ -52,8 +52,26 @@ def with_sizes_of_rows(
     best = int(np.argmax(gains.sum(axis=0)))
     # a gain that another draw of blocks could have taken away is none (the one-standard-error rule, Breiman 1984)
     if not gains[:, best].sum() > np.sqrt(len(blocks)) * np.std(gains[:, best]):
-        return list(waves)
-    factor, _ = sizes_by_group(problem, hypothesis, groups, SIZES_BY_GROUP.freedoms[best])
+        return None
+    return SIZES_BY_GROUP.freedoms[best]
+
+
+def with_sizes_of_rows(
+    problem: Problem, space: EffectSpace, hypothesis: Hypothesis, waves: Sequence[Placed], freedom: float
+) -> list[Placed]:
+    """The background of gears' waves with the sizes that the rows give them.
+
+    Args:
+        problem: the sums of all rows, priors and costs.
+        space: its columns.
+        hypothesis: what was chosen, with that background.
+        waves: the background as stated.
+        freedom: of Student's t.
+
+    Returns:
+        The same waves, in other sizes.
+    """
+    factor, _ = sizes_by_group(problem, hypothesis, _groups(space, hypothesis, waves), freedom)
     larger = dict(zip(space.families[GEARS].columns.tolist(), factor.tolist(), strict=True))
     return [
         replace(

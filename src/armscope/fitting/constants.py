@@ -24,7 +24,7 @@ class FittingSteps(Constants):
     )
     steady: float = constant(
         0.3,
-        "share of the step before that a step on a long table must stay below for the next one to be foretold by it",
+        "share of the step before that a step on a long table must stay below for the next one to be predicted by it",
         "judgement: a fit that shrinks its steps so has left what damping is for",
     )
     free: float = constant(

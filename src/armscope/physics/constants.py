@@ -61,6 +61,13 @@ class PlausibleSizes(Constants):
         "judgement: seen with bench cases in view; finer ones are lines of single stages, which are scanned; time",
         unit="waves",
     )
+    finest_waves: int = constant(
+        60,
+        "the same in the last fit, whose names are settled",
+        "judgement: time; what is finer still has a hundredth of the power where waves fall with their number; the "
+        "proof's rough gears have sixty, too",
+        unit="waves",
+    )
     mesh_rad: float = constant(
         1e-3,
         "more waves per turn",

@@ -23,7 +23,7 @@ where there is no cause: nothing that isn't there, and no name that claims more 
 frames and D-H values leave, or 1.5 times its own size. An `unknown` is never wrong there. A value is absurd if it is a
 D-H error above 20 mm or 50 mrad, or a compliance, amplitude or play 50 times the true one. The oracle of such an arm
 knows every effect, where it is and about how large, of a gear's waves their numbers and how they fall; it fits frames
-and sizes to the recorded rows. What follows a column that the table lacks it can't foretell; where times are not
+and sizes to the recorded rows. What follows a column that the table lacks it can't predict; where times are not
 recorded, held-out rows are as the recorded ones were on average. The diagnosis is near it if its held-out RMS is at
 most 10 % larger.
 

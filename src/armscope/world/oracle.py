@@ -23,8 +23,8 @@ def oracle_rms(arm: VirtualArm, measured: Measured, columns: list[str]) -> float
 
     It fits free frames, and to every concealed effect its own displacement, of a size that it believes to be the true
     one give or take all of it; of a gear's many waves it knows the numbers and how their sizes fall, not the phases.
-    What follows a column that the table doesn't show it can't foretell either: where times are not recorded, the order
-    of the recorded rows tells it how they went, and held-out rows are foretold as the recorded ones were on average.
+    What follows a column that the table doesn't show it can't predict either: where times are not recorded, the order
+    of the recorded rows tells it how they went, and held-out rows are predicted as the recorded ones were on average.
 
     Args:
         arm: the virtual arm.

@@ -5,7 +5,7 @@ that: a clean world is silent if nothing is named and nothing called unknown; or
 arm has, and zeros of links' encoders are no names, but their intervals count where nothing is concealed at their joint;
 the held-out ratio is the RMS of measured minus predicted torque on a path nobody has seen, each joint in units of what
 the truth itself leaves there (noise, and what the drives' filter rounds off). Where a joint stands its friction is
-whatever holds it, within a band, and no motion foretells it: `held_out_moving` is the same ratio without those
+whatever holds it, within a band, and no motion predicts it: `held_out_moving` is the same ratio without those
 readings, as verdicts count their own errors.
 """
 
