@@ -271,5 +271,5 @@ def _curves(arm: RealArm, transfers: pd.DataFrame, figures: str) -> str:
     if both:
         told = [f"{c.joint} {c.correlation:.2f} over {np.degrees(c.in_common):.0f}°" for c in both]
         text += f" Where both runs know it, the two curves of a joint correlate by: {', '.join(told)}."
-        text += f"\n\n![{arm.title}: curves of joints as two runs tell them]({figures}/real-{arm.name}-curves.png)"
+        text += f"\n\n![{arm.title}: curves of joints as two runs show them]({figures}/real-{arm.name}-curves.png)"
     return text

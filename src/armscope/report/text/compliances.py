@@ -58,7 +58,7 @@ def _told(learned: str, values: pd.DataFrame, pairs: pd.DataFrame) -> str:
         names = "; ".join(f"{row['one']} and {row['other']}" for row in apart.to_dict("records"))
         verdict = f"{len(mine) - len(apart)} of {len(mine)} pairs of runs agree, **these do not: {names}**"
     return (
-        f"*From {learned}*, in µrad/(N m): drives on {alone['run'].iloc[0]}: {joints}. What the runs tell best is "
+        f"*From {learned}*, in µrad/(N m): drives on {alone['run'].iloc[0]}: {joints}. What the runs determine best is "
         f"{together}: {best}. {verdict} (at {100 * AGREES:g} %)."
     )
 
