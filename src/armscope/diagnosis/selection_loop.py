@@ -268,7 +268,7 @@ class SelectionLoop:
         space = build_model_space(self.frames, families, [*chosen, *fitted], self.loads)
         (sums,) = normal_equations_by_block(space.layout, self.point, self.table, self.weights, 0 * self.block_of_row)
         problem = build_problem(space, sums, self.noise.least_mm)
-        same = [replace(c, candidate=number) for number, c in enumerate(left.chosen)]
+        same = tuple(replace(c, candidate=number) for number, c in enumerate(left.chosen))
         return problem, space, evaluate(problem, same, left.background, left.noise)
 
     def selected(self) -> Selected:
