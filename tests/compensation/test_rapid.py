@@ -61,6 +61,7 @@ def test_a_job_that_does_not_fit_is_an_error(tmp_path, change, found):
         (np.zeros((1, 6)), "2nd", 100, "letter"),
         (np.zeros((1, 6)), "a", 123, "speeds"),
         (np.full((1, 6), np.nan), "a", 100, "every row"),
+        (np.vstack([np.zeros((2, 6)), np.full((1, 6), np.nan)]), "a", 100, "row 3: found no command"),
     ],
 )
 def test_what_rapid_cannot_hold_is_an_error(tmp_path, angles, name, speed, found):

@@ -23,6 +23,16 @@ from .scenes import ARMS, arm_named, full_table
 STEP = 1e-6
 
 
+def test_an_angle_beyond_the_range_of_a_curve_is_held_at_its_end_and_a_full_turn_away_is_the_same_place() -> None:
+    arm = arm_named("six-axis")
+    angles = np.array([1.5, 0.5, 3.0, 1.5 + 2 * np.pi, 1.2 - 2 * np.pi, 3.0 + 2 * np.pi])
+    table = full_table(arm, len(angles), seed=6)
+    table = replace(table, motor_angles=np.tile(angles[:, None], (1, arm.n_motors)))
+    held = Scene(arm, table).driver(Driver("angle", (3, 1.0, 2.0)))
+    np.testing.assert_allclose(held, [1.5, 1.0, 2.0, 1.5, 1.2, 2.0], atol=1e-12)
+    np.testing.assert_array_equal(Scene(arm, table).driver(Driver("angle", (3,))), angles)
+
+
 @pytest.mark.parametrize("name", ARMS)
 def test_a_payloads_torque_is_the_work_that_gravity_does_on_it_per_turn_of_the_motor(name: str) -> None:
     arm = arm_named(name)

@@ -49,6 +49,21 @@ def test_a_world_has_the_folders_and_files_of_the_contract(tmp_path):
     assert read_recordings(home / "visible" / "recordings.csv").n_motors == 6
 
 
+def test_all_context_is_read_as_what_it_was_in_the_session(tmp_path):
+    asked = spec(columns="irrelevant")
+    table = read_recordings(build(asked, tmp_path, ROBOTS) / "visible" / "recordings.csv")
+    arm = conceal(asked, ROBOTS)
+    session, measured = arm.scene.session, measure_session(arm)
+    for read_back, was, within in (
+        (table.approach, session.approach, 0.0),
+        (table.speed, session.speed, 1e-9),
+        (table.torque, measured.torque, 0.06 * np.abs(measured.torque).max()),
+        (table.payload, session.payload, 1e-9),
+        (table.temperature, session.temperature, 1e-9),
+    ):
+        assert np.abs(read_back - was[arm.recorded]).max() <= within
+
+
 @pytest.mark.parametrize("arm", ["parallelogram-120kg", "six-axis", "seven-axis"])
 def test_the_same_spec_gives_the_same_bytes_and_another_seed_others(arm, tmp_path):
     effects = [OFFSET, SOFT]

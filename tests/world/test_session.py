@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from armscope.robot.description_file import load_description
-from armscope.world.session import LOWEST_TOOL_M, POSE_RULES, SLACK_OF_PARALLELOGRAM_RAD, random_session
+from armscope.world.session import FEW_POSES, LOWEST_TOOL_M, POSE_RULES, SLACK_OF_PARALLELOGRAM_RAD, random_session
 from armscope.world.strength import make_scene
 from tests.world.by_hand import ARMS, ROBOTS
 
@@ -47,6 +47,10 @@ def test_rules_remove_what_would_separate():
     assert np.corrcoef(lockstep[:, 1], lockstep[:, 2])[0, 1] > 0.999
     steady = session_of("six-axis", "constant_speed")[1]
     assert steady.speed == pytest.approx(0.3 * steady.commanded)
+    ordered, free = (session_of("six-axis", rule)[1].commanded[:, 1] for rule in ("in_order", "free"))
+    assert np.all(np.diff(ordered) >= 0)
+    assert not np.all(np.diff(free) >= 0)
+    assert len(np.unique(session_of("six-axis", "few")[1].commanded, axis=0)) <= FEW_POSES
     warm = session_of("six-axis", "warming_in_step")[1]
     assert np.corrcoef(warm.time, warm.temperature)[0, 1] > 0.99
     assert np.ptp(session_of("six-axis", "narrow")[1].commanded, axis=0).max() < 0.7

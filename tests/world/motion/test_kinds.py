@@ -44,6 +44,14 @@ def test_friction_resists_the_motion(virtual, plain):
         np.testing.assert_allclose(added[:, [0, 2, 3, 4, 5]], 0, atol=1e-9)
 
 
+def test_friction_of_slow_motion_is_never_larger_than_stated_and_falls_with_the_speed(virtual, plain):
+    speed = np.abs(virtual.session.speed[:, 1])
+    added = np.abs(change(virtual, plain, "stribeck_friction", "joint 2", stribeck=2.0, speed=0.3)[:, 1])
+    assert added.max() <= 2.0
+    moving = speed > 0.02
+    np.testing.assert_allclose(added[moving], 2.0 * np.exp(-((speed[moving] / 0.3) ** 2)), rtol=1e-6, atol=1e-9)
+
+
 def test_laws_by_hand(virtual, plain):
     session = virtual.session
     speed, angle, acceleration = (getattr(session, name)[:, 2] for name in ("speed", "angle", "acceleration"))
