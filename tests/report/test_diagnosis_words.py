@@ -194,6 +194,7 @@ def test_nothing_missing_and_cannot_tell_are_whole_answers():
 
 def test_a_number_stays_with_its_unit_and_nothing_else_is_glued():
     assert unbroken("falls from 0.2 mm to 3 % of 4") == "falls from 0.2\u00a0mm to 3\u00a0% of 4"
+    assert unbroken("by 3 µrad per N m under it") == "by 3\u00a0µrad per N\u00a0m under it"
 
 
 def test_products_with_unknown_masses_are_not_told_as_numbers():

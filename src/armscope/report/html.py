@@ -32,8 +32,8 @@ _TEMPLATES = jinja2.Environment(
 
 
 def unbroken(text: str) -> str:
-    """Numbers keep their units beside them: no line break between "55" and "%", nor before a dash."""
-    return re.sub(r"(?<=\d) (?=[%°µa-zA-Z])| (?=–)", "\u00a0", text)
+    """Numbers keep their units beside them: no line break between "55" and "%", within "N m", nor before a dash."""
+    return re.sub(r"(?<=\d) (?=[%°µa-zA-Z])| (?=–)|(?<=\bN) (?=m\b)", "\u00a0", text)
 
 
 _TEMPLATES.filters["unbroken"] = unbroken

@@ -87,11 +87,13 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         words["size"] = f" (minus {size.value} × {TURNED.replace(' x ', ' × ')})"
     if "ratio" in told:
         words["ratio"] = f"{1 / (1 + told['ratio'].value):.6f}"
+    opposite_told = known is not None and "{opposite}" in known.cure.instruction
+    said_already = "offset" in told or words["jump"] or opposite_told or in_urdf
     return Task(
         what=capitalised(phrase(effect)),
         place=effect.location,
         change="joint origin" if in_urdf else known.cure.change if known else "",
-        motion="" if "offset" in told or words["jump"] else _motion(scene, cause.parts),  # the instruction has it
+        motion="" if said_already else _motion(scene, cause.parts),
         instruction=_settled(effect, asked) + (known.cure.instruction.format(**words) if known else ""),
         cure=_with_numbers((known.cure.rule if known else effect.cure).replace("`", ""), effect),
         confirm=effect.confirm,
