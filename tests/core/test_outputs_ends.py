@@ -125,6 +125,42 @@ def test_too_few_addresses_for_the_libraries_are_refused_at_once(tmp_path):
     assert "400 MB of addresses (ulimit -v); 500 are the least" in done.stderr
 
 
+FULL = """
+import numpy as np
+import scipy.linalg.blas
+from armscope.cli.endings import endings
+
+with endings():
+    taken, size = [], 2**24
+    some = np.ones((64, 64))
+    while size > 2**20:
+        try:
+            taken.append(np.empty(size, np.uint8))
+        except MemoryError:
+            size //= 2
+    print((some @ some)[0, 0], scipy.linalg.blas.dgemm(1.0, some, some)[0, 0])
+"""
+
+
+def test_blas_has_its_buffers_when_memory_is_full():
+    """It would look for them for ever, without a word: found by a limit of 260 MB of data and a long table."""
+    limit = 400 * 2**20
+    done = subprocess.run(
+        [sys.executable, "-c", FULL], capture_output=True, text=True, check=False, timeout=300,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_DATA, (limit, limit)),
+    )  # fmt: skip
+    assert (done.stdout, done.returncode) == ("64.0 64.0\n", 0), done.stderr
+
+
+def test_too_little_data_is_refused_at_once(tmp_path):
+    few = 150 * 2**20
+    done = command(
+        *PREDICT, tmp_path / "a.csv", preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_DATA, (few, few))
+    )
+    assert (done.returncode, list(tmp_path.iterdir())) == (71, [])
+    assert "150 MB of data (ulimit -d); 200 are the least" in done.stderr
+
+
 def test_a_reader_that_goes_away_costs_no_result(tmp_path):
     line = [
         "calibrate",

@@ -99,6 +99,12 @@ def _converted(path: Path) -> None:
     import_recordings([path], MAPPING, path.with_name("out.csv"))
 
 
+def _drafted(path: Path) -> None:
+    mapping = path.with_name("drafted.yaml")
+    mapping.write_text(draft_mapping(path), encoding="utf-8")
+    import_recordings([path], mapping, path.with_name("out.csv"))
+
+
 def _mapped(path: Path) -> None:
     load_any_mapping(path)
     import_recordings([RAW], path, path.with_name("out.csv"))
@@ -161,7 +167,7 @@ READERS = {
     "urdf": Reader(_arm_of_urdf, (URDF,)),
     "urdf alone": Reader(_first_urdf, (URDF,)),
     "dh table": Reader(_pasted, _seeds("tests/fuzz/corpus/dh/*")),
-    "foreign.csv": Reader(draft_mapping, (RAW, EXAMPLE / "recordings.csv")),
+    "foreign.csv": Reader(_drafted, (RAW, *_seeds("tests/fuzz/corpus/foreign/*"), EXAMPLE / "recordings.csv")),
     "recordings.csv": Reader(_recordings, _seeds("tests/fuzz/corpus/recordings/*")),
     "poses.csv": Reader(_poses, _seeds("tests/fuzz/corpus/path/*")),
     "path.csv": Reader(_path, _seeds("tests/fuzz/corpus/path/*")),

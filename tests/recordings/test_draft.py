@@ -156,6 +156,31 @@ def test_rows_without_a_value_are_left_out_and_said(tmp_path):
     )
 
 
+def test_a_closing_line_of_means_is_no_row(tmp_path):
+    """It has a number in every column of angles and points: only a column that counts rows tells it."""
+    file = written(tmp_path, {"Nr": np.arange(1, 31)} | names("J{}", np.degrees(ANGLES)) | axes("{} [mm]", POINTS))
+    whole = file.read_text()
+    means = ",".join(["Mean", *(f"{value:.4f}" for value in (*np.degrees(ANGLES).mean(0), *POINTS.mean(0)))])
+    for lines, rows in (("", 30), (f"{means}\n", 30), (f"{means}\n{means.replace('Mean', 'Max')}\n", 30)):
+        file.write_text(whole + lines)
+        draft = draft_mapping(file)
+        assert ("drop_missing" in draft) == bool(lines)
+        (tmp_path / "mapping.yaml").write_text(draft)
+        import_recordings([file], tmp_path / "mapping.yaml", tmp_path / "out.csv")
+        assert len(read_recordings(tmp_path / "out.csv")) == rows
+
+
+def test_context_without_a_value_now_and_then_is_read(tmp_path):
+    file = written(
+        tmp_path, names("J{}", np.degrees(ANGLES)) | axes("{} [mm]", POINTS) | {"Temp": ["---", *["21.5"] * 29]}
+    )
+    (tmp_path / "mapping.yaml").write_text(draft_mapping(file))
+    import_recordings([file], tmp_path / "mapping.yaml", tmp_path / "out.csv")
+    temperature = read_recordings(tmp_path / "out.csv").temperature
+    assert np.isnan(temperature[0])
+    assert (temperature[1:] == 21.5).all()
+
+
 def test_a_spoilt_number_is_no_missing_value(tmp_path):
     file = tmp_path / "foreign.csv"
     file.write_text("A1,A2,X,Y,Z\n1,2,3,4,5\n1,2,3x1,4,5\n1,2,3,4,5\n")

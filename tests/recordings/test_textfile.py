@@ -81,3 +81,15 @@ def test_a_table_is_the_same_read_in_pieces_by_any_number_of_processes(
     monkeypatch.setattr(textfile, "PIECE_BYTES", 100)
     with processes(count):
         pd.testing.assert_frame_equal(textfile.read_text_table(tmp_path / "table.csv"), whole)
+
+
+def test_memory_that_ends_is_no_fault_of_the_table(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Pandas says it in the same words as a cell too many: a good table was called a bad one."""
+    (tmp_path / "table.csv").write_text("a,b\n1,2\n")
+
+    def full(*arguments: object, **how: object) -> None:
+        raise pd.errors.ParserError("Error tokenizing data. C error: out of memory")
+
+    monkeypatch.setattr(pd, "read_csv", full)
+    with pytest.raises(MemoryError):
+        textfile.read_text_table(tmp_path / "table.csv")

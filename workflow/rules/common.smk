@@ -1,4 +1,5 @@
 # What all rules share: the checked configuration, where results go, and which sources a rule depends on.
+import functools
 import hashlib
 import json
 import shlex
@@ -161,8 +162,9 @@ FLEET = f"{RESULTS}/fleet/{Path(CONFIG.fleet).stem}"
 ARMS_PER_JOB = 30  # a job starts once, and an arm takes one or two seconds
 
 
+@functools.cache
 def members():
-    """The arms, read when they are asked for: other targets start without."""
+    """The arms, read once and only when they are asked for: other targets start without."""
     from armscope.fleet.members import read_fleet
 
     try:

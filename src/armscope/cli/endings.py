@@ -40,14 +40,34 @@ def exit_code_of(answer: Answer) -> int:
 
 
 LEAST_ADDRESSES = 500 * 2**20
-"""Bytes that a process must be allowed: with less, the libraries' BLAS tries for ever to get its buffers."""
+"""Bytes of addresses that a process must be allowed: what interpreter and libraries take."""
+LEAST_DATA = 200 * 2**20
+"""As many of data."""
+BLAS_BUFFERS = 80 * 2**20
+"""Bytes that the BLAS of NumPy and that of SciPy take when they are first used: 32 MiB each, and their surroundings."""
 
 
-def _check_addresses() -> None:
-    allowed, _ = resource.getrlimit(resource.RLIMIT_AS)
-    if 0 <= allowed < LEAST_ADDRESSES:
-        given, least = allowed // 2**20, LEAST_ADDRESSES // 2**20
-        raise MemoryError(f"This process is allowed {given} MB of addresses (ulimit -v); {least} are the least")
+def _take_what_blas_needs() -> None:
+    """Where a process's memory is limited: BLAS takes its buffers before tables do.
+
+    When it finds no room for them it tries for ever, without a word; what is wanted later is refused with one.
+    """
+    limits = (
+        (resource.RLIMIT_AS, LEAST_ADDRESSES, "addresses (ulimit -v)"),
+        (resource.RLIMIT_DATA, LEAST_DATA, "data (ulimit -d)"),
+    )
+    limited = [(resource.getrlimit(kind)[0], least, of) for kind, least, of in limits]
+    limited = [each for each in limited if each[0] >= 0]
+    for allowed, least, of in limited:
+        if allowed < least:
+            raise MemoryError(f"This process is allowed {allowed // 2**20} MB of {of}; {least // 2**20} are the least")
+    if limited:
+        import numpy as np
+        from scipy.linalg.blas import dgemm
+
+        np.empty(BLAS_BUFFERS, np.uint8)  # a MemoryError where there is no room
+        some = np.ones((64, 64))
+        dgemm(1.0, some @ some, some)
 
 
 @contextlib.contextmanager
@@ -56,7 +76,7 @@ def endings() -> Iterator[None]:
     patient = sys.stdout = _Patient(sys.stdout)
     try:
         try:
-            _check_addresses()
+            _take_what_blas_needs()
             yield
         finally:
             patient.flush()

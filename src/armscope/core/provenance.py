@@ -10,12 +10,12 @@ from pathlib import Path
 
 PACKAGE = Path(__file__).parents[1]
 _IMPORT = re.compile(
-    r"^[ \t]*(?:from|import)\s+(?P<module>armscope(?:\.\w+)*)"
-    r"(?:\s+import\s+(?:\((?P<several>[^)]*)\)|(?P<few>[^\n;]*)))?",
-    re.MULTILINE,
+    r"\n[ \t]*(?:from|import)\s+(?P<module>armscope(?:\.\w+)*)"
+    r"(?:\s+import\s+(?:\((?P<several>[^)]*)\)|(?P<few>[^\n;]*)))?"
 )
 
 
+@functools.cache
 def digest(*targets: str) -> str:
     """A short hash of the sources and data files that modules or functions depend on.
 
@@ -33,9 +33,8 @@ def digest(*targets: str) -> str:
         for definition in _with_callees(_file(module), function):
             sha.update(definition.encode())
             files = files.union(*(sources(name) for name in _imports(definition)))
-    for place, file in sorted((_place(file), file) for file in files):
-        sha.update("/".join(place).encode())
-        sha.update(_content(file))
+    for file in sorted(files, key=_place):
+        sha.update(_identity(file))
     return sha.hexdigest()[:12]
 
 
@@ -58,7 +57,17 @@ def sources(module: str) -> frozenset[Path]:
 
 def forget() -> None:
     """Look at the sources anew: each is read and parsed once, since forty rules follow much the same ones."""
-    for remembered in (sources, _modules, _place, _content, _parsed, _followed_by, _data_beside):
+    for remembered in (
+        digest,
+        sources,
+        _modules,
+        _place,
+        _identity,
+        _content,
+        _definitions,
+        _followed_by,
+        _data_beside,
+    ):
         remembered.cache_clear()
 
 
@@ -92,8 +101,9 @@ def _content(file: Path) -> bytes:
 
 
 @functools.cache
-def _parsed(file: Path) -> ast.Module:
-    return ast.parse(_content(file))
+def _identity(file: Path) -> bytes:
+    """A hash of a file's place and content: what forty rules share is hashed once."""
+    return hashlib.sha256("/".join(_place(file)).encode() + b"\0" + _content(file)).digest()
 
 
 @functools.cache
@@ -111,7 +121,7 @@ def _data_beside(folder: Path) -> frozenset[Path]:
 
 def _with_callees(file: Path, function: str) -> list[str]:
     """The definitions of a function and of what it uses from its own module, in the module's order."""
-    definitions = {node.name: node for node in _parsed(file).body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
+    definitions = _definitions(file)
     if function not in definitions:
         raise AttributeError(f"{file.name} defines no {function}")
     used, waiting = set(), [function]
@@ -119,14 +129,22 @@ def _with_callees(file: Path, function: str) -> list[str]:
         name = waiting.pop()
         if name in definitions and name not in used:
             used.add(name)
-            waiting += [node.id for node in ast.walk(definitions[name]) if isinstance(node, ast.Name)]
-    return [_text(file, node) for name, node in definitions.items() if name in used]
+            waiting += definitions[name][1]
+    return [text for name, (text, _) in definitions.items() if name in used]
 
 
-def _text(file: Path, node: ast.FunctionDef | ast.ClassDef) -> str:
-    """A definition as it stands in its file: taking it apart and putting it together costs a second in forty rules."""
-    first = min(part.lineno for part in (node, *node.decorator_list))
-    return b"\n".join(_content(file).splitlines()[first - 1 : node.end_lineno]).decode()
+@functools.cache
+def _definitions(file: Path) -> dict[str, tuple[str, frozenset[str]]]:
+    """The functions and classes of a module: each as it stands in its file, and the names that it uses."""
+    content = _content(file)
+    lines = content.splitlines()
+    found = {}
+    for node in ast.parse(content).body:
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            first = min(part.lineno for part in (node, *node.decorator_list))
+            names = frozenset(each.id for each in ast.walk(node) if isinstance(each, ast.Name))
+            found[node.name] = (b"\n".join(lines[first - 1 : node.end_lineno]).decode(), names)
+    return found
 
 
 def _imports(source: str) -> list[str]:
@@ -136,7 +154,7 @@ def _imports(source: str) -> list[str]:
     too, so that at worst a rule is run again without need.
     """
     names = []
-    for statement in _IMPORT.finditer(source):
+    for statement in _IMPORT.finditer("\n" + source):
         module, imported = statement["module"], statement["several"] or statement["few"] or ""
         words = [part.split()[0] for part in re.sub("#.*", "", imported).split(",") if part.strip()]
         submodules = [f"{module}.{word}" for word in words]

@@ -55,6 +55,8 @@ def read_text_table(path: Path, check: Callable[[list[str]], object] = lambda he
     try:
         table = _read(path, header, pieces)
     except (ValueError, OverflowError) as error:  # pandas' words for it
+        if "out of memory" in str(error):
+            raise MemoryError("The table needs more") from error
         cure = "Was the file cut off while it was written, or is a quotation mark never closed?"
         raise InputError(path, "", str(error), "this must be a comma-separated table", cure) from error
     if table.empty:

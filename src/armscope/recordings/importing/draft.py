@@ -45,6 +45,7 @@ UR_JOINTS = (
 )
 """The six joints of a Universal Robots arm, from the base on; its logs have them in the order of the alphabet, too."""
 COMMANDED = ("target", "cmd", "command", "commanded", "set", "desired", "nominal", "ref", "soll")
+MOST_CLOSING = 5  # lines of statistics below a table
 MEASURED = ("measured", "meas", "actual", "act", "ist", "tracker", "laser", "leica", "faro", "mcs")
 
 
@@ -59,8 +60,9 @@ def draft_mapping(path: Path | str) -> str:
     columns = list(_guess_columns(path, table))
     angles = _motor_columns(table)
     needed = [*angles, *_triple(table, taken=angles)]
-    lines = [*_format_lines(table, needed), "columns:", *columns, *_row_lines(table, needed)]
     unused = [name for name in table.names if table.header and not any(_quoted(name) in line for line in columns)]
+    needed += _closed_by_words(table, [table.names.index(name) for name in unused])
+    lines = [*_format_lines(table), "columns:", *columns, *_row_lines(table, needed)]
     if unused:
         shown = ", ".join(_quoted(_printable(name)) for name in unused[:MOST_NAMED])
         lines += [f"# not used: {shown}{', ...' * (len(unused) > MOST_NAMED)}"]
@@ -73,17 +75,26 @@ def draft_mapping(path: Path | str) -> str:
 _NEXT = "# armscope import TABLE --mapping mapping.yaml -o recordings.csv"
 
 
-def _format_lines(table: ForeignTable, needed: Sequence[int]) -> Iterator[str]:
+def _closed_by_words(table: ForeignTable, columns: Sequence[int]) -> list[int]:
+    """Those of some columns that hold numbers but in closing lines: a line of means has numbers like any row."""
+    known = np.isfinite(table.values)
+    lacking = len(known) - known.sum(axis=0)
+    few = min(MOST_CLOSING, len(known) // 2)
+    return [column for column in columns if 0 < lacking[column] <= few and not known[-lacking[column] :, column].any()]
+
+
+def _format_lines(table: ForeignTable) -> Iterator[str]:
     stated = {"delimiter": table.delimiter, "decimal": table.decimal}
     parts = [f'{key}: "{value}"' for key, value in stated.items()]
     parts += ["header: false"] if not table.header else []
     parts += [f"skip_lines: {table.skip}"] if table.skip else []
     parts += ["below_header: 1"] if table.units else []
     parts += [f"encoding: {table.encoding}"] if table.encoding != "utf-8-sig" else []
-    words = [word for word in table.words(needed) if word not in TextFormat().missing]
-    if words:
-        listed = ", ".join(_quoted(word) for word in (*TextFormat().missing, *words[:MOST_NAMED]))
-        parts += [f"missing: [{listed}]"]
+    of_numbers = np.flatnonzero(2 * np.isfinite(table.values).sum(axis=0) > len(table.values))
+    words = table.words(of_numbers.tolist())
+    words = [word for word in words if word.isprintable() and word not in TextFormat().missing]
+    listed = ", ".join(_quoted(word) for word in (*TextFormat().missing, *words[:MOST_NAMED]))
+    parts += [f"missing: [{listed}]"] if words else []
     why = f"; {', '.join(_quoted(_printable(word)) for word in words[:MOST_NAMED])}: no value" if words else ""
     yield f"format: {{{', '.join(parts)}}}   # guessed: most lines are cut alike by it{why}"
 
