@@ -17,6 +17,9 @@ from armscope.core.constants import BASES, Constants, entries
 
 PAGE = Path(__file__).parents[1] / "docs" / "constants.md"
 ROOMS = ("measurement", "inference", "fitting", "diagnosis", "motion")
+"""Rooms whose every number is on the page."""
+SHOWN = ("physics", *ROOMS)
+"""Of physics, how large each error is on real arms; other numbers there are what an effect is made of."""
 HEAD = """# Numbers that decide
 
 Made from the code by `python -m tools.constants`. A number is *measured* (an experiment is named), *derived* (a
@@ -26,11 +29,11 @@ formula gives it), a *convention* (what everybody does), or a *judgement* (someb
 
 def groups() -> list[type[Constants]]:
     """All groups of the rooms that decide, by module and place in it."""
-    for room in ROOMS:
+    for room in SHOWN:
         package = importlib.import_module(f"armscope.{room}")
         for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
             importlib.import_module(module.name)
-    order = [f"{armscope.__name__}.{room}" for room in ROOMS]
+    order = [f"{armscope.__name__}.{room}" for room in SHOWN]
     found = [each for each in Constants.__subclasses__() if each.__module__.startswith(tuple(order))]
     return sorted(found, key=lambda each: (order.index(".".join(each.__module__.split(".")[:2])), each.__module__))
 
