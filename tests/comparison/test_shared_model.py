@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from armscope.comparison.sets import stacked
 from armscope.comparison.shared_model import SharedModel
@@ -30,3 +31,10 @@ def test_a_joint_that_stands_still_shows_no_change_of_its_ratio():
         if not score.statistic.q
     ]
     assert unseen == ["joint 5"]
+
+
+@pytest.mark.parametrize("rows", [60, 150])
+def test_the_noise_of_short_tables_is_what_it_is(rows):
+    """The numbers that a fit takes up are not counted as quiet rows."""
+    model = SharedModel(ARM, *stacked(ARM, {"a": session(61, rows=rows), "b": session(62, rows=rows)}))
+    assert np.sqrt(model.variance(())) == pytest.approx(0.03, rel=0.15)

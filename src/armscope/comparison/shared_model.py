@@ -89,9 +89,9 @@ class SharedModel:
             base, penalty = self._base(())
             hat = np.linalg.solve(base.T @ base + np.diag(penalty), base.T)
             square = (self.residual - base @ (hat @ self.residual)) ** 2
-            free = np.bincount(self.group, 1 - np.einsum("ij,ji->i", base, hat))
-            noise = np.sqrt(np.bincount(self.group, square) / np.maximum(free, 1) + 1e-24)
-            relative = (np.sqrt(np.mean(square)) / noise)[self.group]
+            free = np.maximum(np.bincount(self.group, 1 - np.einsum("ij,ji->i", base, hat)), 1.0)
+            noise = np.sqrt(np.bincount(self.group, square) / free + 1e-24)
+            relative = (np.sqrt(np.sum(square) / np.sum(free)) / noise)[self.group]
             self.weight, self.residual = self.weight * relative, self.residual * relative
             self.frames, self.effects = self.frames * relative[:, None], self.effects * relative[:, None]
             self._noise = self._settled_noise()
